@@ -1,11 +1,11 @@
-//! `cargo xtask firmware --matrix`: the firmware of small designs, one a kind, for every board that a
-//! profile covers, built with the tree of ChibiOS that `CHIBIOS` names.
+//! `cargo xtask firmware --matrix`: builds the firmware of small designs, one for each kind, for every board that a
+//! profile covers, with the ChibiOS tree that `CHIBIOS` names.
 //!
-//! `cells` makes designs and firmware, `build` calls make and reads what comes of it, `table` prints; `rust` is the same
+//! `cells` makes designs and firmware, `build` calls make and reads the results, `table` prints; `rust` does the same
 //! for Embassy, as far as a PC can judge it.
-//! Everything is built in a scratch folder, one a board. A cell is a whole program with its own
-//! configuration, so its sizes are those of a user's; what is the same in many cells is compiled once, with
-//! `ccache` on the machine also what is the same on many boards.
+//! Everything is built in a scratch folder, one for each board. A cell is a whole program with its own configuration,
+//! so its sizes are those of a user's program. Code that many cells share is compiled once; with `ccache`, so is code
+//! that many boards share.
 
 mod build;
 mod cells;
@@ -30,14 +30,14 @@ const USAGE: &str = "CHIBIOS=FOLDER cargo xtask firmware --matrix [--boards A,B]
 /// The page that a complete run writes.
 const PAGE: &str = "docs/firmware-matrix.md";
 
-/// What is asked for.
+/// The options of a call.
 #[derive(Debug, Default)]
 struct Options {
     boards: Option<BTreeSet<String>>,
     kinds: Option<BTreeSet<String>>,
     jobs: usize,
     scratch: Option<PathBuf>,
-    /// What an earlier run of the same sources printed: the cells that it has built are not built again.
+    /// The output of an earlier run on the same sources: the cells that it has built are not built again.
     resume: Option<PathBuf>,
     write: bool,
 }
@@ -67,22 +67,22 @@ impl Options {
     }
 }
 
-/// A cell with what came of it.
+/// A cell and its result.
 struct Done {
     cell: Cell,
     outcome: Outcome,
 }
 
-/// What came of a cell.
+/// The result of a cell.
 enum Outcome {
-    /// The MCU has no such unit, or the system no driver for it.
+    /// The MCU has no such unit, or the system has no driver for it.
     NotOffered,
-    /// The units are there, but not on pins that are free together.
+    /// The units exist, but not on pins that are free together.
     NoWiring(String),
     Built(Built, Notes),
-    /// Larger than the MCU's memory.
+    /// It is larger than the MCU's memory.
     TooLarge(String),
-    /// Neither generated nor built, and why.
+    /// It was not generated or not built; with the reason.
     Failed(String),
 }
 
@@ -121,10 +121,10 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Programs that an earlier run has built, by board and kind.
+/// The programs that an earlier run has built, by board and kind.
 type Earlier = BTreeMap<(String, String), Built>;
 
-/// Reads what `tell` wrote. A program with warnings is left out, because the line does not have them.
+/// Reads the output of `tell`. A program with warnings is left out, because its line does not contain them.
 fn earlier(log: &str) -> Earlier {
     let built = |line: &str| {
         let (_, cell) = line.split_once(' ')?;
@@ -135,8 +135,8 @@ fn earlier(log: &str) -> Earlier {
     log.lines().filter_map(built).collect()
 }
 
-/// Works on several boards at once; the result is in the order of the cells. The cells of a board are
-/// built in one folder, one after the other.
+/// Works on several boards at once; the result is in the order of the cells. The cells of a board are built in one
+/// folder, one after another.
 fn run_all(
     cells: Vec<Cell>,
     jobs: usize,
@@ -157,7 +157,7 @@ fn run_all(
                 results.lock().unwrap_or_else(PoisonError::into_inner).push((*at, outcome));
             }
             if let Some((_, cell)) = board.first() {
-                // What is left there is removed with the scratch folder.
+                // If this fails, the rest is removed with the scratch folder.
                 let _ = std::fs::remove_dir_all(scratch.join(&cell.board));
             }
         }
@@ -191,7 +191,7 @@ fn outcome(cell: &Cell, tree: &Path, folder: &Path, earlier: &Earlier) -> Outcom
     }
 }
 
-/// A line on the standard error: the whole takes long.
+/// Prints a line on the standard error, because the whole run takes long.
 fn tell(cell: &Cell, outcome: &Outcome, at: usize, all: usize) {
     use std::io::Write as _;
     let what = match outcome {
@@ -202,6 +202,6 @@ fn tell(cell: &Cell, outcome: &Outcome, at: usize, all: usize) {
         Outcome::Failed(why) => format!("FAILED: {why}"),
     };
     let (board, kind) = (&cell.board, &cell.kind);
-    // There is nowhere to report that reporting failed.
+    // There is nowhere to report a failure to report.
     let _ = writeln!(std::io::stderr(), "{}/{all} {board} {kind}: {what}", at + 1);
 }

@@ -1,8 +1,8 @@
-//! `cargo xtask fuzz`: builds the fuzz targets with the compiler at hand, runs them, keeps what is
-//! new, and says what was reached and what was found.
+//! `cargo xtask fuzz`: builds the fuzz targets with the compiler at hand, runs them, keeps new
+//! inputs, and reports coverage and findings.
 //!
-//! Coverage comes from LLVM's pass, which a stable compiler runs too; the engine is libFuzzer, from
-//! clang where it is installed and otherwise compiled from `libfuzzer-sys`.
+//! Coverage comes from LLVM's pass, which a stable compiler also runs; the engine is libFuzzer,
+//! from clang if that is installed, otherwise compiled from `libfuzzer-sys`.
 
 mod engine;
 mod options;
@@ -35,13 +35,14 @@ const TARGETS: &[(&str, usize)] = &[
     ("certificate", 128),
     ("decoders", 160),
 ];
-/// So many inputs of a target are kept in the repository, so that replaying them stays quick.
+/// The most inputs of a target that are kept in the repository, so that replaying them stays quick.
 const KEPT_MAX: usize = 120;
-/// A longer one is not kept, unless it has a name of its own.
+/// A longer input is not kept, unless its file has a name of its own.
 const KEPT_BYTES_MAX: u64 = 4096;
-/// A short run: the corpus, then the same inputs each time, as far as the time goes.
+/// The options of a short run: the corpus, then the same inputs each time, as far as the time
+/// allows.
 const BRIEFLY: [&str; 3] = ["-runs=1000", "-seed=1", "-max_total_time=15"];
-/// Seconds for which a finding is made smaller.
+/// The time in seconds that minimising a finding may take.
 const MINIMISE_S: u64 = 60;
 
 /// The folders of the fuzzer.
@@ -58,12 +59,12 @@ impl Folders {
         Ok(Self { fuzz: root.join("fuzz") })
     }
 
-    /// What is in the repository.
+    /// The corpus in the repository.
     fn kept(&self, target: &str) -> PathBuf {
         self.fuzz.join("corpus").join(target)
     }
 
-    /// What runs here have added.
+    /// The inputs that runs on this machine have added.
     fn grown(&self, target: &str) -> PathBuf {
         self.fuzz.join("target/corpus").join(target)
     }
@@ -151,7 +152,7 @@ fn fuzz(
     Ok(tally)
 }
 
-/// Makes a finding small and puts it into the corpus, where the tests see it.
+/// Minimises a finding and puts it into the corpus, where the tests see it.
 fn keep_finding(
     engine: &Engine,
     folders: &Folders,
@@ -161,7 +162,8 @@ fn keep_finding(
     let name = finding.file_name().map(|name| name.to_string_lossy().into_owned());
     let kept = folders.kept(target).join(format!("finding-{}", name.unwrap_or_default()));
     fs::copy(finding, &kept)?;
-    // What takes too long or too much is left as it is: trying it often is no way to make it small.
+    // A timeout or an out-of-memory finding is left as it is: trying it often is not a way to make
+    // it small.
     if kept.to_string_lossy().contains("finding-crash") {
         let mut command = engine.command(target);
         command.args(["-minimize_crash=1", "-timeout=30", "-rss_limit_mb=2048"]);
@@ -172,8 +174,8 @@ fn keep_finding(
     Ok(kept)
 }
 
-/// Replaces the corpus in the repository by the fewest inputs that reach all that is reached. Files
-/// with a name of their own stay.
+/// Replaces the corpus in the repository by the fewest inputs with the same coverage. Files with a
+/// name of their own stay.
 fn minimise(engine: &Engine, folders: &Folders, target: &str) -> Result<String> {
     let (kept, grown) = (folders.kept(target), folders.grown(target));
     let fresh = folders.fuzz.join("target/minimised").join(target);
@@ -225,13 +227,13 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The standard output of a program; none where it cannot be run or fails.
+/// The standard output of a program; `None` if it cannot be run or fails.
 fn output_of(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// So much of a time for each of several.
+/// The share of a time for each of several targets.
 fn divided(time: Duration, by: u32) -> Duration {
     time / by.max(1)
 }

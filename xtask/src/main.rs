@@ -1,12 +1,11 @@
 //! Developer tasks: `cargo xtask TASK`.
 //!
-//! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
-//! corpus' list, tables that are embedded. `fuzz` searches for inputs that
-//! break something. `mutants` puts mistakes into generated firmware and says which of them `simulate --judge` notices.
-//! `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
-//! `mcus` writes what the emulated machine must know of each MCU, `packages` the table of Embassy's lock files;
-//! `profiles` compares the target profiles with a tree of ChibiOS,
-//! and writes those for Embassy. `web` builds the WebAssembly module.
+//! `bless` updates everything that tests compare with: golden trees, snapshots, the corpus' list, embedded tables.
+//! `fuzz` searches for inputs that break something. `mutants` puts mistakes into generated firmware and reports which
+//! of them `simulate --judge` notices. `firmware` builds the firmware of every board and kind. `parts` writes the table
+//! of known parts, or compares it; `mcus` writes the facts that the emulated machine needs about each MCU, `packages`
+//! the table of Embassy's lock files. `profiles` compares the target profiles with a tree of ChibiOS, and writes those
+//! for Embassy. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod embassy;
@@ -29,7 +28,7 @@ fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // There is nowhere to report that reporting failed.
+            // There is nowhere to report a failure to report.
             let _ = writeln!(std::io::stderr(), "error: {error:#}");
             ExitCode::FAILURE
         }
@@ -58,8 +57,7 @@ fn run() -> Result<()> {
     }
 }
 
-/// Tests that write what they compare with: the package, the program, and the beginning of their
-/// names.
+/// The tests that write what they compare with: the package, the program, and the prefixes of their names.
 const BLESSED: &[(&str, &str, &[&str])] = &[
     ("sensedsl-board", "registry", &[]),
     ("sensedsl-diagnostics", "reference", &[]),
@@ -83,7 +81,7 @@ fn bless() -> Result<()> {
     say("blessed; now read the difference\n")
 }
 
-/// What a task has to tell.
+/// Prints a task's output.
 fn say(text: &str) -> Result<()> {
     Ok(std::io::stdout().write_all(text.as_bytes())?)
 }

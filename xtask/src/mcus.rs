@@ -1,8 +1,8 @@
-//! `cargo xtask mcus [--check]`: writes what the emulated machine must know of each MCU, or compares it.
+//! `cargo xtask mcus [--check]`: writes the facts that the emulated machine needs about each MCU, or compares them.
 //!
-//! In: the metadata of the crate `stm32-metapac`, and [`MCUS`], which has what they do not say. Out: a file for each MCU in
-//! `crates/machine/mcus/`: memories, and of each unit its block and version, address, clock and interrupts; and which
-//! units ask each channel of the DMA.
+//! In: the metadata of the crate `stm32-metapac`, and [`MCUS`], which has the facts that they lack. Out: a file for
+//! each MCU in `crates/machine/mcus/`. It gives the memories; block, version, address, clock and interrupts of each
+//! unit; and the units that use each channel of the DMA.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -15,15 +15,15 @@ use crate::parts::sources::{self, text};
 
 const USAGE: &str = "cargo xtask mcus [--check]";
 
-/// Parts that are the same to a program but for their packages and the size of their flash.
+/// Parts that are the same to a program except for their packages and the size of their flash.
 struct Mcu {
-    /// How the names of the parts begin.
+    /// The prefixes of the parts' names.
     parts: &'static [&'static str],
-    /// The part with most pads and memory.
+    /// The part with the most pads and memory.
     largest: &'static str,
-    /// What the debugger's unit says the MCU is: from the reference manual, `DBGMCU_IDCODE`.
+    /// The MCU's identifier in the debug unit: `DBGMCU_IDCODE` in the reference manual.
     idcode: u32,
-    /// Units that the machine's model of their version is not right for.
+    /// The units for which the machine's model of their version is not correct.
     without: &'static [&'static str],
 }
 
@@ -42,7 +42,7 @@ const MCUS: [Mcu; 5] = [
         idcode: 0x2003_6419,
         without: &[],
     },
-    // Its USB unit senses the bus in another way.
+    // Its USB unit senses the bus in a different way.
     Mcu {
         parts: &["STM32F446"],
         largest: "STM32F446ZE",
@@ -51,7 +51,7 @@ const MCUS: [Mcu; 5] = [
     },
 ];
 
-/// Registers of the RCC that switch clocks, and where they are.
+/// The registers of the RCC that enable clocks, and their offsets.
 const ENABLES: [(&str, u32); 5] =
     [("AHB1ENR", 0x30), ("AHB2ENR", 0x34), ("AHB3ENR", 0x38), ("APB1ENR", 0x40), ("APB2ENR", 0x44)];
 
@@ -141,10 +141,10 @@ fn file(mcu: &Mcu, chips: &Path, bits: &BTreeMap<(String, String), u32>) -> Resu
     Ok(printed)
 }
 
-/// Whether a region, by name and kind, is of a memory.
+/// Whether a region, by name and kind, belongs to a memory.
 type IsOwn = fn(&str, &str) -> bool;
 
-/// The memories: flash, those that the DMA reaches, and that of the core alone.
+/// The memories: flash, those that the DMA reaches, and core-coupled memory.
 fn memories() -> [(&'static str, IsOwn); 3] {
     [
         ("flash", |name, kind| kind == "Flash" && name != "OTP"),
@@ -153,7 +153,7 @@ fn memories() -> [(&'static str, IsOwn); 3] {
     ]
 }
 
-/// The bytes of all regions of a memory.
+/// The size of all regions of a memory in bytes.
 fn bytes(head: &str, is_own: IsOwn) -> u64 {
     let regions = head.split("MemoryRegion {").skip(1).filter_map(|region| {
         let name = between(region, "name: \"", "\"")?;
@@ -187,7 +187,7 @@ fn unit(
     let version = between(source, "version: \"", "\"")?;
     let mut text = format!("block = \"{kind}_{version}\", base = {base}");
     let enable = source.split_once("enable: Some(").map(|(_, rest)| rest);
-    // RTC: the family's other MCUs have no such bit.
+    // RTC: the other MCUs of the family have no such bit.
     if let Some(enable) = enable.filter(|_| name != "RTC") {
         let register = between(enable, "register: \"", "\"")?;
         let field = between(enable, "field: \"", "\"")?;

@@ -1,8 +1,8 @@
 //! `cargo xtask packages FOLDER`: writes the table that Embassy's lock files are computed from.
 //!
 //! In: a folder with the lock files of all sorts of projects, as cargo writes them: `check.lock`, `check-f3.lock`,
-//! `check-g4.lock`, `check-rp.lock`, and the same with `firmware`. Out: `packages.txt` of `crates/firmware-embassy`, in
-//! which each crate stands once, and a condition says where a need is one.
+//! `check-g4.lock`, `check-rp.lock`, and the same with `firmware`. Out: `packages.txt` of `crates/firmware-embassy`,
+//! which has each crate once, with conditions for its dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -11,7 +11,7 @@ use anyhow::{Context as _, Result, bail, ensure};
 
 use crate::parts::sources::{self, text};
 
-/// The sorts of projects, with what holds in each.
+/// The sorts of projects, with the tags that apply to each.
 const SORTS: [(&str, &[&str]); 8] = [
     ("check", &["check", "stm32"]),
     ("check-g4", &["check", "stm32", "g4"]),
@@ -22,7 +22,7 @@ const SORTS: [(&str, &[&str]); 8] = [
     ("firmware-f3", &["firmware", "stm32", "f3"]),
     ("firmware-rp", &["firmware", "rp"]),
 ];
-/// Conditions, the simplest first.
+/// The conditions, the simplest ones first.
 const CONDITIONS: [&str; 14] = [
     "",
     "check",
@@ -39,13 +39,14 @@ const CONDITIONS: [&str; 14] = [
     "check or rp",
     "f3 or g4",
 ];
-/// What the HAL needs only where a timer is left for the clock; a lock file with one has them.
+/// The HAL's dependencies that it only has if a timer is left for the clock; a lock file of a project with one has
+/// them.
 const CLOCK: [&str; 2] = ["embassy-time-driver", "embassy-time-queue-utils"];
 
-/// Name, and the version as numbers, by which versions are ordered, and as it is written.
+/// The name; the version as numbers, which order versions; and the version as it is written.
 type Package = (String, Vec<u64>, String);
 
-/// Checksum, and what it needs.
+/// The checksum, and the dependencies.
 type Locked = (Option<String>, Vec<Package>);
 
 /// Runs the command.
@@ -81,7 +82,7 @@ fn shown((name, _, version): &Package) -> String {
     format!("{name} {version}")
 }
 
-/// Where a need is one, as it stands in the table.
+/// The condition of a dependency, as the table has it.
 fn condition(package: &Package, need: &Package, here: &[(&[&str], &Locked)]) -> Result<String> {
     if package.0 == "embassy-stm32" && CLOCK.contains(&need.0.as_str()) {
         return Ok(" if clock".to_owned());

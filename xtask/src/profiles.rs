@@ -1,10 +1,10 @@
 //! `cargo xtask profiles --check`: compares the target profiles with the source tree of ChibiOS that
 //! `CHIBIOS` names.
 //!
-//! The tree says in one file for each family, the registry, what each MCU has. The C compiler (`CC`,
-//! `cc` by default) preprocesses it for each MCU of each line, and what its macros say is held
-//! against the profile: units, channels, widths, DMA streams, ports, endpoints; then whether the
-//! tree has the files, and the platform the driver versions, that the profile names.
+//! In the tree, one file for each family, the registry, lists what each MCU has. The C compiler (`CC`, `cc` by default)
+//! preprocesses it for each MCU of each line, and its macros are compared with the profile: units, channels, widths,
+//! DMA streams, ports, endpoints. Then the tree must have the files that the profile names, and the platform the driver
+//! versions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,7 +16,7 @@ use sensedsl_firmware_chibios::Names;
 
 /// The target whose profiles are compared.
 const TARGET: &str = "chibios";
-/// Units of these kinds are compared.
+/// The kinds of units that are compared.
 const KINDS: [&str; 12] =
     ["ADC", "CAN", "DAC", "FDCAN", "I2C", "LPUART", "OTG", "SPI", "TIM", "UART", "USART", "USB"];
 
@@ -73,7 +73,7 @@ fn preprocess(tree: &Path, names: &Names, device: &str) -> Result<Macros> {
     Ok(defined.map(pair).collect())
 }
 
-/// What the profile says of an MCU and the registry does not, or the other way round.
+/// The differences between the profile and the registry about an MCU.
 fn compare(line: &LineFacts, macros: &Macros) -> Vec<String> {
     let mut differences = Vec::new();
     let own: BTreeSet<&str> = line.units.iter().map(String::as_str).collect();
@@ -96,8 +96,7 @@ fn compare(line: &LineFacts, macros: &Macros) -> Vec<String> {
     differences
 }
 
-/// The units of a registry under the names of the profiles. A timer without channels serves no
-/// device.
+/// The units of a registry under the names of the profiles. A timer without channels serves no device.
 fn units(macros: &Macros) -> BTreeSet<String> {
     let mut units = BTreeSet::new();
     for name in macros.keys().filter(|name| is_true(macros, name)) {
@@ -125,7 +124,7 @@ fn differ(what: &str, own: &str, theirs: &str) -> Option<String> {
     (own != theirs).then(|| format!("{what}: {own} in the profile, {theirs} in the tree"))
 }
 
-/// Widths and channels. Outputs 5 and 6 of a timer are on no pin.
+/// Compares widths and channels. Outputs 5 and 6 of a timer are not on any pin.
 fn timers(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
     for timer in &line.profile.timers {
         let name = &timer.name;
@@ -142,7 +141,7 @@ fn timers(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
     }
 }
 
-/// The streams of each request, where the registry has them.
+/// Compares the streams of each request, if the registry has them.
 fn streams(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
     let profile = &line.profile;
     let buses = profile.i2cs.iter().chain(&profile.spis).map(|unit| (&unit.name, &unit.dma));
@@ -188,7 +187,7 @@ fn channels(macros: &Macros) -> BTreeSet<String> {
     of(1).chain(of(2)).collect()
 }
 
-/// Ports, interrupt lines, outputs of converters, endpoints.
+/// Compares ports, interrupt lines, outputs of converters, endpoints.
 fn others(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
     let profile = &line.profile;
     let own: String = profile.gpio_ports.iter().collect();
@@ -213,7 +212,7 @@ fn others(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
     }
 }
 
-/// Files and driver versions that the tree does not have.
+/// The files and driver versions that the tree lacks.
 fn in_tree(root: &Path, line: &LineFacts, names: &Names) -> Vec<String> {
     let tree = &names.tree;
     let files =
@@ -269,7 +268,7 @@ mod tests {
         assert_eq!(units(&macros), ["DAC1", "TIM3", "USB1"].map(str::to_owned).into());
     }
 
-    /// A profile is compared with itself, and with a tree that has another number of channels.
+    /// A profile is compared with itself, and with a tree that has a different number of channels.
     #[test]
     fn differences_are_named() {
         let lines = profile::lines(TARGET).unwrap();

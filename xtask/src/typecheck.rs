@@ -1,7 +1,8 @@
-//! `cargo xtask typecheck`: the wiring of one demand on every built-in board with an MCU that Embassy knows, judged by
-//! the Rust compiler as `sensedsl check --typecheck` has it judged.
+//! `cargo xtask typecheck`: the wiring of the same devices on every built-in board with an MCU that Embassy knows,
+//! checked by the Rust compiler as in `sensedsl check --typecheck`.
 //!
-//! The wiring is ChibiOS's where it covers the board, so that tables of other people judge ours; elsewhere Embassy's.
+//! The wiring is for ChibiOS if that covers the board, so that tables of other people judge ours; otherwise for
+//! Embassy.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
@@ -22,7 +23,7 @@ const USAGE: &str = "cargo xtask typecheck [--boards A,B] [--write]";
 /// The page that a run writes; the rows of other boards stay.
 const PAGE: &str = "docs/typecheck.md";
 
-/// What is asked of every board, as far as it has it: the kind and the device.
+/// The devices that are required of every board, as far as it has them: the kind and the device.
 const DEMAND: [(&str, &str); 13] = [
     ("analog", "sensor Light returns uint16 { id = 1; type = analog; }"),
     ("analog", "sensor Battery returns uint16 { id = 2; type = analog; }"),
@@ -64,7 +65,7 @@ const COLUMNS: &str = "
 | --- | --- | --- | ---: | --- | --- |
 ";
 
-/// A board with what came of it.
+/// A board and its result.
 struct Done {
     board: &'static str,
     mcu: &'static str,
@@ -74,9 +75,9 @@ struct Done {
 }
 
 enum Outcome {
-    /// The compiler takes so many lines; and wires that it was not asked about.
+    /// The number of lines that the compiler accepts, and the wires that it was not asked about.
     Taken(u32, Vec<String>),
-    /// What the tool says.
+    /// The message of the tool.
     Refused(String),
 }
 
@@ -139,7 +140,7 @@ fn design(board: &str, devices: &[&str]) -> String {
     format!("board {board} {{\n    {}\n}}\n", devices.join("\n    "))
 }
 
-/// No design names another file.
+/// The files of a design, which names no others.
 struct Alone;
 
 impl Files for Alone {
@@ -167,7 +168,7 @@ fn tool() -> Result<PathBuf> {
     Ok(own.with_file_name(format!("sensedsl{}", std::env::consts::EXE_SUFFIX)))
 }
 
-/// What the command line tool says of a design.
+/// The result of the command line tool for a design.
 fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
     let mut command = Command::new(tool);
     command.args(["check", "--typecheck", "--target", target, "-"]);
@@ -191,7 +192,7 @@ fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
     })
 }
 
-/// The page: a row for each board, of this run or of the page as it was.
+/// The page: a row for each board, from this run or from the page as it was.
 fn page(done: &[Done], earlier: &str) -> String {
     let board_of = |row: &str| row.split(" | ").next().unwrap_or_default().to_owned();
     let rows = earlier.lines().filter(|line| line.starts_with("| ") && !COLUMNS.contains(line));

@@ -1,9 +1,8 @@
 //! `cargo xtask web`: the WebAssembly module.
 //!
-//! The standard library is compiled from its source, which Debian's packages `rustc-web` and
-//! `rust-web-src` bring in equal versions: so nothing is needed that a registry does not have. The
-//! linker is the one of the installed toolchain. `SENSEDSL_WASM_RUSTC` names another compiler, which
-//! has the target itself.
+//! The standard library is compiled from its source, which Debian's packages `rustc-web` and `rust-web-src` provide in
+//! equal versions, so nothing is needed that a registry does not have. The linker is that of the installed toolchain.
+//! `SENSEDSL_WASM_RUSTC` names another compiler, which has the target itself.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,7 +12,7 @@ use anyhow::{Context as _, Result, bail};
 use crate::say;
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// Where Debian installs the compiler.
+/// The path at which Debian installs the compiler.
 const RUSTC: &str = "/usr/bin/rustc";
 
 pub(crate) fn run() -> Result<()> {

@@ -1,7 +1,7 @@
 //! Built-in boards: a name in, the board's table and facts out.
 //!
 //! The boards are the folders of `boards/`, embedded by the generated module `registry`. Names are
-//! looked up without reading any of them.
+//! looked up without parsing any of them.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::profile::{Transport, pin, pins};
 use crate::registry::BOARDS;
 use crate::table::{Table, load};
 
-/// What the registry knows of a board.
+/// A board in the registry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// The name.
@@ -23,7 +23,7 @@ pub struct Entry {
     pub aliases: &'static [&'static str],
     /// The part number of the MCU.
     pub mcu: &'static str,
-    /// One line on what it is.
+    /// A one-line description.
     pub description: &'static str,
     /// The text of `board.toml`.
     facts: &'static str,
@@ -37,7 +37,7 @@ pub fn all() -> &'static [Entry] {
     BOARDS
 }
 
-/// The board of a name or alias. Case, `-` and `_` do not matter.
+/// The board with a name or alias. Case, `-` and `_` do not matter.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Entry> {
     let wanted = fold(name);
@@ -45,7 +45,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     BOARDS.iter().find(called)
 }
 
-/// The board name that a misspelt one is near to.
+/// The board name closest to a misspelt one.
 #[must_use]
 pub fn nearest_name(name: &str) -> Option<&'static str> {
     let folded: Vec<(String, &'static str)> =
@@ -54,8 +54,8 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     folded.iter().find(|(folded, _)| folded == found).map(|(_, name)| *name)
 }
 
-/// A board with that MCU, rather one that the system can be built for: where a table of the user
-/// alone says which MCU it is, its clocks and folders are taken from there.
+/// A board with that MCU, preferably one that a system supports. If only a user's table states the
+/// MCU, clocks and folders are taken from this board.
 #[must_use]
 pub fn of_mcu(name: &str) -> Option<&'static Entry> {
     let alike = || BOARDS.iter().filter(|entry| mcu::same_part(entry.mcu, name));
@@ -88,13 +88,13 @@ impl Entry {
         Self { name, aliases, mcu, description, facts, pins }
     }
 
-    /// The table as it is stored. It may leave the usages to the MCU.
+    /// The table as stored. It may leave the usages to the MCU.
     #[must_use]
     pub fn csv(&self) -> &'static str {
         self.pins
     }
 
-    /// The pins as they are stored; the MCU is that of the board where the table names none.
+    /// The pins as stored; if the table names no MCU, it is that of the board.
     #[must_use]
     pub fn table(&self) -> Table {
         let mut table = load(self.pins).board;
@@ -102,17 +102,17 @@ impl Entry {
         table
     }
 
-    /// The facts beside the pins.
+    /// The facts besides the pins.
     ///
     /// # Errors
     ///
-    /// When the file is damaged; tests rule that out.
+    /// Fails if the file is damaged; tests rule that out.
     pub fn board(&self) -> Result<Board, String> {
         Board::parse(self.facts)
     }
 }
 
-/// A board beside its pins: the file `board.toml`.
+/// The facts of a board besides its pins: the file `board.toml`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Board {
@@ -123,27 +123,27 @@ pub struct Board {
     pub aliases: Vec<String>,
     /// The part number of the MCU.
     pub mcu: String,
-    /// One line on what it is.
+    /// A one-line description.
     pub description: String,
-    /// Where the facts come from.
+    /// The sources of the facts.
     pub source: Vec<Source>,
-    /// Crystals.
+    /// The frequencies of the board's crystals.
     #[serde(default)]
     pub crystal: Crystal,
-    /// What systems have for the board, by their names.
+    /// What each system has for the board, by the system's name.
     #[serde(default)]
     pub system: BTreeMap<String, SystemFacts>,
-    /// Links to a host; the first is the default one.
+    /// Links to a host; the first is the default.
     #[serde(default)]
     pub link: Vec<Link>,
     /// The user's button.
     pub button: Option<ActivePin>,
-    /// A light that the firmware may blink.
+    /// An LED that the firmware may blink.
     pub led: Option<ActivePin>,
 }
 
 impl Board {
-    /// What a system has for the board; where it has nothing, what any other one has.
+    /// What a system has for the board; if it has nothing, what another system has.
     #[must_use]
     pub fn facts_of(&self, system: Option<&str>) -> Option<&SystemFacts> {
         let own = system.and_then(|system| self.system.get(system));
@@ -151,40 +151,40 @@ impl Board {
     }
 }
 
-/// Where facts come from.
+/// A source of facts.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// Which facts.
+    /// The facts from this source.
     pub what: String,
-    /// From where.
+    /// The source.
     pub from: String,
-    /// Under which licence.
+    /// The licence.
     pub licence: String,
 }
 
-/// Crystals.
+/// The frequencies of a board's crystals.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Crystal {
-    /// The main one.
+    /// Frequency of the main crystal, in hertz.
     pub hse_hz: Option<u32>,
-    /// A clock drives the input in its place.
+    /// True if an external clock drives the input instead.
     #[serde(default)]
     pub hse_driven: bool,
-    /// The one of the clock.
+    /// Frequency of the real-time clock's crystal, in hertz.
     pub lse_hz: Option<u32>,
 }
 
-/// What a system has for a board beside its profile of the MCU.
+/// What a system has for a board, besides its profile for the MCU.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub struct SystemFacts {
-    /// The memory that its linker script gives to data, where it is known.
+    /// The memory that the system's linker script gives to data, if known.
     pub ram_bytes: Option<u32>,
-    /// What its clock tree gives, by the system's name of the clock.
+    /// The frequencies of the system's clock tree, by the system's name for each clock.
     #[serde(default)]
     pub clocks_hz: BTreeMap<String, u32>,
-    /// What only its generator reads.
+    /// Facts that only the system's generator reads.
     #[serde(flatten)]
     pub own: toml::Table,
 }
@@ -193,11 +193,11 @@ pub struct SystemFacts {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
-    /// What carries the frames.
+    /// The medium that carries the frames.
     pub transport: Transport,
     /// The peripheral instance: `OTG1`, `USART2`.
     pub unit: String,
-    /// The pins that the link takes: minus, plus and more of a USB device, TX and RX of a serial
+    /// The pins that the link takes: minus, plus and others of a USB device; TX and RX of a serial
     /// port.
     #[serde(deserialize_with = "pins")]
     pub pins: Vec<PinName>,
@@ -205,14 +205,14 @@ pub struct Link {
     pub note: Option<String>,
 }
 
-/// A button or a light.
+/// A button or an LED.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ActivePin {
-    /// Its pin.
+    /// The pin.
     #[serde(deserialize_with = "pin")]
     pub pin: PinName,
-    /// The level that means pressed, or lit.
+    /// True if a high level means pressed, or lit.
     #[serde(rename = "active", deserialize_with = "level")]
     pub active_high: bool,
 }
@@ -230,7 +230,7 @@ impl Board {
     ///
     /// # Errors
     ///
-    /// When the text does not say what a board needs.
+    /// Fails if the text lacks something that a board needs.
     pub fn parse(text: &str) -> Result<Self, String> {
         toml::from_str(text).map_err(|error| error.to_string())
     }

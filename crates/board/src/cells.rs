@@ -1,49 +1,49 @@
 //! Comma-separated text in, cells with their places out.
 //!
-//! The common reader crates hand out texts without byte ranges, and a diagnostic must point at a
-//! cell; so this is the dialect of RFC 4180 with what spreadsheets of all countries write: `,`,
-//! `;` or tab between the cells, any line end, a byte order mark, Excel's `sep=` line. `#` starts
-//! a comment line.
+//! The common CSV crates return texts without byte ranges, but a diagnostic must point at a cell.
+//! So this reads the dialect of RFC 4180, plus what spreadsheets in all countries write: `,`, `;`
+//! or tab between cells, any line ending, a byte order mark, Excel's `sep=` line. `#` starts a
+//! comment line.
 
 use std::ops::Range;
 
 use sensedsl_diagnostics::is_hidden;
 use sensedsl_limits::{CELLS_MAX, ROWS_MAX};
 
-/// The text, cut into pieces.
+/// A text, split into cells.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Sheet {
     /// Comment lines without their `#`, in order.
     pub comments: Vec<Range<usize>>,
     /// All other lines that are not blank, in order.
     pub rows: Vec<Vec<Cell>>,
-    /// Quotes that do not end, and what follows a closing quote.
+    /// Unterminated quotes, and text after a closing quote.
     pub bad_quotes: Vec<Range<usize>>,
-    /// Why the text was left before its end.
+    /// Why reading stopped before the end of the text.
     pub cut: Option<Cut>,
 }
 
-/// There is more of something than is read.
+/// Reports that there is more of something than is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cut {
-    /// Where the text was left.
+    /// Where reading stopped.
     pub at: usize,
-    /// What there is too much of.
+    /// The name of the limit that was reached.
     pub what: &'static str,
-    /// How much of it is read.
+    /// The value of that limit.
     pub most: usize,
 }
 
 /// One cell: the bytes between its separators, or between its quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// Where its content is.
+    /// The range of its content.
     pub range: Range<usize>,
-    /// True where `""` stands for one quote.
+    /// True if `""` stands for one quote.
     pub quoted: bool,
 }
 
-/// Cuts a text, up to [`ROWS_MAX`] rows and [`CELLS_MAX`] cells. Never fails.
+/// Splits a text, up to [`ROWS_MAX`] rows and [`CELLS_MAX`] cells. Never fails.
 #[must_use]
 pub fn split(text: &str) -> Sheet {
     let mut cutter = Cutter { bytes: text.as_bytes(), at: 0, separator: b',' };
@@ -103,7 +103,7 @@ fn announced(text: &str, line: &Range<usize>) -> Option<u8> {
     }
 }
 
-/// The separator a header line uses most; the comma when in doubt.
+/// The separator that is most frequent in a header line; the comma if in doubt.
 fn guess(header: &str) -> u8 {
     let mut quoted = false;
     let mut counts = [(b',', 0_usize), (b';', 0), (b'\t', 0)];
@@ -113,7 +113,7 @@ fn guess(header: &str) -> u8 {
             *count += 1;
         }
     }
-    // The last of several maxima wins, so the comma goes last.
+    // With several maxima the last one wins; reversing puts the comma last.
     counts.iter().rev().max_by_key(|(_, count)| *count).map_or(b',', |(separator, _)| *separator)
 }
 
@@ -128,18 +128,18 @@ impl Cutter<'_> {
         self.bytes.get(at).copied()
     }
 
-    /// The first place from `at` on where `stop` holds, or the end.
+    /// The first position from `at` on where `stop` holds, or the end.
     fn find(&self, at: usize, stop: impl Fn(u8) -> bool) -> usize {
         let rest = self.bytes.get(at..).unwrap_or_default();
         rest.iter().position(|&byte| stop(byte)).map_or(self.bytes.len(), |offset| at + offset)
     }
 
-    /// The line that starts here, without its end.
+    /// The line that starts here, without its line ending.
     fn line(&self) -> Range<usize> {
         self.at..self.find(self.at, |byte| matches!(byte, b'\n' | b'\r'))
     }
 
-    /// Behind the line end at `at`.
+    /// The position after the line ending at `at`.
     fn line_end_after(&self, at: usize) -> usize {
         match (self.byte(at), self.byte(at + 1)) {
             (Some(b'\r'), Some(b'\n')) => at + 2,
@@ -152,7 +152,7 @@ impl Cutter<'_> {
         byte == self.separator || matches!(byte, b'\n' | b'\r')
     }
 
-    /// Reads one row and its line end, or `most` cells of it.
+    /// Reads one row and its line ending, or `most` cells of it.
     fn row(&mut self, most: usize, bad_quotes: &mut Vec<Range<usize>>) -> Vec<Cell> {
         let mut cells = Vec::new();
         loop {
@@ -168,7 +168,7 @@ impl Cutter<'_> {
         }
     }
 
-    /// Reads one cell up to its separator or line end.
+    /// Reads one cell up to its separator or line ending.
     fn cell(&mut self, bad_quotes: &mut Vec<Range<usize>>) -> Cell {
         let start = self.at;
         if self.byte(start) == Some(b'"') {
@@ -180,8 +180,8 @@ impl Cutter<'_> {
                 }
                 return Cell { range: start + 1..close, quoted: true };
             }
-            // Without an end the rest of the file would be one cell: read on as if the quote
-            // were not there, so that one slip costs one cell.
+            // Without a closing quote, the rest of the file would be one cell. Reading continues as
+            // if the quote were not there, so that one mistake costs one cell.
             bad_quotes.push(start..start + 1);
             self.at = self.find(start + 1, |byte| self.ends_cell(byte));
             return Cell { range: start + 1..self.at, quoted: false };
@@ -203,7 +203,7 @@ impl Cutter<'_> {
     }
 }
 
-/// What a cell says, without the blanks around it, invisible characters, quotes and guard.
+/// The content of a cell, without surrounding blanks, invisible characters, quotes and guard.
 #[must_use]
 pub fn content(raw: &str, quoted: bool) -> String {
     let text = inner(raw, quoted);
@@ -218,14 +218,14 @@ pub(crate) fn says_nothing(content: &str) -> bool {
     matches!(content, "" | "-" | "–" | "—")
 }
 
-/// Where a cell begins behind its guard; 0 where it has none.
+/// Where a cell's content begins after its guard; 0 if it has no guard.
 pub(crate) fn guard_bytes(raw: &str, quoted: bool) -> usize {
     let text = inner(raw, quoted);
     let has_guard = text.strip_prefix('\'').is_some_and(is_guarded);
     raw.find('\'').filter(|_| has_guard).map_or(0, |at| at + 1)
 }
 
-/// What a part of a cell says that does not begin it, and so has no guard.
+/// The content of a part of a cell that is not at its beginning, and so has no guard.
 pub(crate) fn inner(raw: &str, quoted: bool) -> String {
     let blank = |c: char| c.is_whitespace() || is_zero_width(c);
     let seen = raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c));
@@ -233,13 +233,13 @@ pub(crate) fn inner(raw: &str, quoted: bool) -> String {
     if quoted { text.replace("\"\"", "\"") } else { text }
 }
 
-/// The value of a property without the separators, and a quote, of the empty cells that a
-/// spreadsheet adds behind it.
+/// The value of a property, without the separators and quote of the empty cells that a spreadsheet
+/// adds after it.
 pub(crate) fn bare(value: &str) -> &str {
     bare_start(value).trim_end_matches(is_empty_cell)
 }
 
-/// The value from where it begins.
+/// The value from its first character on.
 pub(crate) fn bare_start(value: &str) -> &str {
     value.trim_start_matches(is_empty_cell)
 }
@@ -248,13 +248,13 @@ fn is_empty_cell(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | '"')
 }
 
-/// A cell that a spreadsheet takes for text, by the apostrophe that it knows for that.
+/// Protects a cell with an apostrophe, so that a spreadsheet takes it for text.
 pub(crate) fn guarded(cell: String) -> String {
     if is_guarded(&cell) { format!("'{cell}") } else { cell }
 }
 
-/// Whether a cell gets an apostrophe: a spreadsheet would compute it, or take its own apostrophe for
-/// the guard.
+/// Whether a cell gets an apostrophe: a spreadsheet would compute it, or take its own apostrophe
+/// for the guard.
 fn is_guarded(cell: &str) -> bool {
     is_formula(cell.trim_start_matches('\''))
 }
@@ -265,8 +265,8 @@ fn is_formula(cell: &str) -> bool {
     cell.starts_with(['=', '@']) || rest.is_some_and(|rest| rest.contains(['|', '(', '!']))
 }
 
-/// Characters without width that spreadsheets and web pages leave in a text, controls, and marks of
-/// direction.
+/// Whether a character is one without width that spreadsheets and web pages leave in texts, a
+/// control character, or a direction mark.
 pub(crate) fn is_zero_width(c: char) -> bool {
     is_hidden(c) && !c.is_whitespace()
 }
@@ -334,8 +334,8 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Where no quote is bad, the cells are those of the crate `csv`, which keeps the blanks
-        /// behind a closing quote.
+        /// If no quote is bad, the cells are those of the crate `csv`, which keeps blanks after a
+        /// closing quote.
         #[test]
         fn cells_agree_with_the_csv_crate(text in "[ab,\"\n\r; ]{0,40}") {
             let sheet = split(&text);

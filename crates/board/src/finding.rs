@@ -1,5 +1,5 @@
-//! What is wrong or doubtful in a board table, as data; its code, severity and words are given by
-//! the caller.
+//! Mistakes and doubtful entries in a board table, as data; the caller assigns code, severity and
+//! words.
 
 use std::ops::Range;
 
@@ -8,34 +8,34 @@ use crate::pin::PinName;
 /// A mistake and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// What is wrong.
+    /// The mistake.
     pub kind: FindingKind,
-    /// The bytes of the text it is about.
+    /// The bytes of the text that it is about.
     pub range: Range<usize>,
-    /// The line those bytes start in, from 1.
+    /// The line that those bytes start in, from 1.
     pub row: usize,
-    /// The header of the column it stands in.
+    /// The header of the column that it is in.
     pub column: Option<String>,
 }
 
-/// One kind of mistake each.
+/// The kinds of mistakes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FindingKind {
     /// No header line, or no pin below it.
     EmptyTable,
-    /// No column is called `Pin`.
+    /// No column has the header `Pin`.
     NoPinColumn {
         /// The column that was probably meant.
         nearest: Option<String>,
     },
-    /// A header stands twice; the second column is not read.
+    /// A header is there twice; the second column is not read.
     DuplicateColumn {
         /// The header.
         header: String,
         /// The first column's header cell.
         first: Range<usize>,
     },
-    /// A column has cells and no header; it is not read.
+    /// A column has cells but no header; it is not read.
     UnnamedColumn,
     /// A row has more or fewer cells than there are columns.
     RaggedRow {
@@ -44,11 +44,11 @@ pub enum FindingKind {
         /// Number of cells.
         found: usize,
     },
-    /// A quoted cell does not end, or goes on behind its closing quote.
+    /// A quoted cell does not end, or continues after its closing quote.
     BadQuote,
-    /// A row lists usages and names no pin; it is not read.
+    /// A row lists usages but names no pin; it is not read.
     MissingPin,
-    /// A pin cell that names no pin; the row is not read.
+    /// A pin cell does not contain a pin name; the row is not read.
     BadPinName {
         /// The cell.
         spelled: String,
@@ -60,24 +60,24 @@ pub enum FindingKind {
         /// The first row's pin cell.
         first: Range<usize>,
     },
-    /// A usage stands twice in a row; it is read, and counts, once.
+    /// A usage is in a row twice; it is read, and counts, once.
     DuplicateUsage {
-        /// As the table spells it.
+        /// The usage as the table spells it.
         spelled: String,
-        /// The first one.
+        /// The first occurrence.
         first: Range<usize>,
     },
-    /// A usage looks like a signal of a known peripheral and is none.
+    /// A usage looks like a signal of a known peripheral, but is not one.
     MalformedSignal {
         /// The usage.
         spelled: String,
         /// The known spelling that was probably meant.
         nearest: Option<String>,
     },
-    /// An alternate function that is no number from 0 to 15, or remap blocks that are none from 0
-    /// to 7.
+    /// An alternate function that is not a number from 0 to 15, or a remap block that is not one
+    /// from 0 to 7.
     BadAlternate {
-        /// As the table spells it.
+        /// The cell's text.
         spelled: String,
     },
     /// An `AF` cell names a signal that the row does not list.
@@ -87,7 +87,7 @@ pub enum FindingKind {
         /// The row's signal that was probably meant.
         nearest: Option<String>,
     },
-    /// An `AF` cell of bare numbers that are not one for each usage.
+    /// An `AF` cell has bare numbers, but not one for each usage.
     AlternateCount {
         /// Usages of the row that have an alternate function.
         expected: usize,
@@ -96,25 +96,25 @@ pub enum FindingKind {
     },
     /// `TIM3_CH1@2` and the row's `AF` cell disagree; the usage wins.
     AlternateConflict {
-        /// As the table spells it.
+        /// The usage as the table spells it.
         spelled: String,
         /// The number at the usage.
         usage: u8,
         /// The number in the `AF` cell.
         cell: u8,
     },
-    /// The word behind the colon of an `Onboard` cell is none of `taken`, `bus`, `care`.
+    /// The word after the colon of an `Onboard` cell is not `taken`, `bus` or `care`.
     BadOccupation {
         /// The word.
         spelled: String,
         /// The word that was probably meant.
         nearest: Option<String>,
     },
-    /// `# mcu = …` names nothing that looks like an MCU.
+    /// `# mcu = …` does not name anything that looks like an MCU.
     UnknownMcu {
         /// The name.
         spelled: String,
-        /// The known one that was probably meant.
+        /// The known MCU that was probably meant.
         nearest: Option<String>,
     },
     /// A `# key = value` line repeats a key; the first one counts.
@@ -122,24 +122,23 @@ pub enum FindingKind {
         /// The key.
         key: String,
     },
-    /// A no-break space or another character that cannot be seen; it is read as a space or left
-    /// out.
+    /// A no-break space or another invisible character; it is read as a space or dropped.
     InvisibleCharacter {
-        /// Which one.
+        /// The character.
         character: char,
     },
-    /// More of something than a table has; what stands behind is not read.
+    /// More of something than a table may have; what follows is not read.
     TooLarge {
-        /// Of what.
+        /// The name of the limit that was exceeded.
         what: &'static str,
-        /// How much is read.
+        /// The value of that limit.
         most: usize,
     },
-    /// More mistakes than are listed.
+    /// More mistakes than are reported.
     More {
-        /// How many are listed.
+        /// The number of mistakes reported.
         listed: usize,
-        /// How many are not.
+        /// The number of mistakes not reported.
         more: usize,
     },
 }

@@ -1,7 +1,7 @@
 //! Reading a board table: cells in, pins and findings out.
 //!
-//! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest
-//! is read, so that one run reports them all.
+//! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest is
+//! read, so that one run reports all mistakes.
 
 mod usages;
 
@@ -17,7 +17,7 @@ use crate::mcu;
 use crate::pin::PinName;
 use crate::table::{Column, Loaded, Pin, Property, Role, Table};
 
-/// See [`crate::table::load`].
+/// Implements [`crate::table::load`].
 pub(crate) fn load(text: &str) -> Loaded {
     let mut loader = Loader::new(text);
     let sheet = cells::split(text);
@@ -46,23 +46,23 @@ fn line_starts(text: &str) -> Vec<usize> {
     std::iter::once(0).chain(starts).collect()
 }
 
-/// A column of the sheet; `None` where its cells are not read.
+/// A column of the sheet; `None` if its cells are not read.
 type Slot = Option<Column>;
 
-/// The usages of a row by the name of their signal: their index and their place.
+/// The usages of a row by the name of their signal, with index and place.
 type Known = BTreeMap<String, (usize, Range<usize>)>;
 
 struct Loader<'a> {
     text: &'a str,
     lines: Vec<usize>,
     findings: Vec<Finding>,
-    /// What was found beside those that are listed.
+    /// The number of findings that are not listed.
     more: usize,
-    /// How many more usages are read.
+    /// How many more usages may be read.
     usages_left: usize,
 }
 
-/// A piece of a cell between white space.
+/// A piece of a cell, between white space.
 struct Word {
     text: String,
     range: Range<usize>,
@@ -80,7 +80,7 @@ impl<'a> Loader<'a> {
         Self { text, lines, findings, more: 0, usages_left: USAGES_MAX }
     }
 
-    /// What was found, in the order of the text.
+    /// The findings, in text order.
     fn finish(mut self) -> Vec<Finding> {
         self.findings.sort_by_key(|finding| finding.range.start);
         if self.more > 0 {
@@ -123,13 +123,13 @@ impl<'a> Loader<'a> {
         self.text.get(range.clone()).unwrap_or_default()
     }
 
-    /// The content of a cell without what cannot be seen, and where it is.
+    /// The content of a cell without invisible characters, and its place.
     fn content(&self, cell: &Cell) -> Word {
         let raw = self.raw(&cell.range);
         let blank = |c: char| c.is_whitespace() || is_zero_width(c);
         let start = cell.range.start + (raw.len() - raw.trim_start_matches(blank).len());
         let end = cell.range.end - (raw.len() - raw.trim_end_matches(blank).len());
-        // A cell of blanks alone has nothing to point at.
+        // A cell of only blanks has nothing to point at.
         let range = if start < end { start..end } else { cell.range.clone() };
         Word { text: cells::content(raw, cell.quoted), range }
     }
@@ -139,7 +139,7 @@ impl<'a> Loader<'a> {
         Some(self.content(cell)).filter(Word::is_filled)
     }
 
-    /// The pieces of a cell between white space.
+    /// The pieces of a cell, separated by white space.
     fn words(&self, cell: &Cell) -> Vec<Word> {
         let raw = self.raw(&cell.range);
         let mut words = Vec::new();
@@ -156,7 +156,7 @@ impl<'a> Loader<'a> {
         words
     }
 
-    /// Finds what cannot be seen in a cell that is read, once.
+    /// Reports the first invisible character in a cell that is read.
     fn invisible(&mut self, cell: &Cell, column: &str) {
         let raw = self.raw(&cell.range);
         let odd = |c: &char| is_zero_width(*c) || (c.is_whitespace() && !c.is_ascii());
@@ -245,7 +245,7 @@ impl<'a> Loader<'a> {
         !self.content(cell).text.is_empty()
     }
 
-    /// Names the columns.
+    /// Assigns the columns.
     fn header(&mut self, header: &[Cell], rows: &[Vec<Cell>]) -> Vec<Slot> {
         let mut slots: Vec<Slot> = Vec::new();
         let mut known: BTreeMap<String, Range<usize>> = BTreeMap::new();
@@ -278,7 +278,7 @@ impl<'a> Loader<'a> {
         slots
     }
 
-    /// For each column whether any row has something in it.
+    /// For each column, whether any row has something in it.
     fn filled_columns(&self, rows: &[Vec<Cell>]) -> Vec<bool> {
         let mut filled = vec![false; COLUMNS_MAX];
         for row in rows {
@@ -289,7 +289,7 @@ impl<'a> Loader<'a> {
         filled
     }
 
-    /// Reads one row; `None` when it names no pin.
+    /// Reads one row; `None` if it names no pin.
     fn row(&mut self, row: &[Cell], slots: &[Slot]) -> Option<Pin> {
         let beyond = row.get(slots.len()..).unwrap_or_default();
         if row.len() < slots.len() || beyond.iter().any(|cell| self.is_filled(cell)) {
@@ -355,13 +355,13 @@ impl<'a> Loader<'a> {
     }
 }
 
-/// From the first cell to the last.
+/// The range from the first cell to the last.
 fn header_range(row: &[Cell]) -> Range<usize> {
     let start = row.first().map_or(0, |cell| cell.range.start);
     start..row.last().map_or(start, |cell| cell.range.end)
 }
 
-/// Reads ` key = value`; a comment of another shape is a comment.
+/// Reads ` key = value`; any other comment is only a comment.
 fn property(comment: &str, start: usize) -> Option<Property> {
     let (key, value) = comment.split_once('=')?;
     let key = key.trim();

@@ -1,7 +1,7 @@
-//! The names of MCUs: what looks like one, and which part a name means.
+//! MCU names: whether a name looks like one, and which part it means.
 
-/// The starts of part numbers by which a name is taken for an MCU. It is a spelling check only:
-/// which parts are known in detail is told by boards and target profiles.
+/// Prefixes by which a name is taken for a part number. This is only a spelling check: boards and
+/// target profiles determine which parts are known in detail.
 const STARTS: [&str; 17] = [
     "STM32", "STM8", "RP20", "RP23", "ATMEGA", "ATTINY", "ATXMEGA", "AVR", "ATSAM", "SAM", "NRF5",
     "ESP32", "LPC", "MIMXRT", "MSP430", "GD32", "PIC",
@@ -13,7 +13,7 @@ pub fn normalise(spelled: &str) -> String {
     spelled.trim().to_ascii_uppercase()
 }
 
-/// True for what may be the name of an MCU.
+/// Whether this may be the name of an MCU.
 #[must_use]
 pub fn is_plausible(spelled: &str) -> bool {
     let name = normalise(spelled);
@@ -22,7 +22,7 @@ pub fn is_plausible(spelled: &str) -> bool {
     shaped && model.is_some_and(|model| model.contains(|c: char| c.is_ascii_digit()))
 }
 
-/// The family: `STM32F4` of `STM32F407VGT6`, `ATMEGA` of `ATMEGA2560-16AU`, `RP2040` of itself.
+/// The family: `STM32F4` for `STM32F407VGT6`, `ATMEGA` for `ATMEGA2560-16AU`, `RP2040` for itself.
 #[must_use]
 pub fn family(name: &str) -> &str {
     let start =
@@ -35,12 +35,12 @@ pub fn family(name: &str) -> &str {
     name.get(..end).filter(|family| !family.is_empty()).unwrap_or(name)
 }
 
-/// True when one name is the other with more of the ordering code, where `X` stands for any
-/// letter: `STM32F407VG` and `STM32F407VGTx` both mean `STM32F407VGT6`.
+/// Whether one name is the other with more of the ordering code, where `X` stands for any letter:
+/// `STM32F407VG` and `STM32F407VGTx` both mean `STM32F407VGT6`.
 #[must_use]
 pub fn same_part(left: &str, right: &str) -> bool {
     let (left, right) = (normalise(left), normalise(right));
-    // Die, pin count and flash size, as in STM32F407VG, are the least that tells two parts apart.
+    // Die, pin count and flash size, as in STM32F407VG, are the least that distinguishes two parts.
     let shortest = left.len().min(right.len());
     let alike = |(a, b): (u8, u8)| a == b || a == b'X' || b == b'X';
     shortest >= 6

@@ -1,18 +1,18 @@
-//! Pin names and natural order: a spelling in, a name that can be compared out.
+//! Pin names and natural order: a spelling in, a comparable name out.
 
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The name of a pin as chips and boards give it: `PA2`, `PC2_C`, `GP0`, `D3`, `P0.13`.
+/// The name of a pin on chips and boards: `PA2`, `PC2_C`, `GP0`, `D3`, `P0.13`.
 ///
-/// Names are upper case; `PA02` is `PA2`; what ST's tables append to a name (`PC14-OSC32_IN`,
-/// `PA9 [PA11]`) is left out. The order is the natural one: `PA2` < `PA10` < `PB0`.
+/// Names are in upper case. `PA02` becomes `PA2`, and what ST's tables append to a name
+/// (`PC14-OSC32_IN`, `PA9 [PA11]`) is dropped. The order is natural: `PA2` < `PA10` < `PB0`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PinName(String);
 
 impl PinName {
-    /// Reads a spelling; `None` when it cannot be a pin: a name starts with a letter, has a
-    /// digit, and is of letters, digits, `_` and `.` alone.
+    /// Reads a spelling; `None` if it cannot be a pin. A name starts with a letter, has a digit,
+    /// and contains only letters, digits, `_` and `.`.
     #[must_use]
     pub fn parse(spelled: &str) -> Option<Self> {
         let upper = spelled.trim().to_ascii_uppercase();
@@ -58,7 +58,7 @@ fn port_and_number(upper: &str) -> Option<String> {
     let number: u8 = digits.parse().ok()?;
     let analog = suffix.strip_prefix("_C");
     let suffix = analog.unwrap_or(suffix);
-    // Some files of ST's have `PC14OSC32_IN` and `PF11BOOT0` in one word.
+    // Some of ST's files have `PC14OSC32_IN` and `PF11BOOT0` as one word.
     let glued = suffix.starts_with("OSC") || suffix.starts_with("BOOT");
     let known = suffix.is_empty() || glued || suffix.starts_with(['-', ' ', '/', '(', '[']);
     known.then(|| format!("P{port}{number}{}", if analog.is_some() { "_C" } else { "" }))

@@ -1,7 +1,7 @@
 //! Target profiles: what an operating system's drivers can do on an MCU family.
 //!
-//! A target name and an MCU come in, the facts of that MCU under that system go out. All facts are
-//! data of `targets/`; this module only finds and serves them.
+//! A target name and an MCU go in, the facts of that MCU under that system come out. All facts are
+//! data in `targets/`; this module only finds and returns them.
 
 mod entries;
 mod file;
@@ -24,13 +24,13 @@ pub(crate) use types::{pin, pins};
 /// The target without an operating system: only pins and signals count.
 pub const NONE: &str = "none";
 
-/// The target that is meant when none is named, where it covers the MCU.
+/// The default target, if it covers the MCU.
 pub const DEFAULT: &str = "chibios";
 
-/// The target that is meant where [`DEFAULT`] does not cover the MCU.
+/// The default target if [`DEFAULT`] does not cover the MCU.
 const SECOND: &str = "embassy";
 
-/// What a target name and an MCU lead to.
+/// The target that a target name and an MCU select.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// `none`: the pure pin model.
@@ -44,27 +44,27 @@ pub enum Target {
 pub enum NoProfile {
     /// No target has that name.
     UnknownTarget {
-        /// All names.
+        /// The known names.
         known: Vec<String>,
-        /// The one that was probably meant.
+        /// The known name that was probably meant.
         nearest: Option<String>,
     },
     /// The target covers other MCUs.
     UnknownMcu {
         /// The full name of the target.
         target: String,
-        /// The starts of the part numbers it covers: those of the MCU's family where it has
-        /// some, otherwise all families.
+        /// The prefixes of the part numbers that it covers: those of the MCU's family if there are
+        /// any, otherwise all families.
         covered: Vec<String>,
     },
     /// A file of `targets/` is damaged; tests rule that out.
     Broken {
-        /// What the reader says.
+        /// The reader's message.
         message: String,
     },
 }
 
-/// All names a target can be called by.
+/// All names that a target can have.
 #[must_use]
 pub fn names() -> Vec<String> {
     let mut names = vec![NONE.to_owned(), DEFAULT.to_owned()];
@@ -79,7 +79,7 @@ pub fn names() -> Vec<String> {
     names
 }
 
-/// The full name of a target: `chibios` is the newest ChibiOS there is a profile for.
+/// The full name of a target: `chibios` is the newest ChibiOS that has a profile.
 #[must_use]
 pub fn full_name(target: &str) -> Option<&'static str> {
     let wanted = target.to_ascii_lowercase();
@@ -92,7 +92,7 @@ pub fn full_name(target: &str) -> Option<&'static str> {
     versions.max_by(|a, b| crate::pin::natural(a, b))
 }
 
-/// The start of part numbers under which a target covers an MCU. MCUs with the same start have the
+/// The part-number prefix under which a target covers an MCU. MCUs with the same prefix have the
 /// same profile.
 #[must_use]
 pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
@@ -102,7 +102,7 @@ pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
     parts.copied().filter(|part| starts(&name, part)).max_by_key(|part| part.len())
 }
 
-/// The target that is meant for an MCU when none is named: [`DEFAULT`] also where no target covers it.
+/// The target for an MCU if none is named; also [`DEFAULT`] if no target covers the MCU.
 #[must_use]
 pub fn usual(mcu: &str) -> &'static str {
     let is_second = covered_by(DEFAULT, mcu).is_none() && covered_by(SECOND, mcu).is_some();
@@ -113,7 +113,7 @@ pub fn usual(mcu: &str) -> &'static str {
 ///
 /// # Errors
 ///
-/// When the target is unknown or has no profile for the MCU.
+/// Fails if the target is unknown or has no profile for the MCU.
 pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
     let Some(target) = full_name(target) else {
         let known = names();
@@ -154,17 +154,17 @@ pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
 pub struct LineFacts {
     /// The facts.
     pub profile: TargetProfile,
-    /// The units the line lists.
+    /// The units that the line lists.
     pub units: Vec<String>,
-    /// Units that the registry names and the profile leaves out on purpose.
+    /// Units that the registry names but the profile deliberately leaves out.
     pub left_out: Vec<String>,
 }
 
-/// All lines of the files there are for a target.
+/// All lines of a target's files.
 ///
 /// # Errors
 ///
-/// When a file is damaged; tests rule that out.
+/// Fails if a file is damaged; tests rule that out.
 pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
     let mut all = Vec::new();
     for entry in TARGETS.iter().filter(|entry| Some(entry.target) == full_name(target)) {
@@ -185,7 +185,7 @@ pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
 ///
 /// # Errors
 ///
-/// When the text is no profile, or has no line for the MCU.
+/// Fails if the text is not a profile, or has no line for the MCU.
 pub fn read(text: &str, mcu: &str) -> Result<Target, String> {
     let file = File::parse(text)?;
     let line =
@@ -193,11 +193,11 @@ pub fn read(text: &str, mcu: &str) -> Result<Target, String> {
     Ok(Target::Profile(Box::new(file.into_profile(&line))))
 }
 
-/// Reads a profile file and says what is wrong with it.
+/// Reads a profile file and lists the mistakes in it.
 ///
 /// # Errors
 ///
-/// When the text is no profile at all.
+/// Fails if the text is not a profile at all.
 pub fn check(text: &str) -> Result<Vec<String>, String> {
     Ok(File::parse(text)?.problems())
 }

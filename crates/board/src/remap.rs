@@ -1,20 +1,20 @@
-//! Remap blocks: where the peripheral, not the pin, decides on which pins its signals are.
+//! Remap blocks: on some MCUs the peripheral, not the pin, decides which pins its signals are on.
 //!
-//! On STM32F1 a register field for each peripheral chooses one of a few blocks of pins, so all
-//! signals of the peripheral that are in use must be in one block. A usage says in which blocks of
-//! its peripheral it is: `TIM2_CH1#0|2`.
+//! On STM32F1, a register field for each peripheral chooses one of a few blocks of pins, so all
+//! signals of the peripheral that are used must be in one block. A usage lists the blocks of its
+//! peripheral that it is in: `TIM2_CH1#0|2`.
 
 use std::fmt;
 
-/// Highest number of a block.
+/// The highest block number.
 const LAST: u8 = 7;
 
-/// The blocks in which a signal is on a pin; never empty.
+/// The blocks that have a signal on a pin; never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Blocks(u8);
 
 impl Blocks {
-    /// Reads numbers from 0 to 7 with `|` between.
+    /// Reads numbers from 0 to 7, separated by `|`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let bit = |number: &str| match number.as_bytes() {
@@ -33,20 +33,20 @@ impl Blocks {
         }
     }
 
-    /// The blocks that are in both.
+    /// The blocks that are in both sets.
     #[must_use]
     pub fn and(self, other: Self) -> Option<Self> {
         let bits = self.0 & other.0;
         (bits != 0).then_some(Self(bits))
     }
 
-    /// Only the lowest of them.
+    /// The set with only the lowest block.
     #[must_use]
     pub fn lowest(self) -> Self {
         Self(1 << self.first())
     }
 
-    /// The number of the lowest.
+    /// The number of the lowest block.
     #[must_use]
     pub fn first(self) -> u8 {
         u8::try_from(self.0.trailing_zeros()).unwrap_or(LAST).min(LAST)
@@ -57,9 +57,9 @@ impl Blocks {
     }
 }
 
-/// True when sets that agree two by two always agree all together, whichever of these they are. By
-/// a theorem of Berge's it is enough to look at three blocks at a time: all sets with two of them
-/// have one in common.
+/// Whether sets of these that agree in pairs always agree all together, whichever are chosen. By a
+/// theorem of Berge's, it is enough to check three blocks at a time: all sets with two of them must
+/// have one block in common.
 #[must_use]
 pub fn agree_by_pairs(sets: &[Blocks]) -> bool {
     let triples = (0..=LAST).flat_map(|a| (a + 1..=LAST).map(move |b| (a, b)));

@@ -1,7 +1,7 @@
-//! Signals: the spelling of a table in, a canonical name and its meaning out.
+//! Signals: a table's spelling in, a canonical name and its meaning out.
 //!
-//! The grammar of the names is that of the language page: a peripheral unit, `_`, a line. It is
-//! the same for every MCU; which units exist is told by the table and the target profile.
+//! The grammar of the names is that of the language page: a peripheral unit, `_`, a line. It is the
+//! same for every MCU; the table and the target profile determine which units exist.
 
 mod spelling;
 
@@ -11,58 +11,58 @@ use std::fmt;
 use self::spelling::{Reading, canonical, mend, normalise, read};
 use crate::pin::natural;
 
-/// A signal, told apart by its canonical name: `I2C1-SCL`, `i2c1_scl` and `I²C1-SCL` are equal.
+/// A signal, identified by its canonical name: `I2C1-SCL`, `i2c1_scl` and `I²C1-SCL` are equal.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Signal {
     name: String,
     function: Function,
 }
 
-/// What a signal is for, as far as a device kind can use it.
+/// The function of a signal, as far as a device kind can use it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Function {
     /// An input of one of several converters: `ADC12_IN8`.
     Adc {
-        /// The units that can sample it, ascending.
+        /// The units that can sample it, in ascending order.
         units: Vec<u8>,
         /// The input number.
         channel: u8,
     },
     /// `I2C1_SCL`.
     I2c {
-        /// `I2C1`; `TWI` where the data sheet calls it so.
+        /// The unit: `I2C1`, or `TWI` where the data sheet uses that name.
         unit: UnitName,
-        /// Which wire of the bus.
+        /// The wire of the bus.
         line: I2cLine,
     },
     /// `TIM1_CH2`, `TIM1_CH2N`; `PWM4_A` of RP2040; `OC1A` and `ICP1` of AVR.
     Timer {
-        /// `TIM1`, `PWM4`, `TC1`.
+        /// The unit: `TIM1`, `PWM4`, `TC1`.
         unit: UnitName,
         /// The channel's number, from 1; A is 1.
         channel: u8,
-        /// What the pin is to the channel.
+        /// The pin's role for the channel.
         line: TimerLine,
     },
     /// `USART1_TX`.
     Uart {
-        /// `USART1`, `UART4`, `LPUART1`.
+        /// The unit: `USART1`, `UART4`, `LPUART1`.
         unit: UnitName,
-        /// Which wire.
+        /// The wire of the port.
         line: UartLine,
     },
     /// `SPI1_SCK`.
     Spi {
-        /// `SPI1`; `SPI` where the MCU has but one.
+        /// The unit: `SPI1`, or `SPI` if the MCU has only one.
         unit: UnitName,
-        /// Which wire of the bus.
+        /// The wire of the bus.
         line: SpiLine,
     },
     /// `CAN1_TX`, `FDCAN1_TX`.
     Can {
-        /// `CAN1`, `FDCAN1`; `CAN` where the MCU has but one.
+        /// The unit: `CAN1`, `FDCAN1`, or `CAN` if the MCU has only one.
         unit: UnitName,
-        /// Which wire.
+        /// The wire of the controller.
         line: CanLine,
     },
     /// `DAC1_OUT2`.
@@ -72,40 +72,40 @@ pub enum Function {
         /// The output's number.
         channel: u8,
     },
-    /// Any other usage: it costs, but no device kind asks for it.
+    /// Any other usage: it counts in the pin's cost, but no device kind needs it.
     Other,
 }
 
 /// A wire of an I²C bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum I2cLine {
-    /// Clock.
+    /// The clock wire.
     Scl,
-    /// Data.
+    /// The data wire.
     Sda,
 }
 
-/// What a pin is to a timer's channel.
+/// The role of a pin for a timer's channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TimerLine {
     /// Output and capture input.
     Both,
-    /// Output alone: `OC1A`.
+    /// Only an output: `OC1A`.
     Output,
     /// The inverted output: `TIM1_CH2N`.
     Inverted,
-    /// Capture input alone: `ICP1`.
+    /// Only a capture input: `ICP1`.
     Input,
 }
 
 impl TimerLine {
-    /// Whether edges can be captured there.
+    /// Whether edges can be captured on the pin.
     #[must_use]
     pub const fn is_input(self) -> bool {
         matches!(self, Self::Both | Self::Input)
     }
 
-    /// Whether pulses come out there as they are meant.
+    /// Whether pulses come out of the pin without inversion.
     #[must_use]
     pub const fn is_output(self) -> bool {
         matches!(self, Self::Both | Self::Output)
@@ -115,20 +115,20 @@ impl TimerLine {
 /// A wire of a serial port, seen from the MCU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum UartLine {
-    /// Transmit.
+    /// The transmit wire.
     Tx,
-    /// Receive.
+    /// The receive wire.
     Rx,
 }
 
 /// A wire of an SPI bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SpiLine {
-    /// Clock.
+    /// The clock wire.
     Sck,
-    /// To the controller.
+    /// The wire to the controller.
     Miso,
-    /// From the controller.
+    /// The wire from the controller.
     Mosi,
     /// The unit's own select line.
     Nss,
@@ -137,9 +137,9 @@ pub enum SpiLine {
 /// A wire of a CAN controller, seen from the MCU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CanLine {
-    /// Transmit.
+    /// The transmit wire.
     Tx,
-    /// Receive.
+    /// The receive wire.
     Rx,
 }
 
@@ -179,7 +179,7 @@ impl PartialOrd for UnitName {
     }
 }
 
-/// A spelling that looks like a signal of a known peripheral and is none.
+/// A spelling that looks like a signal of a known peripheral, but is not one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Malformed {
     /// The known spelling that was probably meant.
@@ -187,7 +187,7 @@ pub struct Malformed {
 }
 
 impl Signal {
-    /// Reads a spelling. Every text is a signal; one that is malformed has the function
+    /// Reads a spelling. Every text is a signal; a malformed one has the function
     /// [`Function::Other`] and comes with what was probably meant.
     #[must_use]
     pub fn parse(spelled: &str) -> (Self, Option<Malformed>) {
@@ -211,7 +211,7 @@ impl Signal {
         &self.name
     }
 
-    /// What the signal is for.
+    /// The function of the signal.
     #[must_use]
     pub fn function(&self) -> &Function {
         &self.function
@@ -254,7 +254,7 @@ impl Function {
         }
     }
 
-    /// Analog functions bypass the alternate-function multiplexer.
+    /// Whether the function bypasses the alternate-function multiplexer, as analog functions do.
     #[must_use]
     pub fn is_analog(&self) -> bool {
         matches!(self, Self::Adc { .. } | Self::Dac { .. })
@@ -265,7 +265,7 @@ impl Function {
 mod tests {
     use super::*;
 
-    /// The canonical name, and `?` with what was meant for a malformed one.
+    /// The canonical name; for a malformed one `?` and what was probably meant.
     fn read(spelled: &str) -> String {
         match Signal::parse(spelled) {
             (signal, None) => signal.name().to_owned(),
@@ -367,7 +367,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// A canonical name reads as itself, and what was meant is well formed.
+        /// A canonical name reads as itself, and a suggestion is well formed.
         #[test]
         fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN|PWM|TWI|OC|ICP)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
             let (signal, malformed) = Signal::parse(&spelled);

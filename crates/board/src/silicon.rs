@@ -1,8 +1,8 @@
 //! What peripherals can do in hardware and which pins the MCU needs for itself, where pins and
-//! signals do not tell.
+//! signals do not show it.
 //!
-//! An MCU comes in, the facts of its family go out. All facts are data of `silicon/`; this
-//! module only finds and serves them.
+//! An MCU goes in, the facts of its family come out. All facts are data in `silicon/`; this module
+//! only finds and returns them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -19,84 +19,85 @@ const FILES: &[&str] = &[
     include_str!("../silicon/stm32.toml"),
 ];
 
-/// What is known of a family.
+/// The facts of an MCU family.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Silicon {
-    /// Starts of part numbers.
+    /// Part-number prefixes.
     pub parts: Vec<String>,
-    /// Its timers.
+    /// What its timers can do.
     #[serde(default)]
     pub timers: Timers,
-    /// Pins that it needs for itself.
+    /// Pins that the MCU needs for itself.
     #[serde(default)]
     pub pins: Vec<Needed>,
-    /// Pins that are inputs of the converter and nothing else.
+    /// Pins that are converter inputs and nothing else.
     #[serde(default)]
     pub analog: Vec<AnalogOnly>,
-    /// What its pins stand.
+    /// The voltages that its pins tolerate.
     #[serde(default)]
     pub volts: Vec<Volts>,
-    /// Serial ports that lack what most have.
+    /// Serial ports that lack something that most have.
     #[serde(default)]
     pub serials: Vec<Serials>,
-    /// What files may call a unit, and what the data sheet calls it; `#` is a number.
+    /// Names that files may use for a unit, each with the data sheet's name; `#` stands for a
+    /// number.
     #[serde(default)]
     pub units: BTreeMap<String, String>,
 }
 
-/// Pins of some MCUs of a family that have no digital circuit.
+/// Pins of some MCUs in a family that have no digital circuit.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AnalogOnly {
-    /// Starts of the part numbers.
+    /// Part-number prefixes.
     pub parts: Vec<String>,
     /// The pins.
     pub names: Vec<String>,
-    /// Where it was read.
+    /// The source.
     pub source: String,
 }
 
-/// What the serial ports of some MCUs of a family lack.
+/// What the serial ports of some MCUs in a family lack.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Serials {
-    /// Starts of the part numbers.
+    /// Part-number prefixes.
     pub parts: Vec<String>,
-    /// Wires that are low at rest: no channels.
+    /// The inversion of wires to low at rest; it has no channels.
     pub invert: Ability,
 }
 
-/// What the pins of some MCUs of a family stand.
+/// The voltages that the pins of some MCUs in a family tolerate.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Volts {
-    /// Starts of the part numbers.
+    /// Part-number prefixes.
     pub parts: Vec<String>,
-    /// The usual supply, which is what converters measure up to, in millivolts.
+    /// The usual supply, which is the full scale of the converters, in millivolts.
     pub supply_mv: u32,
-    /// What an input stands at that supply, in millivolts; none where that is not known.
+    /// The voltage that an input tolerates at that supply, in millivolts; none if not known.
     pub stands_mv: Option<u32>,
-    /// Pins that stand no more than the supply and 0.3 V.
+    /// Pins that tolerate only the supply plus 0.3 V.
     #[serde(default)]
     pub except: Vec<String>,
-    /// Where it is not known of all others: the pins that stand it.
+    /// The pins that tolerate it, if this is not known for all others.
     pub only: Option<Vec<String>>,
-    /// Where it was read.
+    /// The source.
     pub source: String,
 }
 
-/// Pins that some MCUs of a family need for themselves.
+/// Pins that some MCUs in a family need for themselves.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Needed {
-    /// What for.
+    /// What the pins are needed for.
     pub role: PinRole,
-    /// Starts of the part numbers.
+    /// Part-number prefixes.
     pub parts: Vec<String>,
     /// The pins.
     pub names: Vec<String>,
-    /// Where it was read.
+    /// The source.
     pub source: String,
 }
 
@@ -104,18 +105,18 @@ pub struct Needed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PinRole {
-    /// A debugger talks over it.
+    /// A debugger uses it.
     Debug,
     /// It resets the MCU, as delivered.
     Reset,
-    /// It is read when the MCU starts, and chooses what is started.
+    /// It is read when the MCU starts, and selects what is started.
     Boot,
-    /// A crystal goes there, where one is fitted.
+    /// A crystal is connected to it, if one is fitted.
     Oscillator,
 }
 
 impl PinRole {
-    /// Who needs the pin, for people.
+    /// What needs the pin, for people.
     #[must_use]
     pub const fn describe(self) -> &'static str {
         match self {
@@ -127,36 +128,36 @@ impl PinRole {
     }
 }
 
-/// What timers can do, where it differs from most.
+/// What timers can do, where that differs from most.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timers {
-    /// Counting and timing edges.
+    /// The ability to count and time edges.
     pub capture: Option<Ability>,
-    /// Decoding quadrature.
+    /// The ability to decode quadrature.
     pub encoder: Option<Ability>,
 }
 
-/// Which channels can do something.
+/// The channels that have an ability.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ability {
-    /// Those that can; none where the silicon cannot at all.
+    /// The channels that have it; empty if the silicon does not have it at all.
     pub channels: Vec<u8>,
-    /// Why the others cannot, as a half sentence.
+    /// The reason why the others do not, as a clause.
     pub because: String,
-    /// Where it was read.
+    /// The source.
     pub source: String,
 }
 
-/// What is known of an MCU beyond what most can do.
+/// The facts of an MCU, beyond what most MCUs can do.
 #[must_use]
 pub fn of(mcu: &str) -> Option<&'static Silicon> {
     let name = mcu::normalise(mcu);
     all().iter().find(|silicon| covers(&silicon.parts, &name))
 }
 
-/// The pins that an MCU needs for itself, and for what.
+/// The pins that an MCU needs for itself, each with its role.
 #[must_use]
 pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
     let name = mcu::normalise(mcu);
@@ -169,7 +170,7 @@ pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
     of_part.flat_map(pins).collect()
 }
 
-/// The pins of an MCU that are inputs of the converter and nothing else.
+/// The pins of an MCU that are converter inputs and nothing else.
 #[must_use]
 pub fn analog_only(mcu: &str) -> BTreeSet<PinName> {
     let name = mcu::normalise(mcu);
@@ -178,7 +179,8 @@ pub fn analog_only(mcu: &str) -> BTreeSet<PinName> {
     of_part.flat_map(|analog| &analog.names).filter_map(|name| PinName::parse(name)).collect()
 }
 
-/// Why the serial ports of an MCU cannot invert their wires; none where they can, or where it is not known.
+/// Why the serial ports of an MCU cannot invert their wires; none if they can, or if it is not
+/// known.
 #[must_use]
 pub fn inversion(mcu: &str) -> Option<&'static Ability> {
     let name = mcu::normalise(mcu);
@@ -186,7 +188,7 @@ pub fn inversion(mcu: &str) -> Option<&'static Ability> {
     Some(&serials.invert)
 }
 
-/// What the pins of an MCU stand: the first entry that has its part.
+/// The voltages that the pins of an MCU tolerate: the first entry that covers the part.
 #[must_use]
 pub fn volts(mcu: &str) -> Option<&'static Volts> {
     let name = mcu::normalise(mcu);
@@ -194,8 +196,8 @@ pub fn volts(mcu: &str) -> Option<&'static Volts> {
 }
 
 impl Silicon {
-    /// Whether two names mean one unit: the same, or one that the family is known by and another
-    /// that files may use.
+    /// Whether two names mean the same unit: they are equal, or one is the family's and the other
+    /// one that files may use.
     #[must_use]
     pub fn same_unit(&self, one: &str, other: &str) -> bool {
         one == other
@@ -206,7 +208,8 @@ impl Silicon {
     }
 }
 
-/// The name that a pattern turns into another, `TIM4` by `TIM#` into `PWM4` by `PWM#`.
+/// The name that results from changing one pattern to another: `TIM4` with `TIM#` and `PWM#`
+/// becomes `PWM4`.
 fn renamed(name: &str, from: &str, to: &str) -> Option<String> {
     let Some(stem) = from.strip_suffix('#') else {
         return (name == from).then(|| to.to_owned());
@@ -217,7 +220,7 @@ fn renamed(name: &str, from: &str, to: &str) -> Option<String> {
 }
 
 impl Volts {
-    /// What a pin stands as an input, in millivolts; none where that is not known.
+    /// The voltage that a pin tolerates as an input, in millivolts; none if not known.
     #[must_use]
     pub fn stands_mv(&self, pin: &PinName) -> Option<u32> {
         let has =
@@ -233,7 +236,7 @@ fn covers(parts: &[String], name: &str) -> bool {
     parts.iter().any(|part| name.starts_with(part))
 }
 
-/// All families; a damaged file, which tests rule out, is none.
+/// All families; a damaged file, which tests rule out, is skipped.
 fn all() -> &'static [Silicon] {
     static ALL: OnceLock<Vec<Silicon>> = OnceLock::new();
     ALL.get_or_init(|| FILES.iter().filter_map(|text| toml::from_str(text).ok()).collect())
@@ -331,7 +334,7 @@ mod tests {
         assert_eq!(volts("MSP430G2553"), None);
     }
 
-    /// One pin of each sort, as the data sheets' tables have it: FT, TT or TC, and not known.
+    /// One pin of each sort in the data sheets' tables: FT, TT or TC, and unknown.
     #[test]
     fn pins_of_stm32_families_stand_what_the_data_sheets_say() {
         let stands = |mcu, pin| volts(mcu)?.stands_mv(&PinName::parse(pin)?);

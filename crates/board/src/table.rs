@@ -1,4 +1,5 @@
-//! The board table: the wide CSV form of a pin table in, pins with their usages out, and back.
+//! The board table: the wide CSV form of a pin table in, pins with their usages out, and vice
+//! versa.
 //!
 //! The format is described in `docs/board-tables.md`.
 
@@ -11,16 +12,16 @@ use crate::pin::PinName;
 use crate::remap::Blocks;
 use crate::signal::Signal;
 
-/// A table and what is to be said about it.
+/// A table, with the findings in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loaded {
-    /// What was understood.
+    /// The part that was understood.
     pub board: Table,
     /// Mistakes, in the order of the text.
     pub findings: Vec<Finding>,
 }
 
-/// Reads a table. Never fails: what cannot be read is left out and found.
+/// Reads a table. Never fails: anything that cannot be read is left out and reported as a finding.
 #[must_use]
 pub fn load(text: &str) -> Loaded {
     crate::load::load(text)
@@ -31,7 +32,7 @@ pub fn load(text: &str) -> Loaded {
 pub struct Table {
     /// The MCU, from a leading line `# mcu = …`.
     pub mcu: Option<String>,
-    /// All leading lines `# key = value`, that of the MCU included.
+    /// All leading lines `# key = value`, including the MCU's.
     pub properties: Vec<Property>,
     /// The columns that are read, in order.
     pub columns: Vec<Column>,
@@ -53,41 +54,41 @@ pub struct Property {
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// The header as it is spelled.
+    /// The header as spelled.
     pub header: String,
-    /// What its cells are.
+    /// The role of its cells.
     pub role: Role,
     /// The bytes of the header.
     pub range: Range<usize>,
 }
 
-/// What the cells of a column are.
+/// The role of a column's cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The pin's name.
     Pin,
-    /// Where on the package.
+    /// The position on the package.
     Position,
-    /// At which edge of the board.
+    /// The edge of the board.
     Side,
-    /// At which connector.
+    /// The connector.
     Header,
-    /// What on the board is connected to the pin.
+    /// The part of the board that is connected to the pin.
     Onboard,
-    /// What is printed beside the pin.
+    /// The text printed next to the pin.
     Label,
-    /// The voltages the pin bears.
+    /// The voltages that the pin tolerates.
     Voltage,
-    /// Anything.
+    /// A remark.
     Note,
     /// Alternate-function numbers of the row's usages.
     Alternate,
-    /// Usages: every other column.
+    /// Usages, which are in all other columns.
     Usages,
 }
 
 impl Role {
-    /// The roles a header can name; all but [`Role::Usages`].
+    /// The roles that a header can name; all except [`Role::Usages`].
     pub const NAMED: [(&'static str, Self); 9] = [
         ("Pin", Self::Pin),
         ("Position", Self::Position),
@@ -100,7 +101,7 @@ impl Role {
         ("AF", Self::Alternate),
     ];
 
-    /// The role a header names.
+    /// The role that a header names.
     #[must_use]
     pub fn of(header: &str) -> Self {
         Self::NAMED
@@ -117,21 +118,21 @@ pub struct Pin {
     pub name: PinName,
     /// The name as the table spells it.
     pub spelled: String,
-    /// The usages, in the order of the row, each signal once.
+    /// The usages in the order of the row, with each signal once.
     pub usages: Vec<Usage>,
-    /// Where on the package.
+    /// The position on the package.
     pub position: Option<String>,
-    /// At which edge of the board.
+    /// The edge of the board.
     pub side: Option<String>,
-    /// At which connector.
+    /// The connector.
     pub header: Option<String>,
-    /// What is printed beside it.
+    /// The text printed next to the pin.
     pub label: Option<String>,
-    /// The voltages it bears.
+    /// The voltages that the pin tolerates.
     pub voltage: Option<String>,
     /// A remark.
     pub note: Option<String>,
-    /// What on the board is connected to it.
+    /// The part of the board that is connected to it.
     pub onboard: Option<Onboard>,
     /// The line in the text, from 1.
     pub row: usize,
@@ -140,7 +141,7 @@ pub struct Pin {
 }
 
 impl Pin {
-    /// The opportunity cost of taking the pin: its number of usages over all columns.
+    /// The opportunity cost of taking the pin, which is its number of usages over all columns.
     #[must_use]
     pub fn cost(&self) -> u32 {
         u32::try_from(self.usages.len()).unwrap_or(u32::MAX)
@@ -153,18 +154,19 @@ impl Pin {
     }
 }
 
-/// One thing a pin can be used for.
+/// A use that a pin can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usage {
-    /// As the table spells it, without remap blocks and alternate-function number: `ADC12-IN8`.
+    /// The table's spelling, without remap blocks and alternate-function number: `ADC12-IN8`.
     pub spelled: String,
-    /// What it means.
+    /// The signal that it means.
     pub signal: Signal,
-    /// The number of the alternate function, where the table gives it.
+    /// The number of the alternate function, if the table gives it.
     pub alternate: Option<u8>,
-    /// The remap blocks of its peripheral in which it is on this pin; none where it always is.
+    /// The remap blocks of its peripheral that put it on this pin; none if it is always on this
+    /// pin.
     pub blocks: Option<Blocks>,
-    /// The header of the column it stands in.
+    /// The header of the column that it is in.
     pub column: String,
     /// The bytes of the usage.
     pub range: Range<usize>,
@@ -175,30 +177,31 @@ pub struct Usage {
 pub struct Onboard {
     /// The part: `CS43L22`.
     pub part: String,
-    /// What that means for other uses.
+    /// What the part leaves for other uses.
     pub how: Occupation,
 }
 
-/// What a `release` rule calls an on-board part: its name with `_` for whatever is neither letter nor digit.
-/// `CAN transceiver` is released as `CAN_transceiver`, in any case of letters.
+/// The name of an on-board part in a `release` rule: its own name, with `_` for each character that
+/// is not a letter or digit. `CAN transceiver` is released as `CAN_transceiver`, in upper or lower
+/// case.
 #[must_use]
 pub fn release_name(part: &str) -> String {
     part.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '_' }).collect()
 }
 
-/// What an on-board part leaves of its pin.
+/// What an on-board part leaves for other uses of its pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Occupation {
-    /// Nothing: the pin is not offered.
+    /// Nothing; the pin is not offered.
     Taken,
-    /// It hangs on a bus that other devices of the same kind may join.
+    /// The pin is part of a bus that other devices of the same kind may join.
     Bus,
-    /// The pin can be used by who knows what is connected.
+    /// The pin can be used by people who know what is connected to it.
     Care,
 }
 
 impl Occupation {
-    /// The words behind the colon of an `Onboard` cell; none means [`Occupation::Taken`].
+    /// The words after the colon of an `Onboard` cell; no word means [`Occupation::Taken`].
     pub const WORDS: [(&'static str, Self); 3] =
         [("taken", Self::Taken), ("bus", Self::Bus), ("care", Self::Care)];
 }
@@ -206,7 +209,7 @@ impl Occupation {
 impl fmt::Display for Onboard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.how {
-            // The word is left out where the part alone says the same.
+            // The word is left out if the name alone means the same.
             Occupation::Taken if matches!(self.part.as_str(), "" | "-") => {
                 write!(f, "{}:taken", self.part)
             }
@@ -233,8 +236,8 @@ impl Table {
         Some(&property.value)
     }
 
-    /// The canonical wide CSV: pins in natural order, alternate functions at their usages. It
-    /// loads to an equal table, places apart.
+    /// The canonical wide CSV: pins in natural order, alternate functions with their usages. It
+    /// loads as an equal table, apart from the places.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut csv = String::new();
@@ -254,7 +257,7 @@ impl Table {
 
 /// The content of one cell.
 fn cell(pin: &Pin, column: &Column) -> String {
-    // A dash would be read as nothing.
+    // A dash would be read as an empty cell.
     let plain =
         |text: String| if says_nothing(&inner(&text, false)) { String::new() } else { text };
     let text = |text: &Option<String>| text.clone().map(plain).unwrap_or_default();
@@ -288,7 +291,8 @@ fn push_row(csv: &mut String, cells: impl Iterator<Item = String>) {
         if index > 0 {
             csv.push(',');
         }
-        // What reading would take off is not written: a soft hyphen of a label, blanks around it.
+        // Characters that reading would remove are not written: a soft hyphen in a label,
+        // surrounding blanks.
         let cell = guarded(inner(&cell, false));
         // A leading `#` would read as a comment, a leading quote as a quoted cell.
         if cell.contains([',', '"', '\n', '\r', ';', '\t']) || cell.starts_with('#') {

@@ -1,4 +1,4 @@
-//! Target profiles and built-in boards as the stages behind ask for them.
+//! Target profiles and built-in boards, as later stages use them.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sensedsl_board::pin::PinName;
@@ -154,7 +154,7 @@ fn the_paper_s_board_has_what_its_firmware_needs() {
     let link = board.link.first().unwrap();
     assert_eq!((link.transport, link.unit.as_str()), (Transport::Usb, "OTG1"));
     assert_eq!(board.button.unwrap().pin, pin("PA0"));
-    // Every usage of the table is one that ChibiOS has a driver for, but for one-channel capture.
+    // ChibiOS has a driver for every usage in the table, except one-channel capture.
     let profile = f407();
     for pin in &pins.pins {
         for usage in &pin.usages {

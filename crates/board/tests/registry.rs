@@ -1,5 +1,5 @@
-//! The generated module `registry` is what `boards/` and `targets/` say, and every file there is
-//! sound. `SENSEDSL_BLESS=1 cargo test -p sensedsl-board --test registry` writes the module anew.
+//! The generated module `registry` matches `boards/` and `targets/`, and every file there is sound.
+//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-board --test registry` writes the module again.
 #![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
@@ -53,7 +53,7 @@ fn family(text: &str) -> String {
     file["family"].as_str().unwrap().to_owned()
 }
 
-/// The starts of part numbers that a profile file covers.
+/// The part-number prefixes that a profile file covers.
 fn parts(text: &str) -> Vec<String> {
     let file: toml::Table = toml::from_str(text).unwrap();
     let lines = file["line"].as_array().unwrap();
@@ -131,7 +131,7 @@ fn every_board_is_sound() {
         let mcu = loaded.board.mcu.unwrap_or_else(|| board.mcu.clone());
         assert_eq!(mcu, board.mcu, "table and board name different MCUs");
         for (system, facts) in &board.system {
-            // Of a family without a profile the folders alone are known.
+            // For a family without a profile, only the folders are known.
             let target = profile::find(system, &board.mcu);
             let known = matches!(target, Ok(_) | Err(profile::NoProfile::UnknownMcu { .. }));
             assert!(known, "{}: {target:?}", board.name);

@@ -1,4 +1,4 @@
-//! Board tables from text: what is understood, what is found, and that nothing else can happen.
+//! Board tables from text: what is understood, what is reported, and that nothing else can happen.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ fn findings(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Asserts what is found, by the start of each line.
+/// Asserts the findings, by the start of each line.
 fn check(text: &str, expected: &[&str]) -> Table {
     let found = findings(text);
     let agree = found.len() == expected.len()
@@ -229,7 +229,7 @@ fn bare(table: &Table) -> String {
     format!("{:?}", (table.mcu.clone(), table.to_csv(), summary(table)))
 }
 
-/// What must hold whatever the text.
+/// What must hold for any text.
 fn hold(text: &str) -> Result<(), TestCaseError> {
     let loaded = load(text);
     prop_assert_eq!(&loaded, &load(text));

@@ -11,7 +11,7 @@ pub struct AlternativeLabels {
     pub roles: Vec<String>,
 }
 
-/// A name for each number of a problem; those of one kind differ.
+/// A name for each number of a problem; names of one kind are distinct.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Labels {
     /// Boards.
@@ -20,7 +20,7 @@ pub struct Labels {
     pub pins: Vec<String>,
     /// Devices.
     pub devices: Vec<String>,
-    /// For each device its alternatives.
+    /// For each device, its alternatives.
     pub alternatives: Vec<Vec<AlternativeLabels>>,
     /// Signals by their rank.
     pub signals: BTreeMap<u32, String>,
@@ -37,7 +37,7 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// Only those of some devices.
+    /// The labels of some devices only.
     pub(crate) fn with_devices(&self, devices: &[usize]) -> Self {
         let mut labels = self.clone();
         labels.devices = pick(&self.devices, devices);
@@ -46,12 +46,12 @@ impl Labels {
     }
 }
 
-/// Those at the given places.
+/// The items at the given places.
 pub(crate) fn pick<T: Clone>(all: &[T], places: &[usize]) -> Vec<T> {
     places.iter().filter_map(|place| all.get(*place)).cloned().collect()
 }
 
-/// Numbers those names that stand before already.
+/// Adds numbers to names that have occurred before.
 pub fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let mut distinct = Vec::new();

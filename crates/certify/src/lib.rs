@@ -1,8 +1,8 @@
-//! Certificates: an answer with data from which a small program of its own (crate `proof`) sees
+//! Certificates: an answer with data from which a small separate program (crate `proof`) verifies
 //! that the wiring is valid and that none is better, or that there is none.
 //!
 //! The solver searches once more with the answer as its limit and records how it splits, and by
-//! which prices it narrows and closes. Crate `proof` says why these bound the objective.
+//! which prices it narrows and closes. Crate `proof` explains why these bound the objective.
 //! `docs/proofs.md` describes the text.
 
 mod labels;
@@ -19,8 +19,8 @@ pub use write::holders;
 
 use write::Writer;
 
-/// What the problem was made of, for whoever has to tell its certificate from others. Each text
-/// has its SHA-256.
+/// The sources from which the problem was made, by which its certificate can be told from others.
+/// Each text has its SHA-256.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Subject {
     /// The program with its version.
@@ -29,14 +29,14 @@ pub struct Subject {
     pub options: Vec<(String, String)>,
     /// The files that were read, by the names that the design gives them.
     pub files: Vec<(String, String)>,
-    /// What is built in, by the arguments with which the program prints it.
+    /// The built-in texts, by the arguments with which the program prints them.
     pub built_in: Vec<(String, String)>,
 }
 
-/// What a certificate is to prove.
+/// The claim that a certificate must prove.
 #[derive(Clone, Copy, Debug)]
 pub enum Claim<'a> {
-    /// This answer is valid and none is better; with what the search that found it learned.
+    /// This answer is valid and none is better; with the experience of the search that found it.
     Best(&'a Answer, &'a Experience),
     /// There is no answer: these devices alone have none.
     NoWiring(&'a [DeviceId]),
@@ -45,11 +45,11 @@ pub enum Claim<'a> {
 /// Why there is no certificate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Uncertified {
-    /// None was found within the effort.
+    /// No certificate was found within the effort.
     GivenUp,
-    /// The caller's stop came before one was found.
+    /// The caller stopped the search before one was found.
     Stopped,
-    /// The verifier does not believe it, for this reason.
+    /// The verifier rejects it, for this reason.
     Refuted(String),
 }
 
@@ -59,7 +59,7 @@ pub enum Uncertified {
 /// The numbers of the claim and the labels must be those of the problem.
 ///
 /// # Errors
-/// [`Uncertified`]; this says nothing about the claim.
+/// [`Uncertified`], which says nothing about the claim.
 pub fn certify(
     problem: &Problem,
     labels: &Labels,
@@ -101,7 +101,7 @@ impl Case<'_> {
         believed(&text, cancel).map(|()| text)
     }
 
-    /// The record of the search; none where it holds more than the format has.
+    /// The record of the search; `None` if it holds something that the format cannot hold.
     fn recorded(&self) -> Option<String> {
         let Self { problem, labels, answer, learned, cancel, .. } = *self;
         let best = answer.map(|answer| answer.objective);
@@ -114,7 +114,7 @@ impl Case<'_> {
     }
 }
 
-/// What is handed out has been verified.
+/// Verifies a text before it is handed out.
 fn believed(text: &str, cancel: Cancel<'_>) -> Result<(), Uncertified> {
     if sensedsl_proof::budget::fits(text).is_err() {
         return Err(Uncertified::GivenUp);

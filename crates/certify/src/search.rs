@@ -1,4 +1,4 @@
-//! The record of the solver's search as text: everything by its place in the order of names.
+//! The record of the solver's search as text: everything by its position in the order of names.
 #![expect(clippy::indexing_slicing, reason = "labels are there for all numbers, which are checked")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ use crate::labels::Labels;
 use crate::swaps::Swap;
 use crate::write::holders;
 
-/// Where everything stands in the order of names.
+/// The position of everything in the order of names.
 pub(crate) struct Places {
     boards: Vec<usize>,
     pins: Vec<usize>,
@@ -32,7 +32,7 @@ pub(crate) struct Places {
     streams: BTreeMap<u32, usize>,
 }
 
-/// The place of each of some names.
+/// The position of each name in the order of all.
 fn sorted(names: &[impl Ord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..names.len()).collect();
     order.sort_by_key(|place| &names[*place]);
@@ -43,14 +43,14 @@ fn sorted(names: &[impl Ord]) -> Vec<usize> {
     places
 }
 
-/// The places of those numbers that are used, from `first` on.
+/// The positions of the numbers that are used, from `first` on.
 fn used(numbers: &BTreeSet<u32>, names: &[String], first: usize) -> BTreeMap<u32, usize> {
     let mut order: Vec<u32> = numbers.iter().copied().collect();
     order.sort_by_key(|number| &names[*number as usize]);
     order.into_iter().zip(first..).collect()
 }
 
-/// What is named in a problem.
+/// Everything that is named in a problem.
 #[derive(Default)]
 struct Used {
     resources: BTreeSet<u32>,
@@ -150,12 +150,12 @@ impl Places {
 pub(crate) struct Text<'a> {
     pub(crate) problem: &'a Problem,
     pub(crate) places: &'a Places,
-    /// The swaps that are used, as they come.
+    /// The swaps that are used, in the order of their first use.
     swaps: Vec<Swap>,
 }
 
 impl<'a> Text<'a> {
-    /// The text; none where two boards that should be equal are not.
+    /// The text; `None` if two boards that should be equal are not.
     pub(crate) fn of(problem: &'a Problem, places: &'a Places, record: &Record) -> Option<String> {
         let mut text = Self { problem, places, swaps: Vec::new() };
         let mut steps = Vec::new();
@@ -358,7 +358,8 @@ impl<'a> Text<'a> {
         Value::Object(all)
     }
 
-    /// Roles are numbered by name in each alternative, so one of the record may have several places.
+    /// Roles are numbered by name in each alternative, so a role of the record may have several
+    /// places.
     fn rules(&self, by: &Multipliers) -> Vec<i64> {
         let mut all: BTreeMap<[usize; 3], i64> = BTreeMap::new();
         for (rule, device, place, price) in &by.rules {

@@ -1,7 +1,7 @@
-//! What changes when two equal boards, or equal devices, change places.
+//! Exchanges of two equal boards, or of equal devices.
 //!
-//! The solver says that they are equal; the swap is found by going through what devices can take on
-//! both side by side. Whether it maps the problem to itself is for the verifier to see.
+//! The solver states that they are equal; the swap is found by going through what devices can take
+//! on both, side by side. The verifier checks whether it maps the problem to itself.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ pub(crate) struct Swap {
     pub(crate) ways: Vec<(usize, usize, usize)>,
 }
 
-/// Notes that two change places; none if one of them does so with another one.
+/// Records that two change places; `None` if one of them already does so with another one.
 fn pair(pairs: &mut Pairs, one: u32, other: u32) -> Option<()> {
     let there = *pairs.entry(one).or_insert(other);
     let back = *pairs.entry(other).or_insert(one);
@@ -34,7 +34,7 @@ fn pair(pairs: &mut Pairs, one: u32, other: u32) -> Option<()> {
 }
 
 impl Swap {
-    /// The swap of two boards; none where they differ.
+    /// The swap of two boards; `None` if they differ.
     pub(crate) fn of_boards(problem: &Problem, boards: (usize, usize)) -> Option<Self> {
         let mut swap = Self { boards: Some(boards), ..Self::default() };
         for (number, device) in problem.devices.iter().enumerate() {
@@ -53,7 +53,7 @@ impl Swap {
         Some(swap)
     }
 
-    /// The swap of devices; none where they differ.
+    /// The swap of devices; `None` if they differ.
     pub(crate) fn of_devices(problem: &Problem, devices: &Exchange) -> Option<Self> {
         let mut swap = Self { devices: devices.clone(), ..Self::default() };
         for (one, other) in devices {

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::Subject;
 use crate::labels::{Labels, distinct};
 
-/// Who holds each resource. A device that holds one for several groups cannot share it.
+/// The holder of each resource. A device that holds one for several groups cannot share it.
 pub fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
     let mut holders = BTreeMap::new();
     for Claim { resource, holder } in claims {
@@ -34,7 +34,7 @@ fn object(entries: impl IntoIterator<Item = (String, Value)>) -> Value {
     Value::Object(entries.into_iter().collect())
 }
 
-/// An object of those values that say anything.
+/// An object of the values that are not empty.
 fn stated<const N: usize>(entries: [(&str, Value); N]) -> Value {
     let says = |value: &Value| match value {
         Value::Null => false,
@@ -46,7 +46,7 @@ fn stated<const N: usize>(entries: [(&str, Value); N]) -> Value {
     object(stated.map(|(name, value)| (name.to_owned(), value)))
 }
 
-/// One entry a line.
+/// An object with one entry on each line.
 fn lines(entries: impl IntoIterator<Item = (String, Value)>) -> String {
     let entries = entries.into_iter().map(|(name, value)| format!("{}: {value}", json!(name)));
     let entries = entries.collect::<Vec<_>>().join(",\n");
@@ -191,7 +191,7 @@ impl Writer<'_> {
     }
 }
 
-/// The text of a subject. Names of files may hold what cannot be seen.
+/// The text of a subject. Names of files may contain invisible characters.
 fn of(subject: &Subject) -> String {
     let Subject { tool, options, files, built_in } = subject;
     let named = |all: &[(String, String)]| {

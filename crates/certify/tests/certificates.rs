@@ -1,4 +1,5 @@
-//! Certificates of random problems: they are verified, and what passes after a change is true.
+//! Certificates of random problems: they are verified, and whatever still passes after a change is
+//! true.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
@@ -15,13 +16,13 @@ use sensedsl_solve::{Cancel, Options, Outcome, solve_and_learn};
 use serde_json::Value;
 use support::generate::{self, Mix, Rng};
 
-/// A problem that was made of one file whose name needs escapes.
+/// The subject of a problem made from one file whose name needs escapes.
 fn subject() -> Subject {
     let file = ("a \"quoted\"\n\u{202e}.sense".to_owned(), sha256(b"text"));
     Subject { tool: "a test".to_owned(), files: vec![file], ..Subject::default() }
 }
 
-/// Names made of numbers alone.
+/// Names made only of numbers.
 fn numbered(problem: &Problem) -> Labels {
     let list = |word: &str, count: usize| -> Vec<String> {
         (0..count).map(|number| format!("{word}{number}")).collect()
@@ -75,7 +76,7 @@ fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
     let (rules, keep) = (problem.rules, rng.below(3) == 0);
     let all = problem.devices.iter_mut().flat_map(|device| &mut device.alternatives);
     for candidate in all.flat_map(|one| &mut one.roles).flat_map(|role| &mut role.candidates) {
-        // What devices share they violate and move together, so it goes by the pin.
+        // Devices that share a pin violate and move together, so this depends on the pin.
         let mut of_pin = Rng(seed ^ (u64::from(candidate.pin.0) << 8));
         if rules > 0 && of_pin.below(3) == 0 {
             candidate.violates = vec![RuleId(of_pin.below(u64::from(rules)) as u32)];
@@ -85,7 +86,7 @@ fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
     problem
 }
 
-/// The certificate of what the solver finds with the objective of the wiring; none where no proof
+/// The certificate of what the solver finds, with the objective of the wiring; `None` if no proof
 /// is found.
 fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
@@ -110,15 +111,15 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
 /// Moved wires, rules violated, shared pins, cost, spare boards.
 type Parts = (u32, u32, u32, u64, u32);
 
-/// All wirings of a certificate's problem, tried out one by one; the best objective. None where
-/// there are too many.
+/// All wirings of a certificate's problem, tried one by one as long as there are not too many, and
+/// the best objective.
 struct Brute<'a> {
     certificate: &'a Certificate,
     left: u32,
     best: Option<Parts>,
 }
 
-/// What devices hold: by kind and name the device and the behalf.
+/// What devices hold: by kind and name, the device and on whose behalf.
 type Held<'a> = BTreeMap<(&'a str, &'a str), Vec<(&'a str, String)>>;
 
 #[derive(Clone, Default)]
@@ -219,7 +220,7 @@ fn serve<'a>(requests: &[&'a BTreeSet<String>], taken: &mut BTreeSet<&'a str>) -
     false
 }
 
-/// Changes one place of a text of JSON: a number, a flag, a name, or an entry that goes.
+/// Changes one place of a text of JSON: a number, a flag or a name, or removes an entry.
 fn mutate(value: &mut Value, rng: &mut Rng) {
     match value {
         Value::Object(map) if !map.is_empty() => {
@@ -277,7 +278,7 @@ fn floating(seed: u64) -> Option<Value> {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// The first swap of a record that moves at least so many of a kind.
+/// The first swap of a record that moves at least this many of a kind.
 fn swap_of(value: &Value, kind: &str, least: usize) -> Option<usize> {
     let moves = |swap: &Value| swap[kind].as_array().is_some_and(|row| row.len() >= least);
     value["search"]["swaps"].as_array()?.iter().position(moves)
@@ -302,13 +303,13 @@ fn a_wrong_permutation_and_boards_that_differ_are_refused() {
     assert!(!found.is_empty(), "no record swaps boards");
     for (at, value) in found {
         assert!(holds(&value));
-        // Two pins of the swap go where the other one should.
+        // Two pins of the swap each go where the other one should.
         let mut wrong = value.clone();
         let pins = wrong["search"]["swaps"][at]["pins"].as_array_mut().expect("a row");
         pins.swap(1, 3);
         assert!(!holds(&wrong), "a wrong permutation of pins passes");
         assert!(!holds_without(&value, at, "ways", 3), "an alternative that stays behind passes");
-        // One of the boards is no spare one.
+        // One of the boards is not a spare one.
         let mut wrong = value.clone();
         let board = value["search"]["swaps"][at]["boards"][1].as_u64().expect("a number");
         let boards = wrong["problem"]["boards"].as_object_mut().expect("boards");
@@ -317,8 +318,9 @@ fn a_wrong_permutation_and_boards_that_differ_are_refused() {
     }
 }
 
-/// Four pairs of devices that share a place of two pins each. Of the three cheap places any two exclude each other, which
-/// no prices see; the last of the dear ones violates a rule of the pair.
+/// Four pairs of devices that share a place of two pins each. Of the three cheap places, any two
+/// exclude each other, which prices do not see; the last of the expensive ones violates a rule of
+/// the pair.
 fn pairs() -> Problem {
     use sensedsl_solve::problem as of;
     let claim = |resource, holder| of::Claim { resource: of::ResourceId(resource), holder };
@@ -384,7 +386,7 @@ fn wrong_multipliers_and_cases_left_out_are_refused() {
         for at in 0..steps.len().min(20) {
             let Some(by) = steps[at].get("closed") else { continue };
             let mut wrong = value.clone();
-            // Prices without what gives them back, and none at all.
+            // No prices at all.
             wrong["search"]["steps"][at]["closed"] = serde_json::json!({ "scale": by["scale"] });
             emptied += u32::from(!holds(&wrong));
         }
@@ -406,7 +408,7 @@ fn what_passes_after_a_change_is_true() {
         let mut rng = Rng(seed);
         for _ in 0..20 {
             let mut value = value.clone();
-            // The proof and the answer are small beside the problem.
+            // The proof and the answer are small compared with the problem.
             let part = ["problem", "answer", "search"][rng.below(3) as usize];
             mutate(&mut value[part], &mut rng);
             let Ok(certificate) = read(&value.to_string()) else { continue };

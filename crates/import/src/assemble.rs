@@ -1,5 +1,5 @@
-//! Pins with their usages in any order in, a board table out: usages in the columns of their
-//! peripherals, the inputs of several converters merged.
+//! Pins in, with their usages in any order; a board table out, with the usages in the columns of
+//! their peripherals and the inputs of several converters merged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use sensedsl_limits::{PIN_USAGES_MAX, PINS_MAX};
 
 use crate::log::Log;
 
-/// One pin of a table to be.
+/// A future row of a table: one pin.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) name: PinName,
@@ -42,7 +42,7 @@ impl Row {
         }
     }
 
-    /// The text of a column that describes the pin; none for the other columns.
+    /// The text of a column that describes the pin; none for other columns.
     pub(crate) fn text(&mut self, role: Role) -> Option<&mut Option<String>> {
         match role {
             Role::Position => Some(&mut self.position),
@@ -56,8 +56,8 @@ impl Row {
     }
 }
 
-/// The columns of usages and the starts of the peripherals that stand in each; the last takes the
-/// rest.
+/// The columns of usages, each with the prefixes of its peripherals; the last column takes all
+/// others.
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
@@ -82,8 +82,8 @@ fn column(signal: &Signal) -> &'static str {
     of.map_or("Other", |(column, _)| column)
 }
 
-/// Makes a table. The rows are sorted; of two rows for a pin the usages are united. None, and an
-/// error, where there is more than a table may have.
+/// Makes a table. Sorts the rows, and merges the usages of two rows for the same pin. Returns none,
+/// and reports an error, if there is more than a table may have.
 pub(crate) fn table(
     properties: &[(&str, String)],
     rows: Vec<Row>,
@@ -137,7 +137,7 @@ pub(crate) fn table(
     Some(Table { mcu, columns: columns(&pins), properties, pins })
 }
 
-/// The columns that have something in them.
+/// The columns that are not empty.
 fn columns(pins: &[Pin]) -> Vec<Column> {
     let mut columns = vec![("Pin", Role::Pin)];
     let mut described = |header: &'static str, role, has: &dyn Fn(&Pin) -> bool| {

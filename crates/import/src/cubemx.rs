@@ -1,10 +1,10 @@
-//! The description of an MCU in XML, from a CubeMX installation or ST's open pin data, in; its
+//! The description of an MCU in XML, from a CubeMX installation or from ST's open pin data, in; its
 //! board table out.
 //!
-//! The file lists packages, pads and signals; the alternate functions stand in a second file that
-//! it names, `IP/GPIO-<version>_Modes.xml`. Pads that several pins share have one `Position`. On
-//! the F1 family signals have no alternate function but belong to remap blocks, of which each
-//! peripheral uses one: the column `Note` lists them.
+//! The file lists packages, pads and signals. The alternate functions are in a second file that it
+//! names, `IP/GPIO-<version>_Modes.xml`. Pins that share a pad have the same `Position`. On the F1
+//! family, signals do not have alternate functions but belong to remap blocks, of which each
+//! peripheral uses one; the column `Note` lists them.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -21,13 +21,13 @@ use crate::log::Log;
 use crate::package::{Refused as Refusal, check_xml};
 use crate::{Source, Texts};
 
-/// The alternate functions of the GPIO files that were read so far, by path. Some ninety of them
-/// serve two thousand MCUs, and reading one takes longer than all else.
+/// The alternate functions of the GPIO files read so far, by path. About ninety files serve two
+/// thousand MCUs, and reading one takes longer than everything else.
 #[derive(Debug, Default)]
 pub(crate) struct Cache(Mutex<BTreeMap<String, Arc<Functions>>>);
 
 impl Cache {
-    /// The alternate functions in a file beside the source, or why there are none.
+    /// The alternate functions in a file next to the source, or why there are none.
     fn functions(
         &self,
         path: &str,
@@ -36,7 +36,7 @@ impl Cache {
         if let Some(known) = self.files().get(path) {
             return Ok(Arc::clone(known));
         }
-        // Two threads may read one file at a time; what they get is the same.
+        // Two threads may read the same file at the same time; both get the same result.
         let bytes = beside(path).map_err(Refused::Unread)?;
         let text = std::str::from_utf8(&bytes).map_err(|error| Refusal::why(&error));
         let document = text.and_then(parse).map_err(Refused::Unreadable)?;
@@ -46,7 +46,7 @@ impl Cache {
     }
 
     fn files(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Functions>>> {
-        // What a thread that panicked has put in is whole.
+        // What a thread has stored is complete, even if the thread then panicked.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -109,7 +109,7 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Texts
     Texts { table: table.map(|table| table.to_csv()), program: None }
 }
 
-/// What the table says of the MCU.
+/// The properties of the MCU in the table.
 fn properties(mcu: &Node<'_, '_>) -> Vec<(&'static str, String)> {
     let reference = mcu.attribute("RefName").unwrap_or_default();
     let mut properties = vec![("mcu", largest(reference))];
@@ -128,7 +128,7 @@ fn properties(mcu: &Node<'_, '_>) -> Vec<(&'static str, String)> {
 
 fn parse(text: &str) -> Result<Document<'_>, Refusal> {
     check_xml(text, XML_NODES_MAX)?;
-    // A document type could only bring entities, which these files do not use.
+    // A document type could only bring in entities, which these files do not use.
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| Refusal::why(&error))
 }
@@ -137,27 +137,27 @@ fn is(node: &Node<'_, '_>, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// `STM32F407V(E-G)Tx` stands for one part each flash size.
+/// `STM32F407V(E-G)Tx` stands for one part per flash size.
 fn parts(reference: &str) -> Vec<String> {
     let Some((start, rest)) = reference.split_once('(') else { return vec![reference.to_owned()] };
     let Some((sizes, end)) = rest.split_once(')') else { return vec![reference.to_owned()] };
     sizes.split('-').map(|size| format!("{start}{size}{end}")).collect()
 }
 
-/// The part with the most flash: the last one.
+/// The part with the most flash, which is the last one.
 fn largest(reference: &str) -> String {
     parts(reference).pop().unwrap_or_default()
 }
 
-/// What the GPIO file says of a pin's signal.
+/// What the GPIO file states about a pin's signal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Route {
     alternate: Option<u8>,
-    /// The remap blocks, on the F1 family, as the register counts them.
+    /// The remap blocks, on the F1 family, with the register's numbering.
     remaps: Vec<String>,
 }
 
-/// The pins of the GPIO file with the routes of their signals.
+/// The pins of the GPIO file, with the routes of their signals.
 type Functions = BTreeMap<PinName, BTreeMap<String, Route>>;
 
 fn functions(modes: &Document<'_>) -> Functions {
@@ -191,8 +191,8 @@ fn route(signal: &Node<'_, '_>) -> Route {
     route
 }
 
-/// The register's number of a block such as `TIM3_REMAP1`. The file counts the blocks there are; in
-/// the register some numbers are left out.
+/// The register's number for a block such as `TIM3_REMAP1`. The file numbers the blocks
+/// consecutively; the register skips some numbers.
 fn remap_block(name: &str) -> Option<String> {
     let (unit, number) = name.split_once("_REMAP")?;
     let number: usize = number.parse().ok()?;
@@ -211,7 +211,7 @@ struct Reader<'m> {
 
 impl Reader<'_> {
     fn span(&self, node: &Node<'_, '_>) -> Span {
-        // The opening tag alone: a pin with its signals would fill the screen.
+        // Only the opening tag: a pin with all its signals would fill the screen.
         let range = node.range();
         let end = node.first_child().map_or(range.end, |child| child.range().start);
         Span::new(self.file, range.start..end)
@@ -259,7 +259,7 @@ impl Reader<'_> {
         rows
     }
 
-    /// A pin that can be routed to a second pad: its usages are one row's.
+    /// A pin that can also be routed to a second pad: both share one row of usages.
     fn again(&self, node: &Node<'_, '_>, first: &mut Row, row: Row, log: &mut Log) {
         let what = format!(
             "{} is on position {} too, by remapping; the table has it on {}",
@@ -295,17 +295,18 @@ impl Reader<'_> {
     }
 }
 
-/// `ADC1_EXTI11`: a converter can be started by the interrupt line of number 11, which any pin of
-/// that number has. It is as little a usage of a pin as the interrupt itself.
+/// Whether this is a trigger such as `ADC1_EXTI11`: a converter can be started by the interrupt
+/// line with number 11, which any pin with that number has. Like the interrupt itself, this is not
+/// a usage of a pin.
 fn is_trigger(signal: &str) -> bool {
     let line = signal.split_once("_EXTI").map(|(_, line)| line);
     let numbered = line.is_some_and(|line| line.bytes().all(|byte| byte.is_ascii_digit()));
     numbered && (signal.starts_with("ADC") || signal.starts_with("DAC"))
 }
 
-/// A signal as a usage of a table: one word. Some names of ST's would be taken for slips of the
-/// pen: a break input becomes `BKIN`, a line of the only converter one of the first, and what is
-/// left gets `ST_` before it.
+/// A signal as a usage of a table: one word. Some of ST's names would be taken for typing mistakes:
+/// a break input becomes `BKIN`, a line of the only converter becomes one of the first converter,
+/// and any other gets the prefix `ST_`.
 fn spelled(signal: &str) -> String {
     let name = signal.split_whitespace().collect::<Vec<_>>().join("_").replace('@', "_");
     if Signal::parse(&name).1.is_none() {

@@ -1,7 +1,8 @@
 //! DBC files of CAN buses: lines in, devices of a `.sense` file out.
 //!
-//! What a node sends becomes actuators, what it receives sensors; without a node everything is heard. The reader is the
-//! project's own, as that of tables is: whoever mends a file needs the line of each mistake.
+//! What a node sends becomes actuators, and what it receives becomes sensors; without a node, every
+//! message is received. The reader is the project's own, as for tables: a user who corrects a file
+//! needs the line of each mistake.
 
 mod read;
 mod write;

@@ -1,37 +1,37 @@
-//! Bytes in, text out, and what of it is a guess.
+//! Bytes in, text out, with the parts of it that are guesses.
 //!
-//! UTF-8 is read as it is, UTF-16 by its byte order mark or its zero bytes. What is left over is
-//! taken for Windows-1252, the superset of Latin-1 that spreadsheets write: byte by byte, so that
-//! one wrong byte in a UTF-8 file costs one character.
+//! UTF-8 is read as it is, and UTF-16 is recognised by its byte order mark or its zero bytes.
+//! Anything else is taken for Windows-1252, the superset of Latin-1 that spreadsheets write. This
+//! is done byte by byte, so that a wrong byte in a UTF-8 file costs only one character.
 
 use std::ops::Range;
 
-/// So many places of a wrong encoding are kept, to be reported one by one.
+/// Most places with a wrong encoding that are kept, to be reported one by one.
 const GUESSES_MAX: usize = 100;
 
-/// A text and the places that are guesses.
+/// A text, with the places that are guesses.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Decoded {
     pub(crate) text: String,
     pub(crate) guesses: Vec<Guess>,
-    /// Places that are guesses beside those that are kept.
+    /// The number of guesses that are not kept.
     pub(crate) more: usize,
-    /// The encoding of the whole text, where it is not UTF-8.
+    /// The encoding of the whole text, if it is not UTF-8.
     pub(crate) wide: Option<&'static str>,
 }
 
-/// Bytes that are no UTF-8.
+/// Bytes that are not UTF-8.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Guess {
-    /// Where the characters are that they were read as.
+    /// The place in the text of the characters that they were read as.
     pub(crate) range: Range<usize>,
-    /// The first of them in the file.
+    /// The offset of the first byte in the file.
     pub(crate) offset: usize,
     /// The bytes.
     pub(crate) bytes: Vec<u8>,
 }
 
-/// Decodes a text; none for bytes that are not text.
+/// Decodes a text; none if the bytes are not text.
 pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
     if let Some(decoded) = utf16(bytes) {
         return Some(decoded);
@@ -61,7 +61,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
 }
 
 impl Decoded {
-    /// Adds a guess, to the one before it where they touch.
+    /// Adds a guess, or extends the previous one if they touch.
     fn guess(&mut self, guess: Guess) {
         let listed = self.guesses.len();
         match self.guesses.last_mut() {
@@ -79,7 +79,7 @@ fn utf16(bytes: &[u8]) -> Option<Decoded> {
     let (wide, skip) = match bytes {
         [0xff, 0xfe, ..] => ("UTF-16LE", 2),
         [0xfe, 0xff, ..] => ("UTF-16BE", 2),
-        // Without a mark: the first letters of a table are ASCII.
+        // Without a mark, the first letters of a table are ASCII.
         [1..=255, 0, 1..=255, 0, ..] => ("UTF-16LE", 0),
         [0, 1..=255, 0, 1..=255, ..] => ("UTF-16BE", 0),
         _ => return None,
@@ -87,7 +87,7 @@ fn utf16(bytes: &[u8]) -> Option<Decoded> {
     let unit = |pair: &[u8]| match *pair {
         [low, high] if wide == "UTF-16LE" => u16::from_le_bytes([low, high]),
         [high, low] => u16::from_be_bytes([high, low]),
-        // Half a character at the end.
+        // Half a character, at the end.
         _ => 0xfffd,
     };
     let units = bytes.get(skip..)?.chunks(2).map(unit);
@@ -110,7 +110,7 @@ fn utf16(bytes: &[u8]) -> Option<Decoded> {
     Some(decoded)
 }
 
-/// A byte of the code page 1252; that of an unused place is lost.
+/// The character of a byte in code page 1252; a byte without one is lost.
 fn windows_1252(byte: u8) -> char {
     const FROM_0X80: [char; 32] = [
         '€', '\u{fffd}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{fffd}', 'Ž',

@@ -1,4 +1,4 @@
-//! Bytes in, the format they are in out: by content alone, as names lie.
+//! Bytes in, their format out: judged only by content, because names can be wrong.
 
 use crate::decode::decode;
 
@@ -23,10 +23,10 @@ pub enum Format {
     Dbc,
 }
 
-/// So much of a file is looked at.
+/// How much of a file is examined.
 const HEAD_BYTES: usize = 1 << 16;
 
-/// The format of a content, if it looks like any.
+/// The format of a file's content, if it is recognised.
 #[must_use]
 pub fn detect(bytes: &[u8]) -> Option<Format> {
     if bytes.starts_with(b"PK\x03\x04") {
@@ -35,7 +35,7 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
         let ods = head.windows(8).any(|window| window == b"mimetype");
         return Some(if ods { Format::Ods } else { Format::Xlsx });
     }
-    // The head of a large file says enough; half a character at its end does not matter.
+    // The head of a large file is enough; half a character at its end does not matter.
     let text = decode(bytes.get(..HEAD_BYTES).unwrap_or(bytes))?.text;
     if text.trim().is_empty() {
         return None;

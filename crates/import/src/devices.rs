@@ -1,6 +1,6 @@
 //! From the pins of a project to devices: an analog sensor for each converter input, a serial port
-//! for TX and RX of one unit, and so on. What a project does not say (an address, the frame of a
-//! message) is left open, the device is a comment then.
+//! for TX and RX of a unit, and so on. If the project does not state something (an address, the
+//! frame of a message), the device becomes a comment with that part left open.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,9 +10,9 @@ use sensedsl_board::signal::{CanLine, Function, I2cLine, Signal, SpiLine, UartLi
 use crate::log::Log;
 use crate::project::{Project, TimerMode, Using, Wire, identifier, one_line};
 
-/// Identifiers go from 1 to this.
+/// The highest identifier; the lowest is 1.
 pub(crate) const IDS_MAX: usize = 254;
-/// Words of the language that a device cannot be called.
+/// Words of the language that cannot be names of devices.
 pub(crate) const WORDS: [&str; 18] = [
     "use", "spare", "board", "on", "link", "sensor", "actuator", "returns", "accepts", "driver",
     "for", "prefer", "avoid", "reserve", "release", "allow", "true", "false",
@@ -21,13 +21,13 @@ pub(crate) const WORDS: [&str; 18] = [
 /// A device as text.
 #[derive(Clone, Debug)]
 pub(crate) struct Device {
-    /// `sensor Front returns uint16`.
+    /// The head: `sensor Front returns uint16`.
     pub(crate) head: String,
     /// The lines of its block.
     pub(crate) properties: Vec<String>,
-    /// The pins it is on.
+    /// The pins that it is on.
     pub(crate) pins: Vec<PinName>,
-    /// Something is missing: it stands in the file as a comment.
+    /// True if something is missing, so that the device is a comment in the file.
     pub(crate) open: bool,
 }
 
@@ -48,21 +48,21 @@ pub(crate) fn infer(project: &Project, log: &mut Log) -> Vec<Device> {
     maker.devices
 }
 
-/// The wires of each peripheral instance that takes several, by role.
+/// The wires, by role, of each peripheral instance that takes several.
 type Units<'a> = BTreeMap<String, BTreeMap<&'static str, &'a Wire>>;
 
 struct Maker<'a, 'l> {
     project: &'a Project,
     log: &'l mut Log,
-    /// Names that are taken, without case and underscores.
+    /// Names in use, without case and underscores.
     names: BTreeSet<String>,
     devices: Vec<Device>,
     units: Units<'a>,
 }
 
-/// A device to be.
+/// A future device.
 struct Plan<'p> {
-    /// The wanted name, and what is used where there is none.
+    /// The wanted name; `name` is used if there is none.
     label: Option<&'p str>,
     name: String,
     /// `sensor` or `actuator`, and its type.
@@ -95,7 +95,7 @@ impl<'a> Maker<'a, '_> {
         }
     }
 
-    /// A device on one pin.
+    /// Adds a device on a single pin.
     fn single(&mut self, wire: &'a Wire, stem: &str, kind: (&str, &str), properties: Vec<String>) {
         let name = format!("{stem}{}", wire.pin);
         let (label, wires) = (wire.label.as_deref(), vec![("pin", wire)]);
@@ -175,7 +175,7 @@ impl<'a> Maker<'a, '_> {
         }
     }
 
-    /// The devices on a peripheral instance that takes several wires.
+    /// Adds the devices on a peripheral instance that takes several wires.
     fn unit(&mut self, unit: &str, wires: &BTreeMap<&'static str, &'a Wire>) {
         let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
         let (needed, kind): (&[&str], &str) = match stem {
@@ -226,7 +226,7 @@ impl<'a> Maker<'a, '_> {
         }
     }
 
-    /// Reports a chip select whose bus is not known, or is not there.
+    /// Reports a chip select whose bus is unknown or missing.
     fn unused_select(&mut self, wire: &Wire, units: &Units<'_>) {
         let Using::Select(unit) = &wire.using else { return };
         let what = match unit {
@@ -260,7 +260,7 @@ impl<'a> Maker<'a, '_> {
         }
         let mut first: BTreeMap<u8, &str> = BTreeMap::new();
         for device in known {
-            // Firmware that looks for several chips at an address finds one of them.
+            // If firmware looks for several chips at the same address, only one of them is there.
             if let Some(first) = first.get(&device.address) {
                 let (name, address) = (&device.name, device.address);
                 let what =
@@ -281,7 +281,7 @@ impl<'a> Maker<'a, '_> {
         }
     }
 
-    /// One device for each chip select; without any it is open which pin that is.
+    /// Adds a device for each chip select; without any, that pin is left open.
     fn spi(&mut self, unit: &str, mut plan: Plan<'_>, nss: Option<&'a Wire>) {
         let project = self.project;
         let mut selects: Vec<&Wire> = nss.into_iter().collect();
@@ -355,7 +355,7 @@ impl<'a> Maker<'a, '_> {
     }
 }
 
-/// `USART2` as part of a name: `Usart2`.
+/// `USART2` as a part of a name: `Usart2`.
 fn camel(unit: &str) -> String {
     let (first, rest) = unit.split_at_checked(1).unwrap_or((unit, ""));
     format!("{first}{}", rest.to_ascii_lowercase())

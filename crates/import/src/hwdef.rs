@@ -1,9 +1,10 @@
-//! A board of `ArduPilot` (`hwdef.dat`) in; a `.sense` file with its pins, and the table of them,
-//! out.
+//! A board of `ArduPilot` (`hwdef.dat`) in; a `.sense` file with its pins, and the table of those
+//! pins, out.
 //!
-//! A line that begins with a pin says what it is for: `PA9 USART1_TX USART1`, `PC2 BATT ADC1`,
-//! `PD7 BARO_CS CS`. `include` reads a further file, `undef` takes pins back, `SPIDEV` ties chip
-//! selects to buses, and the lines of sensors name buses and addresses (`BARO MS5611 I2C:0:0x77`).
+//! A line that begins with a pin states what the pin is for: `PA9 USART1_TX USART1`,
+//! `PC2 BATT ADC1`, `PD7 BARO_CS CS`. `include` reads another file, `undef` removes pins, `SPIDEV`
+//! assigns chip selects to buses, and the lines of sensors name buses and addresses
+//! (`BARO MS5611 I2C:0:0x77`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -55,7 +56,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
 /// The input of a converter, by pin and converter.
 type Inputs = BTreeMap<(PinName, u8), String>;
 
-/// A line about something else than a pin.
+/// A line that does not begin with a pin.
 struct Line {
     words: Vec<String>,
     span: Span,
@@ -64,24 +65,25 @@ struct Line {
 struct Reader<'a> {
     source: &'a Source<'a>,
     mcu: Option<String>,
-    /// All that `MCU` lines have named so far, in this file and in those that it includes.
+    /// Everything that `MCU` lines have named so far, in this file and in the files that it
+    /// includes.
     mcus: BTreeSet<String>,
-    /// The I2C units in the order of their numbers.
+    /// The I2C units, in the order of their numbers.
     orders: Vec<String>,
     wires: BTreeMap<PinName, Wire>,
-    /// Lines about something else than a pin, by the first word and their number.
+    /// The lines that do not begin with a pin, by first word and number.
     lines: Lines,
-    /// How many lines there were so far.
+    /// The number of lines so far.
     count: usize,
-    /// How many more files are included.
+    /// How many more files may be included.
     includes_left: usize,
-    /// How many more lines are read.
+    /// How many more lines may be read.
     lines_left: usize,
-    /// Inputs of converters, by what the names of their parts begin with.
+    /// Inputs of converters, by the prefix of their parts' names.
     inputs: BTreeMap<String, Inputs>,
 }
 
-/// Lines by their first word and number: what is undefined goes without a search.
+/// Lines by their first word and number, so that removing undefined ones needs no search.
 type Lines = BTreeMap<String, BTreeMap<usize, Line>>;
 
 impl<'a> Reader<'a> {
@@ -100,7 +102,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads a file; `folder` is where it is, relative to the source.
+    /// Reads a file; `folder` is its folder, relative to the source.
     fn file(&mut self, file: FileId, text: &str, folder: &str, depth: usize, log: &mut Log) {
         let mut start = 0;
         for line in text.split_inclusive('\n') {
@@ -120,7 +122,7 @@ impl<'a> Reader<'a> {
                 ("MCU", Some(family)) => {
                     let name = words.get(2).map_or(family, String::as_str).to_ascii_uppercase();
                     self.mcus.insert(name.clone());
-                    // Each is looked for among all parts.
+                    // Each MCU is looked for among all parts.
                     if self.mcus.len() > HWDEF_MCUS_MAX {
                         return log.too_large(
                             span,
@@ -224,7 +226,7 @@ impl<'a> Reader<'a> {
             }
             _ => Using::Signal(label.to_owned()),
         };
-        // A device cannot be named after a signal.
+        // A device cannot have the name of a signal.
         let label = (using.signal() != Some(label)).then(|| label.to_owned());
         if self.wires.contains_key(&pin) {
             log.doubtful(span, "", &format!("{pin} is defined again; the last line counts"));
@@ -232,12 +234,12 @@ impl<'a> Reader<'a> {
         self.wires.insert(pin.clone(), Wire { pin, label, using, pull, span });
     }
 
-    /// The input of a converter at a pin, as parts of the MCU's line have it, or of its family.
+    /// The converter input on a pin, in the parts of the MCU's line or else of its family.
     fn converter_input(&mut self, pin: &PinName, unit: &str) -> Option<String> {
         const FAMILY: usize = "STM32F4".len();
         let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
         let mcu = self.mcu.clone()?;
-        // A line is named with letters that stand for any: STM32F405xx.
+        // The name of a line contains letters that stand for any: STM32F405xx.
         let line = mcu.trim_end_matches(['x', 'X']);
         let key = (pin.clone(), unit);
         [line, mcu.get(..FAMILY)?].into_iter().find_map(|start| {
@@ -248,7 +250,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The sensors that hang on an I2C bus at a known address.
+    /// The sensors on an I2C bus with a known address.
     fn addressed(&self, log: &mut Log) -> Vec<Addressed> {
         let mut found = Vec::new();
         for Line { words, span } in self.lines_of(&SENSORS) {
@@ -275,7 +277,7 @@ impl<'a> Reader<'a> {
         found
     }
 
-    /// Ties chip selects to the buses that `SPIDEV name SPI1 DEVID1 NAME_CS …` says.
+    /// Assigns chip selects to buses, as stated by `SPIDEV name SPI1 DEVID1 NAME_CS …`.
     fn selects(&mut self) {
         let mut by_label: BTreeMap<String, PinName> = BTreeMap::new();
         for wire in self.wires.values() {
@@ -298,14 +300,15 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The lines that begin with one of these words, in the order of the file.
+    /// The lines that begin with one of these words, in file order.
     fn lines_of(&self, words: &[&str]) -> impl Iterator<Item = &Line> {
         let lines = words.iter().filter_map(|word| self.lines.get(*word));
         lines.flatten().collect::<BTreeMap<_, _>>().into_values()
     }
 }
 
-/// The converter inputs of all parts whose names begin so; of several parts the first decides.
+/// The converter inputs of all parts whose names begin with `start`; if several parts differ, the
+/// first one counts.
 fn inputs(start: &str) -> Inputs {
     let mut inputs = Inputs::new();
     for part in sensedsl_parts::all().filter(|part| part.base().starts_with(start)) {

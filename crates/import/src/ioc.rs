@@ -1,7 +1,8 @@
-//! A project of CubeMX (`.ioc`) in; a `.sense` file with its pins, and the table of them, out.
+//! A project of CubeMX (`.ioc`) in; a `.sense` file with its pins, and the table of those pins,
+//! out.
 //!
-//! The file is a list of `key=value` lines. `PA5.Signal` says what a pin is used for; a signal
-//! that several modes share (`S_TIM3_CH1`, `ADCx_IN1`) is told by a line `SH.<signal>.0`.
+//! The file is a list of `key=value` lines. `PA5.Signal` states what a pin is used for; for a
+//! signal that several modes share (`S_TIM3_CH1`, `ADCx_IN1`), a line `SH.<signal>.0` does.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -45,7 +46,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     project::made(&project, source, whole, log)
 }
 
-/// A value and where its line is.
+/// A value and the place of its line.
 struct Value {
     text: String,
     line: std::ops::Range<usize>,
@@ -71,7 +72,7 @@ fn values(text: &str) -> Values {
     values
 }
 
-/// A text without the backslashes before signs that mean something in such files.
+/// A text without the backslashes that escape special characters in such files.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     let mut chars = text.trim().chars();
@@ -99,7 +100,7 @@ impl Reader<'_> {
         for (key, value) in self.values {
             let Some(spelled) = key.strip_suffix(".Signal") else { continue };
             let span = Span::new(self.file, value.line.clone());
-            // Virtual pins stand for parts without a pad.
+            // Virtual pins stand for peripherals without a pad.
             if spelled.starts_with("VP_") {
                 continue;
             }
@@ -150,7 +151,7 @@ impl Reader<'_> {
         Wire { pin, label, using, pull, span }
     }
 
-    /// What a signal of a peripheral is used for.
+    /// What a peripheral's signal is used for.
     fn signal(&self, spelled: &str, signal: &str, span: Span, log: &mut Log) -> Using {
         let shared: Vec<&str> =
             (0..8).map_while(|at| self.value(&format!("SH.{signal}.{at}"))).collect();
@@ -187,7 +188,7 @@ impl Reader<'_> {
         Using::Timer(name, mode)
     }
 
-    /// `USART2.BaudRate=115200`.
+    /// The baud rates: `USART2.BaudRate=115200`.
     fn bauds(&self) -> BTreeMap<String, u32> {
         let baud = |(key, value): (&String, &Value)| {
             let unit = key.strip_suffix(".BaudRate")?;

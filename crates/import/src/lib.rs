@@ -1,8 +1,8 @@
-//! What other tools know about pins: their files come in as bytes, a board table or a `.sense`
-//! file goes out as text, with a coded diagnostic for everything that was left out or doubtful.
+//! Pin data from other tools: their files go in as bytes, a board table or a `.sense` file comes
+//! out as text, with a coded diagnostic for everything that was left out or doubtful.
 //!
-//! Nothing here does I/O: a source that names further files (the alternate functions of an MCU,
-//! an included `hwdef`) asks for them through [`Source::beside`].
+//! Nothing here does I/O: a source that names other files (the alternate functions of an MCU, an
+//! included `hwdef`) requests them through [`Source::beside`].
 
 mod assemble;
 mod cubemx;
@@ -27,13 +27,13 @@ pub use sensedsl_model::Unread;
 
 use log::Log;
 
-/// What is to be imported.
+/// A file to import.
 pub struct Source<'a> {
     /// The file's name, as people see it.
     pub name: &'a str,
-    /// Its content.
+    /// The content of the file.
     pub bytes: &'a [u8],
-    /// What it is; by its content where nothing is said.
+    /// Its format; none to detect it from the content.
     pub format: Option<Format>,
     /// The sheet of a workbook.
     pub sheet: Option<&'a str>,
@@ -43,17 +43,17 @@ pub struct Source<'a> {
     pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, Unread> + 'a),
 }
 
-/// What came of it.
+/// The result of an import.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// The board table as CSV; none when the source could not be read, or says nothing of pins.
+    /// The board table as CSV; none if the source could not be read, or has no pins.
     pub table: Option<String>,
     /// The `.sense` file that goes with it, from the project of another tool.
     pub program: Option<String>,
-    /// What is to be said, in the order of the source.
+    /// The diagnostics, in the order of the source.
     pub diagnostics: Vec<Diagnostic>,
-    /// The texts the diagnostics speak of. A sheet of a workbook is a text of its own, with a line
-    /// for each row.
+    /// The texts that the diagnostics refer to. A sheet of a workbook is a separate text, with a
+    /// line for each row.
     pub sources: SourceMap,
 }
 
@@ -72,27 +72,27 @@ struct Texts {
     program: Option<String>,
 }
 
-/// Imports source after source of one folder, from any number of threads: what several of them
-/// refer to is read once.
+/// Imports many sources of one folder, from any number of threads. Files that several of them refer
+/// to are read only once.
 #[derive(Debug, Default)]
 pub struct Importer {
     cubemx: cubemx::Cache,
 }
 
-/// Imports a single source. Never fails: what cannot be read is among the diagnostics.
+/// Imports a single source. Never fails: anything that cannot be read is in the diagnostics.
 #[must_use]
 pub fn import(source: &Source<'_>) -> Imported {
     Importer::default().import(source)
 }
 
 impl Importer {
-    /// Imports a source. Never fails: what cannot be read is among the diagnostics.
+    /// Imports a source. Never fails: anything that cannot be read is in the diagnostics.
     #[must_use]
     pub fn import(&self, source: &Source<'_>) -> Imported {
         self.import_for(source, None)
     }
 
-    /// The same; of a DBC file what concerns a node.
+    /// Like [`Self::import`]; from a DBC file, imports only what concerns `node`.
     #[must_use]
     pub fn import_for(&self, source: &Source<'_>, node: Option<&str>) -> Imported {
         let mut log = Log::default();

@@ -1,4 +1,4 @@
-//! What an import has to say, collected while it runs.
+//! The diagnostics of an import, collected while it runs.
 
 use sensedsl_diagnostics::codes::{
     e0317_table_too_large, e0801_import_unreadable, e0802_import_no_table, e0803_import_no_sheet,
@@ -19,7 +19,7 @@ pub(crate) struct Log {
     pub(crate) sources: SourceMap,
     diagnostics: Vec<Diagnostic>,
     errors: usize,
-    /// What is said beside the diagnostics that are listed.
+    /// The number of diagnostics that are not listed.
     more: usize,
 }
 
@@ -30,7 +30,7 @@ impl Log {
             self.more += 1;
             return;
         }
-        // An error is listed in any case: what is less gives way.
+        // An error is always listed: less severe diagnostics make room for it.
         while is_error && self.diagnostics.len() + 2 > DIAGNOSTICS_MAX {
             let less = self.diagnostics.iter().rposition(|one| one.severity != Severity::Error);
             let Some(less) = less else { break };
@@ -45,24 +45,24 @@ impl Log {
         }
     }
 
-    /// Whether the source could not be imported so far.
+    /// Whether the import has already failed.
     pub(crate) fn has_errors(&self) -> bool {
         self.errors > 0
     }
 
-    /// Takes over an error; of one code only the first.
+    /// Adds an error, unless there is one with the same code.
     pub(crate) fn once(&mut self, error: Diagnostic) {
         if self.diagnostics.iter().all(|one| one.code != error.code) {
             self.push(error);
         }
     }
 
-    /// What is wrong with a table, as a diagnostic already.
+    /// Adds a mistake in a table that is already a diagnostic.
     pub(crate) fn say(&mut self, diagnostic: Diagnostic) {
         self.push(diagnostic);
     }
 
-    /// The diagnostics in the order of the source.
+    /// The diagnostics, in the order of the source.
     pub(crate) fn finish(self) -> (SourceMap, Vec<Diagnostic>) {
         let Self { sources, mut diagnostics, more, .. } = self;
         diagnostics.sort_by_key(|one| (one.primary.span, one.code));
@@ -74,7 +74,7 @@ impl Log {
         (sources, diagnostics)
     }
 
-    /// That a file which the source names was not read.
+    /// Reports that a file named by the source was not read.
     pub(crate) fn refused(&mut self, span: Span, path: &str, unread: &Unread) {
         let help = match unread {
             Unread::Outside(folder) => {
@@ -89,7 +89,7 @@ impl Log {
         self.push(e0809_include_unreadable::include_unreadable(span, path, &unread.why(), &help));
     }
 
-    /// That a workbook or XML was not read.
+    /// Reports that a workbook or an XML file was not read.
     pub(crate) fn not_read(&mut self, span: Span, name: &str, refused: &Refused) {
         match refused {
             Refused::TooMuch(what, most) => self.too_large(span, name, what, *most),
@@ -97,12 +97,12 @@ impl Log {
         }
     }
 
-    /// That there is more of something than is read.
+    /// Reports that there is more of something than is read.
     pub(crate) fn too_large(&mut self, span: Span, name: &str, what: &str, most: usize) {
         self.once(e0807_import_too_large::import_too_large(span, name, what, most));
     }
 
-    /// That a table has more of something than is read.
+    /// Reports that a table has more of something than is read.
     pub(crate) fn table_too_large(&mut self, span: Span, what: &str, most: usize) {
         self.once(e0317_table_too_large::table_too_large(span, what, most));
     }
@@ -131,7 +131,7 @@ impl Log {
         self.push(h0806_import_open::import_open(span, what));
     }
 
-    /// Adds a file as text and reports what of it is no UTF-8, each at its cell.
+    /// Adds a file as text and reports anything in it that is not UTF-8, each at its cell.
     pub(crate) fn text(&mut self, name: &str, bytes: &[u8]) -> (FileId, String) {
         if bytes.len() > SOURCE_TEXT_BYTES_MAX {
             let file = self.sources.add(name, "");

@@ -1,5 +1,5 @@
-//! A workbook of LibreOffice in, its sheets out, read as a stream: no cell is kept that says
-//! nothing, and a row or cell that says that it is repeated is repeated as far as budgets go.
+//! A workbook of LibreOffice in, its sheets out, read as a stream. Empty cells are not kept, and
+//! rows and cells marked as repeated are repeated only as far as the budgets allow.
 
 use std::io::{BufReader, Cursor};
 
@@ -10,7 +10,7 @@ use quick_xml::events::{BytesStart, Event};
 use crate::package::Refused;
 use crate::workbook::Sheet;
 
-/// Reads the sheets of a workbook that [`crate::package::check`] has let pass.
+/// Reads the sheets of a workbook that [`crate::package::check`] has accepted.
 pub(crate) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>, Refused> {
     let mut archive =
         zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| Refused::why(&error))?;
@@ -46,33 +46,33 @@ pub(crate) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>, Refused> {
 struct Cell {
     value: Data,
     formula: String,
-    /// How often it stands there.
+    /// How many times the cell is repeated.
     repeated: u32,
-    /// How many columns and rows it covers.
+    /// The number of columns and rows that it covers.
     spanned: (u32, u32),
-    /// Its text is its value.
+    /// True if its text is its value.
     is_text: bool,
     text: String,
     paragraphs: usize,
 }
 
-/// What was read so far.
+/// The result so far.
 #[derive(Debug, Default)]
 struct Maker {
     sheets: Vec<Sheet>,
-    /// Tables in each other: those in cells are not read.
+    /// The nesting depth of tables; those in cells are not read.
     depth: usize,
     row: u32,
     row_repeated: u32,
     column: u32,
-    /// The cells of the row that say something, with their column.
+    /// The row's cells that are not empty, with their columns.
     cells: Vec<(u32, Cell)>,
     cell: Option<Cell>,
-    /// Remarks in each other, which are no content.
+    /// The nesting depth of remarks, which are not content.
     remarks: usize,
 }
 
-/// A count of an attribute; 1 where there is none.
+/// The number in an attribute; 1 if there is none.
 fn count(tag: &BytesStart<'_>, name: &str) -> u32 {
     let value = attribute(tag, name).and_then(|value| value.parse().ok());
     value.unwrap_or(1).max(1)
@@ -159,7 +159,7 @@ impl Maker {
         Ok(())
     }
 
-    /// Puts the cells of a row into the sheet, as often as they and it are repeated.
+    /// Adds the cells of a row to the sheet, as often as they and the row are repeated.
     fn end_row(&mut self) -> Result<(), Refused> {
         let first = self.row;
         self.row = first.saturating_add(self.row_repeated);
@@ -182,7 +182,7 @@ impl Maker {
     }
 }
 
-/// A cell by its attributes.
+/// A cell, from its attributes.
 fn cell(tag: &BytesStart<'_>) -> Cell {
     let spans = |name: &str| count(tag, name);
     let formula = attribute(tag, "table:formula").unwrap_or_default();

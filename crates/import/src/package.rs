@@ -1,9 +1,9 @@
-//! What is in a workbook, counted before anybody takes it apart: its files, the bytes after
+//! Counts the contents of a workbook before anything parses it: its files, the bytes after
 //! decompression, and the elements, attributes, levels and namespaces of its XML.
 //!
-//! A megabyte of zeros in a thousand bytes is what compression is good at, so nothing is believed
-//! that the archive says of itself: each file goes through the inflater in small pieces, which are
-//! looked at and thrown away.
+//! A compressed file can hold a megabyte of zeros in a thousand bytes, so nothing that the archive
+//! states about itself is trusted: each file is decompressed in small pieces, which are examined
+//! and discarded.
 
 use std::io::{Cursor, Read};
 
@@ -13,12 +13,12 @@ use sensedsl_limits::{
 };
 use zip::ZipArchive;
 
-/// Why a source is not read.
+/// The reason why a source is not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Refused {
     /// There is more of something than is read.
     TooMuch(&'static str, usize),
-    /// It is damaged, or not what it is taken for.
+    /// It is damaged, or in another format than assumed.
     Why(String),
 }
 
@@ -31,15 +31,15 @@ impl Refused {
 /// Bytes that are inflated at a time.
 const PIECE_BYTES: usize = 32 << 10;
 
-/// What a workbook's package has.
+/// The contents of a workbook's package.
 pub(crate) struct Contents {
-    /// Its files of all types.
+    /// The number of its files, of all types.
     pub(crate) files: usize,
     /// Bytes of the largest XML file, which any sheet may name.
     pub(crate) largest: usize,
 }
 
-/// Counts what is in the XML files of a workbook.
+/// Counts the contents of a workbook's XML files.
 pub(crate) fn check(bytes: &[u8]) -> Result<Contents, Refused> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| Refused::why(&error))?;
     if archive.len() > MEMBERS_MAX {
@@ -75,30 +75,30 @@ fn pieces(mut member: impl Read, left: &mut usize, scan: &mut Scan) -> Result<()
     }
 }
 
-/// Counts what is in a text of XML, of which a tree will be made: `most` elements at the most.
+/// Counts the contents of an XML text that is to become a tree, with at most `most` elements.
 pub(crate) fn check_xml(text: &str, most: usize) -> Result<(), Refused> {
     Scan::new(most).feed(text.as_bytes())
 }
 
-/// Where in an XML text the scan is.
+/// Where the scan is in an XML text.
 #[derive(Clone, Copy, Debug)]
 enum State {
     Text,
-    /// Behind `<`.
+    /// After `<`.
     Open,
-    /// Behind `<!`, with so many hyphens.
+    /// After `<!`, with this many hyphens.
     Bang(u8),
-    /// In a comment, behind so many hyphens.
+    /// In a comment, after this many hyphens.
     Comment(u8),
-    /// In a section of characters, behind so many brackets.
+    /// In a CDATA section, after this many brackets.
     Characters(u8),
-    /// In `<?`, behind a question mark.
+    /// In `<?`; true after a question mark.
     Instruction(bool),
     /// In a tag, perhaps in quotes.
     Tag(Option<u8>),
 }
 
-/// Reads XML byte by byte, just well enough to count.
+/// Reads XML byte by byte, in just enough detail to count.
 #[derive(Debug)]
 struct Scan {
     state: State,
@@ -107,35 +107,35 @@ struct Scan {
     depth: usize,
     attributes: usize,
     namespaces: usize,
-    /// The tag closes an element.
+    /// True if the tag closes an element.
     closing: bool,
-    /// A place of cells may be in the tag.
+    /// Whether the tag may contain places of cells.
     places: Places,
     last: u8,
-    /// The word in a tag that is being read, as far as it is of interest, and its length.
+    /// The first bytes of the current word in a tag, as many as matter, and its whole length.
     word: [u8; WORD_BYTES],
     length: usize,
-    /// The value in quotes, where its length matters.
+    /// The value in quotes, if its length matters.
     value: Option<Value>,
 }
 
-/// A value that a reader makes a number of.
+/// A value that a workbook reader converts to a number.
 #[derive(Clone, Copy, Debug)]
 enum Value {
-    /// A number by which a reader takes memory in advance, and its digits so far.
+    /// A count that makes a reader reserve memory, and the number of its digits so far.
     Strings(usize),
     /// The place of a cell (`AB12`) or a range of them (`A1:B2`).
     Cells(Cells),
 }
 
-/// The places of cells as far as they are read.
+/// The places of cells, as far as they have been read.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cells {
-    /// Column and row of the place before the colon, and of the one that is being read.
+    /// Column and row of the place before the colon, then those of the current place.
     first: Option<(u32, u32)>,
     column: u32,
     row: u32,
-    /// Letters and digits of the place.
+    /// The number of letters and digits in the place.
     letters: usize,
     digits: usize,
 }
@@ -160,14 +160,14 @@ impl Cells {
         Ok(self)
     }
 
-    /// Whether it is not a range, or a range that ends after its beginning.
+    /// Whether this is a single place, or a range that does not end before its beginning.
     fn is_forward(self) -> bool {
         self.first.is_none_or(|(column, row)| column <= self.column && row <= self.row)
     }
 }
 
 impl Value {
-    /// Of the attribute of that name, where it is of interest.
+    /// The value of an attribute with that name, if it matters.
     fn of(name: &[u8], places: Places) -> Option<Self> {
         match (name, places) {
             (b"uniqueCount", _) => Some(Self::Strings(0)),
@@ -176,7 +176,7 @@ impl Value {
         }
     }
 
-    /// With one more byte.
+    /// The value with one more byte.
     fn and(self, byte: u8) -> Result<Self, Refused> {
         match self {
             Self::Strings(count) => {
@@ -187,7 +187,7 @@ impl Value {
         }
     }
 
-    /// At the quote behind it.
+    /// Checks the value at its closing quote.
     fn end(self) -> Result<(), Refused> {
         match self {
             Self::Cells(cells) if !cells.is_forward() => {
@@ -198,34 +198,34 @@ impl Value {
     }
 }
 
-/// Whether the attributes `r` and `ref` of an element are places of cells.
+/// Whether an element's attributes `r` and `ref` are places of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Places {
-    /// Its name is still being read.
+    /// The element's name is still being read.
     Unknown,
     Yes,
     No,
 }
 
 impl Places {
-    /// Of an element whose name is that long and begins so. The reader of workbooks goes by the name
-    /// behind the prefix, in whatever file a sheet is said to be.
+    /// Decides this for an element, from the beginning and the length of its name. The workbook
+    /// reader ignores the prefix of a name, and takes any file for a sheet that is declared as one.
     fn of(name: &[u8], length: usize) -> Self {
         let local = name.rsplit(|byte| *byte == b':').next().unwrap_or_default();
         match local {
             b"c" | b"row" | b"f" | b"dimension" | b"mergeCell" => Self::Yes,
-            // A long prefix leaves no room for the name.
+            // A long prefix leaves no room for the local name.
             _ if length > name.len() => Self::Yes,
             _ => Self::No,
         }
     }
 }
 
-/// Bytes of the longest name that is of interest.
+/// Bytes of the longest name that matters.
 const WORD_BYTES: usize = b"uniqueCount".len();
-/// Digits of a number of strings that is believed.
+/// Most digits of a string count that is accepted.
 const DIGITS_MAX: usize = 6;
-/// What no sheet has, and what still fits into a number of 32 bits.
+/// More than any sheet has, but still within a 32-bit number.
 const COLUMN_LETTERS_MAX: usize = 6;
 const ROW_DIGITS_MAX: usize = 9;
 
@@ -274,7 +274,7 @@ impl Scan {
         Ok(())
     }
 
-    /// The byte behind `<`.
+    /// Handles the byte after `<`.
     fn open(&mut self, byte: u8) -> Result<(), Refused> {
         self.state = match byte {
             b'!' => State::Bang(0),
@@ -298,7 +298,7 @@ impl Scan {
         at_most(self.depth, XML_DEPTH_MAX, "elements of XML inside each other")
     }
 
-    /// A byte of a tag.
+    /// Handles a byte of a tag.
     fn tag(&mut self, quote: Option<u8>, byte: u8) -> Result<(), Refused> {
         if let Some(quote) = quote {
             let ends = byte == quote;
@@ -335,7 +335,7 @@ impl Scan {
         Ok(())
     }
 
-    /// One more byte of the word.
+    /// Adds a byte to the word.
     fn put(&mut self, byte: u8) {
         if let Some(place) = self.word.get_mut(self.length) {
             *place = byte;
@@ -343,12 +343,12 @@ impl Scan {
         self.length += 1;
     }
 
-    /// The word so far, as much of it as is kept.
+    /// The word so far, or as much of it as is kept.
     fn read_word(&self) -> &[u8] {
         self.word.get(..self.length.min(WORD_BYTES)).unwrap_or_default()
     }
 
-    /// The `=` of an attribute.
+    /// Handles the `=` of an attribute.
     fn attribute(&mut self) -> Result<(), Refused> {
         self.attributes += 1;
         at_most(self.attributes, XML_ATTRIBUTES_MAX, "attributes of one element")?;

@@ -1,8 +1,8 @@
-//! Places in tables as spreadsheets show them: a row and column in, `C3` out.
+//! Places in tables as spreadsheets show them: a row and a column in, `C3` out.
 
 use sensedsl_board::cells;
 
-/// The name of a cell, both counted from 0: `A1` is the first.
+/// The name of a cell, with row and column counted from 0: `A1` is the first cell.
 pub(crate) fn a1(row: usize, column: usize) -> String {
     let mut letters = Vec::new();
     let mut rest = column + 1;
@@ -15,7 +15,7 @@ pub(crate) fn a1(row: usize, column: usize) -> String {
     format!("{letters}{}", row + 1)
 }
 
-/// The cells of a text, to be found by their place.
+/// The cells of a text, searchable by place.
 #[derive(Debug)]
 pub(crate) struct Places {
     rows: Vec<Vec<cells::Cell>>,
@@ -30,7 +30,7 @@ impl Places {
         Self { rows: cells::split(text).rows, lines }
     }
 
-    /// The name of the cell at an offset, lines taken for rows; empty where there is no cell.
+    /// The name of the cell at an offset, with lines taken for rows; empty if there is no cell.
     pub(crate) fn of(&self, offset: usize) -> String {
         let ends = |row: &Vec<cells::Cell>| row.last().map_or(0, |cell| cell.range.end);
         let row = self.rows.get(self.rows.partition_point(|row| ends(row) < offset));

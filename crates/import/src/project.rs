@@ -1,5 +1,5 @@
-//! A project of another tool, as far as its pins go: what `.ioc` and `hwdef.dat` have in common.
-//! Goes out as a `.sense` file and the table of the pins that the project speaks of.
+//! The pins of another tool's project, which is what `.ioc` and `hwdef.dat` share, in; a `.sense`
+//! file and the table of those pins out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +20,7 @@ pub(crate) struct Project {
     pub(crate) wires: Vec<Wire>,
     /// Bits per second of serial ports.
     pub(crate) bauds: BTreeMap<String, u32>,
-    /// Devices on I2C buses whose address is known.
+    /// Devices on I2C buses with a known address.
     pub(crate) addressed: Vec<Addressed>,
 }
 
@@ -30,27 +30,27 @@ pub(crate) struct Wire {
     pub(crate) pin: PinName,
     pub(crate) label: Option<String>,
     pub(crate) using: Using,
-    /// `up` or `down`.
+    /// The resistor inside the MCU: `up` or `down`.
     pub(crate) pull: Option<&'static str>,
     pub(crate) span: Span,
 }
 
-/// What a pin is used for.
+/// The use of a pin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Using {
     Input,
-    /// With its level at the start.
+    /// An output, with its level at the start.
     Output(bool),
-    /// With the edge: `rising`, `falling`, `both`.
+    /// An interrupt, with its edge: `rising`, `falling`, `both`.
     Interrupt(&'static str),
-    /// The chip select of an SPI unit, where that is known.
+    /// The chip select of an SPI unit, with the unit if it is known.
     Select(Option<String>),
     Timer(String, TimerMode),
-    /// A signal whose name says enough.
+    /// A signal whose name is sufficient.
     Signal(String),
 }
 
-/// What a timer does with a pin.
+/// The use of a timer for a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimerMode {
     Capture,
@@ -63,9 +63,9 @@ pub(crate) enum TimerMode {
 #[derive(Clone, Debug)]
 pub(crate) struct Addressed {
     pub(crate) name: String,
-    /// `I2C1`.
+    /// The unit: `I2C1`.
     pub(crate) unit: String,
-    /// Seven bits.
+    /// Its address, in 7-bit form.
     pub(crate) address: u8,
     pub(crate) span: Span,
 }
@@ -124,12 +124,12 @@ fn program(project: &Project, devices: &[Device], table: &str) -> String {
     text
 }
 
-/// A comment of one line.
+/// A text as a one-line comment.
 pub(crate) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A name as the language writes them, from a label.
+/// A name in the syntax of the language, made from a label.
 pub(crate) fn identifier(label: &str) -> Option<String> {
     let label = label.split(['[', '(']).next().unwrap_or_default();
     let mut name = String::new();

@@ -1,5 +1,5 @@
-//! A table as text in, a board table out: wide (a row a pin), long (a row a pin and signal), or
-//! with a column for each alternate function.
+//! A table as text in, a board table out. The table can be wide (a row for each pin), long (a row
+//! for each pin and signal), or have a column for each alternate function.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -18,12 +18,12 @@ use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::place::a1;
 
-/// Heads of the column of the pins, in lower case, letters only.
+/// Headers of the pin column, in lower case, letters only.
 const PIN_HEADS: [&str; 11] = [
     "pin", "pins", "pinname", "pinnames", "gpio", "gpiopin", "portpin", "pinport", "io", "ioname",
     "pad",
 ];
-/// Heads of the column of the signals in a long table.
+/// Headers of the signal column in a long table.
 const SIGNAL_HEADS: [&str; 10] = [
     "signal",
     "signals",
@@ -36,12 +36,12 @@ const SIGNAL_HEADS: [&str; 10] = [
     "usage",
     "usages",
 ];
-/// Heads of the column of the alternate-function numbers in a long table.
+/// Headers of the column of alternate-function numbers in a long table.
 const NUMBER_HEADS: [&str; 6] = ["af", "afnumber", "afno", "mux", "afindex", "alternatenumber"];
-/// The head is looked for in so many rows.
+/// The number of rows in which the header row is looked for.
 const HEAD_ROWS: usize = 30;
 
-/// Imports a table. `sheet` is the name of the workbook's sheet that the text was made of.
+/// Imports a table. `sheet` is the name of the workbook's sheet that the text comes from.
 pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Log) -> Texts {
     if log.has_errors() {
         return Texts::default();
@@ -71,16 +71,16 @@ pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Lo
     Texts { table: csv, program: None }
 }
 
-/// Whether a text has the head of a pin table.
+/// Whether a text has the header row of a pin table.
 pub(crate) fn has_head(text: &str) -> bool {
     let rows = cells::split(text).rows;
     find_head(text, &rows).is_some()
 }
 
-/// Where the head is.
+/// The place of the header row.
 struct Head {
     row: usize,
-    /// The column of the pins.
+    /// The index of the pin column.
     pin: usize,
 }
 
@@ -90,7 +90,7 @@ enum Layout {
         signal: usize,
         number: Option<usize>,
     },
-    /// Columns with the number of their alternate function.
+    /// Columns with the numbers of their alternate functions.
     Numbered(BTreeMap<usize, u8>),
 }
 
@@ -102,12 +102,12 @@ struct Reader<'a> {
     lines: Vec<usize>,
 }
 
-/// Small letters alone: `Pin name` and `PIN_NAME` are one head.
+/// A header in lower case, only letters: `Pin name` and `PIN_NAME` are the same header.
 fn plain(head: &str) -> String {
     head.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect()
 }
 
-/// `AF7` is 7.
+/// The number of a header such as `AF7`.
 fn alternate(head: &str) -> Option<u8> {
     let digits = head.trim().strip_prefix("AF").or_else(|| head.trim().strip_prefix("af"))?;
     digits.parse().ok().filter(|number| *number < 16)
@@ -129,7 +129,7 @@ fn find_head(text: &str, rows: &[Vec<Cell>]) -> Option<Head> {
     for (at, row) in rows.iter().enumerate().take(HEAD_ROWS) {
         let heads = contents(row);
         let filled = heads.iter().filter(|head| !head.is_empty()).count();
-        // `Pin` itself before what may mean it: a table may have both `Pad` and `Pin`.
+        // `Pin` itself comes before its synonyms: a table may have both `Pad` and `Pin`.
         let pin = PIN_HEADS.iter().find_map(|name| heads.iter().position(|h| plain(h) == *name));
         let numbered = heads.iter().filter(|head| alternate(head).is_some()).count() >= 3;
         if let Some(pin) = pin.filter(|_| filled >= 2) {
@@ -159,7 +159,7 @@ impl Reader<'_> {
         Span::new(self.file, cell.range.clone())
     }
 
-    /// `Sheet1!C3`, or `C3` where there is no sheet.
+    /// `Sheet1!C3`, or `C3` if there is no sheet.
     fn place(&self, cell: &Cell) -> String {
         self.place_at(cell.range.start)
     }
@@ -224,8 +224,8 @@ impl Reader<'_> {
         pins.windows(2).any(|pair| pair.first() == pair.last())
     }
 
-    /// A wide table is what the board crate reads; only the rows above its head are taken away,
-    /// and its pin column is called `Pin`, without moving anything.
+    /// The board crate reads wide tables. This only blanks the rows above the header row and
+    /// renames the pin column to `Pin`, without moving anything.
     fn wide(&self, head: &Head, log: &mut Log) -> Option<String> {
         let mut text = self.text.to_owned();
         for row in self.rows.iter().take(head.row) {
@@ -283,7 +283,7 @@ impl Reader<'_> {
         Some(loaded.board.to_csv())
     }
 
-    /// The pin of a row, or a word why there is none.
+    /// The pin of a row; if there is none, reports why.
     fn pin(&self, row: &[Cell], head: &Head, log: &mut Log) -> Option<PinName> {
         let cell = row.get(head.pin).or(row.first())?;
         let spelled = self.content(cell);
@@ -352,7 +352,7 @@ impl Reader<'_> {
         let (mut rows, mut usages) = (Vec::new(), 0);
         for (index, cells) in self.below(head).iter().enumerate() {
             let spelled = cells.get(head.pin).map(|cell| self.content(cell)).unwrap_or_default();
-            // The second line of such heads names the peripherals.
+            // The second line of such headers names the peripherals.
             if index == 0 && PinName::parse(&spelled).is_none() {
                 continue;
             }
@@ -387,7 +387,7 @@ impl Reader<'_> {
         self.finish(head, rows, log)
     }
 
-    /// A signal, and what is odd about it; none where only its number is there.
+    /// A signal; reports anything odd about it. None if only its number is there.
     fn usage(
         &self,
         name: &str,
@@ -414,7 +414,7 @@ impl Reader<'_> {
         Some((name.to_owned(), own.or(alternate)))
     }
 
-    /// Takes a row over; none where there are more usages than a table has.
+    /// Adds a row; none if there are more usages than a table may have.
     fn keep(&self, row: Row, rows: &mut Vec<Row>, usages: &mut usize, log: &mut Log) -> Option<()> {
         *usages += row.usages.len();
         if *usages > USAGES_MAX {
@@ -466,7 +466,7 @@ fn onboard(value: &str) -> Onboard {
     }
 }
 
-/// Puts a text, and spaces behind it, over a range; line ends stay.
+/// Overwrites a range with a text and spaces after it; line endings stay.
 fn blank(text: &mut String, range: Range<usize>, with: &str) {
     let Some(old) = text.get(range.clone()) else { return };
     let mut new = String::with_capacity(old.len());

@@ -1,8 +1,8 @@
 //! A workbook in, a board table out.
 //!
-//! The sheet with the pins becomes a text of comma-separated cells with a line for each row, which
-//! is then read like any other table; what only a spreadsheet has (formulas, merged cells, dates,
-//! other sheets) is reported here, each at its cell.
+//! The sheet with the pins becomes a text of comma-separated cells, with a line for each row, which
+//! is then read like any other table. Anything that only a spreadsheet has (formulas, merged cells,
+//! dates, other sheets) is reported here, each at its cell.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
@@ -18,26 +18,26 @@ use crate::package::{self, Contents, Refused};
 use crate::place::a1;
 use crate::{Format, Source, Texts, ods, tabular};
 
-/// Sheets of pins are far smaller; cells beyond are stray.
+/// Sheets of pins are far smaller; cells beyond these limits are strays.
 const ROWS_MAX: u32 = 20_000;
 const SHEET_COLUMNS_MAX: u32 = 512;
 
-/// So many times the bytes of a workbook its sheets may have, where several name one file in it.
+/// How many times `INFLATED_BYTES_MAX` all sheets together may have, if several name the same file.
 const SHARED: usize = 4;
 
 /// A cell by row and column, from 0.
 type At = (u32, u32);
 
-/// What a sheet holds.
+/// The contents of a sheet.
 #[derive(Debug, Default)]
 pub(crate) struct Sheet {
     name: String,
     cells: BTreeMap<At, Data>,
     formulas: BTreeMap<At, String>,
     merged: Vec<Dimensions>,
-    /// A cell that is too far out.
+    /// A cell that is beyond the limits.
     beyond: Option<At>,
-    /// Bytes of text and formulas.
+    /// Bytes of texts and formulas.
     bytes: usize,
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     }
 }
 
-/// Reports a sheet that is not read, at its first cell.
+/// Reports an ignored sheet, at its first cell.
 fn stray(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) {
     let file = log.sources.add(format!("{} [{}]", source.name, sheet.name), text.text.as_str());
     let Some(at) = sheet.cells.keys().next() else { return };
@@ -132,7 +132,8 @@ fn table(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) -> Text
     tabular::import(file, &text.text, Some(&sheet.name), log)
 }
 
-/// The texts of the first row with several, by column: enough to tell descriptions from usages.
+/// The texts of the first row with several texts, by column: enough to distinguish descriptions
+/// from usages.
 fn heads(sheet: &Sheet) -> BTreeMap<u32, String> {
     let mut rows: BTreeMap<u32, BTreeMap<u32, String>> = BTreeMap::new();
     for ((row, column), value) in &sheet.cells {
@@ -173,7 +174,7 @@ fn values(
     }
 }
 
-/// Reports rows without content between rows with content.
+/// Reports empty rows between rows with content.
 fn empty_rows(sheet: &Sheet, span: &dyn Fn(At) -> Span, log: &mut Log) {
     let mut rows: Vec<u32> = sheet.cells.keys().map(|(row, _)| *row).collect();
     rows.dedup();
@@ -194,11 +195,11 @@ fn place(sheet: &Sheet, (row, column): At) -> String {
     format!("{}!{}", sheet.name, a1(row as usize, column as usize))
 }
 
-/// A value as the cell of a table; what cannot be one is empty.
+/// A value as the cell of a table; empty if it cannot be one.
 fn shown(value: &Data) -> String {
     match value {
         Data::Int(number) => number.to_string(),
-        // Spreadsheets know no integers: 23.0 is 23, which is how `{}` shows it.
+        // Spreadsheets do not have integers: 23.0 is 23, which is how `{}` shows it.
         Data::Float(number) => number.to_string(),
         Data::String(text) => text.split_whitespace().collect::<Vec<_>>().join(" "),
         Data::Bool(_)
@@ -224,7 +225,7 @@ impl Text {
         let rows = sheet.cells.keys().map(|(row, _)| row + 1).max().unwrap_or_default();
         let columns = sheet.cells.keys().map(|(_, column)| column + 1).max().unwrap_or_default();
         let filled: BTreeSet<u32> = sheet.cells.keys().map(|(row, _)| *row).collect();
-        // A row has a cell for each column of the widest one.
+        // A row has as many cells as the widest one.
         if filled.len().saturating_mul(columns as usize) > CELLS_MAX {
             return Err(Refused::TooMuch("cells in a sheet, rows times columns", CELLS_MAX));
         }
@@ -236,7 +237,8 @@ impl Text {
                 }
                 let value = sheet.cells.get(&(row, column)).map(shown).unwrap_or_default();
                 let start = made.text.len();
-                // Quotes around all that is not plain: the separator is guessed from the head.
+                // Anything that is not plain is quoted, because the separator is guessed from the
+                // header row.
                 if value.contains([',', '"', ';', '\t']) {
                     made.text.push_str(&format!("\"{}\"", value.replace('"', "\"\"")));
                 } else {
@@ -249,7 +251,7 @@ impl Text {
         Ok(made)
     }
 
-    /// Where a cell is; the start of its row where it is outside of all.
+    /// The range of a cell; the start of its row if it is outside all cells.
     fn range(&self, at: At) -> Range<usize> {
         let row = || {
             let start = self.rows.get(at.0 as usize).copied().unwrap_or(self.text.len());
@@ -264,7 +266,7 @@ impl Sheet {
         Self { name, ..Self::default() }
     }
 
-    /// Puts a value into a cell; false where the cell is too far out.
+    /// Puts a value into a cell; returns false if the cell is beyond the limits.
     pub(crate) fn put(&mut self, at: At, value: Data) -> Result<bool, Refused> {
         if value == Data::Empty || matches!(&value, Data::String(text) if text.trim().is_empty()) {
             return Ok(!is_beyond(at));
@@ -299,12 +301,12 @@ impl Sheet {
         Ok(())
     }
 
-    /// Whether a row is too far out to be read.
+    /// Whether a row is beyond the limits.
     pub(crate) fn is_beyond_rows(&self, row: u32) -> bool {
         is_beyond((row, 0))
     }
 
-    /// Counts bytes of text: a text that stands once in the file can stand in any number of cells.
+    /// Counts bytes of text: a text that is in the file once can be in any number of cells.
     fn spend(&mut self, bytes: usize) -> Result<(), Refused> {
         self.bytes += bytes;
         if self.bytes > CELL_TEXT_BYTES_MAX {
@@ -323,13 +325,13 @@ fn xlsx(bytes: &[u8], contents: &Contents) -> Result<Vec<Sheet>, Refused> {
     let book: Result<Xlsx<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
     let mut book = book.map_err(|error| Refused::why(&error))?;
     let mut sheets = Vec::new();
-    // Several sheets may name one part: what they hold together is counted.
+    // Several sheets may name the same file, so their contents are counted together.
     let (mut cells_left, mut bytes_left) = (CELLS_MAX, CELL_TEXT_BYTES_MAX);
     let names = book.sheet_names();
     if names.len() > SHEETS_MAX {
         return Err(Refused::TooMuch("sheets", SHEETS_MAX));
     }
-    // Each sheet has a file of its own, unless somebody made the workbook to be read many times.
+    // Each sheet has its own file, unless the workbook was crafted to be read many times.
     if names.len() > contents.files {
         return Err(Refused::TooMuch(
             "sheets, and no more files that could hold them",

@@ -16,13 +16,13 @@ fn imported(bytes: &[u8]) -> Imported {
     with("source", bytes, None, &[])
 }
 
-/// `CODE message` of each.
+/// The `CODE message` lines of an import.
 fn said(imported: &Imported) -> Vec<String> {
     let line = |one: &sensedsl_diagnostics::Diagnostic| format!("{} {}", one.code, one.message);
     imported.diagnostics.iter().map(line).collect()
 }
 
-/// Whether a message has a code, and all the words.
+/// Whether a message has a code and contains all the words.
 fn says(imported: &Imported, code: &str, words: &[&str]) -> bool {
     let holds = |line: &String| line.starts_with(code) && words.iter().all(|w| line.contains(w));
     said(imported).iter().any(holds)
@@ -173,7 +173,8 @@ fn a_hwdef_becomes_devices() {
     ));
 }
 
-/// Of chips that the firmware looks for at one address one is wired, and a select needs a bus.
+/// If firmware looks for several chips at one address, only one is wired; a chip select needs a
+/// bus.
 #[test]
 fn what_a_hwdef_leaves_open_is_reported() {
     let hwdef = "MCU STM32H7xx STM32H743xx\ninclude ../no/pins.inc\nI2C_ORDER I2C1\n\
@@ -213,7 +214,7 @@ fn broken_descriptions_of_mcus_are_refused() {
 }
 
 proptest::proptest! {
-    /// Nothing that comes in makes an importer panic, and what comes out can be read again.
+    /// No input makes an importer panic, and the output can be read again.
     #[test]
     fn any_bytes_can_be_imported(
         start in "(Pin,Signal,AF\n|Port,,AF0,AF1,AF2\n|Mcu.Name=STM32F407VG\n|MCU STM32F4xx\n|<Mcu RefName=\"X\">|\u{0}\u{0}|)",

@@ -1,6 +1,6 @@
-//! All MCU files and projects of ST's open pin data, where `SENSEDSL_ST_PIN_DATA` names the
-//! folder: each is imported, or refused with a coded reason, and what comes out is read again
-//! without a mistake.
+//! All MCU files and projects of ST's open pin data, in the folder that `SENSEDSL_ST_PIN_DATA`
+//! names: each is imported, or refused with a coded reason, and the output is read again without a
+//! mistake.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stderr,
@@ -19,7 +19,7 @@ use sensedsl_board::table;
 use sensedsl_import::{Format, Imported, Importer, Source};
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 
-/// The folder, or a word that the test is skipped.
+/// The folder, or a note that the test is skipped.
 fn data() -> Option<PathBuf> {
     let folder = std::env::var_os("SENSEDSL_ST_PIN_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -91,7 +91,7 @@ fn every_mcu_is_imported() {
     assert!(shared >= 40, "{shared} tables with shared pads");
 }
 
-/// What was read for one source is not mixed up with what the next one needs.
+/// Data read for one source is not mixed up with data for the next one.
 #[test]
 fn importing_many_is_importing_each() {
     let Some(data) = data() else { return };
@@ -145,7 +145,7 @@ fn remap_blocks_of_an_f1_are_at_its_usages() {
     assert_eq!(blocks, ["I2C1_SCL#0", "TIM4_CH1#0", "USART1_TX#1"]);
 }
 
-/// The one table that an imported project has.
+/// The only table of an imported project.
 struct Pins(String);
 
 impl Files for Pins {
@@ -213,8 +213,8 @@ fn formats_are_told_by_content() {
     }
 }
 
-/// What ST's names of pins tell of reset, BOOT and oscillators (`PF2-NRST`, `PH3-BOOT0`,
-/// `PH0-OSC_IN`) is in `silicon/`.
+/// The roles that ST's pin names imply (`PF2-NRST`, `PH3-BOOT0`, `PH0-OSC_IN`: reset, BOOT and
+/// oscillators) are in `silicon/`.
 #[test]
 fn pins_that_the_mcu_needs_are_known() {
     let Some(data) = data() else { return };
@@ -225,7 +225,7 @@ fn pins_that_the_mcu_needs_are_known() {
         else {
             continue;
         };
-        // Parts that the table does not have.
+        // Parts that are not in the table.
         if mcu.starts_with("STM32MP") {
             continue;
         }

@@ -1,9 +1,9 @@
-//! How much is read at most. Every budget stands here, and [`ALL`] says of each what it counts and
-//! which diagnostic tells that it is spent; `docs/limits.md` is made from it.
+//! Limits on how much is read. Every budget is defined here, and [`ALL`] states for each what it
+//! counts and which diagnostic reports that it is exceeded; `docs/limits.md` is made from it.
 //!
 //! The figures are far above what a real project needs and low enough that any input, however
-//! hostile, is refused within a second and 200 MB. `sensedsl-verify` has its own, since it depends
-//! on no crate of the workspace.
+//! hostile, is refused within a second and 200 MB. `sensedsl-verify` has limits of its own, since
+//! it depends on no crate of the workspace.
 
 /// Bytes of one `.sense` text.
 pub const SENSE_BYTES_MAX: usize = 4 << 20;
@@ -17,16 +17,16 @@ pub const SOURCE_TEXT_BYTES_MAX: usize = 4 << 20;
 pub const ANSWER_BYTES_MAX: usize = 2 << 20;
 /// Bytes of a world for `simulate`, and of a file with samples.
 pub const WORLD_BYTES_MAX: usize = 4 << 20;
-/// Tables and lists of a world, those in others included.
+/// Tables and lists of a world, including nested ones.
 pub const WORLD_TABLES_MAX: usize = 20_000;
 /// Bytes of an image of firmware for `simulate`.
 pub const IMAGE_BYTES_MAX: usize = 16 << 20;
 /// Bytes of all files that one call reads.
 pub const TOTAL_BYTES_MAX: usize = 32 << 20;
 
-/// Tokens of a design, over all its files: a token is a word, a number, a sign, a space, a comment.
+/// Tokens of a design, over all its files: words, numbers, signs, spaces and comments.
 pub const TOKENS_MAX: usize = 500_000;
-/// Mistakes that are listed of one design; the others are counted.
+/// Mistakes that are listed for one design; the others are counted.
 pub const DIAGNOSTICS_MAX: usize = 1_000;
 /// Characters of one sentence of a diagnostic; what it quotes is cut.
 pub const SENTENCE_CHARS_MAX: usize = 600;
@@ -38,7 +38,7 @@ pub const USE_DEPTH_MAX: usize = 64;
 pub const ITEMS_MAX: usize = 2_000;
 /// Sets of wires of a design, each with the rules for it: an array has one for each element.
 pub const WIRES_MAX: usize = 16_000;
-/// Values that one driver gives and takes.
+/// Readings and commands of one driver.
 pub const DRIVER_VALUES_MAX: usize = 254;
 /// Numbers, words and letters that constants bring into one value.
 pub const CONSTANT_PARTS_MAX: usize = 4_096;
@@ -95,7 +95,7 @@ pub const INCLUDE_DEPTH_MAX: usize = 8;
 
 /// Lines of all files of an `hwdef`.
 pub const HWDEF_LINES_MAX: usize = 50_000;
-/// MCUs that all files of an `hwdef` name; a board has one, and a file that is included may name another.
+/// MCUs that all files of an `hwdef` name; a board has one, and an included file may name another.
 pub const HWDEF_MCUS_MAX: usize = 4;
 /// Nodes, messages, signals, receivers and words for values of a DBC file, all together.
 pub const DBC_PARTS_MAX: usize = 200_000;
@@ -105,11 +105,11 @@ pub const DBC_PARTS_MAX: usize = 200_000;
 pub struct Limit {
     /// The constant.
     pub name: &'static str,
-    /// How much is still read.
+    /// The most that is read.
     pub most: usize,
     /// What is counted.
     pub of: &'static str,
-    /// The diagnostic that says that there is more.
+    /// The diagnostic that reports that there is more.
     pub code: &'static str,
 }
 

@@ -1,4 +1,5 @@
-//! ADC1 to ADC3: regular sequences by software or by a timer's trigger, with DMA; injected ones by software.
+//! ADC1 to ADC3: regular sequences, started by software or by a timer's trigger, with DMA; injected ones, started by
+//! software.
 
 use super::wires::{NEVER, SUPPLY_MV, Wires, merge, periods_ns};
 
@@ -17,14 +18,15 @@ const DMA_GOES_ON: u32 = 1 << 9;
 const EACH: u32 = 1 << 10;
 const LEFT: u32 = 1 << 11;
 
-/// Cycles that sampling takes, by the code in SMPR.
+/// The cycles that sampling takes, by the code in SMPR.
 const SAMPLING: [u64; 8] = [3, 15, 28, 56, 84, 112, 144, 480];
-/// Millivolts at the inputs inside: the sensor at 25 degrees, the reference, half of the battery.
+/// The voltages at the internal inputs in millivolts: the temperature sensor at 25 degrees, the reference, half of the
+/// battery's.
 const TEMPERATURE_MV: f64 = 760.0;
 const REFERENCE_MV: f64 = 1210.0;
 const BATTERY_MV: f64 = 1650.0;
 
-/// One converter.
+/// A converter.
 #[derive(Debug)]
 pub(super) struct Adc {
     unit: u8,
@@ -37,9 +39,9 @@ pub(super) struct Adc {
     jsqr: u32,
     jdr: [u32; 4],
     dr: u32,
-    /// DR holds a value that nobody took, and the DMA is to take it.
+    /// Whether DR holds a value that the DMA has to take and has not taken yet.
     asking: bool,
-    /// The last request of the sequence was made: no more until DMA is set anew.
+    /// The index of the present conversion in the sequence.
     at: u32,
     done_at: u64,
     injected_at: u64,
@@ -105,7 +107,7 @@ impl Adc {
         };
         let steps = f64::from(1_u32 << self.bits());
         let code = (millivolts / SUPPLY_MV * steps).floor().clamp(0.0, steps - 1.0);
-        // The clamp leaves a small whole number.
+        // The clamped value is a small whole number.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 4095")]
         let code = code as u32;
         if self.cr[1] & LEFT != 0 { code << (16 - self.bits()) } else { code }
@@ -136,7 +138,7 @@ impl Adc {
         let at = self.done_at;
         self.done_at = NEVER;
         let is_last = self.at + 1 >= self.length();
-        // Without DMA an overrun is only noticed where each conversion is told.
+        // Without DMA, an overrun is only noticed if each conversion is reported.
         let watches = self.cr[1] & (DMA | EACH) != 0;
         let is_late = if self.cr[1] & DMA != 0 { self.asking } else { self.sr & DONE != 0 };
         if watches && is_late {
@@ -183,7 +185,7 @@ impl Adc {
         self.sr |= INJECTED_DONE;
     }
 
-    /// Starts where a timer's trigger is what the sequence waits for.
+    /// Starts the sequence if it waits for one of these timers' triggers.
     pub(super) fn trigger(&mut self, triggers: u32, wires: &Wires) {
         // EXTSEL: 6 is TIM2's trigger output, 8 TIM3's, 14 TIM8's.
         let timer = match self.cr[1] >> 24 & 15 {
@@ -201,7 +203,7 @@ impl Adc {
         self.asking
     }
 
-    /// The DMA moved the last item: it is asked no more, unless it goes on.
+    /// The DMA moved the last item: no more requests are made unless they are to go on.
     pub(super) fn dma_ended(&mut self) {
         if self.cr[1] & DMA_GOES_ON == 0 {
             self.done_at = if self.cr[1] & CONTINUOUS == 0 { self.done_at } else { NEVER };
@@ -216,7 +218,7 @@ impl Adc {
         self.sr & enabled != 0
     }
 
-    /// What the common status register shows of this unit.
+    /// The bits of this unit in the common status register.
     pub(super) fn status(&self) -> u32 {
         self.sr & 0x3F
     }

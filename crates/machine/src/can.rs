@@ -10,9 +10,9 @@ use sensedsl_surroundings::CanFrame;
 /// Bits of MCR and MSR.
 const INIT: u32 = 1;
 const SLEEP: u32 = 1 << 1;
-/// Bits of the shortest frame.
+/// The bits of the shortest frame.
 const SHORTEST: u64 = 47;
-/// Banks of filters that the two units share.
+/// The filter banks that the two units share.
 const BANKS: usize = 28;
 
 /// The acceptance filters of both units.
@@ -65,7 +65,7 @@ impl Filters {
         *register = merge(*register, value, mask);
     }
 
-    /// The queue that a frame goes to, and the number of the filter that let it in.
+    /// The queue that a frame goes to, and the number of the filter that accepted it.
     fn accept(&self, unit: u8, frame: &CanFrame) -> Option<(usize, u32)> {
         let split = (self.fmr >> 8 & 63) as usize;
         let banks = if unit == 1 { 0..split.min(BANKS) } else { split.min(BANKS)..BANKS };
@@ -85,7 +85,7 @@ impl Filters {
         None
     }
 
-    /// What a bank lets in, as bits and which of them count.
+    /// The filters of a bank, each as the bits of an identifier and the mask of those that count.
     fn filters(&self, bank: usize) -> Vec<(u32, u32)> {
         let [one, two] = self.banks[bank];
         let is_list = self.is_list >> bank & 1 == 1;
@@ -99,7 +99,7 @@ impl Filters {
     }
 }
 
-/// Bits of a frame on the bus with those between it and the next one, without stuffed ones.
+/// The bits of a frame on the bus, including those up to the next frame, without stuffed ones.
 fn bits_of(frame: &CanFrame) -> u64 {
     let overhead = if frame.extended { 67 } else { SHORTEST };
     overhead + 8 * u64::from(frame.length)
@@ -119,7 +119,7 @@ fn narrow_bits(frame: &CanFrame) -> u32 {
     }
 }
 
-/// One unit.
+/// A CAN unit.
 #[derive(Debug)]
 pub(super) struct Can {
     unit: u8,
@@ -165,13 +165,13 @@ impl Can {
         }
     }
 
-    /// As after a reset.
+    /// Restarts it in its state after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
-    /// Periods of its clock in one bit.
+    /// The number of clock periods in one bit.
     fn divider(&self) -> u64 {
         let quanta = u64::from((self.btr >> 16 & 15) + (self.btr >> 20 & 7) + 3);
         quanta * (u64::from(self.btr & 0x3FF) + 1)
@@ -181,7 +181,7 @@ impl Can {
         periods_ns(bits * self.divider(), wires.clocks.apb1).max(1)
     }
 
-    /// How it is set up, once it has started.
+    /// Its settings, once it has started.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let setting = Setting::Can { bitrate_hz: wires.clocks.apb1 / self.divider() };
         self.is_on().then(|| PortState { unit: format!("CAN{}", self.unit), setting })
@@ -236,7 +236,7 @@ impl Can {
             let hears = self.btr >> 30 & 1 == 0 && wires.pad_of(&self.rx).is_some();
             let frame =
                 if hears { wires.world(|world, now| world.can_in(self.unit, now)) } else { None };
-            // The next one follows when this one has gone over the bus.
+            // The next frame follows once this one has gone over the bus.
             self.listens_at += self.bits_ns(frame.as_ref().map_or(SHORTEST, bits_of), wires);
             if let Some(frame) = frame {
                 self.receive(&frame, filters);
@@ -375,7 +375,7 @@ impl Can {
             return;
         }
         self.mcr = new;
-        // What is asked for is acknowledged at once.
+        // A requested mode is acknowledged at once.
         self.msr = (self.msr & !(INIT | SLEEP))
             | (new & INIT)
             | if new & INIT == 0 { new & SLEEP } else { 0 };

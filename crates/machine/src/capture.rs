@@ -1,17 +1,17 @@
-//! The inputs of timers: captures, encoders, counters of edges.
+//! The inputs of timers: captures, encoders, edge counters.
 
 use super::timer::Timer;
 use super::wires::{NEVER, Wires};
 use sensedsl_surroundings::Pad;
 
-/// What a timer's first two inputs, or four, see.
+/// The state of a timer's inputs, of which there are two or four.
 #[derive(Debug)]
 pub(super) struct Inputs {
     names: [String; 4],
     pads: [Option<Pad>; 4],
     levels: [bool; 4],
     edges: [Option<(u64, bool)>; 4],
-    /// Edges of a channel that its prescaler has swallowed.
+    /// The number of edges in each channel that its prescaler has swallowed.
     swallowed: [u32; 4],
     pub next_ns: u64,
     version: u64,
@@ -53,7 +53,7 @@ impl Timer {
         (captures || controls) && self.cr1 & 1 != 0
     }
 
-    /// Asks the world what comes next at the inputs that count.
+    /// Asks the world for the next edges at the inputs that count.
     pub(super) fn look_for_edges(&mut self, wires: &Wires) {
         for input in 0..4 {
             let pad =
@@ -71,7 +71,7 @@ impl Timer {
         self.inputs.find_next();
     }
 
-    /// Asks again when the world may have changed its mind.
+    /// Asks again if the world may have changed.
     pub(super) fn review_edges(&mut self, wires: &Wires) {
         let watches = (0..4).any(|input| self.inputs.pads[input].is_some() || self.needs(input));
         if watches && self.inputs.version != wires.version {
@@ -79,7 +79,7 @@ impl Timer {
         }
     }
 
-    /// Works on all edges at a time.
+    /// Handles all edges up to a time.
     pub(super) fn take_edges(&mut self, at: u64, wires: &Wires) {
         for input in 0..4 {
             let Some((when, level)) = self.inputs.edges[input] else { continue };
@@ -148,7 +148,7 @@ impl Timer {
         }
     }
 
-    /// A step of an encoder: which way depends on the level of the other track (table 97 of the manual).
+    /// A step of an encoder: its direction depends on the level of the other track (table 97 of the manual).
     fn turn(&mut self, input: usize, at: u64) {
         let mode = self.smcr & 7;
         // Mode 1 counts at TI2's edges, mode 2 at TI1's, mode 3 at both.

@@ -1,4 +1,4 @@
-//! All peripherals together: who answers at an address, what is due when, and what the DMA moves.
+//! All peripherals together: the one that answers at an address, the next deadline, and the transfers of the DMA.
 
 use super::adc::Adc;
 use super::can::{Can, Filters};
@@ -46,11 +46,11 @@ pub(super) struct Chip {
     crc: u32,
     random: (Plain, u32),
     debug: [u32; 4],
-    /// Peripherals of which something was told already.
+    /// The peripherals about which something was reported already.
     told: Vec<u32>,
     /// The address of an instruction just before the access.
     pub pc: u32,
-    /// A reset is due.
+    /// A reset that is due.
     pub reset: Option<ResetCause>,
 }
 
@@ -94,17 +94,17 @@ impl Chip {
         self.memory.clone()
     }
 
-    /// Whether the watchdog runs: it ends what stands still.
+    /// Whether the watchdog runs: it ends a standstill.
     pub(super) fn is_watched(&self) -> bool {
         self.iwdg.deadline() != NEVER
     }
 
-    /// From a feeding of the watchdog to its bite; none where it does not run.
+    /// The time from a reload of the watchdog to its reset; `None` if it does not run.
     pub(super) fn watchdog_ns(&self) -> Option<u64> {
         self.is_watched().then(|| self.iwdg.period_ns())
     }
 
-    /// All peripherals as after a reset; the backup domain keeps what it has, unless power went.
+    /// Puts all peripherals into their state after a reset; the backup domain keeps its contents unless power was lost.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);
         for register in [0x30, 0x34, 0x38, 0x40, 0x44] {
@@ -117,7 +117,7 @@ impl Chip {
         self.settle();
     }
 
-    /// How the ports are set up that have started.
+    /// The settings of the ports that have started.
     pub(super) fn ports(&self) -> Vec<PortState> {
         let serial = self.usarts.iter().filter_map(|one| one.state(&self.wires));
         let spi = self.spis.iter().filter_map(|one| one.state(&self.wires));
@@ -135,7 +135,7 @@ impl Chip {
         timers.chain(ports).chain(buses).chain(others).chain(single).min().unwrap_or(NEVER)
     }
 
-    /// Works on everything that is due until now.
+    /// Handles everything that is due by now.
     pub(super) fn advance(&mut self) {
         let now = self.wires.now;
         let wires = &mut self.wires;
@@ -183,7 +183,7 @@ impl Chip {
         self.settle();
     }
 
-    /// After any change: outputs, triggers, requests, interrupts.
+    /// Settles outputs, triggers, requests and interrupts after a change.
     fn settle(&mut self) {
         if self.wires.gpio.has_changes() {
             self.wires.tell_outputs();
@@ -206,7 +206,7 @@ impl Chip {
 
     // --- the bus ---
 
-    /// Reads from a peripheral, as wide as the program does it.
+    /// Reads from a peripheral, with the width of the program's access.
     pub(super) fn fetch(&mut self, address: u32, size: u32) -> Option<u32> {
         let row = self.mcu.at(address)?;
         let shift = 8 * (address & 3);
@@ -222,7 +222,8 @@ impl Chip {
         let row = self.mcu.at(address)?;
         let (base, device) = (row.base, row.device);
         let shift = 8 * (address & 3);
-        // A 0 changes nothing that a reset has left, and flags that are cleared were not set: ChibiOS does both.
+        // Some lost writes are harmless: a 0 changes nothing after a reset, and neither does clearing flags that are
+        // not set. ChibiOS does both.
         let is_clear = matches!(device, Device::Dma(_)) && matches!(address - base, 0x08 | 0x0C);
         let is_lost = value != 0 && !is_clear;
         if !self.has_clock(row, address, is_lost) {
@@ -233,7 +234,7 @@ impl Chip {
         Some(())
     }
 
-    /// After an access of the program's.
+    /// Settles everything after an access by the program.
     pub(super) fn accessed(&mut self) {
         self.settle();
     }
@@ -309,7 +310,7 @@ impl Chip {
         match device {
             Device::Gpio(port) => {
                 wires.gpio.write(port, offset, value, mask);
-                // A pad may be led to a timer that runs already.
+                // A pad may be switched to a timer that already runs.
                 wires.version += u64::from(matches!(offset, 0x00 | 0x20 | 0x24));
             }
             Device::Timer(unit) => self.timers[unit].write(offset, value, mask, wires),
@@ -374,7 +375,7 @@ impl Chip {
         }
     }
 
-    /// Resets peripherals by the bits of their clocks.
+    /// Resets the peripherals that belong to clock bits.
     fn reset_behind(&mut self, register: u32, bits: u32) {
         for device in self.mcu.behind(register, bits) {
             match device {
@@ -400,7 +401,7 @@ impl Chip {
     }
 }
 
-/// The levels of a port's pads.
+/// The levels on a port's pads.
 fn levels(wires: &Wires, port: usize) -> u32 {
     let port = u8::try_from(port).unwrap_or(0);
     let is_high = |pin: u8| wires.level(sensedsl_surroundings::Pad { port, pin });

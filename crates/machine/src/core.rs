@@ -1,4 +1,4 @@
-//! The core with its memory, and the loop that lets it and the chip take turns.
+//! The core with its memory, and the loop in which it and the chip take turns.
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
@@ -20,38 +20,39 @@ use super::transfer::{CCM_BASE, FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
 use sensedsl_surroundings::Surroundings;
 
-/// Peripherals are from here to the core's own.
+/// The address range of the peripherals, up to the core's own.
 const PERIPHERALS: u32 = 0x4000_0000;
 const PERIPHERALS_BYTES: u64 = 0x2000_0000;
-/// The maker's memory: the unique number, and how much flash there is.
+/// The system memory: the unique number, and the size of the flash.
 const SYSTEM_BASE: u64 = 0x1FFF_7000;
 const SYSTEM_BYTES: u64 = 0x1000;
-/// What stands so long without a watchdog stands for ever.
+/// A core that stands still for so long, without a watchdog, does so for ever.
 const PATIENCE_NS: u64 = 3 * SECOND_NS;
-/// Bits of the status register: where in a block of conditional instructions the core is, and the exception it handles.
+/// Bits of the status register: the position in a block of conditional instructions, and the number of the exception
+/// being handled.
 const BLOCK: u32 = 0x0600_FC00;
 const EXCEPTION: u32 = 0x1FF;
-/// In a stacked status: a word aligns the stack.
+/// In a stacked status: set if a padding word aligns the stack.
 const ALIGNED: u32 = 1 << 9;
-/// What is in the link register of a handler is this or more.
+/// The least value of the link register in a handler.
 const EXC_RETURN: u32 = 0xFFFF_FFE0;
-/// The core is looked at for waiting every so many steps.
+/// The number of steps between two checks whether the core waits.
 const STEPS_BETWEEN_LOOKS: u32 = 8;
-/// A core that stands does so for some steps.
+/// The number of steps on one instruction that count as a standstill.
 const STEPS_OF_A_STAND: usize = 3;
 
-/// What the loop and the bus tell each other.
+/// The state shared by the loop and the bus.
 #[derive(Debug, Default)]
 struct Shared {
-    /// Cycles since power came.
+    /// The number of cycles since power-up.
     cycles: AtomicU64,
-    /// Of the instruction that runs.
+    /// The address of the current instruction.
     pc: AtomicU32,
-    /// The chip may have something new for the core, or an earlier deadline.
+    /// Whether the chip may have something new for the core, or an earlier deadline.
     touched: AtomicBool,
 }
 
-/// From cycles to time: a straight line from a moment on.
+/// The conversion from cycles to time: a straight line from a moment on.
 #[derive(Clone, Copy, Debug)]
 struct Line {
     cycles: u64,
@@ -129,7 +130,7 @@ impl MemOps for Bus {
     }
 }
 
-/// The core, its memory, the chip around it.
+/// The core, its memory and the chip around it.
 pub(super) struct Core {
     cpu: ArmV7m,
     chip: Arc<Mutex<Chip>>,
@@ -139,10 +140,10 @@ pub(super) struct Core {
     surroundings: Arc<Mutex<dyn Surroundings>>,
     waited: u64,
     executed: u64,
-    /// Where it waited last: what is executed there is no work.
+    /// The address at which it last waited: instructions executed there are not work.
     rests_at: u32,
     lockup: Option<Lockup>,
-    /// Where the core stands, and since when.
+    /// The address at which the core stands still, and the time since when.
     stands: Option<(u32, u64)>,
     is_off: bool,
 }
@@ -193,7 +194,7 @@ impl Core {
     pub(super) fn load(&mut self, flash: &[u8]) {
         *self = Self::new(self.settings, Arc::clone(&self.surroundings));
         let memory = self.chip().memory();
-        // The lengths were compared with the flash before.
+        // The lengths were compared with the size of the flash before.
         let _ = memory.flash.fill(0, memory.flash.len(), 0xFF);
         let _ = memory.flash.write_at(0, flash);
         self.cpu.request_reset();
@@ -234,7 +235,7 @@ impl Core {
         }
     }
 
-    /// Takes the supply away, or gives it back. Memory without power has lost what was in it.
+    /// Takes the supply away or gives it back. Memory without power loses its contents.
     pub(super) fn power(&mut self, is_on: bool) {
         if self.is_off != is_on {
             return;
@@ -249,7 +250,7 @@ impl Core {
         chip.reset = Some(super::ResetCause::Power);
     }
 
-    /// Lets the chip work on what is due; returns the cycle at which it wants to be asked again.
+    /// Lets the chip handle what is due; returns the cycle at which it must be called again.
     fn turn_of_chip(&mut self, end_ns: u64) -> u64 {
         self.shared.touched.store(false, Ordering::Relaxed);
         let cycles = self.shared.cycles.load(Ordering::Relaxed);
@@ -310,8 +311,8 @@ impl Core {
         }
     }
 
-    /// Whether steps lead back to the same instruction, each of them. The last instruction of a handler does so once where
-    /// it has interrupted another one at that very instruction.
+    /// Whether each of several steps leads back to the same instruction. The last instruction of a handler does so once
+    /// if it has interrupted another one at that very instruction.
     fn stands_at(&mut self, pc: u32, cycles: &mut u64) -> bool {
         for _ in 0..STEPS_OF_A_STAND {
             *cycles += self.step();
@@ -323,7 +324,7 @@ impl Core {
         true
     }
 
-    /// One instruction, or the way into a handler.
+    /// Executes an instruction, or enters a handler.
     fn step(&mut self) -> u64 {
         let before = self.cpu.xpsr();
         self.executed += u64::from(self.cpu.pc() != self.rests_at);
@@ -334,9 +335,9 @@ impl Core {
         cycles
     }
 
-    /// Keeps the place in a block of conditional instructions over an exception. rsemu 0.0.7 forgets it when it stacks
-    /// the status, so that the rest of the block would be executed whatever its condition, and goes on by one
-    /// instruction too many where a handler returns with a conditional instruction of its own.
+    /// Keeps the position in a block of conditional instructions across an exception. rsemu 0.0.7 loses it when it
+    /// stacks the status, so that the rest of the block would be executed whatever its condition. It also goes one
+    /// instruction too far if a handler returns with a conditional instruction of its own.
     fn keep_block(&self, before: u32) {
         let after = self.cpu.xpsr();
         if after & EXCEPTION == before & EXCEPTION {
@@ -352,7 +353,7 @@ impl Core {
             return;
         }
         let (pc, stack) = (self.cpu.pc(), self.cpu.reg(13));
-        // With and without the registers of the floating-point unit and a word that aligns the stack.
+        // The frame is with or without floating-point registers, and with or without a word that aligns the stack.
         for behind in [4, 8, 76, 80] {
             let kept = stack.checked_sub(behind).and_then(|at| chip.memory.word(at));
             let from = stack.checked_sub(behind + 4).and_then(|at| chip.memory.word(at));
@@ -366,7 +367,8 @@ impl Core {
         }
     }
 
-    /// The core stands on one instruction: only an interrupt can change that, so the time jumps to the next event.
+    /// The core stands still on one instruction: only an interrupt can change that, so the time jumps to the next
+    /// event.
     fn wait(&mut self, cycles: u64, limit: u64) -> u64 {
         self.note_lockup();
         self.note_standstill();
@@ -374,7 +376,7 @@ impl Core {
         let mut jump = limit.saturating_sub(cycles);
         self.cpu.with_sys(|system| {
             if system.syst_csr & 1 == 1 && system.syst_rvr != 0 {
-                // The system's timer is the core's own.
+                // The system timer is part of the core.
                 jump = jump.min(u64::from(system.syst_cvr).max(1) - 1);
             }
             system.tick_cyccnt(jump);
@@ -386,7 +388,7 @@ impl Core {
         cycles
     }
 
-    /// Nothing has moved the core for long, and no watchdog will.
+    /// Notes a lockup if nothing has moved the core for long, and no watchdog will.
     fn note_standstill(&mut self) {
         let (pc, now_ns) = (self.cpu.pc(), self.chip().wires.now);
         let since_ns = match self.stands {
@@ -433,8 +435,9 @@ impl Core {
         self.lockup = Some(Lockup { pc, why });
     }
 
-    /// The address of the instruction that failed, as the exception kept it. The handler may have lost what said
-    /// which stack that is on: a thread's is the process stack, if it has one, a handler's is the main stack.
+    /// The address of the instruction that failed, as the exception stacked it. The handler may have lost the
+    /// information about the stack that has it: a thread's is the process stack, if it has one, and a handler's is the
+    /// main stack.
     fn stacked_pc(&self) -> Option<u32> {
         let of_process = self.framed_pc(self.cpu.psp());
         let of_main = self.framed_pc(self.cpu.msp());
@@ -445,7 +448,7 @@ impl Core {
         if active.count() > 1 { of_main } else { of_process.or(of_main) }
     }
 
-    /// The program counter in an exception's frame, where it is one.
+    /// The program counter in an exception's frame, if there is a frame.
     fn framed_pc(&self, stack: u32) -> Option<u32> {
         let chip = lock(&self.chip);
         let memory = chip.memory();
@@ -474,7 +477,7 @@ fn map(space: &AddressSpace, region: Region, base: u64) {
 }
 
 fn map_memory(space: &AddressSpace, memory: &Memory, mcu: &Mcu) {
-    // After a reset the flash is at 0, too.
+    // After a reset, the flash is also at 0.
     for base in [0, u64::from(FLASH_BASE)] {
         map(space, Region::ram("flash", Arc::clone(&memory.flash)), base);
     }

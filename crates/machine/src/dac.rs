@@ -52,7 +52,7 @@ impl Dac {
             _ => {}
         }
         for channel in 0..2 {
-            // Without a trigger the output follows at once.
+            // Without a trigger, the output follows at once.
             if self.cr >> (2 + 16 * channel) & 1 == 0 {
                 self.output[channel] = self.holding[channel];
             }

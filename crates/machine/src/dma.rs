@@ -1,16 +1,16 @@
-//! The two DMA controllers: eight streams each, eight channels a stream.
+//! The two DMA controllers, with eight streams each and eight channels in each stream.
 //!
-//! A stream moves an item whenever the peripheral that its channel names asks. Moving takes no time here.
+//! A stream moves an item whenever the peripheral of its channel requests it. Moving takes no time here.
 
 use super::wires::merge;
 
-/// What is wrong or done, as the bits of a stream in the status registers.
+/// The status bits of a stream: errors and completion.
 pub(super) const HALF: u32 = 1 << 4;
 pub(super) const COMPLETE: u32 = 1 << 5;
 pub(super) const FAILED: u32 = 1 << 3;
 const FIFO_FAILED: u32 = 1;
 
-/// Where in a status register the bits of a stream begin.
+/// The lowest status bit of a stream in its status register.
 const SHIFTS: [u32; 4] = [0, 6, 16, 22];
 
 /// Bits of a stream's CR.
@@ -19,7 +19,7 @@ const CIRCULAR: u32 = 1 << 8;
 const DOUBLE: u32 = 1 << 18;
 const TARGET: u32 = 1 << 19;
 
-/// Which way a stream moves.
+/// The direction of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     FromPeripheral,
@@ -27,7 +27,7 @@ pub(super) enum Direction {
     Memory,
 }
 
-/// A stream: its registers, and where it is.
+/// A stream: its registers and its progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stream {
     pub cr: u32,
@@ -35,10 +35,10 @@ pub(super) struct Stream {
     pub peripheral: u32,
     pub memory: [u32; 2],
     pub fcr: u32,
-    /// What was set when it was enabled.
+    /// The number of items set when it was enabled.
     total: u32,
     done: u32,
-    /// Bytes that wait for a whole item of memory.
+    /// The bytes that wait until they make up a whole item of memory.
     pub pending: u64,
     pub pending_bytes: u32,
 }
@@ -56,7 +56,7 @@ impl Stream {
         }
     }
 
-    /// Sizes of an item at the peripheral and in memory. In direct mode both are the peripheral's.
+    /// The sizes of an item at the peripheral and in memory. In direct mode, both are the peripheral's.
     pub(super) fn sizes(&self) -> (u32, u32) {
         let peripheral = 1 << (self.cr >> 11 & 3);
         let memory = 1 << (self.cr >> 13 & 3);
@@ -64,25 +64,25 @@ impl Stream {
         (peripheral, if is_direct { peripheral } else { memory })
     }
 
-    /// Where the next item is at the peripheral's side.
+    /// The address of the next item at the peripheral's side.
     pub(super) fn peripheral_address(&self) -> u32 {
         let step = if self.cr >> 9 & 1 == 1 { self.sizes().0 } else { 0 };
         self.peripheral.wrapping_add(step.wrapping_mul(self.done))
     }
 
-    /// Where the `bytes`-th byte is in memory.
+    /// The address of the `bytes`-th byte in memory.
     pub(super) fn memory_address(&self, bytes: u32) -> u32 {
         let target = usize::from(self.cr & DOUBLE != 0 && self.cr & TARGET != 0);
         let base = self.memory[target];
         if self.cr >> 10 & 1 == 1 { base.wrapping_add(bytes) } else { base }
     }
 
-    /// How many bytes of the peripheral's have been moved.
+    /// The number of the peripheral's bytes that have been moved.
     pub(super) fn moved(&self) -> u32 {
         self.done * self.sizes().0
     }
 
-    /// Counts an item; returns the bits of status that it sets.
+    /// Counts an item; returns the status bits that this sets.
     fn count(&mut self) -> u32 {
         self.left = self.left.saturating_sub(1);
         self.done += 1;
@@ -104,7 +104,7 @@ impl Stream {
     }
 }
 
-/// One controller.
+/// A DMA controller.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Dma {
     pub streams: [Stream; 8],
@@ -131,7 +131,7 @@ impl Dma {
         }
     }
 
-    /// Writes a register; returns the stream that was enabled by it.
+    /// Writes a register; returns the stream that this enables.
     pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<usize> {
         match offset {
             0x08 => self.status[0] &= !(value & mask),
@@ -161,7 +161,7 @@ impl Dma {
                     (stream.pending, stream.pending_bytes) = (0, 0);
                     return true;
                 }
-                // A stream that is stopped by hand tells it as the end.
+                // A stream that the program stops reports completion.
                 if was_enabled && !stream.is_enabled() {
                     self.raise(index, COMPLETE);
                 }
@@ -190,11 +190,11 @@ impl Dma {
         self.status[index / 4] |= bits << SHIFTS[index % 4];
     }
 
-    /// Whether a stream holds its interrupt's line.
+    /// Whether a stream holds its interrupt line.
     pub(super) fn interrupts(&self, index: usize) -> bool {
         let status = self.status[index / 4] >> SHIFTS[index % 4];
         let stream = &self.streams[index];
-        // DMEIE, TEIE, HTIE and TCIE stand one bit below the status that each is for.
+        // DMEIE, TEIE, HTIE and TCIE are one bit below the status bits that they enable.
         status & (stream.cr << 1) & 0x3C != 0
             || (status & FIFO_FAILED != 0 && stream.fcr & 0x80 != 0)
     }

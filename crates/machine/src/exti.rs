@@ -1,10 +1,10 @@
-//! External interrupts of pads, and which port each line is of (SYSCFG).
+//! External interrupts of pads, and the port that each line belongs to (SYSCFG).
 
 use super::mcu::Mcu;
 use super::wires::{NEVER, Wires, merge};
 use sensedsl_surroundings::Pad;
 
-/// A line of a pad.
+/// A line, with the pad that it watches.
 #[derive(Clone, Copy, Debug, Default)]
 struct Line {
     pad: Option<Pad>,
@@ -15,7 +15,7 @@ struct Line {
 /// EXTI and SYSCFG.
 #[derive(Debug)]
 pub(super) struct Exti {
-    /// By line.
+    /// The interrupt of each line.
     irqs: [u16; 16],
     imr: u32,
     emr: u32,
@@ -52,7 +52,7 @@ impl Exti {
         self.next_ns
     }
 
-    /// The pad of a line whose edges count.
+    /// The pad of a line if its edges count.
     fn watched(&self, line: u8) -> Option<Pad> {
         let port = self.ports[usize::from(line / 4)] >> (4 * u32::from(line % 4)) & 15;
         let counts =
@@ -86,7 +86,7 @@ impl Exti {
             .unwrap_or(NEVER);
     }
 
-    /// Asks the world again when it may have changed its mind, or when a pad of the MCU's own changed.
+    /// Asks the world again if it may have changed, or if one of the MCU's own pads has changed.
     pub(super) fn review(&mut self, wires: &mut Wires) {
         if self.version == wires.version {
             return;

@@ -1,4 +1,4 @@
-//! Ports A to K, and which peripheral each pad is led to.
+//! Ports A to K, and the peripheral that each pad is switched to.
 
 use std::collections::BTreeMap;
 
@@ -9,49 +9,49 @@ use sensedsl_surroundings::Pad;
 /// Ports A to K.
 const PORTS: usize = 11;
 
-/// What a pad is set to.
+/// The mode of a pad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Its level can be read.
     Input,
     /// The program sets its level.
     Output,
-    /// A peripheral has it.
+    /// A peripheral controls the pad.
     Alternate(u8),
-    /// For converters and the DAC; what it is after reset but for the debugger's pads is [`Mode::Input`].
+    /// For converters and the DAC. After a reset, all pads except the debugger's are [`Mode::Input`].
     Analog,
 }
 
-/// The resistors inside of a pad.
+/// The internal pull resistor of a pad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pull {
-    /// Neither.
+    /// No resistor.
     None,
-    /// To the supply.
+    /// A pull-up.
     Up,
-    /// To ground.
+    /// A pull-down.
     Down,
 }
 
-/// How a pad is set up.
+/// The settings of a pad.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PadState {
-    /// Which.
+    /// The pad.
     pub pad: Pad,
-    /// What it is for.
+    /// Its mode.
     pub mode: Mode,
-    /// The wires of a peripheral that it is led to, as in `TIM3_CH1`, where the MCU has them there. One number may stand
-    /// for two: a timer's channel and its external trigger.
+    /// The signals of the peripheral that it is switched to, as in `TIM3_CH1`, if the MCU has any there. One number may
+    /// stand for two: a timer's channel and its external trigger.
     pub wires: Vec<String>,
-    /// Whether only its low side is driven.
+    /// Whether it is open-drain: only its low side is driven.
     pub open_drain: bool,
-    /// Its resistors.
+    /// Its pull resistor.
     pub pull: Pull,
-    /// 0 to 3, slow to fast.
+    /// Its speed, from 0 (slow) to 3 (fast).
     pub speed: u8,
 }
 
-/// Registers of a port; the names are the manual's.
+/// The registers of a port, with the manual's names.
 #[derive(Clone, Copy, Debug)]
 struct Port {
     moder: u32,
@@ -66,16 +66,16 @@ struct Port {
 /// All ports.
 pub(super) struct Gpio {
     ports: [Port; PORTS],
-    /// By pad and number of the alternate function: the peripheral's wires.
+    /// The peripherals' signals, by pad and number of the alternate function.
     functions: BTreeMap<(Pad, u8), Vec<String>>,
-    /// By wire: the converters' inputs, which need no setting.
+    /// The pads of the converters' inputs, which need no alternate function, by signal.
     inputs: BTreeMap<String, Pad>,
-    /// By wire: where it is led now.
+    /// The pad that each signal is on now.
     routes: BTreeMap<String, Pad>,
     changes: Vec<(Pad, Option<bool>)>,
 }
 
-/// The debugger's pads are its own after reset.
+/// The state after a reset: the debugger has its own pads.
 fn after_reset(port: usize) -> Port {
     let (moder, ospeedr, pupdr) = match port {
         0 => (0xA800_0000, 0x0C00_0000, 0x6400_0000),
@@ -117,7 +117,7 @@ impl Gpio {
         }
     }
 
-    /// All pads as after a reset.
+    /// Puts all pads into their state after a reset.
     pub(super) fn reset(&mut self) {
         for port in 0..PORTS {
             let before = self.drives_of(port);
@@ -228,7 +228,7 @@ impl Gpio {
         }
     }
 
-    /// `levels` are those of the port's pads, for IDR.
+    /// Reads a register; `levels` gives the levels on the port's pads, for IDR.
     pub(super) fn read(&self, port: usize, offset: u32, levels: impl FnOnce(&Self) -> u32) -> u32 {
         let registers = &self.ports[port];
         match offset {
@@ -277,7 +277,7 @@ fn function_number(port: &Port, pin: u8) -> u8 {
     u8::try_from((register >> (4 * u32::from(pin % 8))) & 15).unwrap_or(0)
 }
 
-/// `ADC12_IN8` as the units 1 and 2 and `IN8`.
+/// Splits `ADC12_IN8` into the units 1 and 2, and `IN8`.
 fn converter(wire: &str) -> Option<(Vec<char>, &str)> {
     let (units, input) = wire.strip_prefix("ADC")?.split_once('_')?;
     Some((units.chars().collect(), input))

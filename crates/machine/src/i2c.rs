@@ -1,4 +1,4 @@
-//! I2C1 to I2C3, as masters. The block is the first version of ST's: F1, F2, F4, L1.
+//! I2C1 to I2C3, as masters. The block is ST's first version: F1, F2, F4, L1.
 
 use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
@@ -30,10 +30,10 @@ const RESET: u32 = 1 << 15;
 const DMA: u32 = 1 << 11;
 const LAST: u32 = 1 << 12;
 
-/// What is on the wires now.
+/// The present activity on the wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
-    /// Nothing, or the clock is held low until the program acts.
+    /// None, or the clock is held low until the program acts.
     Rest,
     Starting,
     Addressing(u8),
@@ -42,11 +42,11 @@ enum Phase {
         ack: bool,
     },
     Stopping,
-    /// Somebody holds a wire low.
+    /// Something holds a wire low.
     Hung,
 }
 
-/// One bus.
+/// A bus.
 #[derive(Debug)]
 pub(super) struct I2c {
     unit: u8,
@@ -59,15 +59,15 @@ pub(super) struct I2c {
     ccr: u32,
     trise: u32,
     dr: u8,
-    /// A byte that DR has no room for yet.
+    /// A received byte that waits for room in DR.
     behind: Option<u8>,
     waiting: Option<u8>,
     phase: Phase,
     until: u64,
     has_read_status: bool,
-    /// A byte was refused, by whomever: no more of them come.
+    /// Whether a byte was refused, by either side: no more of them come.
     has_ended: bool,
-    /// Acknowledge, as it was one byte ago; POS delays it by one.
+    /// The acknowledge bit as it was one byte ago; POS delays it by one byte.
     acknowledged: bool,
     scl: String,
     sda: String,
@@ -99,13 +99,13 @@ impl I2c {
         }
     }
 
-    /// As after a reset.
+    /// Restarts it in its state after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
-    /// Periods of its clock in one of the bus.
+    /// The number of the unit's clock periods in one of the bus.
     fn divider(&self) -> u64 {
         let parts = match self.ccr >> 14 & 3 {
             2 => 3,
@@ -119,7 +119,7 @@ impl I2c {
         periods_ns(self.divider(), wires.clocks.apb1).max(1)
     }
 
-    /// How it is set up, once it has started.
+    /// Its settings, once it has started.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let [cr, _] = self.cr;
         let clock_hz = wires.clocks.apb1 / self.divider();
@@ -127,7 +127,7 @@ impl I2c {
         (cr & ENABLE != 0).then(|| PortState { unit: format!("I2C{}", self.unit), setting })
     }
 
-    /// Whether a wire is low though this unit leaves it alone, or leads nowhere.
+    /// Whether a wire is low although this unit does not drive it, or is not on any pad.
     fn is_held(&self, wires: &Wires) -> bool {
         let is_low = |wire: &str| match wires.pad_of(wire) {
             Some(pad) => wires.world(|world, now| world.level(pad, now)) == Some(false),
@@ -159,7 +159,7 @@ impl I2c {
         self.sr2 |= BUSY;
     }
 
-    /// What was on the wires has ended.
+    /// Ends the present activity on the wires.
     fn proceed(&mut self, wires: &Wires) {
         let phase = std::mem::replace(&mut self.phase, Phase::Rest);
         match phase {
@@ -193,7 +193,7 @@ impl I2c {
         let read = byte & 1 == 1;
         match self.ask(I2cEvent::Start { address: byte >> 1, read }, wires) {
             I2cReply::Ack | I2cReply::Byte(_) => {
-                // The data register of a transmitter is empty from here on.
+                // From here on, the data register of a transmitter is empty.
                 self.sr1 |= if read { ADDRESSED } else { ADDRESSED | EMPTY };
                 self.sr2 = (self.sr2 & !TRANSMITS) | if read { 0 } else { TRANSMITS };
             }
@@ -202,7 +202,7 @@ impl I2c {
         }
     }
 
-    /// Nothing more goes over the bus until a stop or a start, also when the flag is cleared before.
+    /// Nothing more goes over the bus until a stop or a start, even if the flag is cleared before.
     fn refuse(&mut self) {
         self.sr1 |= REFUSED;
         self.has_ended = true;
@@ -229,7 +229,7 @@ impl I2c {
         }
     }
 
-    /// Starts what comes next, if the program has said it.
+    /// Starts the next activity if the program has requested one.
     fn continue_at(&mut self, at: u64, wires: &Wires) {
         if self.phase != Phase::Rest || self.cr[0] & ENABLE == 0 {
             return;
@@ -261,10 +261,10 @@ impl I2c {
         }
     }
 
-    /// Whether the byte that comes now is acknowledged.
+    /// Whether the next byte is acknowledged.
     fn acknowledges(&self, wires: &Wires) -> bool {
         let left = wires.i2c_left.get(usize::from(self.unit) - 1).copied().flatten();
-        // A byte that the DMA has not taken yet is still counted.
+        // A byte that the DMA has not taken yet still counts.
         let taken_soon = u32::from(self.sr1 & RECEIVED != 0) + u32::from(self.behind.is_some());
         if self.cr[1] & (DMA | LAST) == DMA | LAST
             && left.is_some_and(|left| left <= 1 + taken_soon)
@@ -317,7 +317,7 @@ impl I2c {
         u32::from(byte)
     }
 
-    /// Reading SR2 after SR1 goes on after the address.
+    /// Reads SR2; a read of it after SR1 ends the address phase.
     fn status2(&mut self, wires: &Wires) -> u32 {
         let mut value = self.sr2;
         if self.phase == Phase::Rest && self.sr2 & MASTER == 0 && self.cr[0] & ENABLE != 0 {
@@ -356,14 +356,14 @@ impl I2c {
         let was = self.cr[0];
         self.cr[0] = new;
         if new & RESET != 0 || (was & ENABLE != 0 && new & ENABLE == 0) {
-            // Whoever listens sees the bus released.
+            // The chips on the bus see it released.
             if self.sr2 & MASTER != 0 {
                 self.ask(I2cEvent::Stop, wires);
             }
             let kept = (self.cr[1], self.oar, self.ccr, self.trise);
             *self = Self::new(self.unit, self.mcu);
             self.cr[0] = new & !(START | STOP);
-            // A reset takes all settings, being switched off none.
+            // A reset clears all settings; switching off clears none.
             if new & RESET == 0 {
                 (self.cr[1], self.oar, self.ccr, self.trise) = kept;
             }

@@ -1,4 +1,4 @@
-//! Programs: ELF files, and raw bytes of the flash.
+//! Programs: ELF files, and the raw bytes of the flash.
 
 use std::fmt;
 
@@ -7,42 +7,42 @@ use object::{Endianness, Object, ObjectKind};
 use super::mcu::Mcu;
 use super::transfer::{CCM_BASE, FLASH_BASE, SRAM_BASE};
 
-/// Why bytes are not a program for this MCU.
+/// The reason why bytes are not a program for this MCU.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ImageError {
     /// Neither an ELF file nor a vector table.
     NotAProgram,
     /// An ELF file that cannot be read.
     Damaged(String),
-    /// For another processor: the architecture that it names.
+    /// It is for another processor, with this architecture.
     OtherProcessor(String),
-    /// Not an executable program, but an object file, a library, a core dump.
+    /// It is not an executable program but an object file, a library or a core dump.
     NotExecutable,
     /// The board's MCU cannot be emulated.
     NoModel(String),
-    /// A part of it belongs at an address where there is no flash.
+    /// A part of it belongs at an address that is not in the flash.
     OtherAddress {
         /// The MCU.
         mcu: &'static Mcu,
-        /// Where.
+        /// The address.
         address: u64,
-        /// How many bytes.
+        /// The length in bytes.
         length: u64,
     },
-    /// More bytes than the flash has.
+    /// It has more bytes than the flash.
     TooLong {
         /// The MCU.
         mcu: &'static Mcu,
-        /// How many bytes.
+        /// The length in bytes.
         length: usize,
     },
-    /// The vector table's first words are not a stack and a program in this MCU's memory.
+    /// The first words of the vector table are not a stack and a program in this MCU's memory.
     Vectors {
         /// The MCU.
         mcu: &'static Mcu,
-        /// The stack's begin.
+        /// The initial stack pointer.
         stack: u32,
-        /// The program's begin.
+        /// The address of the first instruction.
         entry: u32,
     },
 }
@@ -99,7 +99,7 @@ pub(super) fn flash_of(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, Image
     let (Some(stack), Some(entry)) = (word(0), word(4)) else {
         return Err(ImageError::NotAProgram);
     };
-    // The stack may begin in SRAM or in the core's own memory, up to the end of either.
+    // The stack may start in SRAM or in the core's own memory, up to the end of either.
     let memories = [(SRAM_BASE, mcu.sram_bytes), (CCM_BASE, mcu.ccm_bytes)];
     let has_stack = memories.iter().any(|(low, bytes)| stack > *low && stack <= low + bytes);
     let begins = entry & 1 == 1 && (FLASH_BASE..FLASH_BASE + mcu.flash_bytes).contains(&entry);
@@ -123,7 +123,7 @@ fn of_elf(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, ImageError> {
     use object::elf::{FileHeader32, PT_LOAD};
     use object::read::elf::{ElfFile, FileHeader, ProgramHeader};
 
-    // The machine is said in the header, whatever the class of the file.
+    // The header names the machine, whatever the class of the file.
     let machine = image.get(18..20).map_or(0, |bytes| u16::from_le_bytes([bytes[0], bytes[1]]));
     let is_little = image.get(5) == Some(&1);
     if image.get(4) != Some(&1) || !is_little || machine != object::elf::EM_ARM {
@@ -140,7 +140,7 @@ fn of_elf(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, ImageError> {
         .map_err(|error| ImageError::Damaged(error.to_string()))?;
     let mut flash = Vec::new();
     for header in headers.iter().filter(|header| header.p_type(endian) == PT_LOAD) {
-        // What is in RAM is copied there by the program: it stands in the flash at its load address.
+        // The program copies initialised data to RAM itself: in the flash, they are at their load address.
         let address = u64::from(header.p_paddr(endian));
         let data = header
             .data(endian, image)

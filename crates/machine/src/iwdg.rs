@@ -1,10 +1,10 @@
-//! The independent watchdog, on the internal oscillator of 32 kHz.
+//! The independent watchdog, clocked by the internal 32 kHz oscillator.
 
 use super::wires::{NEVER, periods_ns};
 
 const LSI_HZ: u64 = 32_000;
 
-/// Its registers, and when it bites.
+/// Its registers, and the time of its next reset.
 #[derive(Debug)]
 pub(super) struct Iwdg {
     is_open: bool,
@@ -22,7 +22,7 @@ impl Iwdg {
         self.bites_at
     }
 
-    /// From a feeding to the bite.
+    /// The time from a reload to the reset.
     pub(super) fn period_ns(&self) -> u64 {
         let divider = 4 << self.prescaler.min(6);
         periods_ns(u64::from(self.reload + 1) * divider, LSI_HZ)

@@ -1,14 +1,16 @@
-//! An emulated MCU that runs a program as it is.
+//! An emulated MCU that runs an unmodified program.
 //!
-//! In comes an image (`Machine::load`) and what a host sends; out go what the host receives, and events. The core,
-//! its interrupt controller and its exceptions are rsemu's (`core.rs`); everything else on the chip is here, a file a
-//! device (`chip.rs`), and which of them an MCU has is data (`mcu.rs`). What the pads are connected to says [`Surroundings`](sensedsl_surroundings::Surroundings).
+//! In: an image (`Machine::load`), and what a host sends. Out: what the host receives, and events. The core, its
+//! interrupt controller and its exceptions are rsemu's (`core.rs`). Everything else on the chip is here, with a file
+//! for each device (`chip.rs`); data tell which of them an MCU has (`mcu.rs`). The pads are connected to
+//! [`Surroundings`](sensedsl_surroundings::Surroundings).
 //!
-//! The core counts cycles of its own clock, all else nanoseconds; where the core waits in a loop of one instruction the
-//! time jumps to the next event. Nothing here reads a clock or draws numbers, so a run is the same each time.
+//! The core counts cycles of its own clock, everything else nanoseconds. While the core waits in a loop of one
+//! instruction, the time jumps to the next event. Nothing here reads a clock or draws random numbers, so a run is the
+//! same each time.
 //!
-//! Without the feature `cpu` the crate is empty: rsemu takes a minute or two to compile, and only what runs an image needs
-//! it.
+//! Without the feature `cpu` the crate is empty: rsemu takes a minute or two to compile, and only running an image
+//! needs it.
 //!
 //! Not modelled: wait states, the write buffer, noise, the time that the DMA takes, the analog and digital filters.
 
@@ -62,14 +64,14 @@ pub use wires::{Event, LinkPort, ResetCause};
 use self::core::Core;
 use sensedsl_surroundings::Surroundings;
 
-/// What of a board the machine has to know.
+/// The settings of the machine that come from the board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// The crystal's frequency in Hz.
     pub crystal_hz: u64,
-    /// Which port the host computer is connected to.
+    /// The port that the host computer is connected to.
     pub link: LinkPort,
-    /// What it is.
+    /// The MCU.
     pub mcu: &'static Mcu,
 }
 
@@ -79,7 +81,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// An MCU without a program, in its surroundings. The caller keeps its own handle of them.
+    /// An MCU without a program, in its surroundings. The caller keeps its own handle to them.
     #[must_use]
     pub fn new(settings: Settings, surroundings: Arc<Mutex<dyn Surroundings>>) -> Self {
         Self { core: Core::new(settings, surroundings) }
@@ -89,7 +91,7 @@ impl Machine {
     ///
     /// # Errors
     ///
-    /// When it is not a program for this MCU.
+    /// If it is not a program for this MCU.
     pub fn load(&mut self, image: &[u8]) -> Result<(), ImageError> {
         let flash = image::flash_of(image, self.core.mcu())?;
         self.core.load(&flash);
@@ -101,86 +103,87 @@ impl Machine {
         self.core.run_until(end_ns);
     }
 
-    /// The time.
+    /// The virtual time in nanoseconds.
     #[must_use]
     pub fn now_ns(&self) -> u64 {
         self.core.chip().wires.now
     }
 
-    /// How many cycles the core has worked, without those that it waited.
+    /// The number of cycles that the core has worked, without those that it waited.
     #[must_use]
     pub fn cycles_worked(&self) -> u64 {
         self.core.cycles_worked()
     }
 
-    /// How many instructions the core has executed, without those of a loop of one in which it waited.
+    /// The number of instructions that the core has executed, without those of one-instruction loops in which it
+    /// waited.
     #[must_use]
     pub fn instructions(&self) -> u64 {
         self.core.executed()
     }
 
-    /// The host sends: bytes arrive at the line's speed.
+    /// The host sends bytes, which arrive at the line's speed.
     pub fn link_write(&mut self, bytes: &[u8]) {
         self.core.chip().wires.link.to_mcu.extend(bytes);
     }
 
-    /// A program of the host opens the port, or closes it. Only a host over USB can tell the board.
+    /// A program on the host opens or closes the port. Only a host over USB can let the board know.
     pub fn link_open(&mut self, is_open: bool) {
         self.core.chip().wires.link.is_open = is_open;
     }
 
-    /// How many bytes of the host's have not arrived yet.
+    /// The number of the host's bytes that have not arrived yet.
     #[must_use]
     pub fn link_waiting(&self) -> usize {
         self.core.chip().wires.link.to_mcu.len()
     }
 
-    /// What the host received since the last time, each byte with the time when it was there.
+    /// The bytes that the host has received since the last call, each with the time of its arrival.
     pub fn link_read(&mut self) -> Vec<(u64, u8)> {
         std::mem::take(&mut self.core.chip().wires.link.from_mcu)
     }
 
-    /// How each pad is set up now.
+    /// The present settings of all pads.
     #[must_use]
     pub fn pads(&self) -> Vec<PadState> {
         self.core.chip().wires.gpio.pads()
     }
 
-    /// How each port is set up that has started.
+    /// The settings of the ports that have started.
     #[must_use]
     pub fn ports(&self) -> Vec<PortState> {
         self.core.chip().ports()
     }
 
-    /// From a feeding of the watchdog to its bite; none where it does not run.
+    /// The time from a reload of the watchdog to its reset; `None` if it does not run.
     #[must_use]
     pub fn watchdog_ns(&self) -> Option<u64> {
         self.core.chip().watchdog_ns()
     }
 
-    /// The core's frequency in Hz, as the clock tree is set now.
+    /// The core's frequency in Hz, with the present settings of the clock tree.
     #[must_use]
     pub fn core_hz(&self) -> u64 {
         self.core.chip().wires.clocks.core
     }
 
-    /// What happened since the last time that a user wants to hear of.
+    /// The events since the last call that matter to a user.
     pub fn events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.core.chip().wires.events)
     }
 
-    /// Takes the supply away, or gives it back: as after a brown-out the program begins anew, and memory is lost.
+    /// Takes the supply away or gives it back: as after a brown-out, the program starts again and memory is lost.
     pub fn power(&mut self, is_on: bool) {
         self.core.power(is_on);
     }
 
-    /// Whether the core will do nothing more until a reset, and why. The watchdog may still bite.
+    /// Whether the core is stuck until a reset, and why. The watchdog may still reset it.
     #[must_use]
     pub fn halt(&self) -> Option<Lockup> {
         self.core.lockup()
     }
 
-    /// The address of the instruction that comes next.
+    /// The address of the next instruction.
     #[must_use]
     pub fn pc(&self) -> u32 {
         self.core.pc()

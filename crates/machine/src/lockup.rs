@@ -1,13 +1,13 @@
-//! A program that does nothing more.
+//! A program that is stuck.
 
 use std::fmt;
 
-/// Why the core does nothing more.
+/// The reason why the core is stuck.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lockup {
-    /// The instruction that failed, or where the core stands.
+    /// The address of the instruction that failed, or at which the core stands still.
     pub pc: u32,
-    /// In words.
+    /// The reason in words.
     pub why: String,
 }
 

@@ -1,4 +1,5 @@
-//! What is in the address space, and which clock it needs. Where it is says the MCU (`mcu.rs`).
+//! The devices in the address space, and the clocks that they need. The MCU determines their
+//! addresses (`mcu.rs`).
 
 /// A peripheral; units count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,19 +24,20 @@ pub(super) enum Device {
     Crc,
     Random,
     Debug,
-    /// Known to exist, not modelled.
+    /// A peripheral that is known to exist but not modelled.
     Other,
 }
 
-/// A peripheral's place.
+/// The place of a peripheral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Row {
     pub(super) base: u32,
     pub(super) bytes: u32,
     pub(super) device: Device,
-    /// The offset of an enable register of the RCC, and the bit; none for what always runs.
+    /// The offset of an enable register of the RCC, and the bit; `None` for a peripheral that
+    /// always runs.
     pub(super) clock: Option<(u32, u32)>,
 }
 
-/// Where the debugger's registers are, which lie apart from the others.
+/// The address of the debugger's registers, which are apart from the others.
 pub(super) const DEBUG_BASE: u32 = 0xE004_2000;

@@ -1,7 +1,7 @@
-//! The MCUs that the machine can be: a file of `mcus/` each, which `cargo xtask mcus` writes.
+//! The MCUs that the machine can emulate, with a file in `mcus/` for each, which `cargo xtask mcus` writes.
 //!
-//! A file says which version of which block is where, with its clock and its interrupts, and who asks the DMA. Who
-//! answers for a block is [`device`].
+//! A file gives the version and address of each block, with its clock and its interrupts, and the requests to the DMA.
+//! The function [`device`] maps blocks to models.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -22,7 +22,7 @@ const FILES: [&str; 5] = [
 static MCUS: LazyLock<Vec<Mcu>> =
     LazyLock::new(|| FILES.iter().filter_map(|text| Mcu::read(text)).collect());
 
-/// A file.
+/// The contents of a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -42,13 +42,13 @@ struct File {
 struct Unit {
     block: String,
     base: u32,
-    /// Offset of an enable register of the RCC, and the bit; none for what always runs.
+    /// The offset of an enable register of the RCC, and the bit; `None` for a unit that always runs.
     clock: Option<(u32, u32)>,
     #[serde(default)]
     irqs: BTreeMap<String, u16>,
 }
 
-/// What the machine must know of an MCU.
+/// The properties of an MCU that the machine must know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mcu {
     parts: Vec<String>,
@@ -56,16 +56,16 @@ pub struct Mcu {
     pub(crate) idcode: u32,
     pub(crate) flash_bytes: u32,
     pub(crate) sram_bytes: u32,
-    /// Memory of the core alone, which the DMA does not reach; 0 where there is none.
+    /// The size of the core-coupled memory, which the DMA does not reach; 0 if there is none.
     pub(crate) ccm_bytes: u32,
-    /// By address.
+    /// The peripherals, by address.
     pub(crate) rows: Vec<Row>,
     units: BTreeMap<String, Unit>,
-    /// By controller, stream and channel.
+    /// The requests, by controller, stream and channel.
     requests: [[[Vec<Request>; 8]; 8]; 2],
 }
 
-/// An interrupt that no core has.
+/// The number of an interrupt that no core has.
 const NO_IRQ: u16 = u16::MAX;
 
 impl Mcu {
@@ -75,12 +75,12 @@ impl Mcu {
         MCUS.iter().find(|mcu| mcu.parts.iter().any(|start| part.starts_with(start.as_str())))
     }
 
-    /// How the names of all parts begin that there is a model of, in order.
+    /// The prefixes of all part names for which there is a model, in order.
     pub fn parts() -> impl Iterator<Item = &'static str> {
         MCUS.iter().flat_map(|mcu| &mcu.parts).map(String::as_str)
     }
 
-    /// None where a file is damaged; a test rules that out.
+    /// Reads a file; `None` if it is damaged, which a test rules out.
     fn read(text: &str) -> Option<Self> {
         let file: File = toml::from_str(text).ok()?;
         let mut rows: Vec<Row> =
@@ -115,12 +115,12 @@ impl Mcu {
         self.largest.get(..9).unwrap_or(&self.largest)
     }
 
-    /// The part whose package has all pads, in the parts table.
+    /// The part whose package has all pads, as named in the parts table.
     pub(crate) fn largest(&self) -> &str {
         &self.largest
     }
 
-    /// The interrupt of a unit's signal; one that no core has where the MCU lacks the unit.
+    /// The interrupt of a unit's signal; one that no core has if the MCU lacks the unit.
     pub(crate) fn irq(&self, unit: &str, signal: &str) -> u16 {
         let irq = self.units.get(unit).and_then(|unit| unit.irqs.get(signal));
         irq.copied().unwrap_or(NO_IRQ)
@@ -131,7 +131,7 @@ impl Mcu {
         self.units.get(unit).is_some_and(|unit| unit.base >= 0x4001_0000)
     }
 
-    /// Who may ask a stream on one of its channels. Streams count from 0, and so do controllers.
+    /// The requests that a stream serves on one of its channels. Streams and controllers count from 0.
     pub(crate) fn requests(&self, controller: usize, stream: usize, channel: u32) -> &[Request] {
         let streams = self.requests.get(controller).and_then(|streams| streams.get(stream));
         streams.and_then(|channels| channels.get(channel as usize)).map_or(&[], Vec::as_slice)
@@ -144,7 +144,7 @@ impl Mcu {
         (address - row.base < row.bytes).then_some(*row)
     }
 
-    /// The peripherals whose clock, and reset, is a bit of a register. The reset registers stand 0x20 before the enable
+    /// The peripherals whose clock bit, and reset bit, is in a register. The reset registers are 0x20 below the enable
     /// registers.
     pub(crate) fn behind(&self, register: u32, bits: u32) -> impl Iterator<Item = Device> {
         let has = move |row: &&Row| {
@@ -161,7 +161,7 @@ fn index(name: &str) -> Option<usize> {
     digits.parse::<usize>().ok()?.checked_sub(1)
 }
 
-/// Who answers for a unit; none for one that shares the place of another.
+/// The model for a unit; `None` for a unit that shares the place of another.
 fn device(name: &str, block: &str) -> Option<Device> {
     Some(match block {
         "gpio_v2" => {
@@ -171,10 +171,10 @@ fn device(name: &str, block: &str) -> Option<Device> {
         "timer_v1" => Device::Timer(index(name)?),
         "usart_v2" => Device::Usart(index(name)?),
         "spi_v2_i2s" => Device::Spi(index(name)?),
-        // The I2C of the fast sort is a unit of its own.
+        // The fast-mode I2C is a different block.
         "i2c_v1" => Device::I2c(index(name)?),
         "can_bxcan" => Device::Can(index(name)?),
-        // All converters and what they have in common are one place.
+        // All converters, with the registers that they share, are in one place.
         "adc_v2" if name == "ADC1" => Device::Adc,
         "adc_v2" | "adccommon_v2" => return None,
         "dac_v2" => Device::Dac,
@@ -194,7 +194,7 @@ fn device(name: &str, block: &str) -> Option<Device> {
     })
 }
 
-/// The place of a unit; none for one beyond the peripherals' addresses.
+/// The place of a unit; `None` for one outside the peripherals' addresses.
 fn row(name: &str, unit: &Unit) -> Option<Row> {
     let is_within = (0x4000_0000..0x6000_0000).contains(&unit.base) || unit.base == DEBUG_BASE;
     let device = device(name, &unit.block).filter(|_| is_within)?;
@@ -203,12 +203,12 @@ fn row(name: &str, unit: &Unit) -> Option<Row> {
         "eth_v1b" => 0x1400,
         _ => 0x400,
     };
-    // Each converter has a clock of its own, which `chip.rs` asks about.
+    // Each converter has its own clock, which `chip.rs` checks.
     let clock = unit.clock.filter(|_| device != Device::Adc);
     Some(Row { base: unit.base, bytes, device, clock })
 }
 
-/// `SPI3_RX`; none for requests of units that are not modelled.
+/// The request of a name such as `SPI3_RX`; `None` for units that are not modelled.
 fn request(name: &str) -> Option<Request> {
     let (unit, signal) = name.split_once('_')?;
     let at = index(unit)?;

@@ -1,22 +1,23 @@
-//! Peripherals that firmware sets up or asks, and that do little more than remember.
+//! Peripherals that firmware sets up or reads, and that do little more than store what is written.
 
 use super::wires::merge;
 
-/// A block of registers that remembers what is written, but for the bits that hardware sets.
+/// A block of registers that keep what is written, except for the bits that hardware sets.
 #[derive(Debug)]
 pub(super) struct Plain {
     registers: Vec<u32>,
-    /// Offset, and bits that always read as 1.
+    /// The offsets of registers, and their bits that always read as 1.
     ready: &'static [(u32, u32)],
 }
 
-/// The regulator is as wanted, at its higher voltage too where there is one; the backup regulator is ready.
+/// The regulator has reached the selected voltage, including the higher one if there is one; the backup regulator is
+/// ready.
 pub(super) const PWR: &[(u32, u32)] = &[(0x04, 0x0003_4008)];
-/// The calendar can be set, and its shadow is there.
+/// The calendar can be set, and its shadow registers are up to date.
 pub(super) const RTC: &[(u32, u32)] = &[(0x0C, 0x67)];
 /// There is always another random number.
 pub(super) const RNG: &[(u32, u32)] = &[(0x04, 1)];
-/// The flash's latency follows, nothing is busy.
+/// The flash's latency can be read back, and it is never busy.
 pub(super) const FLASH: &[(u32, u32)] = &[];
 
 impl Plain {

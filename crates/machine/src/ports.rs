@@ -1,47 +1,47 @@
-//! How ports are set up: what a plan can be compared with, in the units that a file has.
+//! The settings of ports, in units in which they can be compared with a plan.
 
-/// How a port is set up that has started.
+/// The settings of a port that has started.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PortState {
-    /// Which, as in `USART2`.
+    /// The port, as in `USART2`.
     pub unit: String,
-    /// Its speed and what else both ends must agree on.
+    /// Its speed, and the other settings that both ends must agree on.
     pub setting: Setting,
 }
 
-/// What both ends of a wire must agree on.
+/// The settings that both ends of a wire must agree on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// A serial port.
     Serial {
-        /// Bits per second.
+        /// The bits per second.
         baud: u64,
-        /// Bits of a character between start and parity.
+        /// The number of bits in a character between start and parity.
         data_bits: u8,
-        /// Whether a parity bit follows them; `Some(true)` for an odd one.
+        /// The parity bit that follows them: `Some(true)` for an odd one, `None` without parity.
         odd_parity: Option<bool>,
-        /// Stop bits, a half one counted as none.
+        /// The number of stop bits; a half one does not count.
         stop_bits: u8,
     },
     /// An SPI port.
     Spi {
-        /// Its clock.
+        /// The clock frequency.
         clock_hz: u64,
-        /// The fastest clock that it could have.
+        /// The highest clock frequency that it could have.
         fastest_hz: u64,
         /// Polarity and phase of the clock, 0 to 3.
         mode: u8,
     },
     /// An I2C bus.
     I2c {
-        /// Its clock.
+        /// The clock frequency.
         clock_hz: u64,
-        /// The fastest clock that its unit is made for.
+        /// The highest clock frequency that its unit supports.
         fastest_hz: u64,
     },
     /// A CAN bus.
     Can {
-        /// Bits per second.
+        /// The bits per second.
         bitrate_hz: u64,
     },
 }

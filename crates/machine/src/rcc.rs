@@ -1,10 +1,10 @@
-//! Reset and clock control: which clocks run how fast, which peripherals have one, why the MCU was reset.
+//! Reset and clock control: the frequencies of clocks, the peripherals that have one, the causes of resets.
 
 use super::wires::{Clocks, ResetCause, merge};
 
 /// The internal oscillator.
 const HSI_HZ: u64 = 16_000_000;
-/// What runs after a reset.
+/// The clocks after a reset.
 pub(super) const AT_RESET: Clocks =
     Clocks { core: HSI_HZ, apb1: HSI_HZ, apb2: HSI_HZ, timers1: HSI_HZ, timers2: HSI_HZ };
 
@@ -16,9 +16,10 @@ const CSR: u32 = 0x74;
 const DCKCFGR: u32 = 0x8C;
 const TIMPRE: u32 = 1 << 24;
 
-/// Oscillators that are on are ready at once: bit that switches on, bit that tells.
+/// Oscillators that are switched on are ready at once: for each, the bit that switches it on and the bit that reports
+/// it ready.
 const READY: [(u32, u32); 5] = [(0, 1), (16, 17), (24, 25), (26, 27), (28, 29)];
-/// What the last reset was, in CSR: pin, power, software, independent watchdog.
+/// The cause of the last reset in CSR: pin, power, software, independent watchdog.
 const CAUSE_PIN: u32 = 1 << 26;
 const CAUSE_POWER: u32 = (1 << 27) | (1 << 25);
 const CAUSE_SOFTWARE: u32 = 1 << 28;
@@ -50,7 +51,8 @@ impl Rcc {
         self.registers[index(BDCR)] = bdcr;
     }
 
-    /// A reset. The causes before stay until the program clears them, or power goes, which takes the backup domain, too.
+    /// A reset. Earlier causes stay until the program clears them, or until power is lost, which also clears the backup
+    /// domain.
     pub(super) fn reset(&mut self, cause: ResetCause) {
         if cause == ResetCause::Power {
             self.registers = [0; 36];
@@ -64,7 +66,7 @@ impl Rcc {
             };
     }
 
-    /// The causes that CSR tells of.
+    /// The causes in CSR.
     pub(super) fn causes(&self) -> u32 {
         self.registers[index(CSR)] & 0xFE00_0000
     }
@@ -73,7 +75,7 @@ impl Rcc {
         self.registers.get(index(offset)).copied().unwrap_or(0)
     }
 
-    /// Writes a register; returns which peripherals are held in reset by it, as (offset of the register, bits).
+    /// Writes a register; returns the peripherals that this holds in reset, as (offset of the register, bits).
     pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)> {
         let old = self.read(offset);
         let mut new = merge(old, value, mask);
@@ -83,7 +85,7 @@ impl Rcc {
                     new = (new & !(1 << ready)) | ((new >> on & 1) << ready);
                 }
             }
-            // The switch follows the choice when the oscillator runs.
+            // The switch follows the selection once the oscillator runs.
             CFGR => {
                 let ready = [1, 17, 25].get((new & 3) as usize);
                 let is_ready = ready.is_some_and(|bit| self.registers[index(CR)] >> bit & 1 == 1);
@@ -105,7 +107,7 @@ impl Rcc {
         (0x10..=0x24).contains(&offset).then_some((offset, new & !old))
     }
 
-    /// Whether the peripheral behind a bit of an enable register has its clock.
+    /// Whether the peripheral that belongs to a bit of an enable register has its clock.
     pub(super) fn is_enabled(&self, offset: u32, bit: u32) -> bool {
         self.read(offset) >> bit & 1 == 1
     }
@@ -121,7 +123,7 @@ impl Rcc {
         let apb = [1, 1, 1, 1, 2, 4, 8, 16];
         let core = system / ahb[(cfgr >> 4 & 15) as usize];
         let (by1, by2) = (apb[(cfgr >> 10 & 7) as usize], apb[(cfgr >> 13 & 7) as usize]);
-        // Where TIMPRE is set, timers run up to four times as fast as their bus.
+        // If TIMPRE is set, timers run at up to four times the speed of their bus.
         let fastest = if self.read(DCKCFGR) & TIMPRE == 0 { 2 } else { 4 };
         let timers = |by: u64| if by < fastest { core } else { core / by * fastest };
         Clocks {

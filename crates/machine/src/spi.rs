@@ -14,7 +14,7 @@ const MASTER: u32 = 1 << 2;
 const ENABLE: u32 = 1 << 6;
 const WIDE: u32 = 1 << 11;
 
-/// One port.
+/// An SPI port.
 #[derive(Debug)]
 pub(super) struct Spi {
     unit: u8,
@@ -52,7 +52,7 @@ impl Spi {
         }
     }
 
-    /// As after a reset.
+    /// Restarts it in its state after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
@@ -62,7 +62,7 @@ impl Spi {
         if self.is_on_apb2 { wires.clocks.apb2 } else { wires.clocks.apb1 }
     }
 
-    /// How it is set up, once it is a master.
+    /// Its settings, once it is a master.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let [cr, _] = self.cr;
         let fastest_hz = self.clock_hz(wires) / 2;
@@ -107,7 +107,7 @@ impl Spi {
             if !clock {
                 return 0xFF;
             }
-            // A wire that leads nowhere sends and receives nothing of use.
+            // A wire that is not on any pad sends and receives nothing useful.
             let sent = if output { byte } else { 0xFF };
             let answer = wires.world(|world, now| world.spi(self.unit, sent, now));
             if input { answer } else { 0xFF }

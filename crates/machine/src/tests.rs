@@ -1,4 +1,4 @@
-//! Devices on their own, through their registers, as the manual has them.
+//! Tests of single devices through their registers, as the manual describes them.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -15,7 +15,7 @@ use sensedsl_surroundings::{I2cEvent, I2cReply, Pad, Surroundings};
 const RCC: u32 = 0x4002_3800;
 const US: u64 = 1_000;
 
-/// Edges by pad, a voltage everywhere, a chip at 0x20.
+/// A world with edges on pads, a voltage everywhere, and a chip at 0x20.
 #[derive(Default)]
 struct World {
     edges: BTreeMap<Pad, Vec<(u64, bool)>>,
@@ -64,7 +64,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// All clocks on, at the 16 MHz of a reset.
+    /// A chip with all clocks on, at the 16 MHz of a reset.
     fn new(world: World) -> Self {
         let world = Arc::new(Mutex::new(world));
         let memory =
@@ -97,7 +97,7 @@ impl Rig {
         self.chip.wires.now = ns;
     }
 
-    /// Leads a pad to a peripheral.
+    /// Switches a pad to a peripheral.
     fn lead(&mut self, pad: &str, function: u32) {
         let pad = Pad::named(pad).unwrap();
         let (port, pin) = (0x4002_0000 + 0x400 * u32::from(pad.port), u32::from(pad.pin));
@@ -116,7 +116,7 @@ fn the_clock_tree_is_what_the_registers_say() {
     // HSE 8 MHz / 8 * 336 / 2, buses by 4 and by 2.
     rig.put(RCC + 4, 8 | 336 << 6 | 1 << 22);
     rig.put(RCC, 1 | 1 << 16);
-    // The PLL is off yet, so the switch does not follow.
+    // The PLL is still off, so the switch does not follow.
     rig.put(RCC + 8, 2 | 5 << 10 | 4 << 13);
     assert_eq!(rig.get(RCC + 8) >> 2 & 3, 0);
     rig.put(RCC, 1 | 1 << 16 | 1 << 24);
@@ -132,7 +132,7 @@ fn pads_take_bytes_half_words_and_words() {
     let mut rig = Rig::new(World::default());
     let port = 0x4002_0C00;
     rig.put(port, 1 << 24);
-    // What `palSetPad` and `palClearPad` do: half-words.
+    // `palSetPad` and `palClearPad` write half-words like these.
     rig.chip.put(port + 0x18, 1 << 12, 2).unwrap();
     assert_eq!(rig.get(port + 0x14), 1 << 12);
     assert_eq!(rig.get(port + 0x10), 1 << 12);
@@ -158,10 +158,10 @@ fn a_serial_port_takes_the_time_of_its_baud_rate() {
     let mut rig = Rig::new(World::default());
     rig.lead("PA2", 7);
     let port = 0x4000_4400;
-    // 16 MHz / 1600 are 10 kBd: 1 ms for ten bits.
+    // 16 MHz / 1600 is 10 kBd: 1 ms for ten bits.
     rig.put(port + 8, 1600);
     rig.put(port + 0x0C, 1 << 13 | 1 << 3);
-    // By the byte, as some programs do it.
+    // As a byte, which some programs write.
     rig.chip.put(port + 4, 0x41, 1).unwrap();
     rig.chip.put(port + 4, 0x42, 1).unwrap();
     assert_eq!(rig.get(port) & 0xC0, 0);
@@ -180,7 +180,7 @@ fn a_timer_counts_updates_and_compares() {
     rig.put(timer + 0x28, 15);
     rig.put(timer + 0x2C, 999);
     rig.put(timer + 0x34, 300);
-    // The other channels compare with what the counter never reaches.
+    // The other channels have compare values that the counter never reaches.
     for channel in 1..4 {
         rig.put(timer + 0x34 + 4 * channel, 5_000);
     }
@@ -212,13 +212,13 @@ fn a_timer_measures_period_and_width() {
     let timer = 0x4000_0400;
     rig.put(timer + 0x28, 15);
     rig.put(timer + 0x14, 1);
-    // Channel 1 takes rising edges, channel 2 falling ones of the same wire; rising ones reset the counter.
+    // On one wire, channel 1 captures rising edges and channel 2 falling ones; rising ones reset the counter.
     rig.put(timer + 0x18, 1 | 2 << 8);
     rig.put(timer + 0x20, 1 | 3 << 4);
     rig.put(timer + 0x08, 5 << 4 | 4);
     rig.put(timer, 1);
     rig.run_until(200 * US);
-    // Of n ticks n - 1 are captured: the counter begins at 0.
+    // Of n ticks, n - 1 are captured: the counter starts at 0.
     assert_eq!(rig.get(timer + 0x38), 29);
     rig.run_until(500 * US);
     assert_eq!((rig.get(timer + 0x34), rig.get(timer + 0x38)), (249, 69));
@@ -228,12 +228,12 @@ fn a_timer_measures_period_and_width() {
 fn a_converter_fills_memory_by_the_dma() {
     let mut rig = Rig::new(World::default());
     let (adc, dma) = (0x4001_2000, 0x4002_6400);
-    // Stream 0 of DMA2: halves of words, memory counts up, interrupt at the end.
+    // Stream 0 of DMA2: half-words, incrementing memory address, interrupt at the end.
     rig.put(dma + 0x10 + 0x08, adc + 0x4C);
     rig.put(dma + 0x10 + 0x0C, SRAM_BASE + 16);
     rig.put(dma + 0x10 + 0x04, 2);
     rig.put(dma + 0x10, 1 | 1 << 4 | 1 << 10 | 1 << 11 | 1 << 13);
-    // Channels 1 and 17, 3 cycles of sampling each.
+    // Channels 1 and 17, with 3 sampling cycles each.
     rig.put(adc + 4, 1 << 8);
     rig.put(adc + 0x2C, 1 << 20);
     rig.put(adc + 0x34, 1 | 17 << 5);
@@ -258,7 +258,7 @@ fn a_bus_master_addresses_sends_and_receives() {
     rig.lead("PB6", 4);
     rig.lead("PB7", 4);
     let bus = 0x4000_5400;
-    // 100 kHz of 16 MHz.
+    // 100 kHz from 16 MHz.
     rig.put(bus + 0x1C, 80);
     rig.put(bus, 1);
     rig.put(bus, 1 | 1 << 8);
@@ -278,7 +278,7 @@ fn a_bus_master_addresses_sends_and_receives() {
     let start = I2cEvent::Start { address: 0x20, read: true };
     assert_eq!(rig.world.lock().unwrap().bus[..2], [start, I2cEvent::Read { ack: true }]);
     assert_eq!(rig.world.lock().unwrap().bus.last(), Some(&I2cEvent::Stop));
-    // Nobody is at 0x21.
+    // There is no chip at 0x21.
     rig.put(bus, 1 | 1 << 8);
     rig.run_until(800 * US);
     rig.get(bus + 0x14);
@@ -321,7 +321,7 @@ fn images_of_others_are_refused_with_a_reason() {
         flash_of(&vec![0; (1 << 20) + 1]),
         Err(ImageError::TooLong { mcu: f407(), length: (1 << 20) + 1 })
     );
-    // Another MCU's RAM, another one's flash.
+    // The RAM of another MCU, and the flash of another.
     let raw = |stack: u32, entry: u32| [stack.to_le_bytes(), entry.to_le_bytes()].concat();
     for (stack, entry) in
         [(0x3000_0000, 0x0800_0101), (0x2000_1000, 0x0000_0101), (0x2000_1000, 0x0800_0100)]
@@ -334,7 +334,7 @@ fn images_of_others_are_refused_with_a_reason() {
     assert!(flash_of(&raw(0x2002_0000, 0x0800_0101)).is_ok());
 }
 
-/// `b .` at the begin of the program, and a stack.
+/// A vector table, and `b .` at the start of the program.
 #[test]
 fn waiting_costs_nothing_and_ends_in_time() {
     let mut image = vec![0; 0x200];

@@ -1,6 +1,6 @@
 //! TIM1 to TIM14: time base, compare, PWM, and the registers of all modes. Inputs are in `capture.rs`.
 //!
-//! A counter is computed when somebody looks; between changes of its set-up it is a straight line over the time.
+//! A counter is only computed when it is read; between changes of its settings it is a linear function of time.
 
 use super::capture::Inputs;
 use super::mcu::Mcu;
@@ -11,15 +11,16 @@ use sensedsl_surroundings::TimerOutput;
 const UPDATE: u32 = 1;
 const TRIGGER: u32 = 1 << 6;
 
-/// What a timer is, by its number.
+/// The hardware variant of a timer, by its number.
 #[derive(Clone, Copy, Debug)]
 struct Variant {
-    /// `3` is TIM3.
+    /// The timer's number: `3` is TIM3.
     number: u8,
     channels: u8,
     is_wide: bool,
     is_on_apb2: bool,
-    /// Interrupts of update, of trigger and of captures and compares, and who it is among those that share them.
+    /// The interrupts for update, for trigger, and for capture and compare; `holder` identifies the timer among those
+    /// that share them.
     irqs: [u16; 3],
     holder: u8,
 }
@@ -37,13 +38,13 @@ impl Variant {
             is_wide: matches!(number, 2 | 5),
             is_on_apb2: mcu.is_on_apb2(&name),
             irqs: ["UP", "TRG", "CC"].map(|signal| mcu.irq(&name, signal)),
-            // The small ones share the lines of TIM1 and TIM8.
+            // The small timers share the lines of TIM1 and TIM8.
             holder: u8::from(number > 8),
         }
     }
 }
 
-/// One timer.
+/// A timer.
 #[derive(Debug)]
 pub(super) struct Timer {
     variant: Variant,
@@ -60,19 +61,19 @@ pub(super) struct Timer {
     ccr: [u32; 4],
     bdtr: u32,
     other: [u32; 3],
-    /// The prescaler in use: a new one counts from the next update on.
+    /// The prescaler in use: a new one takes effect at the next update.
     prescaler: u64,
-    /// The count at a time, from which it goes on.
+    /// The count at the base time, from which it goes on.
     base_count: u64,
     base_ns: u64,
     hz: u64,
-    /// How far flags have been raised, as a count from the base on.
+    /// The count, from the base on, up to which flags have been raised.
     seen: u64,
     next: u64,
     pub inputs: Inputs,
-    /// Of the channels and of their complements.
+    /// Period and width for each channel, and for its complement.
     waveforms: [[(u64, u64); 2]; 4],
-    /// Requests to the DMA that were not served yet: update and channels, a bit each.
+    /// The DMA requests that were not served yet, with a bit for the update and for each channel.
     asking: u32,
 }
 
@@ -111,7 +112,7 @@ impl Timer {
         u64::from(self.arr) + 1
     }
 
-    /// Whether time moves the counter, and not edges. A period of 0 blocks it.
+    /// Whether the counter is driven by time and not by edges. A period of 0 blocks it.
     fn runs(&self) -> bool {
         self.cr1 & 1 != 0 && self.arr != 0 && !matches!(self.smcr & 7, 1..=3 | 7)
     }
@@ -124,7 +125,7 @@ impl Timer {
         self.base_count + periods_in(now.saturating_sub(self.base_ns), self.hz) / self.prescaler
     }
 
-    /// When the count is `total`.
+    /// The time at which the count is `total`.
     fn when(&self, total: u64) -> u64 {
         let ticks = total.saturating_sub(self.base_count).saturating_mul(self.prescaler);
         self.base_ns.saturating_add(periods_ns(ticks, self.hz))
@@ -137,14 +138,14 @@ impl Timer {
         u32::try_from(count).unwrap_or(u32::MAX)
     }
 
-    /// Goes on from a count at a time.
+    /// Goes on from a count at a given time.
     pub(super) fn rebase(&mut self, count: u64, at: u64) {
         self.base_count = count % self.limit();
         self.base_ns = at;
         self.seen = self.base_count;
     }
 
-    /// A step by an edge, up or down.
+    /// Counts an edge, up or down.
     pub(super) fn step(&mut self, is_up: bool, at: u64) {
         let limit = self.limit();
         let count = (self.base_count + if is_up { 1 } else { limit - 1 }) % limit;
@@ -174,17 +175,17 @@ impl Timer {
         }
     }
 
-    /// The counter is taken into a channel's register.
+    /// Takes the counter into a channel's register.
     pub(super) fn capture(&mut self, channel: usize, at: u64) {
         if self.sr >> (1 + channel) & 1 == 1 {
             self.sr |= 0x200 << channel;
         }
-        // An edge that comes with a tick of the counter takes the count before it.
+        // An edge that coincides with a tick of the counter captures the count before it.
         self.ccr[channel] = self.count(at.saturating_sub(1));
         self.raise_channel(channel);
     }
 
-    /// An edge resets the counter (reset mode of the slave controller).
+    /// Resets the counter at an edge (reset mode of the slave controller).
     pub(super) fn restart(&mut self, at: u64) {
         self.rebase(0, at);
         self.sr |= TRIGGER;
@@ -197,7 +198,7 @@ impl Timer {
         channel < usize::from(self.variant.channels) && self.selection(channel) == 0
     }
 
-    /// What a channel is: 0 an output, 1 an input of its own wire, 2 of its neighbour's, 3 of the trigger.
+    /// The use of a channel: 0 is an output, 1 an input from its own wire, 2 from its neighbour's, 3 from the trigger.
     pub(super) fn selection(&self, channel: usize) -> u32 {
         self.ccmr[channel / 2] >> (8 * (channel % 2)) & 3
     }
@@ -206,7 +207,7 @@ impl Timer {
         self.next.min(self.inputs.next_ns)
     }
 
-    /// Raises what the time has brought until `now`.
+    /// Raises the flags for everything that has happened up to `now`.
     pub(super) fn catch_up(&mut self, now: u64, wires: &mut Wires) {
         let (limit, total) = (self.limit(), self.total(now));
         if total <= self.seen {
@@ -230,7 +231,7 @@ impl Timer {
                 self.rebase(0, now);
                 return;
             }
-            // The new period begins where the last one ended.
+            // The new period starts where the last one ended.
             self.rebase(0, start);
             self.seen = total % limit;
             return;
@@ -248,14 +249,14 @@ impl Timer {
         self.settle(wires);
     }
 
-    /// Finds what is due next and tells its interrupts.
+    /// Finds the next event, and updates the interrupt lines.
     pub(super) fn settle(&mut self, wires: &mut Wires) {
         self.next = self.next_event();
         let held = self.sr & self.dier;
         let [update, trigger, channels] = self.variant.irqs;
         let lines = [(update, UPDATE), (trigger, TRIGGER), (channels, 0x1E)];
         for (at, (irq, _)) in lines.iter().enumerate() {
-            // Of several causes on one line each counts.
+            // Each of several causes on one line counts.
             let causes = lines.iter().filter(|(other, _)| other == irq).map(|(_, bits)| bits);
             let is_first = lines[..at].iter().all(|(other, _)| other != irq);
             if is_first {
@@ -312,7 +313,7 @@ impl Timer {
             0x30 => self.rcr,
             0x34..=0x40 => {
                 let channel = ((offset - 0x34) / 4) as usize;
-                // Reading what was captured acknowledges it.
+                // Reading a captured value acknowledges it.
                 if self.selection(channel) != 0 {
                     self.sr &= !(2 << channel);
                 }
@@ -371,7 +372,7 @@ impl Timer {
         self.tell_waveforms(wires);
     }
 
-    /// Events that the program generates.
+    /// Generates events for the program.
     fn generate(&mut self, bits: u32, wires: &mut Wires) {
         if bits & 1 != 0 {
             self.prescaler = u64::from(self.psc) + 1;
@@ -406,8 +407,8 @@ impl Timer {
         }
     }
 
-    /// Period and width in nanoseconds of what a channel or its complement puts out. A complement that is on alone goes
-    /// with the channel; beside it, against it (RM0090, table 97).
+    /// Period and width, in nanoseconds, of the output of a channel or its complement. A complement that is on alone
+    /// follows the channel; next to an active channel, it is inverted (RM0090, table 97).
     fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
         let has_complement = matches!(self.variant.number, 1 | 8) && channel < 3;
         if is_complement && !has_complement {

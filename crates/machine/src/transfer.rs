@@ -1,4 +1,4 @@
-//! What the DMA moves: items from who asks to memory, and back.
+//! The transfers of the DMA: items from peripherals to memory, and back.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::dma::{Direction, Dma};
 use super::mcu::Mcu;
 use super::wires::Request;
 
-/// The most items that one request moves at once; a request that never ends is a mistake of a model.
+/// The most items that one request moves at once; a request that never ends is a mistake in a model.
 const ITEMS_MAX: usize = 70_000;
 
 /// Memory that the DMA can reach.
@@ -19,10 +19,10 @@ pub(super) struct Memory {
     pub sram: Arc<RamStore>,
 }
 
-/// Where memory begins.
+/// The start addresses of memory.
 pub(super) const FLASH_BASE: u32 = 0x0800_0000;
 pub(super) const SRAM_BASE: u32 = 0x2000_0000;
-/// The core's own memory, which the DMA does not reach.
+/// The core-coupled memory, which the DMA does not reach.
 pub(super) const CCM_BASE: u32 = 0x1000_0000;
 
 impl Memory {
@@ -52,7 +52,7 @@ impl Memory {
     /// Writes a word of the SRAM.
     pub(super) fn put_word(&self, address: u32, word: u32) {
         for (at, byte) in (address..).zip(word.to_le_bytes()) {
-            // Nothing is there but for the SRAM.
+            // Only addresses in the SRAM have any effect.
             self.write(at, byte);
         }
     }
@@ -112,7 +112,7 @@ impl Chip {
             Request::UsartRx(unit) => self.usarts[unit].asks(false),
             Request::UsartTx(unit) => self.usarts[unit].asks(true),
             Request::Timer(unit, channel) => self.timers[unit].asks(channel),
-            // No firmware of this generator has its DAC fed by the DMA.
+            // No firmware of this generator feeds its DAC by DMA.
             Request::Dac(_) => false,
         }
     }
@@ -132,7 +132,7 @@ impl Chip {
         }
     }
 
-    /// Moves an item of the peripheral's size; `None` where nothing is at an address.
+    /// Moves an item of the peripheral's size; `None` if there is nothing at an address.
     fn move_item(&mut self, controller: usize, stream: usize) -> Option<()> {
         let state = self.dmas[controller].streams[stream];
         let (size, _) = state.sizes();
@@ -169,7 +169,7 @@ impl Chip {
     }
 }
 
-/// What is left in the stream that serves a request.
+/// The number of items left in the stream that serves a request.
 pub(super) fn left_of(mcu: &Mcu, dmas: &[Dma; 2], wanted: Request) -> Option<u32> {
     for (controller, dma) in dmas.iter().enumerate() {
         for (stream, state) in dma.streams.iter().enumerate() {

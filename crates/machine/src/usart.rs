@@ -15,10 +15,10 @@ const RECEIVER: u32 = 1 << 2;
 const TRANSMITTER: u32 = 1 << 3;
 const ENABLE: u32 = 1 << 13;
 
-/// One port.
+/// A serial port.
 #[derive(Clone, Debug)]
 pub(super) struct Usart {
-    /// `2` is USART2.
+    /// The port's number: `2` is USART2.
     unit: u8,
     mcu: &'static Mcu,
     irq: u16,
@@ -31,11 +31,11 @@ pub(super) struct Usart {
     waiting: Option<u8>,
     shifting: Option<u8>,
     shifted_at: u64,
-    /// When the next byte can have come.
+    /// The earliest time at which the next byte can have arrived.
     listens_at: u64,
     /// Whether bytes came since the line was last idle.
     was_busy: bool,
-    /// SR was read, so that an access to DR clears flags.
+    /// Whether SR was read, so that an access to DR clears flags.
     has_read_status: bool,
     tx: String,
     rx: String,
@@ -66,7 +66,7 @@ impl Usart {
         }
     }
 
-    /// As after a reset.
+    /// Restarts it in its state after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
@@ -76,7 +76,7 @@ impl Usart {
         if self.is_on_apb2 { wires.clocks.apb2 } else { wires.clocks.apb1 }
     }
 
-    /// Periods of its clock in one bit.
+    /// The number of clock periods in one bit.
     fn divider(&self) -> u64 {
         let divider =
             if self.cr[0] >> 15 & 1 == 1 { (self.brr >> 4) * 8 + (self.brr & 7) } else { self.brr };
@@ -89,7 +89,7 @@ impl Usart {
         periods_ns(self.divider() * (1 + data + stop), self.clock_hz(wires)).max(1)
     }
 
-    /// How it is set up, once it has started.
+    /// Its settings, once it has started.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let [cr, stops, _] = self.cr;
         let odd_parity = (cr >> 10 & 1 == 1).then_some(cr >> 9 & 1 == 1);
@@ -222,7 +222,7 @@ impl Usart {
 
     pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
         match offset {
-            // Only these can be cleared by writing 0.
+            // Only these flags can be cleared by writing 0.
             0x00 => self.sr &= !(COMPLETE | RECEIVED) | value | !mask,
             0x04 => self.transmit((value & 0xFF) as u8, wires),
             0x08 => self.brr = merge(self.brr, value, mask),

@@ -6,9 +6,9 @@ use super::mcu::Mcu;
 use super::usb_host::Host;
 use super::wires::{LinkPort, NEVER, Wires, merge};
 
-/// Endpoints in each direction.
+/// The number of endpoints in each direction.
 const ENDPOINTS: usize = 4;
-/// Memory of all FIFOs together.
+/// The memory of all FIFOs together.
 const FIFO_BYTES: usize = 1280;
 /// Interrupts of the core (GINTSTS).
 const SOF: u32 = 1 << 3;
@@ -18,9 +18,9 @@ const OUT_ENDPOINT: u32 = 1 << 19;
 pub(super) const BUS_RESET: u32 = 1 << 12;
 pub(super) const ENUMERATED: u32 = 1 << 13;
 const SESSION: u32 = 1 << 30;
-/// Until the comparators for the bus's voltage have found it.
+/// The time until the comparators have detected the bus voltage.
 const SENSING_NS: u64 = 100_000;
-/// Bits that software clears by writing 1.
+/// The bits that software clears by writing 1.
 const CLEARED_BY_ONE: u32 = 0xF070_FC0A;
 /// Bits of an endpoint's control register.
 const ENABLE: u32 = 1 << 31;
@@ -36,19 +36,19 @@ const DISABLED: u32 = 1 << 1;
 const SETUP: u32 = 1 << 3;
 const FIFO_EMPTY: u32 = 1 << 7;
 
-/// What is in the receive FIFO, by the code in its status word.
+/// The contents of the receive FIFO, by the code in its status word.
 const OUT_DATA: u32 = 2;
 const OUT_COMPLETE: u32 = 3;
 const SETUP_COMPLETE: u32 = 4;
 const SETUP_DATA: u32 = 6;
 
-/// One endpoint in one direction.
+/// An endpoint in one direction.
 #[derive(Clone, Debug, Default)]
 struct Endpoint {
     control: u32,
     interrupts: u32,
     size: u32,
-    /// Bytes that wait to be sent.
+    /// The bytes that wait to be sent.
     fifo: VecDeque<u8>,
 }
 
@@ -66,7 +66,7 @@ impl Endpoint {
         self.size = (self.size & 0xE000_0000) | packets << 19 | left;
     }
 
-    /// The control register; the endpoint of control, number 0, is always active.
+    /// The control register; the control endpoint, number 0, is always active.
     fn control_of(&self, number: usize) -> u32 {
         self.control | if number == 0 { ACTIVE } else { 0 }
     }
@@ -88,7 +88,7 @@ impl Endpoint {
     }
 }
 
-/// The port.
+/// The USB port.
 #[derive(Debug)]
 pub(super) struct Usb {
     irq: u16,
@@ -96,14 +96,14 @@ pub(super) struct Usb {
     status: u32,
     ins: [Endpoint; ENDPOINTS],
     outs: [Endpoint; ENDPOINTS],
-    /// Status words and their data that the program has not taken.
+    /// The status words that the program has not taken, each with its data.
     received: VecDeque<(u32, Vec<u8>)>,
-    /// Data of the entry that was taken last.
+    /// The data of the entry that was taken last.
     reading: VecDeque<u8>,
     host: Host,
-    /// Frames of 1 ms since the bus was reset.
+    /// The number of 1 ms frames since the bus was reset.
     frame: u32,
-    /// When the bus's voltage is found.
+    /// The time at which the bus voltage is detected.
     session_ns: u64,
 }
 
@@ -140,7 +140,7 @@ impl Usb {
         self.registers.get((offset / 4) as usize).copied().unwrap_or(0)
     }
 
-    /// Whether the transceiver is on, its pads are led to it, and the program wants to be seen.
+    /// Whether the transceiver is on, its pads are switched to it, and the program has enabled the connection.
     fn is_connected(&self, wires: &Wires) -> bool {
         let configuration = self.register(0x38);
         let is_on = configuration >> 16 & 1 == 1 && configuration & (1 << 19 | 1 << 21) != 0;
@@ -163,7 +163,7 @@ impl Usb {
         self.tell(wires);
     }
 
-    /// The cable's other end gives the bus its voltage, which a device that looks for it finds.
+    /// The other end of the cable supplies the bus voltage, which is detected by a device that looks for it.
     fn sense(&mut self, was: u32, wires: &Wires) {
         let looks = |configuration: u32| configuration >> 16 & configuration >> 19 & 1 == 1;
         let is_there = wires.link.port == LinkPort::Usb;
@@ -202,15 +202,15 @@ impl Usb {
         (self.ins[endpoint].control | self.outs[endpoint].control) & STALL != 0
     }
 
-    /// Whether everything that came has been taken.
+    /// Whether everything that was received has been taken.
     pub(super) fn is_idle(&self) -> bool {
         self.received.is_empty() && self.reading.is_empty()
     }
 
-    /// Sends a packet to an endpoint; `false` where it is not ready for one.
+    /// Sends a packet to an endpoint; `false` if it is not ready for one.
     pub(super) fn send(&mut self, endpoint: usize, data: &[u8]) -> bool {
         let out = &mut self.outs[endpoint];
-        // Only NAK holds packets back from an endpoint that is active.
+        // On an active endpoint, only NAK holds packets back.
         if out.control_of(endpoint) & (ACTIVE | NAK | STALL) != ACTIVE {
             return false;
         }
@@ -226,14 +226,14 @@ impl Usb {
         true
     }
 
-    /// Takes a packet of an endpoint, when one is there.
+    /// Takes a packet from an endpoint, if there is one.
     pub(super) fn fetch(&mut self, endpoint: usize) -> Option<Vec<u8>> {
         let from = &mut self.ins[endpoint];
         if from.control & ENABLE == 0 || from.control & (NAK | STALL) != 0 || from.packets() == 0 {
             return None;
         }
         let length = from.left().min(packet_bytes(from.control, endpoint));
-        // The FIFO is filled by words.
+        // The FIFO is filled in words.
         let words = length.div_ceil(4) as usize * 4;
         if from.fifo.len() < words {
             return None;
@@ -326,7 +326,7 @@ impl Usb {
         }
     }
 
-    /// The next entry of the receive FIFO; its data can be read then.
+    /// The next entry of the receive FIFO; after that, its data can be read.
     fn pop(&mut self) -> u32 {
         let Some((word, data)) = self.received.pop_front() else { return 0 };
         self.reading = data.into();
@@ -369,7 +369,7 @@ impl Usb {
             }
             0x1000..=0x4FFF => {
                 let endpoint = &mut self.ins[(offset / 0x1000 - 1) as usize];
-                // What the FIFOs' memory has no room for is lost.
+                // Bytes for which the FIFO memory has no room are lost.
                 if endpoint.fifo.len() < FIFO_BYTES {
                     endpoint.fifo.extend(value.to_le_bytes());
                 }
@@ -390,7 +390,7 @@ impl Usb {
 
     fn reset_parts(&mut self, bits: u32) {
         if bits & 1 != 0 {
-            // A reset of the core takes what is in the FIFOs and what the endpoints do.
+            // A reset of the core clears the FIFOs and the state of the endpoints.
             self.received.clear();
             self.ins = Default::default();
             self.outs = Default::default();
@@ -410,7 +410,7 @@ impl Usb {
     }
 }
 
-/// The longest packet; endpoint 0 has a code for it.
+/// The size of the longest packet; endpoint 0 has a code for it.
 fn packet_bytes(control: u32, endpoint: usize) -> u32 {
     if endpoint == 0 {
         return [64, 32, 16, 8][(control & 3) as usize];

@@ -1,22 +1,22 @@
-//! A host computer that takes the board for a serial port: it enumerates the device and moves bytes both ways.
+//! A host computer that uses the board as a serial port: it enumerates the device and moves bytes both ways.
 
 use super::usb::{BUS_RESET, ENUMERATED, Usb};
 use super::wires::{NEVER, Wires};
 
-/// A frame, and the tenth of it after which the host asks again.
+/// The length of a frame, and the time after which the host polls again.
 const FRAME_NS: u64 = 1_000_000;
 const TURN_NS: u64 = 50_000;
 /// How long a host waits before it resets a device that it found, and how long the reset takes.
 const DEBOUNCE_NS: u64 = 100_000_000;
 const RESET_NS: u64 = 10_000_000;
-/// A request that is not answered for so long is made again after a reset.
+/// The number of polls after which an unanswered request is made again, after a reset.
 const PATIENCE_TURNS: u32 = 20_000;
-/// The request that says whether a program has the port open, the last one of the list.
+/// The index of the last request in the list, which tells the device whether a program has the port open.
 const LINES: usize = 7;
 /// The longest packet of an endpoint at full speed.
 const PACKET_BYTES: usize = 64;
 
-/// Where a control transfer is.
+/// The stage of a control transfer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Step {
     Setup,
@@ -26,13 +26,13 @@ enum Step {
     StatusOut,
 }
 
-/// What the host does with the device.
+/// The host's activity with the device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum State {
     Absent,
     Debouncing,
     Resetting,
-    /// The request with this number of the list.
+    /// It makes the request with this number in the list.
     Enumerating(usize),
     Running,
 }
@@ -51,11 +51,11 @@ pub(super) struct Host {
     input: usize,
     output: usize,
     interface: u8,
-    /// What it has told the device of its port.
+    /// The port state that it has last told the device.
     is_open: bool,
 }
 
-/// A request of the enumeration: its packet, and what is sent with it.
+/// A request of the enumeration: its packet, and the data sent with it.
 struct Enquiry {
     packet: [u8; 8],
     data: Vec<u8>,
@@ -95,7 +95,7 @@ impl Host {
         }
     }
 
-    /// The device shows itself on the bus, or vanishes.
+    /// The device connects to the bus, or disconnects.
     pub(super) fn plugged(&mut self, is_there: bool, now: u64) {
         if is_there && self.state == State::Absent {
             self.state = State::Debouncing;
@@ -147,7 +147,7 @@ impl Host {
         }
     }
 
-    /// What the host asks, in this order; `None` after the last one.
+    /// The host's requests, in order; `None` after the last one.
     fn enquiry(&self, at: usize) -> Option<Enquiry> {
         let interface = u16::from(self.interface);
         let line = vec![0x00, 0xC2, 0x01, 0x00, 0, 0, 8];
@@ -225,7 +225,7 @@ impl Host {
         self.state = State::Enumerating(at + 1);
     }
 
-    /// Finds the interface of the communications class and the endpoints of the bytes.
+    /// Finds the interface of the communications class and the endpoints for the bytes.
     fn read_configuration(&mut self, answer: &[u8]) {
         let mut rest = answer;
         while let Some(length) =

@@ -1,4 +1,4 @@
-//! What the devices of the chip share: the time, the clocks, the pads, the lines to the interrupt controller, the world.
+//! The state that the devices of the chip share: time, clocks, pads, lines to the interrupt controller, the world.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,14 +7,14 @@ use super::gpio::Gpio;
 use super::mcu::Mcu;
 use sensedsl_surroundings::{Pad, Surroundings};
 
-/// No event is due.
+/// The time of an event that is not due.
 pub(super) const NEVER: u64 = u64::MAX;
 /// Nanoseconds in a second.
 pub(super) const SECOND_NS: u64 = 1_000_000_000;
-/// What a converter's full scale and the DAC's are.
+/// The full scale of the converters and of the DAC, in millivolts.
 pub(super) const SUPPLY_MV: f64 = 3300.0;
 
-/// Frequencies in Hz, as the clock tree is set now.
+/// The frequencies in Hz, with the present settings of the clock tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Clocks {
     pub core: u64,
@@ -24,7 +24,7 @@ pub(super) struct Clocks {
     pub timers2: u64,
 }
 
-/// Which port of the MCU a host computer is connected to.
+/// The port of the MCU that a host computer is connected to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkPort {
     /// A serial port: `2` is USART2.
@@ -39,11 +39,11 @@ pub(super) struct Link {
     pub port: LinkPort,
     pub to_mcu: VecDeque<u8>,
     pub from_mcu: Vec<(u64, u8)>,
-    /// Whether a program of the host has the port open.
+    /// Whether a program on the host has the port open.
     pub is_open: bool,
 }
 
-/// Requests to the DMA controllers, by who asks.
+/// The requests to the DMA controllers, by peripheral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
     Adc(usize),
@@ -58,67 +58,68 @@ pub(super) enum Request {
     Timer(usize, usize),
 }
 
-/// What went wrong or happened that a user wants to hear of.
+/// Events and mistakes that matter to a user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
     /// The MCU was reset.
     Reset {
-        /// When.
+        /// The time of the reset.
         at_ns: u64,
-        /// By whom.
+        /// The cause of the reset.
         cause: ResetCause,
     },
-    /// The program used a peripheral whose clock is off: reads gave 0, writes were lost. Told once for each peripheral.
+    /// The program used a peripheral whose clock is off: reads gave 0, writes were lost. Reported once for each
+    /// peripheral.
     ClockOff {
-        /// When.
+        /// The time of the access.
         at_ns: u64,
         /// The peripheral's address.
         address: u32,
-        /// The instruction's address, or one near it.
+        /// The address of the instruction, or one near it.
         pc: u32,
     },
-    /// The program used an address of a peripheral that is not modelled. Told once for each peripheral.
+    /// The program used an address of a peripheral that is not modelled. Reported once for each peripheral.
     NotModelled {
-        /// When.
+        /// The time of the access.
         at_ns: u64,
         /// The address.
         address: u32,
-        /// The instruction's address, or one near it.
+        /// The address of the instruction, or one near it.
         pc: u32,
     },
 }
 
-/// Why the MCU was reset.
+/// The cause of a reset of the MCU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetCause {
-    /// The supply was gone.
+    /// The supply was lost.
     Power,
-    /// The independent watchdog was not fed.
+    /// The independent watchdog was not reloaded in time.
     Watchdog,
-    /// The program asked for it.
+    /// The program requested it.
     Software,
 }
 
-/// What the devices share.
+/// The state that the devices share.
 pub(super) struct Wires {
     pub now: u64,
     pub clocks: Clocks,
     pub gpio: Gpio,
     pub link: Link,
     pub events: Vec<Event>,
-    /// Timers whose trigger output fired since the chip looked last, a bit each.
+    /// The timers whose trigger output has fired since the chip last looked, one bit each.
     pub triggers: u32,
-    /// Counts changes after which the world may have other edges than before.
+    /// A counter of changes after which the world may have other edges.
     pub version: u64,
-    /// How many items a stream has left for I2C's receiver, by unit: it refuses the byte after the last one.
+    /// The number of items left in the stream of each I2C unit's receiver: it refuses the byte after the last one.
     pub i2c_left: [Option<u32>; 3],
     world: Arc<Mutex<dyn Surroundings>>,
-    /// By interrupt: who holds its line, a bit each.
+    /// The holders of each interrupt's line, one bit each.
     holders: [u16; IRQS],
     changed: Vec<(u16, bool)>,
 }
 
-/// How many interrupts an MCU has at most.
+/// The most interrupts that an MCU has.
 const IRQS: usize = 97;
 
 impl Wires {
@@ -139,13 +140,13 @@ impl Wires {
         }
     }
 
-    /// Asks or tells the world.
+    /// Calls the world.
     pub(super) fn world<T>(&self, ask: impl FnOnce(&mut dyn Surroundings, u64) -> T) -> T {
         let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
         ask(&mut *world, self.now)
     }
 
-    /// One of several devices on a line says whether it holds it.
+    /// Records whether one of several devices on a line holds it.
     pub(super) fn interrupt(&mut self, irq: u16, holder: u8, is_held: bool) {
         let Some(holders) = self.holders.get_mut(usize::from(irq)) else { return };
         let before = *holders;
@@ -156,7 +157,7 @@ impl Wires {
         }
     }
 
-    /// The lines that changed since the last time.
+    /// The lines that have changed since the last call.
     pub(super) fn take_changed(&mut self) -> Vec<(u16, bool)> {
         std::mem::take(&mut self.changed)
     }
@@ -165,12 +166,12 @@ impl Wires {
         !self.changed.is_empty()
     }
 
-    /// The pad that a peripheral's wire is led to, as in `TIM3_CH1`.
+    /// The pad that a peripheral's signal is on, as in `TIM3_CH1`.
     pub(super) fn pad_of(&self, wire: &str) -> Option<Pad> {
         self.gpio.pad_of(wire)
     }
 
-    /// The level at a pad, whoever drives it.
+    /// The level on a pad, whatever drives it.
     pub(super) fn level(&self, pad: Pad) -> bool {
         if let Some(level) = self.gpio.drives(pad) {
             return level;
@@ -179,14 +180,14 @@ impl Wires {
         outside.unwrap_or_else(|| self.gpio.is_pulled_up(pad))
     }
 
-    /// The next change at a pad from outside.
+    /// The next change of a pad from outside.
     pub(super) fn next_edge(&self, pad: Pad, after: u64) -> Option<(u64, bool)> {
         let edge = self.world(|world, _| world.next_edge(pad, after))?;
-        // A world that names an edge in the past would stop the time.
+        // An edge in the past would make the time stand still.
         Some((edge.0.max(after.saturating_add(1)), edge.1))
     }
 
-    /// Tells the world what the MCU's outputs do now, where that changed.
+    /// Passes the MCU's changed outputs to the world.
     pub(super) fn tell_outputs(&mut self) {
         let changes = self.gpio.take_changes();
         for (pad, level) in &changes {
@@ -198,18 +199,18 @@ impl Wires {
     }
 }
 
-/// The bits of a register after a write that reaches those of `mask`.
+/// The value of a register after a write to the bits in `mask`.
 pub(super) fn merge(old: u32, value: u32, mask: u32) -> u32 {
     (old & !mask) | (value & mask)
 }
 
-/// How long `count` periods of `hz` take, rounded up.
+/// The time that `count` periods of `hz` take, rounded up.
 pub(super) fn periods_ns(count: u64, hz: u64) -> u64 {
     let ns = (u128::from(count) * u128::from(SECOND_NS)).div_ceil(u128::from(hz.max(1)));
     u64::try_from(ns).unwrap_or(NEVER)
 }
 
-/// How many periods of `hz` have passed in some time.
+/// The number of whole periods of `hz` in a time.
 pub(super) fn periods_in(ns: u64, hz: u64) -> u64 {
     u64::try_from(u128::from(ns) * u128::from(hz) / u128::from(SECOND_NS)).unwrap_or(NEVER)
 }

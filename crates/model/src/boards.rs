@@ -24,23 +24,23 @@ use crate::sources::beside;
 use crate::table_findings;
 use crate::targets;
 
-/// What reading boards needs beside the node.
+/// What is needed to read boards, besides the syntax node.
 pub(crate) struct Context<'a> {
     pub(crate) request: &'a Request<'a>,
     pub(crate) files: &'a dyn Files,
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
     pub(crate) constants: &'a Constants,
-    /// The tables that were completed, each with its MCU.
+    /// The tables already completed, each with its MCU.
     pub(crate) completed: BTreeMap<(FileId, Option<String>), Table>,
-    /// The tables that were read from files.
+    /// The tables already read from files.
     pub(crate) tables: BTreeMap<FileId, Table>,
-    /// The built-in tables that were read.
+    /// The built-in tables already read.
     pub(crate) built_in: BTreeMap<FileId, Table>,
     pub(crate) left: Left,
 }
 
-/// What is left of the budgets for all boards.
+/// The part of the budgets for all boards that is not yet used.
 pub(crate) struct Left {
     boards: usize,
     places: usize,
@@ -54,7 +54,8 @@ impl Default for Left {
 }
 
 impl Left {
-    /// Takes from a budget; the budget itself where that is not left.
+    /// Takes from a budget. If less than `taken` is left of it, the error names the budget and its
+    /// full size.
     fn take(
         left: &mut usize,
         taken: usize,
@@ -66,7 +67,7 @@ impl Left {
     }
 }
 
-/// Where a board's pins come from.
+/// The pins of a board, with their origin.
 struct Pins {
     table: Table,
     file: FileId,
@@ -74,7 +75,7 @@ struct Pins {
     entry: Option<&'static catalog::Entry>,
 }
 
-/// Reads the board `node` of `file`; none when its pins cannot be had.
+/// Reads the board `node` of `file`; none when its pins cannot be found.
 pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -> Option<Board> {
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
@@ -148,8 +149,8 @@ fn pins(
     }
 }
 
-/// A board's name with what a hyphen cuts off: that it has one is told already, and which board is
-/// meant is plain.
+/// A board's name, including what a hyphen cuts off. That error has already been reported, and it
+/// is clear which board is meant.
 fn whole(file: FileId, name: &ast::Name) -> Spanned<String> {
     let (value, range) = name.whole();
     Spanned { value, span: span(file, range) }
@@ -186,7 +187,7 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> Opti
     Some(Pins { table, file, entry: None })
 }
 
-/// The pins, unless all boards together have too many.
+/// The pins, unless all boards together then have too many.
 fn afforded(context: &mut Context<'_>, pins: Pins, at: Span) -> Option<Pins> {
     let usages: usize = pins.table.pins.iter().map(|pin| 1 + pin.usages.len()).sum();
     let (left, bytes) = (&mut context.left, context.sources.text(pins.file).len());
@@ -207,8 +208,8 @@ fn afforded(context: &mut Context<'_>, pins: Pins, at: Span) -> Option<Pins> {
     None
 }
 
-/// The pins with their usages and their MCU: that of the built-in board that the file's board is
-/// `like`, where the table names none.
+/// The pins, with their usages and their MCU. If the table names no MCU, it is that of the built-in
+/// board that the file's board is `like`.
 fn completed(
     context: &mut Context<'_>,
     mut pins: Pins,
@@ -221,7 +222,7 @@ fn completed(
         table.mcu = like.map(|entry| entry.mcu.to_owned());
     }
     let mcu = table.mcu.clone();
-    // A table that boards share is completed, and complained about, once.
+    // A table that several boards share is completed, and its mistakes reported, only once.
     let key = (pins.file, mcu.clone());
     if let Some(known) = context.completed.get(&key) {
         pins.table.clone_from(known);
@@ -233,7 +234,7 @@ fn completed(
         Completion::Unknown if table.pins.is_empty() => {}
         Completion::Unknown => say(w0608_usages_unknown::no_part(at, mcu.as_deref())),
         Completion::Part { found, strangers } => {
-            // Of a part that is known in one package alone the table tells which pins there are.
+            // For a part known in only one package, the table shows which pins there are.
             if found.ambiguous
                 && let Some(doubt) = found.doubt()
             {
@@ -251,7 +252,7 @@ fn completed(
 
 fn from_file(context: &mut Context<'_>, path: &str, at: Span, by_user: bool) -> Option<Pins> {
     if let Some(file) = context.sources.find(path) {
-        // A table that boards share is read, and complained about, once.
+        // A table that several boards share is read, and its mistakes reported, only once.
         let table = context.tables.get(&file).cloned();
         let table = table.unwrap_or_else(|| table::load(context.sources.text(file)).board);
         return Some(Pins { table, file, entry: None });

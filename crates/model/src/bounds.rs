@@ -1,5 +1,5 @@
-//! What the document of a part bounds: a driver in, [`Bounds`] out, and reports of designs that go
-//! beyond them.
+//! Limits from a part's data sheet: a driver in, [`Bounds`] out, and reports of designs that exceed
+//! them.
 
 use sensedsl_board::silicon;
 use sensedsl_diagnostics::Diagnostic;
@@ -16,32 +16,32 @@ use crate::kind::Kind;
 use crate::value::{Dimension, Measure, Value};
 use crate::volts::shown_mv;
 
-/// The greatest clock that a driver can state: more than any part of the library takes.
+/// The greatest clock that a driver can state, which is more than any part of the library takes.
 const CLOCK_MAX_HZ: u32 = 100_000_000;
-/// From here on an address is the 8-bit form.
+/// Addresses from here on are in the 8-bit form.
 const EIGHT_BIT: u8 = 0x80;
 
-/// What the document of a part bounds; empty where its driver does not say it.
+/// The limits from a part's data sheet; empty where its driver gives none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bounds {
-    /// The I2C addresses that it can have, as 7-bit forms.
+    /// The I2C addresses that the part can have, in 7-bit form.
     pub addresses: Vec<u8>,
-    /// The greatest clock of its bus.
+    /// The greatest clock of its bus, in hertz.
     pub clock_max_hz: Option<u32>,
     /// The least and the greatest supply, in millivolts.
     pub supply_mv: Option<(u32, u32)>,
 }
 
 impl Bounds {
-    /// Those of the part that a driver is for.
+    /// The bounds of the part that a driver is for.
     pub(crate) fn of(driver: Option<&Driver>, known: Known<'_>) -> Self {
         let Some(driver) = driver else { return Self::default() };
-        // What is wrong with them is reported once for a driver, not in each device.
+        // Mistakes in them are reported once for the driver, not for each device.
         let mut said = Vec::new();
         Self::of_driver(driver, known, &mut said)
     }
 
-    /// As [`Self::of`], with reports.
+    /// Like [`Self::of`], but also reports mistakes.
     pub(crate) fn of_driver(
         driver: &Driver,
         known: Known<'_>,
@@ -56,7 +56,7 @@ impl Bounds {
         Self::read(&mut Fields::new(own, driver.file, "a driver", at, said))
     }
 
-    /// Takes the properties that bound a part.
+    /// Takes the properties that give a part's bounds.
     pub(crate) fn read(fields: &mut Fields<'_>) -> Self {
         let speed = fields.frequency_hz("speed_max", 1_000..=CLOCK_MAX_HZ);
         let clock = fields.frequency_hz("clock_max", 1_000..=CLOCK_MAX_HZ);
@@ -68,7 +68,7 @@ impl Bounds {
     }
 }
 
-/// The properties that bound a part.
+/// The properties that give a part's bounds.
 const BOUNDS: [&str; 4] = ["addresses", "speed_max", "clock_max", "supply"];
 
 /// A voltage, or a range of them.
@@ -109,7 +109,7 @@ fn addresses(fields: &mut Fields<'_>) -> Vec<u8> {
     found.unwrap_or_default()
 }
 
-/// Reports what goes beyond the bounds of its part.
+/// Reports values that exceed the bounds of their part.
 pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for wires in &design.connections {
         let Some(part) = design.part(wires.part) else { continue };
@@ -146,7 +146,7 @@ fn foreign_address(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<
     Some(e0232_address_of_part::address_of_part(at, address, driver, &has, &help))
 }
 
-/// Addresses for people: `0x68 or 0x69`, `0x40 to 0x4F`.
+/// Formats addresses for people: `0x68 or 0x69`, `0x40 to 0x4F`.
 #[must_use]
 pub fn listed(addresses: &[u8]) -> String {
     let mut sorted = addresses.to_vec();
@@ -190,7 +190,7 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
     (asked > most).then(|| over(at, property, &asked_words, driver, &most_words))
 }
 
-/// A frequency for people: `400 kHz`.
+/// Formats a frequency for people: `400 kHz`.
 #[must_use]
 pub fn shown_hz(hz: u32) -> String {
     if hz >= 1_000_000 && hz.is_multiple_of(1_000_000) {
@@ -209,15 +209,15 @@ fn too_high(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
     Some(w0613_level_over_part::level_over_part(level.span, &shown, driver, &most))
 }
 
-/// Wires that a board drives with more than the part's supply. Resistors that are told are between the part and a pin
-/// that reads it, and help nothing here.
+/// Reports wires that a board drives above the part's supply. A stated divider is between the part
+/// and a pin that reads it, so it does not help here.
 fn driven_too_high(
     design: &Design,
     (index, part): (PartIndex, &Part),
     driver: &str,
 ) -> Option<Diagnostic> {
     let (_, most) = part.bounds.supply_mv?;
-    // A part that may go to several boards can go to the one that suits it.
+    // A part that may go to any of several boards can go to the one that suits it.
     let boards: Vec<&Board> = match part.board {
         Some(BoardIndex(own)) => design.boards.get(own).into_iter().collect(),
         None => design.boards.iter().collect(),

@@ -1,4 +1,4 @@
-//! What the hardware will do differently from what the reader expects.
+//! Warnings where the hardware will not do what the reader expects.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
@@ -12,10 +12,10 @@ use crate::design::{Design, Device};
 use crate::kind::Kind;
 use crate::reach;
 
-/// Bits of one conversion of the ADCs there are profiles for; wider ones are scaled by the driver.
+/// Bits of one ADC conversion on all profiles; the driver scales wider ones.
 const ADC_BITS: u32 = 12;
 
-/// Widest number the runtime takes from a device.
+/// The widest number that the runtime takes from a device, in bytes.
 const ELEMENT_BYTES_MAX: usize = 8;
 
 /// Adds the warnings for all devices.
@@ -30,7 +30,7 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     reach::check(design, diagnostics);
 }
 
-/// Cycle time and priority of what the hardware measures by itself.
+/// Warns of a cycle time or priority for a device that the hardware measures on its own.
 fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     let pulsed = matches!(&device.kind, Kind::Icu(icu) if icu.pulse_us.is_some());
     if !device.kind.name().spec().triggers_itself || pulsed {
@@ -58,7 +58,7 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
     Some(w0602_slower_than_asked::slower_than_asked(at, name, &needs_ms, &delay_ms, source))
 }
 
-/// The bytes of an I2C device must make whole elements that a value can hold.
+/// Reports an I2C device whose bytes are not whole elements that a value can hold.
 fn impossible_length(device: &Device) -> Option<Diagnostic> {
     let Kind::I2c(i2c) = &device.kind else { return None };
     if !device.coding.is_plain() {
@@ -108,7 +108,7 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
     Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
 }
 
-/// A value of a chip that has fewer bits than its driver's reading.
+/// Warns of a value of a chip with fewer bits than its driver's reading.
 fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
     let (own, of) = (device.value.value, device.coding.of?);
     let ((least, most), (of_least, of_most)) =
@@ -121,11 +121,11 @@ fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
     Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
 }
 
-/// Ranges of more bits are told in bytes.
+/// Ranges of more bits than this are reported in bytes.
 const MANY_BITS: u32 = 32;
 
-/// Bits of a register of that many bytes, and a type that holds them: a number where there is one
-/// of that size, otherwise an array, since so many bytes are several numbers.
+/// The bits of a register of that many bytes, and a type that holds them: a number if one has that
+/// size, otherwise an array, because that many bytes are several numbers.
 fn of_bytes(length_bytes: u16) -> Option<(u32, String)> {
     let bits = u32::from(length_bytes) * 8;
     let wider = match length_bytes {

@@ -1,6 +1,6 @@
 //! Chips: from a block and the driver it names to a part with connections and values.
 //!
-//! What one value needs is said in several places. From the nearest to the farthest: the device, the
+//! What one value needs can be given in several places. From nearest to farthest: the device, the
 //! chip, the chip's `connection` block, the driver's reading or command, the driver's connection,
 //! the driver. The nearest wins.
 
@@ -36,22 +36,22 @@ use values::Asked;
 
 use values::Given;
 
-/// The properties of a chip beside those of its connections.
+/// The properties of a chip, besides those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
 const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
 
-/// A chip, or a device that is the only value of one, and its driver.
+/// A chip, or a device that is a chip's only value, with its driver.
 struct ChipReader<'a> {
     file: FileId,
     name: Spanned<String>,
     block: Span,
     driver: &'a Driver,
     known: Known<'a>,
-    /// What is said of the chip as a whole.
+    /// The properties of the chip as a whole.
     properties: Vec<Property>,
     protocol: Protocol,
-    /// The values that the driver tells apart.
+    /// The driver's named values.
     given: Vec<Given>,
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn read(
     whole.part(board, allows, devices, connections)
 }
 
-/// Reads a device whose driver tells several values apart: a chip of which one is wanted.
+/// Reads a device whose driver names several values: a chip of which one value is wanted.
 pub(crate) fn of_device(
     file: FileId,
     node: &ast::Device,
@@ -139,7 +139,7 @@ pub(crate) fn of_device(
     whole.part(board, allows, devices, connections)
 }
 
-/// What a driver gives and takes, and the connections that it has for it.
+/// A driver's values, and the connections that it has for them.
 fn values_and_sockets(
     driver: &Driver,
     known: Known<'_>,
@@ -156,7 +156,7 @@ fn values_and_sockets(
     Some((given, sockets))
 }
 
-/// Reports what is wrong with a driver of the file.
+/// Reports mistakes in a driver of the file.
 pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
     protocol(driver.file, driver, &[], known, diagnostics);
@@ -188,7 +188,7 @@ pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut 
     twice(driver, &given, diagnostics);
 }
 
-/// Reports readings that are the same bits of the same register.
+/// Reports readings of the same bits of the same register.
 fn twice(driver: &Driver, given: &[Given], diagnostics: &mut Vec<Diagnostic>) {
     const PLACE: [&str; 9] =
         ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
@@ -214,7 +214,7 @@ fn twice(driver: &Driver, given: &[Given], diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// How the chip is started, as the driver says it; the chip may say otherwise.
+/// How the chip is started, according to the driver; the chip can override it.
 fn protocol(
     file: FileId,
     driver: &Driver,
@@ -236,7 +236,7 @@ fn protocol(
 }
 
 impl ChipReader<'_> {
-    /// The properties of the chip that concern a connection of that kind.
+    /// The properties of the chip that apply to a connection of that kind.
     fn properties_for(&self, kind: KindName) -> impl Iterator<Item = Property> {
         let concerns = move |one: &Property| {
             one.name().is_some_and(|name| {
@@ -249,7 +249,7 @@ impl ChipReader<'_> {
         self.properties.iter().filter(move |one| concerns(one)).cloned()
     }
 
-    /// Reports what the chip says and nothing of it has.
+    /// Reports properties of the chip that none of its parts has.
     fn check_properties(
         &self,
         sockets: &[Socket],
@@ -275,7 +275,7 @@ impl ChipReader<'_> {
         }
     }
 
-    /// Reports what a device of the chip says that is not its own.
+    /// Reports properties of a device of the chip that are not its own.
     fn check_device(
         &self,
         node: &ast::Device,
@@ -302,7 +302,7 @@ impl ChipReader<'_> {
         }
     }
 
-    /// Reports a `type` that is not the driver's.
+    /// Reports a `type` that differs from the driver's.
     fn check_type(&self, diagnostics: &mut Vec<Diagnostic>) {
         let is_type = |one: &&Property| one.name().is_some_and(|name| name.text() == "type");
         let Some(value) = self.properties.iter().find(is_type).and_then(Property::value) else {
@@ -319,7 +319,7 @@ impl ChipReader<'_> {
         }
     }
 
-    /// All values that are wanted. Their connections are marked as used.
+    /// The requested values as devices. Marks their connections as used.
     fn devices(
         &self,
         asked: Vec<Asked>,
@@ -358,8 +358,8 @@ impl ChipReader<'_> {
         let said = (self.known.constants, &mut *diagnostics);
         let owner = format!("`{}`", name.value);
         let mut fields = Fields::new(own.iter().cloned(), self.file, &owner, name.span, said);
-        // On a bus each value has a register of its own; other wires are the same for all values, and
-        // `min` of a pwm output is not that of the value.
+        // On a bus, each value has its own register. Other wires are the same for all values, and
+        // the `min` of a pwm output is not that of the value.
         let is_bus = main.kind.spec().values == Values::Any;
         let of_wires = |one: &Property| {
             let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
@@ -398,7 +398,7 @@ impl ChipReader<'_> {
         }
         self.accept(&kind, value, given, diagnostics);
         let id = own.id.or(id.map(|value| Spanned { value, span: name.span }));
-        // Those that are not used are not among the part's connections.
+        // Unused connections are not among the part's connections.
         let place =
             |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
         let connections = given.via.iter().map(place).map(ConnectionIndex).collect();
@@ -423,7 +423,7 @@ impl ChipReader<'_> {
         })
     }
 
-    /// Reports an array that has only the wires of one number.
+    /// Reports an array that has the wires of only one number.
     fn accept(
         &self,
         kind: &Kind,
@@ -442,7 +442,7 @@ impl ChipReader<'_> {
         }
     }
 
-    /// The wires of the connections that are used, in the driver's order.
+    /// The wires of the connections in use, in the driver's order.
     fn connections(
         &self,
         devices: &[Device],

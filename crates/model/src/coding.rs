@@ -1,4 +1,4 @@
-//! The properties that say how a value is coded, filtered and started: fields in, [`Coding`],
+//! The properties for how a value is coded, filtered and initialized: fields in, [`Coding`],
 //! [`Filter`] and [`Protocol`] out.
 
 use sensedsl_diagnostics::Span;
@@ -14,9 +14,9 @@ use crate::protocol::{
 use crate::reach;
 use crate::value::{Dimension, Value};
 
-/// The properties of a value.
+/// The properties that filter a value.
 pub(crate) const FILTER: &[&str] = &["invalid", "median", "smooth", "change", "heartbeat"];
-/// The properties of a reading or command beside those of its kind.
+/// The properties of a reading or command, besides those of its kind.
 pub(crate) const CODING: &[&str] = &[
     "bits",
     "signed",
@@ -49,18 +49,18 @@ pub(crate) const PROTOCOL: &[&str] = &[
     "parameters",
 ];
 
-/// The words that properties of a value take.
+/// The words that these properties take as values.
 pub(crate) const WORDS: &[&str] =
     &["sensirion", "decimal", "degrees", "hex", "bcd", "direction_pins", "two_pwm"];
 
-/// Most raw values or ranges that mean no measurement.
+/// Most raw values or ranges that mean "no measurement".
 const INVALID_MAX: usize = 16;
-/// Most steps of an initialisation.
+/// Most steps of an initialization.
 const INIT_MAX: usize = 128;
 
 /// Reads how the value is coded.
 pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<Formula>) -> Coding {
-    // With `bit` they are a number of bits, which its kind has read.
+    // With `bit`, `bits` is a number of bits, which the kind has already read.
     let bits = if fields.has("bit") { None } else { fields.integer_range("bits", 0..=63) };
     let bits = bits.map(|Spanned { value: (high, low), .. }| (high.max(low), high.min(low)));
     let signed = fields.boolean("signed").map(|word| word.value);
@@ -99,8 +99,8 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
     }
 }
 
-/// Reads what an actuator falls back to, unless its kind has done so, as a code: one that the type
-/// holds and the part takes.
+/// Reads an actuator's failsafe value, unless its kind has done so, as a code that the type holds
+/// and the part takes.
 pub(crate) fn failsafe(
     fields: &mut Fields<'_>,
     direction: Direction,
@@ -138,7 +138,7 @@ pub(crate) fn failsafe(
     Some(number)
 }
 
-/// What a type can hold, where that is not the number.
+/// The values that a type can hold, if the number is not one of them.
 fn unheld(scalar: ScalarType, number: f64) -> Option<String> {
     if scalar == ScalarType::Bool {
         let is_held = number == 0.0 || number == 1.0;
@@ -157,7 +157,7 @@ fn unheld(scalar: ScalarType, number: f64) -> Option<String> {
     (!is_held).then(|| format!("a whole number from {least} to {greatest}"))
 }
 
-/// Reads what a value of a chip begins with and falls back to.
+/// Reads the initial and the failsafe value of a chip's command.
 pub(crate) fn commanded(
     fields: &mut Fields<'_>,
     coding: &mut Coding,
@@ -170,7 +170,8 @@ pub(crate) fn commanded(
     coding.initial = initial(fields, of_bus, direction, of);
 }
 
-/// Reads whether an output of a chip on a bus is on from the start. Other kinds of wires have an `initial` of their own.
+/// Reads whether an output of a chip on a bus is on from the start. Other kinds of wires have their
+/// own `initial`.
 fn initial(
     fields: &mut Fields<'_>,
     of_bus: Option<&Kind>,
@@ -218,7 +219,7 @@ fn text(fields: &mut Fields<'_>, format: Option<Format>) -> Option<TextField> {
     })
 }
 
-/// The output of the chip's formula: the one that is named, or the one of the reading's name.
+/// The output of the chip's formula: the one named, or the one with the reading's name.
 fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<u8> {
     let outputs = formula?.outputs();
     let named = fields.name("output", "an output of the formula");
@@ -231,7 +232,7 @@ fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<u8> {
     found.and_then(|at| u8::try_from(at).ok())
 }
 
-/// Reads what becomes of the value on the board.
+/// Reads how the value is filtered on the board.
 pub(crate) fn filter(fields: &mut Fields<'_>) -> Filter {
     let invalid_span = fields.own_span("invalid");
     let invalid = invalid(fields);
@@ -294,7 +295,7 @@ fn invalid(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
     }
 }
 
-/// Points of a curve: pairs, the first numbers ascending.
+/// The points of a curve: pairs whose first numbers ascend.
 pub(crate) fn curve(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
     const TAKES: &str = "a list of pairs such as [[0.4, 80], [1.3, 20]], the first numbers rising";
     let Some(field) = fields.take("curve") else { return Vec::new() };
@@ -304,7 +305,7 @@ pub(crate) fn curve(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
     })
 }
 
-/// The points of a curve; none where they are not pairs whose first numbers rise.
+/// The points of a curve; none unless they are pairs whose first numbers ascend.
 pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
     let point = |value: &Spanned<Value>| match value.value.list()? {
         [x, y] => Some((plain_number(&x.value)?, plain_number(&y.value)?)),
@@ -319,7 +320,7 @@ pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
     points.filter(rises)
 }
 
-/// Reads how a chip is started and computed.
+/// Reads how a chip is started and how its values are computed.
 pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
     let formulas = Formula::ALL.map(|one| (one.name(), one));
     let formula = fields.word("compensate", &formulas);
@@ -453,7 +454,7 @@ fn calibration(fields: &mut Fields<'_>) -> Vec<(u16, u16)> {
     })
 }
 
-/// Whole numbers; resistances in ohms.
+/// Reads whole numbers; resistances are in ohms.
 fn parameters(fields: &mut Fields<'_>) -> Vec<i32> {
     let Some(field) = fields.take("parameters") else { return Vec::new() };
     let one = |value: &Spanned<Value>| {

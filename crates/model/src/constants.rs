@@ -16,7 +16,7 @@ pub(crate) struct Constants {
     values: BTreeMap<String, Value>,
 }
 
-/// A constant whose value is not known yet.
+/// A constant that has not been computed yet.
 struct Pending {
     file: FileId,
     name: ast::Name,
@@ -26,7 +26,7 @@ struct Pending {
 }
 
 impl Constants {
-    /// Computes the values, each after those that it needs.
+    /// Computes the values, each after the ones that it needs.
     pub(crate) fn new(all: &[(FileId, ast::Constant)], diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut pending: BTreeMap<String, Pending> = BTreeMap::new();
         for (file, node) in all {
@@ -34,7 +34,7 @@ impl Constants {
             let names = value.syntax().descendants().filter_map(ast::NameValue::cast);
             let needs = names.filter_map(|one| Some(one.name()?.text().to_owned())).collect();
             let key = name.text().to_owned();
-            // A name that stands twice is told elsewhere; the first counts.
+            // A duplicate name is reported elsewhere; the first one counts.
             pending.entry(key).or_insert(Pending { file: *file, name, value, needs });
         }
         let mut constants = Self::default();
@@ -45,8 +45,8 @@ impl Constants {
         constants
     }
 
-    /// Computes one, before it those that it needs. They may be a long chain, so there is a stack and
-    /// no recursion.
+    /// Computes one constant, after the ones that it needs. The chain may be long, so this uses a
+    /// stack, not recursion.
     fn compute(
         &mut self,
         first: String,
@@ -69,7 +69,7 @@ impl Constants {
                     let at = span(one.file, one.name.range());
                     let report = e0228_constants_in_a_circle::constants_in_a_circle;
                     diagnostics.push(report(at, &circle.join(" -> ")));
-                    // Whoever needs any of them is not told a second time.
+                    // Constants that need any of them are not reported again.
                     is_open.clear();
                     for name in open.drain(..) {
                         pending.remove(&name);
@@ -95,13 +95,13 @@ impl Constants {
         self.values.get(name)
     }
 
-    /// Their names.
+    /// The names of the constants.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.values.keys().map(String::as_str)
     }
 }
 
-/// The names of the constants, and where they stand.
+/// The names of the constants, with their places.
 pub(crate) fn names(all: &[(FileId, ast::Constant)]) -> Vec<Spanned<String>> {
     let name = |(file, node): &(FileId, ast::Constant)| {
         let name = node.name()?;

@@ -1,5 +1,5 @@
-//! The checked design: what is to be connected to which boards, with names bound, defaults filled
-//! in and units converted. Nothing here says how it is wired; that is crate `wiring`.
+//! The checked design: what to connect to which boards, with names bound, defaults filled in and
+//! units converted. How it is wired is the job of crate `wiring`.
 
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
@@ -40,23 +40,24 @@ pub struct ConnectionIndex(pub usize);
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
-    /// Its place.
+    /// The place of the value.
     pub span: Span,
 }
 
 /// All boards and devices of a file and the files it uses.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The file that was asked for.
+    /// The file that was requested.
     pub file: FileId,
-    /// In file order; at least one.
+    /// The boards in file order; at least one.
     pub boards: Vec<Board>,
-    /// What is bought and put on a board as one thing, in file order: a device, or a chip with all
-    /// its devices.
+    /// What is bought and mounted as one thing, in file order: a device, or a chip with all its
+    /// devices.
     pub parts: Vec<Part>,
-    /// What has an identifier and a value, in file order; those of one part one after the other.
+    /// Everything with an identifier and a value, in file order; the devices of one part are
+    /// consecutive.
     pub devices: Vec<Device>,
-    /// The wires that are to be found, a set each, in the order of their parts.
+    /// The sets of wires to be found, in the order of their parts.
     pub connections: Vec<Connection>,
 }
 
@@ -65,34 +66,34 @@ pub struct Design {
 pub struct Board {
     /// Its name in the file.
     pub name: Spanned<String>,
-    /// Used only if the devices need it.
+    /// True if it is used only when the devices need it.
     pub spare: bool,
     /// Its pins.
     pub table: Table,
-    /// The table's text, for places in it.
+    /// The text of the table, for places in it.
     pub table_file: FileId,
-    /// The facts beside the pins: of the built-in board, or of one with the same MCU.
+    /// The facts besides the pins, from this built-in board or from one with the same MCU.
     pub facts: Option<catalog::Board>,
-    /// True when the pins are a built-in board's own.
+    /// True if the pins are a built-in board's own.
     pub built_in: bool,
-    /// The MCU, where it is known.
+    /// The MCU, if known.
     pub mcu: Option<String>,
-    /// What firmware can do on it.
+    /// What firmware can do on the board.
     pub target: Target,
-    /// How it talks to the host.
+    /// How the board talks to the host.
     pub link: Link,
-    /// Pins and peripherals that stay free.
+    /// Pins and peripherals that must stay free.
     pub reserved: Vec<Spanned<String>>,
     /// On-board pins and parts that may be used.
     pub released: Vec<Spanned<String>>,
     /// Soft rules for every device on the board.
     pub wishes: Vec<Wish>,
-    /// Warnings that are not given for anything on the board.
+    /// Warnings that are not given for anything on this board.
     pub allows: Vec<Allow>,
 }
 
 impl Board {
-    /// What the operating system's drivers can do, when there is one.
+    /// What the operating system's drivers can do, if there is a system.
     #[must_use]
     pub fn profile(&self) -> Option<&TargetProfile> {
         match &self.target {
@@ -101,7 +102,7 @@ impl Board {
         }
     }
 
-    /// What the MCU's peripherals can do, where it differs from what most can.
+    /// What the MCU's peripherals can do, where that differs from most MCUs.
     #[must_use]
     pub fn silicon(&self) -> Option<&'static Silicon> {
         self.mcu.as_deref().and_then(silicon::of)
@@ -113,7 +114,7 @@ impl Board {
         written == unit || self.silicon().is_some_and(|silicon| silicon.same_unit(written, unit))
     }
 
-    /// The place of a range of its table.
+    /// The span of a range of the board's table.
     #[must_use]
     pub fn table_span(&self, range: std::ops::Range<usize>) -> Span {
         Span::new(self.table_file, range)
@@ -127,23 +128,25 @@ pub struct Link {
     pub transport: Transport,
     /// The UART of `transport = uart`.
     pub unit: Option<Spanned<String>>,
-    /// TX and RX of `transport = uart` where the board has wired them; empty where any will do.
+    /// TX and RX of `transport = uart` where they are wired on the board; empty where any pins will
+    /// do.
     pub pins: Vec<PinName>,
     /// Bits per second of `transport = uart`.
     pub baud: u32,
-    /// Where they are given.
+    /// Where the rate is given.
     pub baud_span: Option<Span>,
     /// Whether frames end with a checksum.
     pub checksum: Checksum,
-    /// Whether each report begins with the board's time and a counter.
+    /// Whether each report begins with the board's time stamp and a counter.
     pub stamp: bool,
-    /// After how long without a frame from the host actuators take what is safe; none for never.
+    /// How long no frame may come from the host before actuators take their failsafe values; none
+    /// for no limit.
     pub silence_ms: Option<u32>,
-    /// Where that is given.
+    /// Where that time is given.
     pub silence_span: Option<Span>,
-    /// At most that many frames per second; none for as many as become due.
+    /// Most frames per second; none to send each frame when it is due.
     pub rate_hz: Option<u32>,
-    /// Whether the USB device is told by its VBUS pin that a host is there.
+    /// Whether the USB device detects a host by its VBUS pin.
     pub vbus: bool,
     /// Whether the file states the medium.
     pub stated: bool,
@@ -155,14 +158,14 @@ pub enum Transport {
     /// USB CDC: `/dev/ttyACM0` on Linux.
     #[default]
     Usb,
-    /// A UART, mostly to a debugger's virtual COM port.
+    /// A UART, usually one to a debugger's virtual COM port.
     Uart,
-    /// None: no pin and no peripheral is taken.
+    /// No link, so no pin and no peripheral is taken.
     None,
 }
 
 impl Transport {
-    /// The word of the language.
+    /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -173,45 +176,45 @@ impl Transport {
     }
 }
 
-/// One thing on a board: a device by itself, or a chip.
+/// A thing on a board: a device on its own, or a chip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// The name of the device, or of the chip.
     pub name: Spanned<String>,
     /// The whole block.
     pub block: Span,
-    /// The board it is bound to; none where it may go to any.
+    /// The board it is bound to; none if it may go to any.
     pub board: Option<BoardIndex>,
-    /// The driver its protocol was taken from.
+    /// The driver that its protocol comes from.
     pub driver: Option<String>,
     /// Warnings that are not given for it.
     pub allows: Vec<Allow>,
-    /// How it is started and identified, where it is a chip.
+    /// How it is started and identified; none if it is not a chip.
     pub chip: Option<Protocol>,
-    /// What its document bounds.
+    /// The limits from its data sheet.
     pub bounds: Bounds,
 }
 
 /// A sensor or an actuator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
-    /// The part that it is, or is a value of.
+    /// The part that it is, or whose value it is.
     pub part: PartIndex,
-    /// Its name.
+    /// The name of the device.
     pub name: Spanned<String>,
     /// The whole block.
     pub block: Span,
-    /// 1 to 254, unique in the design.
+    /// Its identifier, 1 to 254, unique in the design.
     pub id: Spanned<u8>,
-    /// Sensor or actuator.
+    /// The direction: sensor or actuator.
     pub direction: Direction,
-    /// What it carries.
+    /// The type of its value.
     pub value: Spanned<ValueType>,
-    /// What it is connected to, with the properties of that kind.
+    /// The kind of its connection, with the properties of that kind.
     pub kind: Kind,
     /// Where `type` is given.
     pub kind_span: Span,
-    /// Cycle time.
+    /// The cycle time.
     pub delay_ms: u32,
     /// Where the cycle time is given; none for the default.
     pub delay_span: Option<Span>,
@@ -219,57 +222,58 @@ pub struct Device {
     pub prio: i8,
     /// Where the device itself gives the priority.
     pub prio_span: Option<Span>,
-    /// The devices that it never measures together with.
+    /// The group of devices that it never measures at the same time as.
     pub group: Option<Group>,
     /// How a host shows the value.
     pub shown: Presentation,
-    /// How the value is coded in what the part sends or is sent.
+    /// How the value is coded in the bytes that the part sends or receives.
     pub coding: Coding,
-    /// What becomes of it on the board before it is reported.
+    /// How the value is filtered on the board before it is reported.
     pub filter: Filter,
-    /// The wires that its value goes over, the first of them those of `kind`.
+    /// The wires that carry its value; the first are those of `kind`.
     pub connections: Vec<ConnectionIndex>,
 }
 
-/// Wires that belong together: those of a device, of one element of an array, of one connection of a
-/// chip. One peripheral instance serves them.
+/// Wires that belong together: those of a device, of one element of an array, or of one connection
+/// of a chip. One peripheral instance serves them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
-    /// The part that they are of.
+    /// The part that they belong to.
     pub part: PartIndex,
-    /// What tells them from other wires of the part: the name of a chip's connection.
+    /// The name of a chip's connection, which distinguishes them from the part's other wires.
     pub name: Option<String>,
-    /// Which element of the array they carry, from 0.
+    /// The index, from 0, of the array element that they carry.
     pub element: Option<u16>,
-    /// The first device whose value goes over them; of wires that no value needs the part's first.
+    /// The first device whose value they carry; if no value needs them, the part's first device.
     pub device: DeviceIndex,
-    /// What they are, with the properties of that kind.
+    /// Their kind, with the properties of that kind.
     pub kind: Kind,
-    /// Which way the value goes.
+    /// The direction of the value.
     pub direction: Direction,
-    /// The board the part is bound to; none where it may go to any.
+    /// The board the part is bound to; none if it may go to any.
     pub board: Option<BoardIndex>,
-    /// What the user fixed of them.
+    /// What the user fixed about them.
     pub placement: Placement,
-    /// Soft rules.
+    /// Soft rules for them.
     pub wishes: Vec<Wish>,
-    /// The voltage on them, where it is stated.
+    /// The voltage on them, if it is stated.
     pub level: Option<Level>,
 }
 
 /// The voltage that a device puts on its wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level {
-    /// At the device, in millivolts; of an analog device the highest there is.
+    /// The voltage at the device, in millivolts; for an analog device the highest that occurs.
     pub mv: u32,
-    /// The resistors that divide it, in ohms: from the device to the pin, and from there to ground.
+    /// The resistors of a divider, in ohms: from the device to the pin, and from the pin to ground.
     pub divider: Option<[u32; 2]>,
     /// Where it is stated.
     pub span: Span,
 }
 
 impl Level {
-    /// For people: `12.6 V, 33 kOhm to the pin, 10 kOhm to ground: 2.931 V`; none without resistors.
+    /// Formats it for people: `12.6 V, 33 kOhm to the pin, 10 kOhm to ground: 2.931 V`; none
+    /// without resistors.
     #[must_use]
     pub fn divided(&self) -> Option<String> {
         let [upper, lower] = self.divider?.map(shown_ohm);
@@ -277,7 +281,7 @@ impl Level {
         Some(format!("{level}, {upper} to the pin, {lower} to ground: {left}"))
     }
 
-    /// What arrives at the pin, in millivolts, rounded up.
+    /// The voltage at the pin, in millivolts, rounded up.
     #[must_use]
     pub fn at_pin_mv(&self) -> u32 {
         let Some([upper, lower]) = self.divider.map(|divider| divider.map(u64::from)) else {
@@ -288,56 +292,56 @@ impl Level {
     }
 }
 
-/// Devices of one group never measure at the same time.
+/// A group of devices that never measure at the same time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
-    /// Its name.
+    /// The name of the group.
     pub name: String,
-    /// Where it stands.
+    /// Where the group is named.
     pub span: Span,
-    /// The device names it itself, not its driver.
+    /// True if the device itself names the group, not its driver.
     pub own: bool,
 }
 
 /// A warning that is accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Allow {
-    /// Which one.
+    /// The code of the warning.
     pub code: Code,
-    /// Why.
+    /// The user's reason.
     pub reason: String,
-    /// Where it says so.
+    /// Where the warning is allowed.
     pub span: Span,
-    /// The block it stands in: what it is about.
+    /// The block that contains the rule, which is what the rule applies to.
     pub scope: Span,
 }
 
 /// How a host shows a value: `scale * raw + offset`, in `quantity`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Presentation {
-    /// Text for people.
+    /// A text for people.
     pub label: Option<String>,
-    /// Unit name (`cm`, `V`).
+    /// The name of the unit (`cm`, `V`).
     pub quantity: Option<String>,
-    /// Factor; none for 1.
+    /// The factor; none for 1.
     pub scale: Option<f64>,
-    /// Added after scaling; none for 0.
+    /// The offset added after scaling; none for 0.
     pub offset: Option<f64>,
-    /// Least value to expect, scaled.
+    /// The least value to expect, scaled.
     pub min: Option<f64>,
-    /// Greatest value to expect, scaled.
+    /// The greatest value to expect, scaled.
     pub max: Option<f64>,
-    /// Where these two are stated.
+    /// Where `min` and `max` are stated.
     pub bounds: [Option<Span>; 2],
-    /// Points between which `scale * raw + offset` is interpolated; empty for none.
+    /// Points between which `scale * raw + offset` is interpolated; empty for no curve.
     pub curve: Vec<(f64, f64)>,
-    /// A bare number that was given as a shown value, where it is another code.
+    /// A bare number given as a shown value, if its code is a different number.
     pub bare: Option<Bare>,
 }
 
 impl Connection {
-    /// What one of the wires is called beside the others of its device: `in`, `in[3]`, `pwm`,
-    /// `encoder.a`.
+    /// The name of one of the wires, as distinct from the others of its device: `in`, `in[3]`,
+    /// `pwm`, `encoder.a`.
     #[must_use]
     pub fn wire_name(&self, role: Role) -> String {
         let mut name = match &self.name {
@@ -377,7 +381,7 @@ impl Design {
         self.parts.get(index.0)
     }
 
-    /// The name of a part; empty where there is none at `index`.
+    /// The name of a part; empty if there is none at `index`.
     #[must_use]
     pub fn part_name(&self, index: PartIndex) -> &str {
         self.part(index).map_or("", |part| part.name.value.as_str())
@@ -389,13 +393,13 @@ impl Design {
         self.connections.get(index.0)
     }
 
-    /// The wires that a device's own properties are of.
+    /// The wires that a device's own properties apply to.
     #[must_use]
     pub fn main_connection(&self, device: &Device) -> Option<&Connection> {
         self.connection(*device.connections.first()?)
     }
 
-    /// What a connection is called: `Line[3]`, `Left.pwm`, or as its part.
+    /// The name of a connection: `Line[3]`, `Left.pwm`, or that of its part.
     #[must_use]
     pub fn connection_name(&self, connection: &Connection) -> String {
         let mut name = self.part_name(connection.part).to_owned();
@@ -409,7 +413,7 @@ impl Design {
         name
     }
 
-    /// Where the connections of a part are, which stand one after the other.
+    /// The index range of a part's connections, which are consecutive.
     fn range_of(&self, part: PartIndex) -> std::ops::Range<usize> {
         let first = self.connections.partition_point(|one| one.part < part);
         first..self.connections.partition_point(|one| one.part <= part)
@@ -420,14 +424,14 @@ impl Design {
         self.connections.get(self.range_of(part)).into_iter().flatten()
     }
 
-    /// The connections of a part, to be changed.
+    /// The connections of a part, mutably.
     pub fn connections_of_mut(&mut self, part: PartIndex) -> impl Iterator<Item = &mut Connection> {
         let range = self.range_of(part);
         self.connections.get_mut(range).into_iter().flatten()
     }
 
-    /// Leaves out all parts but those for which the function holds, with their devices and
-    /// connections. What is left is numbered anew; the parts' old numbers come back in order.
+    /// Keeps only the parts for which the function holds, with their devices and connections.
+    /// Renumbers what is left and returns the parts' old numbers in order.
     pub fn retain_parts(&mut self, holds: impl Fn(PartIndex, &Part) -> bool) -> Vec<PartIndex> {
         let kept: Vec<PartIndex> = (0..)
             .map(PartIndex)
@@ -466,7 +470,7 @@ impl Design {
         kept
     }
 
-    /// The wire of one board that carries `devices` (in file order).
+    /// The schema of one board's link that carries `devices` (in file order).
     #[must_use]
     pub fn schema(&self, board: BoardIndex, devices: &[DeviceIndex]) -> Schema {
         let link = self.board(board).map(|board| &board.link);

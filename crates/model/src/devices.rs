@@ -1,4 +1,4 @@
-//! One device by itself: from its block to a part with one value.
+//! A device on its own: from its block to a part with one value.
 
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0207_unknown_kind, e0211_out_of_range, e0213_property_of_other_kind,
@@ -27,25 +27,25 @@ use crate::rules;
 use crate::types;
 use crate::words;
 
-/// The properties of every device, but for those that show its value.
+/// The properties of every device, except those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] = &[
     "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "together",
     "sequence", "level", "divider",
 ];
-/// The properties by which a host shows a value.
+/// The properties for how a host shows a value.
 pub(crate) const PRESENTATION: &[&str] =
     &["label", "quantity", "scale", "offset", "min", "max", "curve"];
 
-/// Cycle time where the file says nothing (the paper, section 3.2).
+/// Cycle time if the file gives none (the paper, section 3.2).
 const DELAY_DEFAULT_MS: u32 = 1_000;
 /// Longest cycle time: an hour.
 const DELAY_MAX_MS: u32 = 3_600_000;
-/// Highest voltage that may stand in a file.
+/// The highest voltage allowed in a file.
 const LEVEL_MAX_MV: u32 = 1_000_000;
-/// Most elements of an array of wires: more than any part has of one kind.
+/// Most elements of an array with a wire each, which is more than any part has of one kind.
 const WIRES_MAX: u16 = 128;
 
-/// What blocks refer to.
+/// What blocks can refer to.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
     pub(crate) constants: &'a Constants,
@@ -130,7 +130,7 @@ pub(crate) fn read(
     Some(ReadPart { part, devices: vec![device], connections })
 }
 
-/// Which way a device goes.
+/// The direction of a device.
 pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
     Some(match node.direction()? {
         ast::Direction::Sensor => Direction::Sensor,
@@ -138,7 +138,7 @@ pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
     })
 }
 
-/// The driver that the device names, where that one tells several values apart.
+/// The driver that the device names, if that driver names several values.
 fn driver_with_values<'d>(
     file: FileId,
     node: &ast::Device,
@@ -151,7 +151,7 @@ fn driver_with_values<'d>(
     driver.has_values().then_some(driver)
 }
 
-/// What a device has whatever it is connected to.
+/// The properties that a device has whatever it is connected to.
 pub(crate) struct Own {
     pub(crate) id: Option<Spanned<u8>>,
     pub(crate) delay_ms: u32,
@@ -163,7 +163,7 @@ pub(crate) struct Own {
     pub(crate) filter: Filter,
 }
 
-/// Reads what a device has whatever it is connected to.
+/// Reads the properties that a device has whatever it is connected to.
 pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
     let id = fields.integer("id", 1..=254);
     let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
@@ -181,7 +181,7 @@ pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
     }
 }
 
-/// The host undoes what resistors in between do.
+/// Adjusts the scale so that the host undoes the voltage divider.
 pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Presentation {
     if let Some([upper, lower]) = level.and_then(|level| level.divider) {
         let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
@@ -190,7 +190,7 @@ pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Present
     shown
 }
 
-/// Whether devices of the kind can have the type; otherwise that is reported.
+/// Whether devices of the kind can have the type; if not, that is reported.
 fn accept(fields: &mut Fields<'_>, kind: KindName, value: Spanned<ValueType>) -> Option<()> {
     let wires = kind.spec().values.wires(value.value);
     if wires.is_some_and(|wires| wires > WIRES_MAX) {
@@ -206,7 +206,7 @@ fn accept(fields: &mut Fields<'_>, kind: KindName, value: Spanned<ValueType>) ->
     Some(())
 }
 
-/// The kind that `type` says, or the driver.
+/// The kind that `type`, or otherwise the driver, states.
 fn kind_name(
     fields: &mut Fields<'_>,
     direction: Direction,
@@ -237,7 +237,7 @@ fn kind_name(
     Some(Spanned { value: kind, span: written.span })
 }
 
-/// The kind that the driver is for, where the device does not say it.
+/// The kind that the driver is for, if the device does not state one.
 fn of_driver(
     fields: &mut Fields<'_>,
     direction: Direction,
@@ -277,7 +277,7 @@ fn check_direction(fields: &mut Fields<'_>, written: Spanned<KindName>, directio
     }
 }
 
-/// Takes over the properties of the driver that the device names, or of the one its address tells.
+/// Inherits the properties of the driver that the device names, or of the one its address implies.
 fn take_driver(
     fields: &mut Fields<'_>,
     kind: KindName,
@@ -298,7 +298,7 @@ fn take_driver(
     } else {
         return None;
     };
-    // What describes the part is for its page.
+    // Properties that describe the part are for its page.
     let about = |one: &ast::Property| one.name().is_some_and(|name| is_about_part(name.text()));
     let properties = driver.node.properties().filter(|one| !about(one));
     fields.drivers_follow();
@@ -307,7 +307,7 @@ fn take_driver(
     Some(driver.name.value.clone())
 }
 
-/// True for an i2c device without any protocol at the address of a Devantech ranger.
+/// Whether this is an i2c device at the address of a Devantech ranger, without any protocol.
 fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
     if i2c::PROTOCOL.iter().any(|name| fields.has(name)) {
         return false;
@@ -317,7 +317,7 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
 }
 
-/// The devices that never measure at the same time; `none` takes a driver's group back.
+/// The group of devices that never measure at the same time; `none` overrides a driver's group.
 fn group(fields: &mut Fields<'_>) -> Option<Group> {
     let own = fields.own_span("group").is_some();
     let name = fields.name("group", "the name of a group, or none")?;
@@ -336,7 +336,7 @@ pub(crate) fn level(fields: &mut Fields<'_>) -> Option<Level> {
     Some(Level { mv, divider: divider.map(|divider| divider.value), span })
 }
 
-/// Words that people write for properties, and the properties.
+/// Words that people write for properties, each with the property that is meant.
 const OTHER_WORDS: &[(&str, &str)] = &[
     ("addr", "address"),
     ("baudrate", "baud"),
@@ -356,13 +356,13 @@ const OTHER_WORDS: &[(&str, &str)] = &[
     ("trig", "trigger"),
 ];
 
-/// Whether a property of a driver describes the part, for its page alone. `pull` is a resistor of the
-/// MCU to some kinds.
+/// Whether a property of a driver describes the part and is only for its page. For some kinds,
+/// `pull` is a resistor in the MCU.
 pub(crate) fn is_about_part(name: &str) -> bool {
     ABOUT_PART.contains(&name)
 }
 
-/// What a driver can say of its part.
+/// The properties with which a driver describes its part.
 pub(crate) const ABOUT_PART: &[&str] = &[
     "part",
     "about",
@@ -397,13 +397,13 @@ fn presentation(fields: &mut Fields<'_>) -> Presentation {
     }
 }
 
-/// `min` and `max` of a pwm device are pulses, which its kind has read already.
+/// For a pwm device, `min` and `max` are pulses, which its kind has already read.
 fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<Spanned<f64>> {
     let free = fields.rest().iter().any(|field| field.name == name);
     if free { fields.bound(name) } else { None }
 }
 
-/// Reports what no part of the device has read.
+/// Reports properties that nothing of the device has read.
 fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
     for field in fields.rest() {
         if fields.is_inherited(&field) {
@@ -436,7 +436,7 @@ pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
         let meant = nearest(name, known);
         return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
     }
-    // Whoever fixes `pin` of a kind with several wires means one of these.
+    // A user who fixes `pin` for a kind with several wires means one of these.
     let is_wire =
         |word: &&str| name == "pin" && Role::ALL.iter().any(|role| role.property() == *word);
     let instead: Vec<&str> = own.iter().copied().filter(is_wire).collect();

@@ -16,33 +16,35 @@ use crate::fields::span;
 use crate::kind::KindName;
 use crate::names::folded;
 
-/// The driver that an i2c device without a protocol gets by its address, as in the paper's example.
+/// The driver that an i2c device without a protocol gets because of its address, as in the paper's
+/// example.
 pub(crate) const DEFAULT_RANGER: &str = "srf08";
-/// The 8-bit addresses such a device can have.
+/// The 8-bit addresses that such a device can have.
 pub(crate) const RANGER_ADDRESSES: std::ops::RangeInclusive<i64> = 0xE0..=0xFE;
 
-/// Fewest letters that tell a part by the beginning of its name.
+/// Fewest letters that identify a part by the beginning of its name.
 const BEGINNING_MIN: usize = 3;
 
 /// A driver that devices and chips can name.
 #[derive(Clone, Debug)]
 pub(crate) struct Driver {
     pub(crate) name: Spanned<String>,
-    /// None for a part whose connections are of several kinds.
+    /// None for a part with connections of several kinds.
     pub(crate) kind: Option<KindName>,
     pub(crate) file: FileId,
     pub(crate) node: ast::Driver,
-    /// What people may call it beside its name.
+    /// Other names that people may use for it.
     aliases: Vec<String>,
 }
 
 impl Driver {
-    /// Whether it tells its values apart, so that it is for a chip.
+    /// Whether it names its values, which makes it a driver for a chip.
     pub(crate) fn has_values(&self) -> bool {
         self.node.readings().next().is_some() || self.node.commands().next().is_some()
     }
 
-    /// What follows after `driver = …` in a message: `an i2c driver`, or of several kinds.
+    /// The words after `driver = …` in a message: `an i2c driver`, or a driver of several
+    /// connections.
     pub(crate) fn what(&self) -> String {
         match self.kind {
             Some(kind) => kind.with_article().replace("device", "driver"),
@@ -56,7 +58,7 @@ impl Driver {
     }
 }
 
-/// A file of the library, read when something of it is asked for.
+/// A file of the library, parsed when something in it is first requested.
 #[derive(Debug)]
 struct Volume {
     name: &'static str,
@@ -74,7 +76,7 @@ impl Volume {
     }
 }
 
-/// All drivers in reach, those of the file first.
+/// All available drivers, those of the file first.
 #[derive(Debug, Default)]
 pub(crate) struct Drivers {
     own: Vec<Driver>,
@@ -82,7 +84,7 @@ pub(crate) struct Drivers {
 }
 
 impl Drivers {
-    /// The drivers of the file, and the library, whose texts `sources` gets to hold.
+    /// The drivers of the file and of the library; adds the library's texts to `sources`.
     pub(crate) fn new(
         own: &[(FileId, ast::Driver)],
         sources: &mut SourceMap,
@@ -109,12 +111,12 @@ impl Drivers {
         self.own.iter().map(|driver| &driver.name).collect()
     }
 
-    /// The file's own drivers: the name of each, and its whole block.
+    /// The file's own drivers: the name and the whole block of each.
     pub(crate) fn own_blocks(&self) -> impl Iterator<Item = (&str, Span)> {
         self.own.iter().map(|one| (one.name.value.as_str(), span(one.file, one.node.range())))
     }
 
-    /// The driver of that name, or of the part that is called so; none is reported.
+    /// The driver with that name, or of the part with that name. An unknown name is reported.
     pub(crate) fn find(
         &self,
         wanted: &Spanned<String>,
@@ -129,7 +131,7 @@ impl Drivers {
         found
     }
 
-    /// As [`Self::find`], for a device of that kind.
+    /// Like [`Self::find`], for a device of that kind.
     pub(crate) fn find_for(
         &self,
         wanted: &Spanned<String>,
@@ -146,7 +148,7 @@ impl Drivers {
         Some(driver)
     }
 
-    /// The driver of that name; otherwise the one whose part is called so, whatever its case,
+    /// The driver with that name; otherwise the one whose part has that name, ignoring case,
     /// hyphens and underscores.
     pub(crate) fn look_up(&self, name: &str) -> Option<&Driver> {
         let own = self.own.iter().find(|driver| driver.name.value == name);
@@ -156,12 +158,12 @@ impl Drivers {
         })
     }
 
-    /// The driver that a name which is none's may stand for: the one with the nearest name, the first
-    /// that is called something that begins so or that the name begins with, the one with the nearest
-    /// other name.
+    /// The driver that an unknown name may stand for. Tried in this order: the one with the nearest
+    /// name, the first with a name that begins with it or that it begins with, the one with the
+    /// nearest alias.
     pub(crate) fn meant(&self, name: &str) -> Option<&str> {
         let near_name = || nearest(name, self.all().map(|one| one.name.value.as_str()));
-        // A word that begins otherwise is another word (barometer, tachometer).
+        // A word that begins with another letter is a different word (barometer, tachometer).
         let first = name.chars().next().map(|letter| letter.to_ascii_lowercase());
         let begins_so = |alias: &&str| alias.chars().next() == first;
         let near_alias = || {
@@ -172,8 +174,8 @@ impl Drivers {
         near_name().or_else(|| self.begins(name)).or_else(near_alias)
     }
 
-    /// The first driver of which a name begins so; otherwise the one whose name is the longest
-    /// beginning of this one (`mpu6050_gyro`).
+    /// The first driver with a name that begins like this; otherwise the one whose name is the
+    /// longest prefix of this one (`mpu6050_gyro`).
     fn begins(&self, name: &str) -> Option<&str> {
         let wanted = folded(name);
         let names = || {
@@ -191,7 +193,7 @@ impl Drivers {
         longer.or_else(shorter).map(|(_, driver)| driver.name.value.as_str())
     }
 
-    /// The drivers of the library, each with the name of its file without folder and ending.
+    /// The drivers of the library, each with the name of its file, without folder and extension.
     pub(crate) fn of_library(&self) -> impl Iterator<Item = (&'static str, &Driver)> {
         self.library.iter().flat_map(|volume| {
             let name = volume.name.strip_prefix("drivers/").unwrap_or(volume.name);
@@ -204,7 +206,7 @@ impl Drivers {
         self.own.iter().chain(self.library.iter().flat_map(Volume::drivers))
     }
 
-    /// The library's driver of that name.
+    /// The library's driver with that name.
     pub(crate) fn library(&self, name: &str) -> Option<&Driver> {
         let volumes = self.library.iter().filter(|volume| volume.text.contains(name));
         volumes.flat_map(Volume::drivers).find(|driver| driver.name.value == name)
@@ -227,7 +229,7 @@ fn read(file: FileId, node: &ast::Driver, diagnostics: &mut Vec<Diagnostic>) -> 
     Some(Driver { name, kind, file, node: node.clone(), aliases })
 }
 
-/// The kind that a name stands for; another name is reported.
+/// The kind that a name stands for; an unknown name is reported.
 pub(crate) fn kind_of(
     file: FileId,
     kind: &ast::Name,
@@ -242,7 +244,7 @@ pub(crate) fn kind_of(
     found
 }
 
-/// Reports what is wrong with the drivers of the file, whether anything names them or not.
+/// Reports mistakes in the drivers of the file, whether anything names them or not.
 pub(crate) fn check(known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
     for driver in known.drivers.own() {
         chips::check_driver(driver, known, diagnostics);

@@ -1,7 +1,8 @@
-//! What is known of the parts of the library: its drivers in, plain data about each out, for tables,
-//! pages and programs.
+//! What is known about the parts of the library: its drivers in, plain data about each out, for
+//! tables, pages and programs.
 //!
-//! Wires and values are those that a design gets: each driver is read as a part that uses all of it.
+//! Wires and values are those that a design gets: each driver is read as a part that uses
+//! everything the driver has.
 
 mod example;
 
@@ -29,39 +30,39 @@ pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
 /// A part of the library.
 #[derive(Clone, Debug)]
 pub struct PartFacts {
-    /// What `driver = …;` calls it.
+    /// The name in `driver = …;`.
     pub name: String,
-    /// The field that it belongs to: the name of the library's file (`motion`).
+    /// The field that it belongs to, which is the name of the library's file (`motion`).
     pub field: &'static str,
-    /// What it is connected to, each kind once.
+    /// The kinds of its connections, each once.
     pub kinds: Vec<KindName>,
     /// Its full name.
     pub part: String,
-    /// What it does, in a sentence.
+    /// A sentence about what it does.
     pub about: String,
-    /// What else people call it.
+    /// Other names that people use for it.
     pub aliases: Vec<String>,
-    /// What people look for who mean it: `motor driver`, `imu`.
+    /// Search terms of people who mean it: `motor driver`, `imu`.
     pub words: Vec<&'static str>,
-    /// Where its figures are from.
+    /// The source of its figures.
     pub sheet: Option<String>,
-    /// What they were compared with; none where they were not.
+    /// What the figures were compared with; none if they were not.
     pub checked: Option<String>,
     /// The least and the greatest supply, in millivolts.
     pub supply_mv: Option<(u32, u32)>,
-    /// The greatest clock of its bus, where the driver says it.
+    /// The greatest clock of its bus, if the driver states it.
     pub clock_max_hz: Option<u32>,
-    /// Whether its bus or its wire needs resistors to the supply.
+    /// Whether its bus or its wire needs pull-up resistors.
     pub needs_pull_up: bool,
     /// The addresses that it can have.
     pub addresses: Vec<u8>,
-    /// The one that it has unless a design says otherwise; none where a design has to say it.
+    /// Its default address; none if a design must state it.
     pub address: Option<u8>,
-    /// The names at the connector of the usual module, in their order.
+    /// The names on the connector of the usual module, in order.
     pub connector: Vec<String>,
-    /// What whoever wires it must know.
+    /// What anyone who wires it must know.
     pub notes: Vec<String>,
-    /// How it is started and recognised; none of a part with one value that has no name.
+    /// How it is started and identified; none for a part with one value that has no name.
     pub protocol: Option<Protocol>,
     /// Its wires.
     pub connections: Vec<ConnectionFacts>,
@@ -72,39 +73,39 @@ pub struct PartFacts {
 /// Wires of a part.
 #[derive(Clone, Debug)]
 pub struct ConnectionFacts {
-    /// What the driver calls them; none where it is for one kind.
+    /// The driver's name for them; none if the driver is for one kind.
     pub name: Option<String>,
-    /// What they are, with the properties of that kind.
+    /// Their kind, with the properties of that kind.
     pub kind: Kind,
-    /// Each of them.
+    /// The role of each wire.
     pub roles: Vec<Role>,
-    /// The voltage on them, where the driver says it.
+    /// The voltage on them, if the driver states it.
     pub level: Option<Level>,
 }
 
 /// A value of a part.
 #[derive(Clone, Debug)]
 pub struct ValueFacts {
-    /// The driver's reading or command; none where there is one value, which has no name.
+    /// The driver's reading or command; none for a single value, which has no name.
     pub name: Option<String>,
-    /// Which way it goes.
+    /// Its direction.
     pub direction: Direction,
     /// Its type.
     pub value: ValueType,
-    /// What it is connected to, with its own register, length and order.
+    /// The kind of its connection, with its own register, length and order.
     pub kind: Kind,
     /// How a host shows it.
     pub shown: Presentation,
     /// How it is coded.
     pub coding: Coding,
-    /// What becomes of it on the board.
+    /// How it is filtered on the board.
     pub filter: Filter,
-    /// The connections that it goes over; empty where the driver is for one kind.
+    /// The connections that it goes over; empty if the driver is for one kind.
     pub via: Vec<String>,
 }
 
 impl ValueFacts {
-    /// The least and the greatest value as a host shows it, where the part bounds them more than the
+    /// The least and the greatest value as a host shows it, if the part limits them more than the
     /// type does.
     #[must_use]
     pub fn range(&self) -> Option<(f64, f64)> {
@@ -139,7 +140,7 @@ impl ValueFacts {
                 Some((-half, half - 1.0))
             }
             Some(bits) if bits <= 32 => Some((0.0, 2_f64.powi(i32::from(bits)) - 1.0)),
-            // A wide word says little about the part, and neither does one that is counted.
+            // A wide word reveals little about the part, and so does one that is counted.
             None if self.shown.scale.is_some() && self.value.scalar.size_bytes() <= 2 =>
             {
                 #[expect(clippy::cast_precision_loss, reason = "of at most 16 bits")]
@@ -150,7 +151,7 @@ impl ValueFacts {
     }
 }
 
-/// All parts of the library, field by field, in the order of its files.
+/// All parts of the library, by field, in the order of its files.
 #[must_use]
 pub fn all() -> Vec<PartFacts> {
     let library = Library::open();
@@ -167,14 +168,14 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     })
 }
 
-/// All words of the driver language: properties of a driver, its readings and its commands, and the words that they
-/// take. Those of a kind are the kind's.
+/// All words of the driver language: the properties of a driver, its readings and its commands, and
+/// the words that they take. Those of a kind are listed with the kind.
 pub fn words_of_drivers() -> impl Iterator<Item = &'static str> {
     let properties = CODING.iter().chain(PROTOCOL).chain(devices::ABOUT_PART).copied();
     properties.chain(coding::WORDS.iter().copied()).chain(Formula::ALL.map(Formula::name))
 }
 
-/// The part that a driver's name or one of its other names stands for.
+/// The part that a driver's name or one of its aliases stands for.
 #[must_use]
 pub fn find(name: &str) -> Option<PartFacts> {
     let library = Library::open();
@@ -189,7 +190,7 @@ pub fn nearest_name(name: &str) -> Option<String> {
     Library::open().drivers.meant(name).map(str::to_owned)
 }
 
-/// What is wrong with the library: each driver is read as a part that uses all of it.
+/// The mistakes in the library; each driver is read as a part that uses everything the driver has.
 #[must_use]
 pub fn mistakes() -> Vec<(String, Diagnostic)> {
     let library = Library::open();
@@ -203,14 +204,14 @@ pub fn mistakes() -> Vec<(String, Diagnostic)> {
     found
 }
 
-/// What is looked for by who means that driver.
+/// The search terms for a driver.
 fn words(driver: &str) -> Vec<&'static str> {
     let lines = SEARCH.lines().skip(1).filter_map(|line| line.split_once(','));
     let of_driver = lines.filter(|(_, drivers)| drivers.split(' ').any(|one| one == driver));
     of_driver.flat_map(|(words, _)| words.split(' ')).collect()
 }
 
-/// The drivers, and where the texts of those who ask for them would stand.
+/// The drivers, and an empty file in place of the text of a user who asks for them.
 struct Library {
     constants: Constants,
     drivers: Drivers,
@@ -225,7 +226,7 @@ impl Library {
         Self { constants: Constants::default(), drivers, file }
     }
 
-    /// Reads one of them; none where it cannot be used, which is reported.
+    /// Reads one driver; none if it cannot be used, which is reported.
     fn facts(
         &self,
         field: &'static str,
@@ -245,7 +246,7 @@ impl Library {
         let first = addresses.first().filter(|_| address.is_none()).copied();
         let read = self.whole(driver, first, said)?;
         let kinds = kinds(&read);
-        // Of a GPIO and an input `pull` is the resistor inside the MCU.
+        // For a GPIO and an input, `pull` is the resistor inside the MCU.
         let is_outside = kinds.iter().any(|kind| !kind.spec().properties.contains(&"pull"));
         Some(PartFacts {
             name: driver.name.value.clone(),
@@ -277,7 +278,7 @@ impl Library {
         Fields::new(own, driver.file, "a driver", at, (&self.constants, said))
     }
 
-    /// A part that uses all that the driver has.
+    /// A part that uses everything the driver has.
     fn whole(
         &self,
         driver: &Driver,
@@ -300,7 +301,7 @@ impl Library {
         }
     }
 
-    /// Direction and type of the only value of a driver that does not name it.
+    /// Direction and type of a driver's only value, if the driver does not name it.
     fn plain_value(&self, driver: &Driver) -> Option<(Direction, ValueType)> {
         let mut said = Vec::new();
         let fields = self.fields(driver, &mut said);
@@ -317,10 +318,10 @@ impl Library {
     }
 }
 
-/// Units of what goes below zero.
+/// Units of quantities that can be negative.
 const SIGNED: &[&str] = &["degC", "g", "deg/s", "m/s^2", "uT"];
 
-/// `sensor NAME returns TYPE`, or an actuator.
+/// The head of a device: `sensor NAME returns TYPE`, or an actuator's.
 fn head_of_device(name: &str, direction: Direction, value: ValueType) -> String {
     match direction {
         Direction::Sensor => format!("sensor {name} returns {value}"),
@@ -361,7 +362,7 @@ fn connections(read: &ReadPart) -> Vec<ConnectionFacts> {
     connections.collect()
 }
 
-/// A text, or a list of them.
+/// Reads a text or a list of texts.
 fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
     let Some(field) = fields.take(name) else { return Vec::new() };
     let found = match field.value.list() {

@@ -1,7 +1,7 @@
-//! The properties of one block: taken one by one by name, converted, and complained about.
+//! The properties of one block: taken one by one by name, converted, and reported when wrong.
 //!
 //! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
-//! parts that every device has, and asked at the end which were not taken.
+//! code for what every device has, and asked at the end which properties were not taken.
 
 mod plain;
 mod quantities;
@@ -32,16 +32,16 @@ pub(crate) fn span(file: FileId, range: TextRange) -> Span {
     Span::new(file, range.start().into()..range.end().into())
 }
 
-/// One property that was written.
+/// A property as it was written.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
     pub(crate) name: String,
     pub(crate) name_span: Span,
     pub(crate) value: Value,
     pub(crate) value_span: Span,
-    /// As it is written.
+    /// The value as it is written.
     node: ast::Value,
-    /// 0 for the block's own; what was taken over from a driver comes later.
+    /// 0 for the block's own properties; higher for those inherited from a driver.
     layer: u8,
     taken: bool,
 }
@@ -49,32 +49,32 @@ pub(crate) struct Field {
 /// The properties of one block.
 pub(crate) struct Fields<'a> {
     fields: Vec<Field>,
-    /// Where each name stands in the list.
+    /// The index of each name in the list.
     names: BTreeMap<String, usize>,
     constants: &'a Constants,
-    /// How many times something was taken over.
+    /// How many times properties were inherited.
     layers: u8,
-    /// The first so many layers are what the user wrote.
+    /// The number of layers that the user wrote, which come first.
     own_layers: u8,
     /// The driver's reading or command that the block is.
     reading: String,
-    /// Bytes of a register's number.
+    /// Bytes in the number of a register.
     register_bytes: u8,
-    /// The addresses that the part can have, of 7 bits; none where its driver does not say.
+    /// The 7-bit addresses that the part can have; empty if its driver gives none.
     addresses: Vec<u8>,
-    /// The bare number that was taken as a shown value, where it is another code.
+    /// The bare number that was taken as a shown value, if its code is a different number.
     bare: Option<Bare>,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// The names that were asked for, written or not.
+    /// The names that were asked for, whether written or not.
     #[cfg(test)]
     pub(crate) asked: std::collections::BTreeSet<String>,
 }
 
 impl<'a> Fields<'a> {
-    /// The properties `own` of a block in `file`; a name that stands twice is reported.
+    /// The properties `own` of a block in `file`; a duplicate name is reported.
     pub(crate) fn new(
         own: impl Iterator<Item = Property>,
         file: FileId,
@@ -103,7 +103,7 @@ impl<'a> Fields<'a> {
         fields
     }
 
-    /// What the block is called in messages from now on.
+    /// Sets what messages call the block from now on.
     pub(crate) fn rename_owner(&mut self, owner: String) {
         self.owner = owner;
     }
@@ -113,12 +113,12 @@ impl<'a> Fields<'a> {
         &self.owner
     }
 
-    /// Where the block's name stands.
+    /// The place of the block's name.
     pub(crate) const fn owner_span(&self) -> Span {
         self.owner_span
     }
 
-    /// Takes over the properties of a driver; what the block itself says wins.
+    /// Inherits the properties of a driver; the block's own properties win.
     pub(crate) fn inherit(&mut self, driver: impl Iterator<Item = Property>, file: FileId) {
         self.layers += 1;
         self.add(driver, file);
@@ -154,17 +154,17 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// What was taken over so far is the user's own; what comes now is the driver's.
+    /// Marks everything inherited so far as the user's own; what follows is the driver's.
     pub(crate) fn drivers_follow(&mut self) {
         self.own_layers = self.layers + 1;
     }
 
-    /// Whether it comes from the driver, not from what the user wrote.
+    /// Whether the property comes from the driver, not from what the user wrote.
     pub(crate) const fn is_inherited(&self, field: &Field) -> bool {
         field.layer >= self.own_layers
     }
 
-    /// The driver's reading or command that the block is.
+    /// Sets the driver's reading or command that the block is.
     pub(crate) fn set_reading(&mut self, name: &str) {
         name.clone_into(&mut self.reading);
     }
@@ -174,27 +174,27 @@ impl<'a> Fields<'a> {
         !self.reading.is_empty()
     }
 
-    /// Tells how many bytes the number of a register has.
+    /// Sets the number of bytes in the number of a register.
     pub(crate) const fn set_register_bytes(&mut self, bytes: u8) {
         self.register_bytes = bytes;
     }
 
-    /// See [`Self::set_register_bytes`].
+    /// The number of bytes in the number of a register.
     pub(crate) const fn register_bytes(&self) -> u8 {
         self.register_bytes
     }
 
-    /// Tells which addresses the part can have, of 7 bits.
+    /// Sets the 7-bit addresses that the part can have.
     pub(crate) fn set_addresses(&mut self, addresses: Vec<u8>) {
         self.addresses = addresses;
     }
 
-    /// See [`Self::set_addresses`].
+    /// The 7-bit addresses that the part can have.
     pub(crate) fn addresses(&self) -> &[u8] {
         &self.addresses
     }
 
-    /// See [`Self::set_reading`].
+    /// The name of the driver's reading or command that the block is.
     pub(crate) fn reading_name(&self) -> String {
         self.reading.clone()
     }
@@ -203,39 +203,39 @@ impl<'a> Fields<'a> {
         self.fields.get(*self.names.get(name)?)
     }
 
-    /// Reports something.
+    /// Adds a diagnostic.
     pub(crate) fn say(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    /// True when the property was written, by the block or its driver.
+    /// Whether the property was written, in the block or its driver.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.names.contains_key(name)
     }
 
-    /// The whole number of a property that is not taken by looking.
+    /// The whole number of a property, without taking the property.
     pub(crate) fn peek_integer(&self, name: &str) -> Option<i64> {
         let field = self.field(name)?;
         i64::try_from(plain_integer(&field.value)?).ok()
     }
 
-    /// The name of a property that is not taken by looking.
+    /// The name in a property, without taking the property.
     pub(crate) fn peek_name(&self, name: &str) -> Option<String> {
         name_or_text(&self.field(name)?.value)
     }
 
-    /// Where the value of a property stands.
+    /// The place of a property's value.
     pub(crate) fn value_span(&self, name: &str) -> Option<Span> {
         self.field(name).map(|field| field.value_span)
     }
 
-    /// Where a property that the block itself wrote stands, name and value.
+    /// The place, from name to value, of a property that the block itself gives.
     pub(crate) fn own_span(&self, name: &str) -> Option<Span> {
         let field = self.field(name).filter(|field| !self.is_inherited(field))?;
         Some(field.name_span.cover(field.value_span))
     }
 
-    /// Those that were not taken, the driver's included.
+    /// The properties that were not taken, including the driver's.
     pub(crate) fn rest(&self) -> Vec<Field> {
         self.fields.iter().filter(|field| !field.taken).cloned().collect()
     }
@@ -249,7 +249,7 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn wrong(&mut self, field: &Field, takes: &str) {
-        // What could not be computed has been reported.
+        // A value that could not be computed has already been reported.
         if field.value == Value::Unknown {
             return;
         }
@@ -291,7 +291,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A whole number that must be there; `example` is a line that would do.
+    /// A required whole number; `example` is a line that would do.
     pub(crate) fn required_integer(
         &mut self,
         name: &str,
@@ -329,11 +329,11 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// One word out of a few.
+    /// One of a few words.
     pub(crate) fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Option<Spanned<T>> {
         let field = self.take(name)?;
         let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
-        // `8E1` is a number to the parser, and a word to who wants one.
+        // `8E1` is a number to the parser, but can be a word here.
         let as_written = field.node.syntax().text().to_string();
         let is_word = words.iter().any(|(word, _)| *word == as_written);
         let found = name_or_text(&field.value).or_else(|| is_word.then_some(as_written));
@@ -348,7 +348,7 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// Reports a word that is none of a few.
+    /// Reports a word that is not one of the few accepted.
     pub(crate) fn unknown_word<T>(
         &mut self,
         at: Span,
@@ -362,7 +362,7 @@ impl<'a> Fields<'a> {
         self.diagnostics.push(unknown(at, name, found, &all.join(", "), meant));
     }
 
-    /// Two whole numbers as a range, or one that is both.
+    /// Two whole numbers as a range, or one number for both ends.
     pub(crate) fn integer_range(
         &mut self,
         name: &str,
@@ -402,19 +402,19 @@ impl<'a> Fields<'a> {
         all
     }
 
-    /// Takes the property when it is the given word, and leaves it otherwise.
+    /// Takes the property if its value is the given word, and leaves it otherwise.
     pub(crate) fn take_word_if(&mut self, name: &str, word: &str) -> bool {
         let field = self.field(name);
         let is = field.is_some_and(|field| name_or_text(&field.value).as_deref() == Some(word));
         is && self.take(name).is_some()
     }
 
-    /// `true` or `false`.
+    /// `true` or `false`, as a value.
     pub(crate) fn boolean(&mut self, name: &str) -> Option<Spanned<bool>> {
         self.word(name, &[("true", true), ("false", false)])
     }
 
-    /// A name, or a text that is one.
+    /// A name, or a text that is a name.
     pub(crate) fn name(&mut self, name: &str, takes: &str) -> Option<Spanned<String>> {
         let field = self.take(name)?;
         match name_or_text(&field.value) {
@@ -431,7 +431,7 @@ impl<'a> Fields<'a> {
         self.name(name, "a text between quotes")
     }
 
-    /// A list of bytes; a text stands for its bytes, one number for a list of one.
+    /// A list of bytes; a text stands for its bytes, and a single number for a list of one.
     pub(crate) fn bytes(
         &mut self,
         name: &str,
@@ -472,7 +472,7 @@ impl<'a> Fields<'a> {
         ));
     }
 
-    /// Reports a property that only arrays have.
+    /// Reports a property that only arrays can have.
     pub(crate) fn needs_array(&mut self, here: Span, name: &str) {
         self.diagnostics.push(e0222_contradiction::contradiction(
             here,
@@ -483,7 +483,7 @@ impl<'a> Fields<'a> {
         ));
     }
 
-    /// Reports a property that only sensors, or only actuators, have.
+    /// Reports a property that only sensors, or only actuators, can have.
     pub(crate) fn needs_direction(&mut self, here: Span, name: &str, direction: Direction) {
         self.diagnostics.push(e0222_contradiction::contradiction(
             here,

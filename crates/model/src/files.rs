@@ -1,7 +1,9 @@
-//! How library code reads files: which one is wanted and why, what was read of it or why it was not.
+//! How library code reads files: which file is wanted and why, and its text or the reason why it
+//! was not read.
 //!
-//! The caller of the library has the machine. It looks at the path, at what is there and at the
-//! budgets, and answers with a text or an [`Unread`]; the diagnostic is the same for all callers.
+//! The caller of the library has access to the machine. It checks the path, what is at that path,
+//! and the budgets, and answers with a text or an [`Unread`]. The diagnostic is the same for all
+//! callers.
 
 use sensedsl_diagnostics::codes::{
     e0111_file_unreadable, e0112_file_too_large, e0118_not_a_file, e0218_used_file_missing,
@@ -13,12 +15,12 @@ use sensedsl_limits::{
     TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
 };
 
-/// How library code reads files: given by the binary, or by a test.
+/// How library code reads files; provided by the binary or by a test.
 pub trait Files {
     /// The text of a file.
     ///
     /// # Errors
-    /// Why it was not read.
+    /// Why the file was not read.
     fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread>;
 }
 
@@ -32,18 +34,18 @@ impl Files for NoFiles {
     }
 }
 
-/// A file that is wanted.
+/// A requested file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted<'a> {
-    /// Where it is, as seen from where the program runs.
+    /// Its path, as seen from the working directory.
     pub path: &'a str,
-    /// What it is taken for.
+    /// What the file is used for.
     pub what: What,
-    /// The command line names it, and not a file: it may be anywhere, and a pipe.
+    /// True if the command line names it, not a file: it may be anywhere, and may be a pipe.
     pub by_user: bool,
 }
 
-/// What a file is taken for, which decides how large it may be.
+/// What a file is used for, which decides how large it may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
     /// A text in the language.
@@ -52,7 +54,7 @@ pub enum What {
     Table,
     /// An earlier answer of `solve`.
     Answer,
-    /// What `import` reads.
+    /// A file that `import` reads.
     Source,
     /// A world for `simulate`, or samples of one.
     World,
@@ -61,7 +63,7 @@ pub enum What {
 }
 
 impl What {
-    /// How many bytes are read at most.
+    /// Most bytes that are read.
     #[must_use]
     pub const fn bytes_max(self) -> usize {
         match self {
@@ -89,17 +91,17 @@ impl What {
 /// Why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// There is none.
+    /// There is no such file.
     Missing,
-    /// The machine's reason, in words.
+    /// The system's reason, in words.
     Why(String),
-    /// What stands there instead of a file: `a pipe`.
+    /// What is at the path instead of a file: `a pipe`.
     NotAFile(&'static str),
     /// It has more bytes than [`What::bytes_max`].
     TooLarge,
     /// All files together have too many bytes.
     AllTooLarge,
-    /// It is outside of the project's folder, in this one.
+    /// It is outside the project's folder, which is this one.
     Outside(String),
 }
 
@@ -125,7 +127,7 @@ impl Unread {
         }
     }
 
-    /// The diagnostic at the place that names the file.
+    /// The diagnostic, at the place that names the file.
     #[must_use]
     pub fn diagnostic(&self, at: Span, wanted: &Wanted<'_>) -> Diagnostic {
         let Wanted { path, what, by_user } = *wanted;
@@ -147,8 +149,8 @@ impl Unread {
     }
 }
 
-/// Whether a path stays in a folder as far as its text tells: it is relative to the folder, and no
-/// `..` leads out. Where symbolic links lead only the machine knows.
+/// Whether a path stays inside a folder, judging by its text: it is relative, and no `..` leads
+/// out. Only the machine knows where symbolic links lead.
 #[must_use]
 pub fn stays_inside(relative: &str) -> bool {
     if relative.starts_with(['/', '\\']) || relative.get(1..2) == Some(":") {

@@ -1,4 +1,5 @@
-//! The frames of CAN buses: which bits each value has, which frame a selector means, and what cannot be.
+//! The frames of CAN buses: which bits each value has, which frame a selector means, and reports of
+//! what is impossible.
 
 use std::collections::BTreeMap;
 
@@ -14,13 +15,13 @@ use crate::kind::Kind;
 use crate::kind::can::{Can, Mux};
 use crate::words::Words;
 
-/// The bits of a frame that count, and what they are; byte 0 of the frame is the lowest.
+/// The bits of a frame that count, and their contents; byte 0 of the frame is the lowest.
 type Bits = (u64, u64);
 
-/// The frames of an identifier: board, bit rate, identifier, whether it has 29 bits.
+/// What identifies frames: board, bit rate, identifier, whether it has 29 bits.
 type Identifier = (Option<BoardIndex>, u32, u32, bool);
 
-/// Settles what selectors mean, and reports what cannot be.
+/// Resolves selectors, and reports what is impossible.
 pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut frames: BTreeMap<Identifier, Vec<usize>> = BTreeMap::new();
     for (index, device) in design.devices.iter().enumerate() {
@@ -49,7 +50,8 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A frame that is to be repeated more often than the reporter may look at it.
+/// Reports a frame that is to be repeated more often than the link's `rate` lets the board check
+/// it.
 fn slower_link(design: &Design, device: &Device) -> Option<Diagnostic> {
     let resend_ms = device.kind.can()?.resend_ms;
     let board = design.board(design.part(device.part)?.board?)?;
@@ -68,7 +70,7 @@ fn slower_link(design: &Design, device: &Device) -> Option<Diagnostic> {
     })
 }
 
-/// A value that ends behind its frame.
+/// Reports a value that ends after its frame.
 fn outside(device: &Device, can: &Can) -> Option<Diagnostic> {
     let end = u16::from(can.byte).saturating_add(Words::of(device)?.wire_bytes());
     let (at, name) = (device.name.span, &device.name.value);
@@ -78,7 +80,7 @@ fn outside(device: &Device, can: &Can) -> Option<Diagnostic> {
     })
 }
 
-/// Finds the bits that tell which of the frames of an identifier has a value.
+/// Finds the bits that tell which of the frames of an identifier holds a value.
 fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnostic>) {
     let mut found: Vec<(usize, Bits)> = Vec::new();
     for index in devices {
@@ -103,7 +105,7 @@ fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnost
     }
 }
 
-/// The bits that tell, and what is in them.
+/// The bits of the selector, and their contents.
 fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<Bits, Box<Diagnostic>> {
     let Mux { selector, value, .. } = mux;
     let is_it = |other: &&&Device| {
@@ -135,7 +137,7 @@ fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<Bits, Box<
     })
 }
 
-/// Commands that take the same bits of a frame.
+/// Reports commands that take the same bits of a frame.
 fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
     let bits = |device: &Device| {
         let can = device.kind.can()?;
@@ -160,7 +162,7 @@ fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Chips of which several frames are repeated.
+/// Reports chips with several repeated frames.
 fn repeated(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut parts: BTreeMap<PartIndex, Vec<&Device>> = BTreeMap::new();
     for device in &design.devices {

@@ -1,5 +1,6 @@
-//! Values that a person gives for a device outside of a `.sense` file, in a world or at a command line: a text and a
-//! device in, what it is as the device shows it, or its code, out. The rules are those of the language.
+//! Values that a person gives for a device outside a `.sense` file, in a world or on a command
+//! line: a text and a device in, the value as the device shows it, or its code, out. The rules are
+//! those of the language.
 
 use crate::design::{Device, Presentation};
 use crate::fields::{Codes, Misfit, in_quantity, of_pulse, unit_of};
@@ -10,22 +11,22 @@ use crate::value::{Measure, Number};
 /// A value that was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
-    /// As the device shows it.
+    /// The value as the device shows it.
     Shown(f64),
-    /// What goes over the wire.
+    /// The code that goes over the wire.
     Code(f64),
 }
 
 /// Why a text is not a value that the device can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotGiven {
-    /// It is no number, with or without a unit.
+    /// It is not a number, with or without a unit.
     NoNumber,
     /// It does not fit: what is wrong, and what to write.
     Misfit(String, String),
 }
 
-/// A number as it is written: `1500 us`, `raw 307`.
+/// A number as written: `1500 us`, `raw 307`.
 struct Written<'t> {
     number: f64,
     unit: &'t str,
@@ -36,7 +37,7 @@ struct Written<'t> {
 ///
 /// # Errors
 ///
-/// What is no number, and a unit that the device does not show.
+/// The text is not a number, or its unit is not one that the device shows.
 pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
     let written = written(text)?;
     if written.is_raw {
@@ -60,11 +61,12 @@ pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
     in_unit(&written, shown).map(Given::Shown)
 }
 
-/// By how much a value differs from another one: `0.5`, `5 deg`, `raw 20`.
+/// The difference of a value from another one: `0.5`, `5 deg`, `raw 20`.
 ///
 /// # Errors
 ///
-/// As [`value`], and codes of what is shown along a curve, where a difference depends on the place.
+/// The errors of [`value`], and codes for a device with a curve, where a difference depends on the
+/// place.
 pub fn difference(text: &str, device: &Device) -> Result<f64, NotGiven> {
     let written = written(text)?;
     let shown = &device.shown;
@@ -78,17 +80,17 @@ pub fn difference(text: &str, device: &Device) -> Result<f64, NotGiven> {
     Err(NotGiven::Misfit(message, "write it in the unit that is shown".to_owned()))
 }
 
-/// By how much a value grows in a second: `25`, `90 deg/s`.
+/// The growth of a value per second: `25`, `90 deg/s`.
 ///
 /// # Errors
 ///
-/// As [`difference`].
+/// The errors of [`difference`].
 pub fn a_second(text: &str, device: &Device) -> Result<f64, NotGiven> {
     let written = written(text)?;
     if written.is_raw || written.unit.is_empty() {
         return difference(text, device);
     }
-    // The unit of what grows, each second.
+    // The unit of the growing quantity, per second.
     let quantity = device.shown.quantity.as_deref();
     let each = match quantity.map(|quantity| {
         unit_of(quantity).map_or_else(|| quantity.to_owned(), |unit| unit.name().to_owned())
@@ -103,7 +105,7 @@ pub fn a_second(text: &str, device: &Device) -> Result<f64, NotGiven> {
     in_unit(&written, &shown)
 }
 
-/// A number in the unit that is shown.
+/// A number in the unit that the device shows.
 fn in_unit(written: &Written<'_>, shown: &Presentation) -> Result<f64, NotGiven> {
     // A quantity may be a unit that the language does not have: `lx`.
     if written.unit.is_empty() || shown.quantity.as_deref() == Some(written.unit) {
@@ -132,7 +134,7 @@ fn misfit(why: Misfit) -> NotGiven {
     NotGiven::Misfit(why.0, why.1)
 }
 
-/// The number of a text and the unit behind it.
+/// The number in a text, and the unit after it.
 fn written(text: &str) -> Result<Written<'_>, NotGiven> {
     let text = text.trim();
     let raw = text.strip_prefix("raw").filter(|rest| rest.starts_with([' ', '+', '-']));
@@ -149,7 +151,7 @@ fn written(text: &str) -> Result<Written<'_>, NotGiven> {
     Ok(Written { number, unit, is_raw: raw.is_some() })
 }
 
-/// How long the number is that a text begins with.
+/// The length of the number that a text begins with.
 fn number_length(text: &str) -> usize {
     let is_digit = |c: char| c.is_ascii_digit() || c == '.' || c == '_';
     let digits = |from: usize| {

@@ -1,4 +1,4 @@
-//! Identifiers that the file leaves out: parts in, each device with a number out.
+//! Identifiers that the file leaves out: parts in, a number for each device out.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use sensedsl_diagnostics::codes::e0231_no_identifier_left;
 
 use crate::parts::ReadPart;
 
-/// Numbers the devices that have no identifier, in file order, behind the greatest that is stated.
+/// Numbers the devices that have no identifier, in file order, after the greatest one stated.
 pub(crate) fn complete(parts: &mut [ReadPart], diagnostics: &mut Vec<Diagnostic>) {
     let stated: BTreeSet<u8> =
         parts.iter().flat_map(|read| &read.devices).map(|device| device.id.value).collect();
@@ -26,5 +26,5 @@ pub(crate) fn complete(parts: &mut [ReadPart], diagnostics: &mut Vec<Diagnostic>
     }
 }
 
-/// The greatest identifier of a device; 255 is the link's.
+/// The greatest identifier of a device; 255 belongs to the link.
 pub(crate) const ID_MAX: u8 = 254;

@@ -1,8 +1,8 @@
-//! From a syntax tree and boards to a checked design.
+//! From syntax trees and boards to a checked design.
 //!
-//! [`resolve`] reads a file and what it uses, binds names, fills defaults, converts units and
-//! checks kinds. User text never makes it fail: what is wrong comes back as diagnostics. It does
-//! no I/O of its own; files are read through [`Files`].
+//! [`resolve`] reads a file and everything that it uses, binds names, fills in defaults, converts
+//! units and checks kinds. User text never makes it fail: mistakes come back as diagnostics. It
+//! does no I/O of its own; files are read through [`Files`].
 
 mod boards;
 pub mod bounds;

@@ -1,6 +1,6 @@
 //! The library of drivers that ships with the tool.
 
-/// Its files: name and text.
+/// The files of the library: name and text.
 pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/environment.sense", include_str!("../drivers/environment.sense")),
     ("drivers/expanders.sense", include_str!("../drivers/expanders.sense")),
@@ -19,5 +19,5 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/ranging_optical.sense", include_str!("../drivers/ranging_optical.sense")),
 ];
 
-/// What people look for, and the drivers that they mean: lines of words and names.
+/// Search terms, and the drivers that they mean: lines of words and names.
 pub(crate) const SEARCH: &str = include_str!("../drivers/search.csv");

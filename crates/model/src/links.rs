@@ -18,15 +18,15 @@ use crate::kind::Kind;
 /// The properties of a link.
 const LINK_PROPERTIES: &[&str] =
     &["transport", "unit", "baud", "checksum", "stamp", "silence", "rate", "vbus"];
-/// Bits per second of a serial link where the file says nothing.
+/// Bits per second of a serial link if the file gives none.
 const LINK_BAUD_DEFAULT: u32 = 115_200;
-/// After how long a silent host is taken to be gone where the file says nothing.
+/// Silence, in milliseconds, after which a host is taken to be gone, if the file gives none.
 const SILENCE_DEFAULT_MS: u32 = 500;
 
-/// The link. Where the file says nothing it is the first that a built-in board has `wired` and the
-/// target has a driver for; without any wired it is USB where the target has a driver for that, and a
-/// UART otherwise. A UART that the board has wired keeps its unit and its pins. Without a target
-/// there is no firmware that a link could belong to, but what is stated.
+/// Reads a board's link. If the file does not state one, it is the first that a built-in board has
+/// `wired` and the target has a driver for. If none is wired, it is USB if the target has a driver
+/// for that, otherwise a UART. A UART that is wired on the board keeps its unit and its pins.
+/// Without a target there is no firmware for a link to belong to, apart from what is stated.
 pub(crate) fn read(
     file: FileId,
     node: &ast::Board,
@@ -59,8 +59,8 @@ pub(crate) fn read(
     link
 }
 
-/// Whether a built-in board's table says that something is on the USB device's VBUS pin. What it does
-/// not list is taken to be wired.
+/// Whether a built-in board's table shows that something is on the USB device's VBUS pin. A pin
+/// that is not in the table is assumed to be wired.
 pub(crate) fn vbus_is_wired(table: &Table, target: &Target) -> bool {
     let Target::Profile(profile) = target else { return true };
     let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
@@ -84,7 +84,7 @@ fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
     }
 }
 
-/// Where a file gives what not every medium has.
+/// The places of properties that not every medium has.
 struct Given {
     transport: Transport,
     baud: Option<Span>,
@@ -178,7 +178,7 @@ fn stated_link(
     }
 }
 
-/// USB checks what it carries by itself; a UART checks nothing.
+/// USB checks its own data; a UART checks nothing.
 fn default_checksum(transport: Transport) -> Checksum {
     match transport {
         Transport::Usb | Transport::None => Checksum::None,
@@ -186,15 +186,15 @@ fn default_checksum(transport: Transport) -> Checksum {
     }
 }
 
-/// How long each board's host may be silent: as the file says, or a default where an actuator has
-/// something safe to fall back to.
+/// Sets how long each board's host may be silent: as the file states, or a default if an actuator
+/// has a failsafe value.
 pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     let falls_back = |kind: &Kind| {
         matches!(kind, Kind::Pwm(pwm) if pwm.failsafe.is_some())
             || matches!(kind, Kind::Dac(dac) if dac.failsafe.is_some())
     };
     let board_of = |device: &Device| design.part(device.part).and_then(|part| part.board);
-    // What is repeated ends with the host.
+    // Repeated frames stop when the host does.
     let has_to_stop = |device: &Device| {
         let is_repeated = device.kind.can().is_some_and(|can| can.resend_ms > 0);
         device.coding.failsafe.is_some() || is_repeated

@@ -1,4 +1,4 @@
-//! Which names may stand beside each other once they are spelled as code.
+//! Which names can be used together once they are spelled as code.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 
 use crate::design::Spanned;
 
-/// Longest name: C compilers tell at least that many letters apart.
+/// The longest name; C compilers distinguish at least that many letters.
 const LETTERS_MAX: usize = 63;
 
-/// Names that Windows does not let files and folders have, whatever follows after a dot. With the
-/// number behind: `COM1`, `LPT9`; the rest of its list is not of letters and digits.
+/// Names that Windows forbids for files and folders, whatever follows after a dot. Ports also have
+/// a number: `COM1`, `LPT9`. The rest of Windows' list is not made of letters and digits.
 const DEVICES_OF_WINDOWS: &[&str] = &["aux", "con", "nul", "prn"];
 const PORTS_OF_WINDOWS: &[&str] = &["com", "lpt"];
 
-/// Reports names that are too long, equal, or equal but for case and underscores. `what` is
+/// Reports names that are too long, equal, or equal except for case and underscores. `what` is
 /// "board", "device" or "driver".
 pub(crate) fn check(what: &str, names: &[&Spanned<String>], diagnostics: &mut Vec<Diagnostic>) {
     let mut equal: BTreeMap<&str, Span> = BTreeMap::new();
@@ -70,7 +70,7 @@ fn is_reserved_on_windows(name: &str) -> bool {
         || stem.is_some_and(|stem| PORTS_OF_WINDOWS.contains(&stem))
 }
 
-/// What is left of a name when neither case nor underscores count.
+/// A name without case, hyphens and underscores.
 pub(crate) fn folded(name: &str) -> String {
     name.chars().filter(|&c| c != '_' && c != '-').flat_map(char::to_lowercase).collect()
 }

@@ -1,4 +1,5 @@
-//! Identifiers written into a file: its text with those of its design in, the text that states them out.
+//! Writing identifiers into a file: its text and its design's identifiers in, a text that states
+//! them out.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,14 +9,15 @@ use sensedsl_syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 
 use crate::design::Design;
 
-/// The text of the design's own file with an `id` in each device, and in each chip without devices, that
-/// states none; none where all do. It is not in the canonical layout.
+/// The text of the design's own file, with an `id` added to each device, and to each chip without
+/// devices, that states none; none if all state one. It is not in the canonical layout.
 #[must_use]
 pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<String> {
     let of_file = design.devices.iter().filter(|device| device.name.span.file == design.file);
     let mut ids: BTreeMap<usize, u8> = BTreeMap::new();
     for device in of_file {
-        // All values of a chip that names no devices stand where the chip's name does: the first counts.
+        // All values of a chip that names no devices share the place of the chip's name: the first
+        // one counts.
         ids.entry(device.name.span.range().start).or_insert(device.id.value);
     }
     let mut missing: Vec<(Range<usize>, String)> = Vec::new();
@@ -24,7 +26,7 @@ pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<S
         for (name, block) in blocks_without(&part) {
             let at: usize = name.range().start().into();
             let Some(id) = ids.get(&at) else { continue };
-            // A block that is on one line stays there.
+            // A block on one line stays on one line.
             let is_line = !block.text().contains_char('\n') && !block.text().contains_char('\r');
             let written = if is_line { format!(" id = {id};") } else { format!("\nid = {id};\n") };
             missing.extend(place(&block).map(|place| (place, written)));
@@ -52,7 +54,7 @@ fn blocks_without(part: &ast::Item) -> Vec<(ast::Name, SyntaxNode)> {
     };
     match part {
         ast::Item::Device(device) => of_device(device).into_iter().collect(),
-        // The chip's number is that of its first value; the others follow.
+        // The chip's identifier is that of its first value; the others follow.
         ast::Item::Chip(chip) if states(Box::new(chip.properties())) => Vec::new(),
         ast::Item::Chip(chip) if chip.devices().next().is_none() => {
             chip.name().map(|name| (name, chip.syntax().clone())).into_iter().collect()
@@ -61,8 +63,8 @@ fn blocks_without(part: &ast::Item) -> Vec<(ast::Name, SyntaxNode)> {
     }
 }
 
-/// The first line of a block: what is between its brace, with the comments behind it on the line, and
-/// what follows.
+/// Where to insert a first line in a block: after its brace and any comments on that line,
+/// including the line break; empty if something else follows on the line.
 fn place(block: &SyntaxNode) -> Option<Range<usize>> {
     let is_brace = |one: &SyntaxElement| one.kind() == SyntaxKind::LBrace;
     let brace = block.children_with_tokens().find(is_brace)?.into_token()?;

@@ -1,10 +1,10 @@
-//! A word in, the value type that is meant by it out: what other languages call theirs.
+//! A word in, the value type that it means out: the names of types in other languages.
 
 use sensedsl_diagnostics::nearest;
 use sensedsl_wire::ScalarType;
 
-/// Words of C, C++, Rust, Python, Java and PLCs, without case and `_t`. An `int` has the size that it
-/// has on the boards there is firmware for.
+/// Type names of C, C++, Rust, Python, Java and PLCs, in lower case and without `_t`. An `int` has
+/// the size that it has on the boards that firmware exists for.
 const OTHERS: &[(&str, ScalarType)] = &[
     ("boolean", ScalarType::Bool),
     ("bit", ScalarType::Bool),
@@ -47,7 +47,7 @@ const OTHERS: &[(&str, ScalarType)] = &[
     ("f64", ScalarType::Float64),
 ];
 
-/// The type that a word that is none probably means.
+/// The type that an unknown word probably means.
 pub(crate) fn meant(word: &str) -> Option<&'static str> {
     let lower = word.to_ascii_lowercase();
     let plain = lower.strip_suffix("_t").unwrap_or(&lower);

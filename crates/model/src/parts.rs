@@ -1,4 +1,4 @@
-//! Parts as they are read, block by block, before they are put together to a design.
+//! Parts as they are read, block by block, before they are assembled into a design.
 
 use crate::design::{
     Board, BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
@@ -6,7 +6,8 @@ use crate::design::{
 };
 use sensedsl_diagnostics::FileId;
 
-/// What one block gives: a part with its devices and its wires. Numbers count from 0 within it.
+/// The contents of one block: a part with its devices and its wires. Indices count from 0 within
+/// it.
 #[derive(Clone, Debug)]
 pub(crate) struct ReadPart {
     pub(crate) part: Part,
@@ -14,7 +15,7 @@ pub(crate) struct ReadPart {
     pub(crate) connections: Vec<Connection>,
 }
 
-/// Puts boards and parts together.
+/// Assembles boards and parts.
 pub(crate) fn assemble(file: FileId, boards: Vec<Board>, read: Vec<ReadPart>) -> Design {
     let mut design =
         Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new() };
@@ -38,9 +39,10 @@ pub(crate) fn assemble(file: FileId, boards: Vec<Board>, read: Vec<ReadPart>) ->
     design
 }
 
-/// The boards that could be read, and the parts that are certain to be on them; those left out.
+/// The boards that could be read and the parts that are certain to be on them, and the names of
+/// those left out.
 ///
-/// Where a board is missing, a part that may go to any board may belong on that one.
+/// If a board is missing, a part that may go to any board may belong on that one.
 pub(crate) fn on_known_boards(
     boards: Vec<Option<Board>>,
     names: &[Option<Spanned<String>>],

@@ -1,7 +1,7 @@
-//! Names of pins: what the file writes in, the pin of each board out.
+//! Pin names: the file's spelling in, the pin of each board out.
 //!
-//! A pin is named as the MCU names it (`PA5`), as the board is printed (`D13`, `"CN7.3"`), or by the
-//! on-board part on it (`LED`). What it stands for is a matter of each board's table.
+//! A pin is named as the MCU names it (`PA5`), as it is labelled on the board (`D13`, `"CN7.3"`),
+//! or after the on-board part on it (`LED`). Each board's table decides which pin that is.
 
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::table::{Pin, Table};
@@ -12,17 +12,17 @@ use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 use crate::design::{Board, BoardIndex, Design, Spanned, Wish, WishFor};
 use crate::serving::serves;
 
-/// A pin as the file names it.
+/// A pin, as the file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PinRef {
-    /// As it is written.
+    /// The name as it is written.
     pub spelled: String,
-    /// On each board that has such a pin which one it is, by the board.
+    /// For each board that has such a pin, which pin it is; in the order of the boards.
     on: Vec<(BoardIndex, PinName)>,
 }
 
 impl PinRef {
-    /// A name that stands for no pin yet.
+    /// A name that does not stand for any pin yet.
     pub(crate) fn unbound(spelled: &str) -> Self {
         Self { spelled: spelled.to_owned(), on: Vec::new() }
     }
@@ -33,13 +33,13 @@ impl PinRef {
         Self { spelled: pin.to_string(), on: vec![(board, pin)] }
     }
 
-    /// The first pin that it stands for, by its name in the MCU; as it is written where there is none.
+    /// The MCU's name for the first pin that it stands for; as it is written if there is none.
     #[must_use]
     pub fn name(&self) -> &str {
         self.on.first().map_or(&self.spelled, |(_, pin)| pin.as_str())
     }
 
-    /// For people: `PA5`, or `PA5 (D13)` where the file names it otherwise.
+    /// Formats it for people: `PA5`, or `PA5 (D13)` if the file uses another name.
     #[must_use]
     pub fn shown(&self) -> String {
         let name = self.name();
@@ -56,7 +56,7 @@ impl PinRef {
     }
 }
 
-/// Binds the names of pins to the pins of the boards, and reports those that stand for none or for
+/// Binds the names of pins to the pins of the boards, and reports names that stand for none or for
 /// several.
 pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     let Design { boards, connections, .. } = design;
@@ -82,7 +82,7 @@ pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Gives a rule that names a pin by its label the name of the MCU.
+/// Replaces a pin's label in a rule with the MCU's name.
 fn rename(table: &Table, rule: &mut Spanned<String>) {
     let mut labelled = table.pins.iter().filter(|pin| has_label(pin, &rule.value));
     if PinName::parse(&rule.value).is_none_or(|name| table.pin(&name).is_none())
@@ -103,14 +103,14 @@ impl Binder<'_> {
     fn wishes(&mut self, wishes: &mut [Wish]) {
         for wish in wishes {
             if let WishFor::Pin(_, pin) = &mut wish.what {
-                // A wish may name a pin of the MCU that the board does not bring out.
+                // A wish may name a pin of the MCU that is not brought out on the board.
                 let must = PinName::parse(&pin.spelled).is_none();
                 self.pin(pin, wish.span, must, |_| true);
             }
         }
     }
 
-    /// Binds a name; of those that are proposed for one that there is not, only those `suits` takes.
+    /// Binds a name. For an unknown name, proposes only pins that `suits` accepts.
     fn pin(&mut self, pin: &mut PinRef, span: Span, must: bool, suits: impl Fn(&Pin) -> bool) {
         let name = pin.spelled.as_str();
         let mut report = None;
@@ -153,15 +153,15 @@ fn has_label(pin: &Pin, name: &str) -> bool {
 /// What a name stands for in a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Meant {
-    /// One pin; `printed` is another, which the board has that name printed at.
+    /// One pin; `printed` is a different pin that the board has labelled with that name.
     Pin { name: PinName, printed: Option<PinName> },
-    /// Pins that have the same label, or lead to parts of that name.
+    /// Pins with the same label, or connected to parts with that name.
     Several(Vec<PinName>),
-    /// Nothing.
+    /// No pin.
     None,
 }
 
-/// What a name stands for: the MCU's name comes first, then what is printed, then on-board parts.
+/// What a name stands for: the MCU's names come first, then labels, then on-board parts.
 fn find(table: &Table, spelled: &str) -> Meant {
     let labelled = |pin: &&Pin| has_label(pin, spelled);
     if let Some(pin) = PinName::parse(spelled).and_then(|name| table.pin(&name)) {
@@ -189,7 +189,7 @@ fn find(table: &Table, spelled: &str) -> Meant {
     }
 }
 
-/// What these pins may be called beside the MCU's name.
+/// The other names of these pins, besides the MCU's.
 fn printed<'a>(pins: impl Iterator<Item = &'a Pin>) -> Vec<&'a str> {
     let mut labels: Vec<&str> = pins.filter_map(|pin| pin.label.as_deref()).collect();
     labels.sort_by(|a, b| natural(a, b));

@@ -17,7 +17,7 @@ const TOGETHER: [(&str, Together); 3] = [
     (Together::Side.name(), Together::Side),
 ];
 
-/// Reads the placement of a device: one for each set of its wires, of which an array has several.
+/// Reads the placement of a device: one for each set of wires, of which an array has several.
 pub(crate) fn read(
     fields: &mut Fields<'_>,
     kind: &Kind,
@@ -85,7 +85,7 @@ fn pins(fields: &mut Fields<'_>, role: Role, count: u16) -> Vec<Spanned<PinRef>>
     pins
 }
 
-/// What the elements of an array have in common.
+/// Reads what the elements of an array have in common.
 fn in_common(
     fields: &mut Fields<'_>,
     is_array: bool,

@@ -1,22 +1,22 @@
-//! How a part is talked to beyond what its kind says: what starts it, what it is, how its values are
-//! coded. All of it is data; the runtime of the board does what it says.
+//! How to talk to a part, beyond what its kind states: how it is started, how it is identified, how
+//! its values are coded. All of it is data for the board's runtime.
 
 use sensedsl_wire::ValueType;
 
-/// What a chip needs before its values can be read.
+/// The data that a chip needs before its values can be read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Protocol {
-    /// Written one after the other, once, and again after a failed transfer.
+    /// The steps written one after the other, once, and again after a failed transfer.
     pub init: Vec<InitStep>,
-    /// What must be read where.
+    /// The registers to check, and what must be in them.
     pub identity: Option<Identity>,
-    /// Bytes of a register's number.
+    /// Bytes in the number of a register.
     pub register_bytes: u8,
-    /// On SPI, or-ed to the register when it is read.
+    /// Bits that are set in the register's number to read it; only on SPI.
     pub read_mask: u8,
-    /// Each register is a number by itself: what lies behind it cannot be read with it.
+    /// True if each register is read separately, so that those after it cannot be read with it.
     pub is_one_by_one: bool,
-    /// Registers and counts of bytes, read once for the formula.
+    /// Registers and counts of bytes that are read once for the formula.
     pub calibration: Vec<(u16, u16)>,
     /// The formula of its readings.
     pub formula: Option<Formula>,
@@ -25,7 +25,7 @@ pub struct Protocol {
 }
 
 impl Protocol {
-    /// The bytes of a register's number, the most significant first.
+    /// The bytes of a register's number, most significant first.
     #[must_use]
     pub fn register(&self, number: u32) -> Vec<u8> {
         let [.., high, low] = number.to_be_bytes();
@@ -33,26 +33,26 @@ impl Protocol {
     }
 }
 
-/// One step of an initialisation.
+/// One step of an initialization.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InitStep {
-    /// Bytes that are written in one transfer.
+    /// Bytes written in one transfer.
     Write(Vec<u8>),
     /// A pause.
     Wait {
-        /// How long.
+        /// The length of the pause.
         ms: u16,
     },
 }
 
-/// The registers that tell a part from others.
+/// The registers that identify a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// The first of them.
+    /// The first register.
     pub register: u16,
-    /// What must be read there.
+    /// The expected contents.
     pub expected: Vec<u8>,
-    /// The bits that count, as many bytes; empty for all.
+    /// The bits that count, in as many bytes; empty for all.
     pub mask: Vec<u8>,
 }
 
@@ -61,16 +61,16 @@ pub struct Identity {
 pub enum Formula {
     /// Temperature and pressure of a BMP280.
     Bmp280,
-    /// Those and the humidity of a BME280.
+    /// Temperature, pressure and humidity of a BME280.
     Bme280,
-    /// A thermistor to ground.
+    /// A thermistor that is connected to ground.
     Ntc,
     /// The illuminance of a TSL2561.
     Tsl2561,
 }
 
 impl Formula {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 4] = [Self::Bmp280, Self::Bme280, Self::Ntc, Self::Tsl2561];
 
     /// The word after `compensate`.
@@ -84,7 +84,7 @@ impl Formula {
         }
     }
 
-    /// What it computes, in the runtime's order.
+    /// The outputs, in the runtime's order.
     #[must_use]
     pub const fn outputs(self) -> &'static [&'static str] {
         match self {
@@ -95,7 +95,8 @@ impl Formula {
         }
     }
 
-    /// Bytes of calibration that it needs, bytes that it is computed from, and its parameters.
+    /// The bytes of calibration that it needs, the bytes that it is computed from, and the number
+    /// of its parameters.
     #[must_use]
     pub const fn needs(self) -> (u16, u16, usize) {
         match self {
@@ -107,39 +108,40 @@ impl Formula {
     }
 }
 
-/// How the value of a device is coded in what its part sends or is sent.
+/// How the value of a device is coded in the bytes that its part sends or receives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coding {
-    /// The driver's reading or command that it is.
+    /// The driver's reading or command that the device is.
     pub reading: Option<String>,
-    /// The type that the part has for it; none for that of the device.
+    /// The type that the part uses for it; none for the device's own type.
     pub of: Option<ValueType>,
-    /// The bits of each word that count, from the highest to the lowest.
+    /// The bits of each word that count: the highest and the lowest.
     pub bits: Option<(u8, u8)>,
-    /// Whether the highest of them is a sign; none for what the type says.
+    /// Whether the highest of those bits is a sign; none if the type decides.
     pub signed: Option<bool>,
-    /// Where the word of each element stands, counted in words; empty for one after the other.
+    /// The place of each element's word, counted in words; empty if they are consecutive.
     pub elements: Vec<u8>,
     /// Checksums between the words.
     pub crc: Option<Crc>,
-    /// Elements of that many bits, one behind the other.
+    /// The number of bits of each element, if elements follow each other without gaps.
     pub packed_bits: Option<u8>,
-    /// Where the value begins in a message, behind its start.
+    /// Where the value begins in a message, counted from the end of the start bytes.
     pub byte: u16,
-    /// How it stands in a text.
+    /// The value's place in a text.
     pub text: Option<TextField>,
-    /// Each byte has two decimal digits.
+    /// True if each byte holds two decimal digits.
     pub bcd: bool,
-    /// Sent on SPI while as many bytes are received, which are the value's.
+    /// Bytes sent on SPI while as many bytes, which are the value's, are received.
     pub exchange: Vec<u8>,
-    /// The output of the chip's formula that it is.
+    /// The output of the chip's formula that the value is.
     pub output: Option<u8>,
     /// How one value becomes several outputs.
     pub drive: Option<Drive>,
-    /// The value that an actuator takes when the host falls silent, for all elements; none to keep the last one. A pwm
-    /// or dac device by itself has its own.
+    /// The value, for all elements, that an actuator takes when the host goes silent; none to keep
+    /// the last one. A pwm or dac device on its own has its own property for this.
     pub failsafe: Option<f64>,
-    /// Whether a switch of a chip on a bus is on before the host sets it; none for what the driver says.
+    /// Whether a switch of a chip on a bus is on before the host sets it; none for the driver's
+    /// default.
     pub initial: Option<bool>,
 }
 
@@ -162,64 +164,64 @@ impl Coding {
 /// Checksums between the words of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crc {
-    /// After every two bytes a CRC-8: polynomial 0x31, start 0xFF.
+    /// A CRC-8 after every two bytes, with polynomial 0x31 and initial value 0xFF.
     Sensirion,
 }
 
-/// How a number stands in a text.
+/// The place of a number in a text, and how it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextField {
-    /// Only in sentences whose first field ends so (`RMC`).
+    /// The end of a sentence's first field, if only such sentences count (`RMC`).
     pub sentence: Option<String>,
-    /// Which field, from 0.
+    /// The index of the field, from 0.
     pub field: u8,
-    /// What is between fields; none where the whole message is one.
+    /// The separator of fields; none if the whole message is one field.
     pub separator: Option<u8>,
-    /// How it is written.
+    /// The format of the number.
     pub format: Format,
-    /// The value is the number times ten to that power.
+    /// The power of ten that the number is multiplied by to give the value.
     pub decimals: u8,
 }
 
-/// How a number is written.
+/// The format of a number in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Digits with a point.
+    /// Digits with a decimal point.
     Decimal,
     /// Degrees and minutes (`4807.038,N`); the value is in 1e-7 degrees.
     Degrees,
-    /// Hexadecimal digits.
+    /// A number in hexadecimal digits.
     Hex,
 }
 
 /// How one signed value becomes several outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
-    /// Its magnitude a pulse width, its sign two levels.
+    /// Its magnitude is a pulse width, its sign two levels.
     DirectionPins,
     /// One pulse width for each direction.
     TwoPwm,
 }
 
-/// What becomes of a value on the board before it is reported.
+/// How a value is filtered on the board before it is reported.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filter {
-    /// Raw values that mean that nothing was measured: from, to.
+    /// Ranges of raw values that mean that nothing was measured.
     pub invalid: Vec<(f64, f64)>,
-    /// Where the file itself says so; none where only its driver does.
+    /// Where the file itself gives them; none if only its driver does.
     pub invalid_span: Option<sensedsl_diagnostics::Span>,
-    /// The median of so many values; 0 for none.
+    /// The number of values whose median is taken; 0 for no median.
     pub median: u8,
     /// Time constant of a low-pass; 0 for none.
     pub smooth_ms: u32,
-    /// Only what differs by so much from the last report is reported.
+    /// How much a value must differ from the last report to be reported.
     pub change: Option<f64>,
-    /// With `change`: the longest time between two reports; 0 for any.
+    /// With `change`: the longest time between two reports; 0 for no limit.
     pub heartbeat_ms: u32,
 }
 
 impl Filter {
-    /// Whether every value is reported as it is.
+    /// Whether every value is reported unfiltered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()

@@ -1,5 +1,5 @@
-//! How far a value goes: what the part gives or takes, what the type holds, and both as a host shows
-//! them. A device in, its range out, and reports of what lies beyond it.
+//! The range of a value: what the part gives or takes, what the type holds, and both as a host
+//! shows them. A device in, its range out, and reports of values beyond it.
 
 use std::collections::BTreeMap;
 
@@ -16,14 +16,14 @@ use crate::kind::{Kind, KindName};
 use crate::protocol::Coding;
 use crate::volts::{divider, shown_mv, shown_ohm};
 
-/// What outputs that are driven take at most.
+/// The greatest code of driven outputs.
 const FULL: f64 = 10_000.0;
-/// What a converter gives or takes at its reference voltage.
+/// The code of a converter at its reference voltage.
 const CONVERTED_MAX: f64 = 4_095.0;
-/// The greatest supply of an MCU of which nothing is known, in millivolts.
+/// The greatest supply of an unknown MCU, in millivolts.
 const SUPPLY_MAX_MV: u32 = 5_000;
 
-/// The range that a kind or a bridge has whatever the type.
+/// The range that a kind or a bridge has, whatever the type.
 pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
     if coding.drive.is_some() {
         return Some((-FULL, FULL));
@@ -43,7 +43,7 @@ pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
     }
 }
 
-/// The range that all values of a kind have.
+/// The range of all values of a kind.
 fn of_kind(kind: KindName) -> Option<(f64, f64)> {
     match kind {
         KindName::Analog | KindName::Dac => Some((0.0, CONVERTED_MAX)),
@@ -58,20 +58,21 @@ fn of_kind(kind: KindName) -> Option<(f64, f64)> {
     }
 }
 
-/// The least and the greatest code that can be given for a value: of a part that its type holds.
+/// The least and the greatest code that can be given for a value: those of the part, as far as its
+/// type holds them.
 pub(crate) fn of_codes(kind: KindName, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
     let fixed = if coding.drive.is_some() { Some((-FULL, FULL)) } else { of_kind(kind) };
     let part = fixed.or_else(|| of_bits(coding, value));
     both(part, of_type(value.scalar))
 }
 
-/// The least and the greatest raw value that a part gives or takes; none where it is not known.
+/// The least and the greatest raw value that a part gives or takes; none if not known.
 fn of_part(kind: &Kind, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
     let is_computed = coding.output.is_some() || coding.text.is_some() || coding.bcd;
     if is_computed { None } else { fixed(kind, coding).or_else(|| of_bits(coding, value)) }
 }
 
-/// What the bits of a word hold.
+/// The range that the bits of a word hold.
 fn of_bits(coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
     let scalar = coding.of.unwrap_or(value).scalar;
     let (least, _) = scalar.integer_range()?;
@@ -86,7 +87,8 @@ fn of_bits(coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
     }
 }
 
-/// The least and the greatest number that a type holds; none of a fraction, which holds any.
+/// The least and the greatest number that a type holds; none for a fractional type, which holds
+/// any.
 fn of_type(scalar: ScalarType) -> Option<(f64, f64)> {
     let (least, most) = scalar.integer_range()?;
     #[expect(
@@ -96,7 +98,8 @@ fn of_type(scalar: ScalarType) -> Option<(f64, f64)> {
     Some((least as f64, most as f64))
 }
 
-/// The least and the greatest raw value of a device: those of its part that its type holds.
+/// The least and the greatest raw value of a device: those of its part, as far as its type holds
+/// them.
 #[must_use]
 pub fn raw(device: &Device) -> Option<(f64, f64)> {
     let value = device.value.value;
@@ -110,7 +113,7 @@ fn both(part: Option<(f64, f64)>, held: Option<(f64, f64)>) -> Option<(f64, f64)
     }
 }
 
-/// The least and the greatest value as a host shows it.
+/// The least and the greatest value that a host shows for a device.
 #[must_use]
 pub fn shown(device: &Device) -> Option<(f64, f64)> {
     let (least, most) = raw(device)?;
@@ -122,7 +125,7 @@ pub fn shown(device: &Device) -> Option<(f64, f64)> {
 }
 
 impl Presentation {
-    /// What a host shows for a raw value.
+    /// The value that a host shows for a raw value.
     #[must_use]
     pub fn of_raw(&self, raw: f64) -> f64 {
         let x = self.scale.unwrap_or(1.0) * raw + self.offset.unwrap_or(0.0);
@@ -137,7 +140,7 @@ impl Presentation {
     }
 }
 
-/// Reports types that cannot hold the range of an actuator, and bounds that are never reached.
+/// Reports types that cannot hold an actuator's range, and bounds that are never reached.
 pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
         diagnostics.extend(narrow(device));
@@ -146,7 +149,7 @@ pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.extend(bare_numbers(design));
 }
 
-/// The bare numbers of each file that were codes before, told once.
+/// Warns once per file of bare numbers that used to be codes.
 fn bare_numbers(design: &Design) -> Vec<Diagnostic> {
     let mut of_files: BTreeMap<FileId, Vec<(&Device, &Bare)>> = BTreeMap::new();
     for device in &design.devices {
@@ -191,7 +194,7 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
     Some(narrow(device.value.span, (found, &words(held)), (name, &words(takes)), wider))
 }
 
-/// A voltage that an analog input is to measure, over the supply and without resistors that divide it.
+/// Reports an analog input's voltage that exceeds the supply, with no divider.
 fn over_supply(design: &Design, device: &Device) -> Option<Diagnostic> {
     let (max, at) = (device.shown.max?, *device.shown.bounds.last()?);
     let wires = design.main_connection(device).filter(|_| device.kind.analog().is_some())?;
@@ -206,7 +209,7 @@ fn over_supply(design: &Design, device: &Device) -> Option<Diagnostic> {
     let boards =
         design.boards.iter().zip(0..).filter(|(_, at)| wires.board.is_none_or(|own| own.0 == *at));
     let supply_mv = boards.map(|(board, _)| supply_mv(board)).max()?;
-    // A factor of one's own says that there are resistors, as far as it goes.
+    // A user's own scale implies a divider, for the voltages that the scale covers.
     let is_scaled = device.shown.scale.is_some() || !device.shown.curve.is_empty();
     let is_reached = is_scaled && shown(device).is_some_and(|(_, most)| most >= max);
     if max * factor <= f64::from(supply_mv) || is_reached {
@@ -228,15 +231,15 @@ fn supply_mv(board: &Board) -> u32 {
     volts.map_or(SUPPLY_MAX_MV, |volts| volts.supply_mv)
 }
 
-/// A bound of the shown value that it never reaches.
+/// Warns of a bound that the shown value never reaches.
 fn beyond(device: &Device) -> Option<Diagnostic> {
     let (least, most) = shown(device)?;
-    // One step of the value is no mistake: 100 / 4096 ends a step below 100.
+    // One step short is not a mistake: 100 / 4096 ends one step below 100.
     let (first, last) = raw(device)?;
     let step = (most - least) / (last - first).max(1.0);
     let bounds = [("min", device.shown.min), ("max", device.shown.max)];
     for ((property, bound), at) in bounds.into_iter().zip(device.shown.bounds) {
-        // A type that is narrower than the driver's bounds is warned of by itself.
+        // There is a separate warning for a type narrower than the driver's bounds.
         let own = at.filter(|at| at.file == device.name.span.file);
         let (Some(bound), Some(at)) = (bound, own) else { continue };
         if bound >= least - step * 1.001 && bound <= most + step * 1.001 {
@@ -258,7 +261,7 @@ fn beyond(device: &Device) -> Option<Diagnostic> {
     None
 }
 
-/// A number for people, with six digits that count.
+/// Formats a number for people, with six significant digits.
 #[must_use]
 pub fn rounded(number: f64) -> String {
     let text = format!("{number:.6e}");

@@ -1,5 +1,6 @@
-//! Registers that several commands of a chip share, each with bits of its own: an output of a port expander each. What
-//! such a register holds before the host sets anything, and what cannot be.
+//! Registers that several commands of a chip share, each with bits of its own, such as the outputs
+//! of a port expander. What such a register holds before the host sets anything, and reports of
+//! conflicts.
 
 use std::collections::BTreeMap;
 
@@ -11,33 +12,33 @@ use crate::design::{ConnectionIndex, Design, Device, PartIndex};
 use crate::protocol::{InitStep, Protocol};
 use crate::words::Words;
 
-/// A register has this many bytes at most where commands share it.
+/// Most bytes of a register that commands share.
 const BYTES_MAX: u16 = 8;
 
-/// Where a command is written.
+/// The place where a command is written.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Register {
-    /// What it goes over.
+    /// The connection that it is reached over.
     connection: ConnectionIndex,
-    /// Its number; none where the part has only one.
+    /// Its number; none if the part has only one register.
     number: Option<u16>,
-    /// Its bytes.
+    /// Its size in bytes.
     bytes: u16,
 }
 
 /// A command's own bits of a register.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Own {
-    /// The register.
+    /// The register that the command is written to.
     pub register: Register,
-    /// Those bits, in the bytes of the register.
+    /// The command's bits, in the bytes of the register.
     pub bits: Vec<u8>,
     /// What the register holds before the host sets anything.
     pub start: Vec<u8>,
 }
 
 impl Register {
-    /// The register that a device is written to; none where it is not written to one.
+    /// The register that a device is written to; none if there is none.
     #[must_use]
     pub fn of(device: &Device) -> Option<Self> {
         let number = device.kind.register_access()?.register;
@@ -48,12 +49,12 @@ impl Register {
         is_written.then_some(Self { connection, number, bytes })
     }
 
-    /// What comes before the value.
+    /// The bytes before the value.
     fn prefix(&self, protocol: &Protocol) -> Vec<u8> {
         self.number.map(|number| protocol.register(number.into())).unwrap_or_default()
     }
 
-    /// The step of the initialisation that writes all of it last.
+    /// The last initialization step that writes the whole register.
     fn written_by(&self, protocol: &Protocol) -> Option<usize> {
         let prefix = self.prefix(protocol);
         let count = prefix.len() + usize::from(self.bytes);
@@ -63,7 +64,7 @@ impl Register {
         })
     }
 
-    /// What the initialisation leaves in it; 0 where it does not write it.
+    /// The register's contents after initialization; 0 if that does not write it.
     fn start(&self, protocol: &Protocol) -> Vec<u8> {
         let step = self.written_by(protocol).and_then(|step| protocol.init.get(step));
         let count = usize::from(self.bytes);
@@ -76,8 +77,8 @@ impl Register {
     }
 }
 
-/// The bits of a command that others have bits beside; none where it has all bits of its register, or the only ones that
-/// are ever set.
+/// The bits of a command whose register has other bits to preserve; none if it has all bits of its
+/// register, or no other bits are ever set.
 #[must_use]
 pub fn own(design: &Design, device: &Device) -> Option<Own> {
     let register = Register::of(device)?;
@@ -90,14 +91,15 @@ pub fn own(design: &Design, device: &Device) -> Option<Own> {
     (is_shared || is_set).then_some(Own { register, bits, start })
 }
 
-/// The bits of a command, in the bytes of its register; none where it has all of them.
+/// The bits of a command, in the bytes of its register; none if it has all of them.
 fn bits(device: &Device, register: &Register) -> Option<Vec<u8>> {
     let all = Words::of(device)?.in_frame(0).to_le_bytes();
     let bits = all.get(..register.bytes.into())?;
     bits.iter().any(|byte| *byte != 0xFF).then(|| bits.to_vec())
 }
 
-/// Has registers begin with what their commands begin with, and reports commands that take the same bits.
+/// Sets the initial contents of registers from their commands, and reports commands that take the
+/// same bits.
 pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut shared: BTreeMap<(PartIndex, Register), Vec<usize>> = BTreeMap::new();
     for (index, device) in design.devices.iter().enumerate() {
@@ -118,14 +120,15 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The bits of a command that begins with a value, and what they begin with.
+/// The bits of a command that has an initial value, and that value.
 fn first(device: &Device) -> Option<(u64, u64)> {
     let is_on = device.coding.initial?;
     let words = Words::of(device)?;
     Some((words.in_frame(0), words.placed(0, u64::from(is_on))?))
 }
 
-/// Has the initialisation write what the commands begin with: where it writes the register anyway, else at its end.
+/// Makes the initialization write the commands' initial values: in the step that writes the
+/// register anyway, or else at the end.
 fn begin(protocol: &mut Protocol, register: &Register, first: &[(u64, u64)]) {
     let mut start = register.start(protocol);
     for (bits, value) in first {
@@ -144,7 +147,8 @@ fn begin(protocol: &mut Protocol, register: &Register, first: &[(u64, u64)]) {
     }
 }
 
-/// Commands that take the same bits of a register, one of them only some.
+/// Reports commands that take the same bits of a register, where at least one takes only part of
+/// it.
 fn overlap(devices: &[&Device], register: &Register, diagnostics: &mut Vec<Diagnostic>) {
     let taken = |device: &Device| Words::of(device).map_or(0, |words| words.in_frame(0));
     let is_partial = |device: &Device| bits(device, register).is_some();

@@ -29,37 +29,37 @@ use crate::sound::{Partial, broken_drivers};
 use crate::sources::{Items, Reader};
 use crate::syntax_errors;
 
-/// What is asked for.
+/// What a caller asks for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Request<'a> {
     /// Path of the file, as people see it.
     pub path: &'a str,
-    /// Its text.
+    /// The text of the file.
     pub text: &'a str,
-    /// A table or a built-in board that wins over what the file says.
+    /// A table or a built-in board that overrides the file's.
     pub board: Option<&'a str>,
     /// The target; none for the default.
     pub target: Option<&'a str>,
 }
 
-/// What became of it.
+/// The result of resolving a file.
 #[derive(Debug, Default)]
 pub struct Resolved {
-    /// The design; none when there are errors.
+    /// The design; none if there are errors.
     pub design: Option<Design>,
-    /// What is sound of a design with errors; none without errors, and where no board can be read.
+    /// The sound part of a design with errors; none without errors, or if no board can be read.
     pub partial: Option<Partial>,
-    /// What is to be said, in the order of the places.
+    /// The diagnostics, in the order of their places.
     pub diagnostics: Vec<Diagnostic>,
-    /// All texts that were read, and those of what is built in.
+    /// All texts that were read, and those that are built in.
     pub sources: SourceMap,
-    /// Those that are files, each once: the one that was asked for, those it uses, tables.
+    /// The sources that are files, each once: the requested one, those it uses, and tables.
     pub files: Vec<FileId>,
-    /// The syntax trees of those that are texts in the language, in the order of reading.
+    /// The syntax trees of the texts in the language, in the order of reading.
     pub trees: Vec<(FileId, Parse)>,
 }
 
-/// Reads a file, what it uses and its tables. Never fails on user text.
+/// Reads a file, the files it uses and its tables. Never fails on user text.
 #[must_use]
 pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let mut sources = SourceMap::default();
@@ -96,7 +96,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     checks::run(&design, &mut diagnostics);
     links::settle_silence(&mut design, &mut diagnostics);
     if items.broken {
-        // What is missing may only be unreadable.
+        // An item that seems missing may be in the text that could not be read.
         let missing = e0206_missing_property::CODE;
         diagnostics.retain(|one| one.code != missing);
         syntax_errors::drop_consequences(&trees, &mut diagnostics);
@@ -118,7 +118,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     Resolved { design, partial, diagnostics, sources, files: read, trees }
 }
 
-/// Leaves as many diagnostics as are listed, and the number of the others.
+/// Keeps as many diagnostics as are listed, and adds the number of the rest.
 pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
     let more = diagnostics.len().saturating_sub(DIAGNOSTICS_MAX);
     if more > 0 {
@@ -129,8 +129,8 @@ pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Orders diagnostics by place, the worse first where the place is the same. That there is too much comes first:
-/// people see a few of the mistakes in it.
+/// Sorts diagnostics by place, the most severe first where the place is the same. "Too much"
+/// diagnostics come first, because people see only a few of the mistakes in such a file.
 pub fn sort(diagnostics: &mut [Diagnostic]) {
     let is_too_much = |one: &Diagnostic| {
         [e0225_too_many_items::CODE, e0317_table_too_large::CODE].contains(&one.code)
@@ -138,7 +138,7 @@ pub fn sort(diagnostics: &mut [Diagnostic]) {
     diagnostics.sort_by_key(|one| (!is_too_much(one), one.primary.span, one.severity, one.code));
 }
 
-/// Leaves each of them once: a driver's mistake is met in each of its devices.
+/// Removes duplicates: a driver's mistake shows up in each of its devices.
 fn once(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup();
 }
@@ -168,7 +168,7 @@ fn read_boards(
     (boards, context.tables.into_keys().collect())
 }
 
-/// The parts, and the names of those of which too little is understood.
+/// The parts, and the names of those too little of which is understood.
 fn read_parts(
     items: &Items,
     known: Known<'_>,
@@ -204,7 +204,7 @@ fn read_parts(
     (parts, unread)
 }
 
-/// How much there is of what chips and arrays make many of.
+/// Counts of what chips and arrays create many of.
 #[derive(Default)]
 struct Room {
     devices: usize,
@@ -212,7 +212,7 @@ struct Room {
 }
 
 impl Room {
-    /// Takes a part in; what there is too much of then, and how much of it may be.
+    /// Counts a part. If there is too much of something, returns its name and limit.
     fn lacks(&mut self, read: &ReadPart) -> Option<(&'static str, usize)> {
         self.devices += read.devices.len();
         self.wires += read.connections.iter().map(|one| 1 + one.wishes.len()).sum::<usize>();
@@ -224,7 +224,7 @@ impl Room {
     }
 }
 
-/// The names of the boards, where they have one.
+/// The names of the boards; none for a board without a name.
 fn board_names(items: &Items) -> Vec<Option<Spanned<String>>> {
     let name = |(file, node): &(FileId, ast::Board)| {
         let name = node.name()?;
@@ -243,7 +243,8 @@ fn check_names(
     names::check("board", &boards.iter().flatten().collect::<Vec<_>>(), diagnostics);
     names::check("driver", &drivers.own_names(), diagnostics);
     let devices = || parts.iter().flat_map(|read| &read.devices);
-    // A chip's name and those of its devices name different things and are code in different places.
+    // The names of chips and of their devices name different things, and are in different places in
+    // the code.
     let device_names: Vec<_> = devices().map(|device| &device.name).collect();
     names::check("device", &device_names, diagnostics);
     let chips = parts.iter().filter(|read| read.part.chip.is_some());
@@ -264,7 +265,8 @@ fn check_names(
     }
 }
 
-/// Fixed pins, sides and headers must be in the tables of the boards a device may go to.
+/// Checks that fixed pins, sides and headers are in the tables of the boards that a device may go
+/// to.
 fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for wires in &design.connections {
         let boards: Vec<&Board> = match wires.board {

@@ -18,7 +18,7 @@ use crate::kind::Role;
 use crate::pins::PinRef;
 use crate::value::Evaluator;
 
-/// The properties that can be wished for beside the pins of the roles.
+/// The properties that can be wished for, besides the pins of the roles.
 const WISHES: [&str; 6] = ["pin", "unit", "side", "header", "together", "sequence"];
 
 /// All properties that can be wished for.
@@ -60,7 +60,7 @@ pub(crate) fn of_board(
     rules
 }
 
-/// Reads the rules of a device or a chip, whose block is there.
+/// Reads the rules of a device or a chip, whose block is `block`.
 pub(crate) fn of_device(
     file: FileId,
     rules: impl Iterator<Item = Rule>,
@@ -133,7 +133,7 @@ fn wish(
     Some(Wish { prefer, what, span: at })
 }
 
-/// A wish for the elements of an array.
+/// Reads a wish for the elements of an array.
 fn of_array(
     file: FileId,
     prefer: bool,
@@ -181,11 +181,11 @@ fn allow(
 }
 
 /// Removes the warnings and hints that are allowed, and reports an `allow` that allowed nothing.
-/// Wants all diagnostics of a run, those of later stages included.
+/// Needs all diagnostics of a run, including those of later stages.
 pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let allows = allows(design);
     let used = drop_covered(&allows, diagnostics);
-    // What `check` alone foresees is told after this.
+    // What only `check` foresees is reported after this.
     let is_due = |allow: &Allow| allow.code != w0615_no_firmware::CODE;
     let unused = allows.iter().enumerate().filter(|(index, _)| !used.contains(index));
     let unused = unused.filter(|(_, allow)| is_due(allow));
@@ -196,7 +196,7 @@ pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     }));
 }
 
-/// Removes what is allowed of diagnostics that come after [`apply_allows`].
+/// Removes the allowed diagnostics from those that come after [`apply_allows`].
 pub fn drop_allowed(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     drop_covered(&allows(design), diagnostics);
 }
@@ -207,7 +207,7 @@ fn allows(design: &Design) -> Vec<&Allow> {
     of_boards.chain(of_parts).collect()
 }
 
-/// Removes what is allowed, and returns the rules that allowed it by their index.
+/// Removes what is allowed, and returns the indices of the rules that allowed it.
 fn drop_covered(allows: &[&Allow], diagnostics: &mut Vec<Diagnostic>) -> BTreeSet<usize> {
     let covered = covered(allows, diagnostics);
     let mut at = 0..;
@@ -215,9 +215,10 @@ fn drop_covered(allows: &[&Allow], diagnostics: &mut Vec<Diagnostic>) -> BTreeSe
     covered.into_values().collect()
 }
 
-/// For each diagnostic that is allowed the first rule that allows it, both by their index.
+/// Maps each allowed diagnostic to the first rule that allows it, both by index.
 ///
-/// Goes through rules and diagnostics by their places, so that many of both cost n log n.
+/// Walks rules and diagnostics in the order of their places, so that large numbers of both take O(n
+/// log n).
 fn covered(allows: &[&Allow], diagnostics: &[Diagnostic]) -> BTreeMap<usize, usize> {
     let mut rules: Vec<(usize, &Allow)> = allows.iter().copied().enumerate().collect();
     rules.sort_by_key(|(_, allow)| (allow.code, allow.scope.file, allow.scope.start));
@@ -226,7 +227,7 @@ fn covered(allows: &[&Allow], diagnostics: &[Diagnostic]) -> BTreeMap<usize, usi
     let place = |one: &Diagnostic| (one.code, one.primary.span.file, one.primary.span.start);
     warnings.sort_by_key(|(_, one)| place(one));
     let mut rules = rules.into_iter().peekable();
-    // The scopes that have begun, the first rule on top.
+    // The scopes that have begun, with the first rule on top.
     let mut open = BinaryHeap::new();
     let mut found = BTreeMap::new();
     for (at, warning) in warnings {
@@ -237,7 +238,8 @@ fn covered(allows: &[&Allow], diagnostics: &[Diagnostic]) -> BTreeMap<usize, usi
         while let Some((index, Allow { code, scope, .. })) = rules.next_if(begun) {
             open.push(Reverse((index, *code, scope.file, scope.end)));
         }
-        // What has ended here, or is about something else, has ended for all that follow.
+        // A rule that has ended here, or is about something else, cannot apply to any later
+        // warning.
         while let Some(Reverse((index, of, within, end))) = open.peek().copied() {
             if (of, within) == (code, file) && start <= end {
                 found.insert(at, index);

@@ -1,14 +1,14 @@
-//! Which pins can be a wire at all: a kind, a role and a pin of a table in, yes or no out.
+//! Whether a pin can be a wire at all: a kind, a role and a pin of a table in, yes or no out.
 //!
-//! Only for what a report proposes to somebody who has named a pin that there is not. Which pins are offered, and which
-//! unit serves them, is the wiring's.
+//! Used only for proposals to a user who named a pin that does not exist. Which pins are offered,
+//! and which unit serves them, is decided by crate `wiring`.
 
 use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, UartLine};
 use sensedsl_board::table::Pin;
 
 use crate::kind::{KindName, Role};
 
-/// Whether some usage of the pin is one that the wire needs.
+/// Whether the wire needs any of the pin's usages.
 pub(crate) fn serves(kind: KindName, role: Role, pin: &Pin) -> bool {
     let is_any = matches!(role, Role::Cs | Role::Trigger) || kind == KindName::Digital;
     is_any || pin.usages.iter().any(|usage| is_of(kind, role, usage.signal.function()))

@@ -1,8 +1,9 @@
-//! The sound part of a design with mistakes: what was read and the diagnostics in, the design without
-//! what is in error out.
+//! The sound part of a design with mistakes: everything that was read and the diagnostics in, the
+//! design without the parts in error out.
 //!
-//! A device is left out when an error is in its block, in the driver it names or in the table of its
-//! board, or when its board cannot be read. Everything else stays: one mistake does not hide what is right or wrong elsewhere.
+//! A device is left out if there is an error in its block, in the driver it names or in the table
+//! of its board, or if its board cannot be read. Everything else stays, so that one mistake does
+//! not hide the rest.
 
 use std::collections::BTreeSet;
 
@@ -11,12 +12,12 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Severity, Span};
 use crate::design::{Board, Design, Part, Spanned};
 use crate::drivers::Drivers;
 
-/// A design without what is in error.
+/// A design without the parts in error.
 #[derive(Clone, Debug)]
 pub struct Partial {
-    /// The boards and devices that are sound. It may have no device.
+    /// The sound boards and devices. There may be no devices.
     pub design: Design,
-    /// The names of the boards and devices that are not in it, in file order.
+    /// The names of the boards and devices left out, in file order.
     pub left_out: Vec<Spanned<String>>,
 }
 
@@ -33,7 +34,8 @@ impl Partial {
         self.keep(|part| part.driver.as_ref().is_none_or(|driver| !drivers.contains(driver)))
     }
 
-    /// Leaves out what may be on a board whose table has an error: what its pins can is not known.
+    /// Leaves out what may be on a board whose table has an error, because what its pins can do is
+    /// unknown.
     pub(crate) fn without_doubtful_tables(mut self, diagnostics: &[Diagnostic]) -> Self {
         let files: BTreeSet<FileId> = errors(diagnostics).into_iter().map(|at| at.file).collect();
         let is_doubtful = |board: &&Board| files.contains(&board.table_file);
@@ -71,7 +73,7 @@ fn has_any(places: &BTreeSet<Span>, block: Span) -> bool {
     places.range(first..=last).next().is_some()
 }
 
-/// The names of the drivers of the file that an error is in.
+/// The names of the file's drivers that contain an error.
 pub(crate) fn broken_drivers(drivers: &Drivers, diagnostics: &[Diagnostic]) -> BTreeSet<String> {
     let errors = errors(diagnostics);
     let broken = drivers.own_blocks().filter(|(_, block)| has_any(&errors, *block));

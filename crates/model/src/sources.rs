@@ -1,4 +1,4 @@
-//! Reading a file and all files it uses, in the order of their items.
+//! Reads a file and all files it uses, in the order of their items.
 
 use std::collections::BTreeSet;
 
@@ -14,15 +14,15 @@ use crate::fields::span;
 use crate::files::{Files, Wanted, What};
 use crate::syntax_errors;
 
-/// The items of a file and of what it uses, each with its file, in order.
+/// The items of a file and of the files it uses, in order, each with its file.
 #[derive(Debug, Default)]
 pub(crate) struct Items {
     pub(crate) boards: Vec<(FileId, ast::Board)>,
     pub(crate) drivers: Vec<(FileId, ast::Driver)>,
     pub(crate) constants: Vec<(FileId, ast::Constant)>,
-    /// Devices and chips with the index of their board.
+    /// Devices and chips, with the index of their board.
     pub(crate) parts: Vec<(FileId, ast::Item, Option<usize>)>,
-    /// Some text could not be parsed: what is missing may be a consequence.
+    /// True if some text could not be parsed, so that something may only seem to be missing.
     pub(crate) broken: bool,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct Reader<'a> {
     left: Left,
 }
 
-/// The blocks and the statements that are counted.
+/// The blocks and statements that are counted.
 const ITEMS: [SyntaxKind; 7] = [
     SyntaxKind::Board,
     SyntaxKind::Driver,
@@ -59,7 +59,7 @@ const STATEMENTS: [SyntaxKind; 7] = [
     SyntaxKind::Allow,
 ];
 
-/// What is left of the budgets, over all files.
+/// The part of the budgets not yet used, over all files.
 struct Left {
     tokens: usize,
     items: usize,
@@ -107,8 +107,8 @@ impl<'a> Reader<'a> {
         file
     }
 
-    /// The first block or statement of a file that is beyond what a design may have, with the words
-    /// and the figure of that limit.
+    /// The first block or statement of a file that exceeds the limits of a design, with the name
+    /// and the size of that limit.
     fn beyond(&mut self, file: FileId, root: &SyntaxNode) -> Option<(Span, &'static str, usize)> {
         for node in root.descendants() {
             let kind = node.kind();
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
             } else {
                 continue;
             };
-            // A rule names any number of pins.
+            // A rule can name any number of pins.
             let names = node.children_with_tokens().filter(|one| one.kind() == SyntaxKind::Comma);
             let Some(fewer) = left.checked_sub(1 + names.count()) else {
                 let first = node.first_token().map_or(node.text_range(), |t| t.text_range());
@@ -192,7 +192,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Says once what would be said of each further file.
+    /// Reports only once what would be reported for each further file.
     fn refuse(&mut self, report: Diagnostic) {
         self.items.broken = true;
         if self.diagnostics.iter().all(|one| one.code != report.code) {
@@ -213,7 +213,7 @@ pub(crate) fn beside(from: &str, relative: &str) -> String {
     }
 }
 
-/// A path without `.` and with `..` resolved where that is possible in the text.
+/// A path without `.`, and with `..` resolved as far as the text allows.
 #[must_use]
 pub fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();

@@ -16,7 +16,7 @@ use sensedsl_syntax::{Block, Item, Parse, SyntaxError, SyntaxErrorKind, SyntaxKi
 use crate::fields::span;
 use crate::other_types;
 
-/// The diagnostic of one syntax error in `file`.
+/// The diagnostic for a syntax error in `file`.
 #[must_use]
 pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
     use SyntaxErrorKind as Kind;
@@ -90,7 +90,7 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
     }
 }
 
-/// Some of the characters that mean nothing are habits from other languages and word processors.
+/// Some unknown characters are habits from other languages and word processors.
 fn unexpected_character(at: Span, character: char) -> Diagnostic {
     match character {
         '#' => e0102_unknown_character::comment_with_hash(at),
@@ -128,13 +128,13 @@ fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
     }
 }
 
-/// Drops what is said of the values in statements that the parser has complained about: they are not
-/// what was meant.
+/// Drops diagnostics about values in statements that have syntax errors: those values are not what
+/// was meant.
 pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec<Diagnostic>) {
     let mut broken: Vec<Span> = Vec::new();
     for (file, parsed) in trees {
         let errors = parsed.errors().iter().filter(|error| spoils_value(&error.kind));
-        // What is missing is missing behind what stands before it.
+        // A missing token is reported right after the token before it.
         let place = |range: TextRange| (range.start(), !range.is_empty());
         let places: BTreeSet<_> = errors.map(|error| place(error.range)).collect();
         if places.is_empty() {
@@ -162,7 +162,8 @@ pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec
     };
     let is_told = |error: &Diagnostic| {
         let at = error.primary.span;
-        // Statements do not lie in each other, but for a type, whose device is no statement.
+        // Statements are not nested, except for a type, and the device around a type is not a
+        // statement.
         let behind = broken.partition_point(|one| (one.file, one.start) <= (at.file, at.start));
         let before = behind.checked_sub(1).and_then(|number| broken.get(number));
         before.is_some_and(|one| one.file == at.file && at.end <= one.end)
@@ -176,7 +177,7 @@ fn spoils_value(kind: &SyntaxErrorKind) -> bool {
     !matches!(kind, Kind::MissingSemicolon | Kind::MissingEquals { .. })
 }
 
-/// What a block is made of.
+/// The contents of a block, in words.
 fn inside(block: Block) -> &'static str {
     match block {
         Block::File => "`board`, `sensor`, `actuator`, `chip`, `driver`, `const` or `use`",

@@ -1,4 +1,4 @@
-//! What is wrong in a board table, as diagnostics.
+//! Findings in a board table, as diagnostics.
 
 use sensedsl_board::finding::{Finding, FindingKind};
 use sensedsl_diagnostics::codes::{
@@ -8,7 +8,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 
-/// The diagnostic of one finding in the table `file`.
+/// The diagnostic for a finding in the table `file`.
 #[must_use]
 pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagnostic {
     use FindingKind as Kind;
@@ -69,7 +69,7 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
     }
 }
 
-/// The words for what is only odd.
+/// The message for a finding that is only odd.
 fn oddity(kind: &FindingKind) -> String {
     use FindingKind as Kind;
     let meant = |nearest: &Option<String>| {

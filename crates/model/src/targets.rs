@@ -13,14 +13,14 @@ use crate::fields::Fields;
 /// The properties of a board.
 const PROPERTIES: &[&str] = &["target"];
 
-/// Which target is wanted, and where that is said.
+/// The requested target, and where it is requested.
 pub(crate) struct Asked {
-    /// None for the default, where it covers the MCU.
+    /// None for the default, if that covers the MCU.
     name: Option<String>,
     at: Span,
 }
 
-/// Reads the properties of a board. What the command asks for wins over what the file says.
+/// Reads the properties of a board. A target given on the command line overrides the file's.
 pub(crate) fn asked(
     context: &mut Context<'_>,
     file: FileId,
@@ -46,7 +46,7 @@ pub(crate) fn asked(
     }
 }
 
-/// The profile that is asked for, of the MCU that the table `shown` is of.
+/// The requested profile for the MCU of the table `shown`.
 pub(crate) fn find(
     asked: &Asked,
     shown: &str,

@@ -15,7 +15,7 @@ use crate::other_types;
 /// Most elements of an array.
 const ARRAY_MAX: u64 = 1_024;
 
-/// Reads a type; what is wrong with it is reported.
+/// Reads a type; mistakes in it are reported.
 pub(crate) fn read(
     file: FileId,
     ty: Option<ast::Type>,

@@ -1,7 +1,7 @@
-//! Values as they are meant: names of constants replaced, operations done.
+//! Computed values: names of constants are replaced, and operations are done.
 //!
-//! A number has a unit or none; numbers of units are multiplied and divided as in physics, and added
-//! only to their like.
+//! A number may have a unit. Numbers with units are multiplied and divided as in physics, and added
+//! only to numbers of the same dimension.
 
 use sensedsl_diagnostics::codes::{e0211_out_of_range, e0227_cannot_compute as cannot};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
@@ -28,9 +28,9 @@ pub(crate) enum Value {
     Text(String),
     /// Several values.
     List(Vec<Spanned<Value>>),
-    /// From the first to the last.
+    /// A range from the first to the last.
     Range(Box<[Spanned<Value>; 2]>),
-    /// What could not be read or computed; that has been reported.
+    /// A value that could not be read or computed; that has been reported.
     Unknown,
 }
 
@@ -40,12 +40,12 @@ impl Value {
         if let Self::List(list) = self { Some(list) } else { None }
     }
 
-    /// The number that it is.
+    /// The value as a number.
     pub(crate) fn number(&self) -> Option<&Number> {
         if let Self::Number(number) = self { Some(number) } else { None }
     }
 
-    /// How many numbers, words and letters it has; none is nothing.
+    /// The number of its numbers, words and letters; never 0.
     fn parts(&self) -> usize {
         match self {
             Self::Number(_) | Self::Unknown => 1,
@@ -64,29 +64,29 @@ impl Value {
 /// A number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Number {
-    /// In its unit.
+    /// The number in its unit.
     pub(crate) value: f64,
-    /// The same exactly, of a whole number without a unit.
+    /// The exact number, if it is whole and has no unit.
     pub(crate) integer: Option<i128>,
-    /// What it is a number of.
+    /// What the number measures.
     pub(crate) measure: Measure,
 }
 
-/// What a number is a number of.
+/// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Measure {
-    /// Nothing.
+    /// No unit.
     Bare,
     /// A unit of the language.
     Unit(Unit),
-    /// Seconds, volts and ohms, each to a power.
+    /// Seconds, volts, ohms and so on, each to a power.
     Derived(Dimension),
-    /// A code: what goes over the wire, not what is shown.
+    /// A code: what goes over the wire, not the shown value.
     Raw,
 }
 
 impl Number {
-    /// Its dimension.
+    /// The dimension of the number.
     pub(crate) fn dimension(&self) -> Dimension {
         match self.measure {
             Measure::Bare => Dimension::NONE,
@@ -96,7 +96,7 @@ impl Number {
         }
     }
 
-    /// In seconds, hertz, volts or ohms, whichever it is.
+    /// The number in base units, such as seconds, hertz, volts or ohms.
     pub(crate) fn in_base_units(&self) -> f64 {
         match self.measure {
             Measure::Bare | Measure::Derived(_) | Measure::Raw => self.value,
@@ -104,7 +104,7 @@ impl Number {
         }
     }
 
-    /// What it is a number of, for messages.
+    /// The name of the unit, for messages.
     pub(crate) fn unit_name(&self) -> String {
         match self.measure {
             Measure::Bare => "no unit".to_owned(),
@@ -151,16 +151,16 @@ impl Number {
     }
 }
 
-/// Whole numbers up to here are exact as `f64`.
+/// Whole numbers up to this one are exact as `f64`.
 const EXACT_MAX: f64 = 9_007_199_254_740_992.0;
 
-/// Puts constants in and computes.
+/// Replaces constants by their values, and computes.
 pub(crate) struct Evaluator<'a> {
     file: FileId,
     constants: &'a Constants,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// What constants may still bring into the value. Lists of constants that are lists double with
-    /// each step otherwise.
+    /// How much constants may still add to the value. Without a limit, constants that are lists of
+    /// lists could double in size with each step.
     left: usize,
 }
 
@@ -173,11 +173,11 @@ impl<'a> Evaluator<'a> {
         Self { file, constants, diagnostics, left: CONSTANT_PARTS_MAX }
     }
 
-    /// The value of a constant, where there is room for it.
+    /// The value of a constant, if there is room for it.
     fn constant(&mut self, name: &ast::Name) -> Option<Value> {
         let value = self.constants.get(name.text())?;
         let Some(left) = self.left.checked_sub(value.parts()) else {
-            // Said once; what comes behind it is too much as well.
+            // Reported once; anything after it is too much as well.
             if self.left > 0 {
                 let at = span(self.file, name.range());
                 let message = "constants make this value too large";
@@ -191,7 +191,7 @@ impl<'a> Evaluator<'a> {
         Some(value.clone())
     }
 
-    /// What a value means, and where it stands.
+    /// The computed value, with its place.
     pub(crate) fn spanned(&mut self, node: &ast::Value) -> Spanned<Value> {
         Spanned { value: self.value(node), span: self.span(node) }
     }
@@ -200,7 +200,7 @@ impl<'a> Evaluator<'a> {
         span(self.file, node.range())
     }
 
-    /// What a value means.
+    /// The computed value of a node.
     pub(crate) fn value(&mut self, node: &ast::Value) -> Value {
         match node {
             ast::Value::Number(number) => literal(number),
@@ -251,7 +251,8 @@ impl<'a> Evaluator<'a> {
         Value::Number(number)
     }
 
-    /// A chain of operations, from the left. The chain may be long, so it is not gone down.
+    /// Computes a chain of operations, from the left. The chain may be long, so this does not
+    /// recurse.
     fn binary(&mut self, binary: &ast::Binary) -> Value {
         let mut rest = vec![binary.clone()];
         let mut left = binary.left();
@@ -280,7 +281,7 @@ impl<'a> Evaluator<'a> {
         so_far.map_or(Value::Unknown, Value::Number)
     }
 
-    /// The number that an operand is; what is not a number is reported.
+    /// The operand as a number; anything else is reported.
     fn operand(&mut self, node: &ast::Value) -> Option<Number> {
         let at = self.span(node);
         match self.value(node) {
@@ -308,7 +309,7 @@ fn literal(number: &ast::Number) -> Value {
         (Some(_), Some(unit)) => Measure::Unit(unit),
         (Some(_), None) => return Value::Unknown,
     };
-    // `raw 5 ms` is refused wherever it stands: it has no place as a time and none as a code.
+    // `raw 5 ms` is always refused: it is valid neither as a time nor as a code.
     let measure = match measure {
         Measure::Bare if number.is_raw() => Measure::Raw,
         Measure::Unit(unit) if number.is_raw() => {
@@ -330,7 +331,7 @@ fn literal(number: &ast::Number) -> Value {
     Value::Number(Number { value: signed.0, integer, measure })
 }
 
-/// Why two numbers cannot be put together.
+/// Why two numbers cannot be combined.
 struct Why {
     message: String,
     help: &'static str,
@@ -394,5 +395,5 @@ fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Wh
     Ok(Number { integer: exactly.or(number.integer), ..number })
 }
 
-/// The largest number of the language, 2^64.
+/// The largest number in the language, 2^64.
 const LARGEST: f64 = 18_446_744_073_709_551_616.0;

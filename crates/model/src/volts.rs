@@ -17,13 +17,13 @@ pub fn shown_ohm(ohm: u32) -> String {
     format!("{} kOhm", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// The resistor to ground that is proposed, in ohms.
+/// The proposed resistor to ground, in ohms.
 const LOWER_OHM: u32 = 10_000;
 /// Steps of the E12 series, in tenths.
 const E12: [u32; 12] = [10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82];
 
-/// Resistors of the E12 series, from the device to the pin and from there to ground, in ohms, that
-/// leave at most `most_mv` of `mv`.
+/// Resistors of the E12 series, in ohms, from the device to the pin and from the pin to ground,
+/// that leave at most `most_mv` of `mv` at the pin.
 #[must_use]
 pub fn divider(mv: u32, most_mv: u32) -> [u32; 2] {
     let enough = |upper: &u64| {

@@ -1,5 +1,6 @@
-//! Where a value stands in the bytes of its part: from its coding and the length of its bytes to words and bits, or
-//! why it cannot stand there. Reading a file asks it for the mistakes, whoever makes tables for the words.
+//! Where a value is in the bytes of its part: from its coding and the number of its bytes to words
+//! and bits, or the reason why it cannot be there. The reader of a file uses this to find mistakes;
+//! generators of tables use it for the words.
 
 use sensedsl_wire::{ScalarType, ValueType};
 
@@ -9,59 +10,59 @@ use crate::kind::can::BitField;
 use crate::kind::i2c::ByteOrder;
 use crate::protocol::{Coding, Crc, Protocol};
 
-/// How the bytes of a value are to be read or written; one word is one element.
+/// How to read or write the bytes of a value; a word is an element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// What a word is.
+    /// The format of a word.
     pub code: Code,
-    /// Bytes of a word; 0 where words are packed.
+    /// Bytes of a word; 0 if words are packed.
     pub word_bytes: u8,
-    /// Words there are.
+    /// The number of words.
     pub count: u16,
-    /// For each element where its word stands; empty for one after the other.
+    /// The place of each element's word; empty if they are consecutive.
     pub elements: Vec<u8>,
-    /// The lowest bit that counts.
+    /// The lowest bit of the value.
     pub low: u8,
-    /// Bits that count.
+    /// The number of bits of the value.
     pub bits: u8,
-    /// The highest of them is a sign.
+    /// True if the highest of them is a sign.
     pub is_signed: bool,
     /// Whether the low byte of a word comes first.
     pub order: ByteOrder,
     /// Checksums between the words.
     pub crc: Option<Crc>,
-    /// Bytes of all words, without checksums.
+    /// Bytes of all words, without the checksums.
     pub data_bytes: u16,
 }
 
-/// What a word is.
+/// The format of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
     /// A binary number.
     Integer,
     /// An IEEE 754 number.
     Float,
-    /// Two decimal digits a byte.
+    /// Two decimal digits per byte.
     Bcd,
-    /// A binary number, behind the one before without a gap.
+    /// A binary number that follows the one before it without a gap.
     Packed,
 }
 
 impl Words {
-    /// The words of a device; none where its kind sends no bytes, or a text.
+    /// The words of a device; none if its kind sends no bytes or its value is text.
     #[must_use]
     pub fn of(device: &Device) -> Option<Self> {
         let length = length_bytes(&device.kind, &device.coding)?;
         words(&device.kind, &device.coding, device.value.value, length).ok()
     }
 
-    /// Bytes on the wire: with the checksums.
+    /// Bytes on the wire, including the checksums.
     #[must_use]
     pub const fn wire_bytes(&self) -> u16 {
         self.on_wire(self.data_bytes)
     }
 
-    /// The bits that the value takes of a frame in which it begins at that byte; byte 0 is the lowest.
+    /// The bits that the value takes in a frame where it begins at that byte; byte 0 is the lowest.
     #[must_use]
     pub fn in_frame(&self, byte: u8) -> u64 {
         if self.code == Code::Packed || self.crc.is_some() {
@@ -80,7 +81,8 @@ impl Words {
         words.iter().map(word).fold(0, |all, one| all | one)
     }
 
-    /// A number in the bits of its word, in a frame in which the word begins at that byte; none where it has more bits.
+    /// A number in the bits of its word, in a frame where the word begins at that byte; none if it
+    /// has more bits than that.
     #[must_use]
     pub fn placed(&self, byte: u8, number: u64) -> Option<u64> {
         let is_held = self.bits >= 64 || number >> self.bits == 0;
@@ -99,19 +101,19 @@ impl Words {
         bit_of(first + behind, bit)
     }
 
-    /// Where a byte of the words stands on the wire.
+    /// The place of a byte of the words on the wire.
     #[must_use]
     pub const fn on_wire(&self, byte: u16) -> u16 {
         if self.crc.is_some() { byte + byte / 2 } else { byte }
     }
 }
 
-/// A bit of a byte of a frame, of which byte 0 is the lowest; nothing behind the frame's end.
+/// A bit of a byte of a frame whose byte 0 is the lowest; 0 beyond the end of the frame.
 fn bit_of(byte: u16, bit: u16) -> u64 {
     1_u64.checked_shl(u32::from(8 * byte + bit % 8)).unwrap_or(0)
 }
 
-/// Whether the value can stand in its bytes, and whether the formula gets as many as it takes.
+/// Checks that the value can be in its bytes, and that the formula gets the bytes that it takes.
 pub(crate) fn check(
     kind: &Kind,
     coding: &Coding,
@@ -119,7 +121,7 @@ pub(crate) fn check(
     protocol: &Protocol,
 ) -> Result<(), String> {
     let Some(length) = length_bytes(kind, coding) else { return Ok(()) };
-    // E0506 tells of those.
+    // E0506 reports those.
     if kind.i2c().is_some() && coding.is_plain() {
         return Ok(());
     }
@@ -135,7 +137,7 @@ pub(crate) fn check(
     words(kind, coding, value, length).map(|_| ())
 }
 
-/// Bytes of the value; none where its kind sends no bytes, or a text.
+/// Bytes of the value; none if its kind sends no bytes or the value is text.
 fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
     if coding.text.is_some() {
         return None;
@@ -225,7 +227,7 @@ fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<
     })
 }
 
-/// A value of some bits of a frame.
+/// The words of a value that is some bits of a frame.
 fn in_frame(
     kind: &Kind,
     coding: &Coding,
@@ -290,7 +292,7 @@ fn code(
     if coding.bcd {
         return Ok(Code::Bcd);
     }
-    // Fewer bytes than a float has are a whole number.
+    // If there are fewer bytes than a float has, they are a whole number.
     let is_whole = usize::from(word_bytes) != of.size_bytes() || coding.bits.is_some();
     if !is_float(of) || is_whole {
         return Ok(Code::Integer);

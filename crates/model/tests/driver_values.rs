@@ -1,4 +1,5 @@
-//! What a driver says of its values: mistakes are told where they are made, and none is made of what is right.
+//! What a driver states about its values: mistakes are reported where they are made, and correct
+//! values are not reported.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use sensedsl_model::{NoFiles, Request, resolve};
@@ -55,7 +56,7 @@ fn messages_that_never_end() {
     assert_eq!(said(&uart("end = \"\\n\";")), "");
 }
 
-/// Only a driver's reading says how many channels a pulse train has.
+/// Only a driver's reading can state how many channels a pulse train has.
 #[test]
 fn pulse_trains_are_readings() {
     assert_eq!(said("for icu { mode = ppm; reading channels returns uint16[6] {} }"), "");

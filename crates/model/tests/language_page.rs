@@ -1,5 +1,5 @@
-//! `docs/language.md` lists the kinds and properties that there are, and the library of drivers that is
-//! part of the binary is the folder `drivers/` and can be used.
+//! `docs/language.md` lists exactly the kinds and properties that exist. The binary contains
+//! exactly the drivers in the folder `drivers/`, and all of them can be used.
 #![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -20,7 +20,7 @@ fn page() -> String {
     std::fs::read_to_string(root().join("docs/language.md")).unwrap()
 }
 
-/// The names between back quotes in the first column of the tables of the section `title`.
+/// The names between backticks in the first column of the tables in the section `title`.
 fn first_column(page: &str, title: &str) -> BTreeSet<String> {
     let section = page.split("\n#").find_map(|section| {
         let (head, body) = section.split_once('\n')?;
@@ -88,8 +88,8 @@ fn every_kind_is_described_with_its_properties() {
     assert_eq!(first_column(&page, "Kinds"), kinds);
     for kind in KindName::ALL {
         let described = first_column(&page, kind.name());
-        // The page describes the properties that fix a wire once for all kinds. `trigger` is a wire of an
-        // icu and a property of its own of an i2c device.
+        // The page describes the properties that fix a wire once for all kinds. `trigger` is a wire
+        // of an icu device and a property of its own for an i2c device.
         let wires = Role::ALL.map(Role::property);
         let is_wire = |name: &&&str| wires.contains(name) && !described.contains(**name);
         let own = kind.spec().properties.iter().filter(|name| !is_wire(name));
@@ -108,7 +108,8 @@ fn the_library_is_the_folder() {
     assert_eq!(names, embedded, "LIBRARY in crates/model/src/library.rs");
 }
 
-/// Each driver is read as a part that uses all of it: a chip with all values, or a device.
+/// Each driver is read as a part that uses everything the driver has: a chip with all values, or a
+/// device.
 #[test]
 fn every_driver_serves_a_part() {
     let mistakes = facts::mistakes();
@@ -121,7 +122,7 @@ fn every_driver_serves_a_part() {
     assert_eq!(read, written);
 }
 
-/// What the page of a part needs.
+/// The facts that a part's page needs.
 #[test]
 fn every_driver_describes_its_part() {
     for part in facts::all() {
@@ -140,7 +141,7 @@ fn every_driver_describes_its_part() {
     }
 }
 
-/// Every name by which a part is known finds it, and no two parts have one.
+/// Every name of a part finds it, and no two parts share a name.
 #[test]
 fn every_name_is_that_of_one_part() {
     let mut owners: BTreeMap<String, String> = BTreeMap::new();
@@ -196,8 +197,8 @@ fn page_of_drivers() -> String {
     std::fs::read_to_string(root().join("docs/driver-language.md")).unwrap()
 }
 
-/// Every word that can stand in a driver is in the first or the second column of a table of the page, and the
-/// properties there are some.
+/// Every word that a driver can contain is in the first or second column of a table on the page,
+/// and the properties listed there exist.
 #[test]
 fn the_driver_language_is_on_its_page() {
     let page = page_of_drivers();
@@ -221,7 +222,7 @@ fn the_driver_language_is_on_its_page() {
     }
 }
 
-/// The examples of the page are accepted as they stand.
+/// The examples on the page are accepted as written.
 #[test]
 fn examples_of_the_driver_page_resolve() {
     let page = page_of_drivers();

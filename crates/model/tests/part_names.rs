@@ -1,4 +1,4 @@
-//! Every part that is listed can be named in a file, by the spelling that lists and messages give.
+//! Every listed part can be named in a file, with the spelling that lists and messages give.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sensedsl_diagnostics::{Diagnostic, Severity};
@@ -16,7 +16,7 @@ fn named(name: &str) -> (Option<String>, Vec<Diagnostic>) {
     (resolved.design.and_then(|design| design.boards[0].mcu.clone()), errors)
 }
 
-/// What a reader of `parts --list` writes: a name has no hyphen.
+/// How a reader of `parts --list` writes a name, which has no hyphens.
 fn spelled(number: &str) -> String {
     number.replace('-', "_")
 }
@@ -50,7 +50,7 @@ fn parts_are_named_in_files() {
     }
 }
 
-/// What a message proposes is accepted.
+/// Names that a message proposes are accepted.
 #[test]
 fn the_way_out_of_a_message_is_one() {
     let proposed = |name: &str| -> Vec<String> {

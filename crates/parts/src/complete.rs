@@ -1,5 +1,5 @@
-//! Usages for a table that lists none: a board table in, the same table with what its MCU's pins
-//! can be used for out.
+//! Usages for a table that lists none: a board table in, the same table with the usages of its
+//! MCU's pins out.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::remap::Blocks;
@@ -9,10 +9,10 @@ use sensedsl_board::table::{Column, Property, Role, Table, Usage};
 use crate::find::{Found, find};
 use crate::sheet::{column_of, columns};
 
-/// What became of a table.
+/// The result of completing a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Completion {
-    /// It lists usages itself, and stays as it is.
+    /// It lists usages itself, and is left as it is.
     Own,
     /// It lists none, and its MCU is not a known part.
     Unknown,
@@ -25,16 +25,16 @@ pub enum Completion {
     },
 }
 
-/// Gives a table without a column of usages those of the MCU. A usage points to the cell of its
-/// pin. Pins that share a contact of the package get its position, unless the table has positions
-/// of its own, so that they exclude each other.
+/// Gives a table without a column of usages the usages of its MCU. A usage points to the cell of
+/// its pin. Pins that share a contact of the package get its position, unless the table has
+/// positions of its own, so that they exclude each other.
 #[must_use]
 pub fn complete(table: &mut Table) -> Completion {
     if table.columns.iter().any(|column| column.role == Role::Usages) {
         return Completion::Own;
     }
     let Some(found) = table.mcu.as_deref().and_then(find) else { return Completion::Unknown };
-    // What is printed says of which MCU the usages are.
+    // The printed table states which MCU the usages belong to.
     if table.property("mcu").is_none() {
         let value = table.mcu.clone().unwrap_or_default();
         table.properties.push(Property { key: "mcu".to_owned(), value, range: 0..0 });

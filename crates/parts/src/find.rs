@@ -1,4 +1,4 @@
-//! Which part a name means.
+//! Finds the part that a name means.
 
 use sensedsl_board::mcu::normalise;
 use sensedsl_diagnostics::nearest;
@@ -6,10 +6,10 @@ use sensedsl_diagnostics::nearest;
 use crate::listing::{Part, all};
 use crate::sheet::Sheet;
 
-/// What a name leads to.
+/// The result of looking up a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
-    /// The part number to go on with: of the part, or the part of it that was given.
+    /// The part number to continue with: that of the part, or as much of it as was given.
     pub mcu: String,
     /// The parts that the name fits, in natural order; at least one.
     pub parts: Vec<Part>,
@@ -20,7 +20,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// What is not known for certain, to be warned of.
+    /// A warning about what is not known for certain.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let first = self.parts.first()?;
@@ -50,7 +50,7 @@ impl Found {
         }
     }
 
-    /// The package, where the name tells it.
+    /// The package, if the name tells it.
     #[must_use]
     pub fn package(&self) -> Option<&'static str> {
         let mut packages = self.parts.iter().map(Part::package);
@@ -65,8 +65,8 @@ impl Found {
     }
 }
 
-/// The part of a part number. The grade may be missing or `x` (`STM32F407VGT`, `STM32F407VGTx`), and
-/// the package as well (`STM32F407VG`): of packages that differ the name means what they have in
+/// The part of a part number. The grade may be missing or `x` (`STM32F407VGT`, `STM32F407VGTx`),
+/// and the package as well (`STM32F407VG`): if packages differ, the name means what they have in
 /// common. A hyphen may be written `_`, as a name in a file has none (`ATMEGA328P_AU`).
 #[must_use]
 pub fn find(name: &str) -> Option<Found> {
@@ -113,7 +113,7 @@ fn is_order_code(code: &str) -> bool {
     package && grade && options.len() <= 3 && options.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
-/// Equal, where an `X` in the name stands for a digit: a grade.
+/// Whether they are equal, where an `X` in the name stands for a digit: a grade.
 fn same(number: &str, name: &str) -> bool {
     number.len() == name.len() && starts(number, name)
 }
@@ -123,7 +123,7 @@ fn starts(number: &str, name: &str) -> bool {
     name.len() <= number.len() && number.bytes().zip(name.bytes()).all(alike)
 }
 
-/// The part number that a misspelt one is near to.
+/// The part number that a misspelt one is nearest to.
 #[must_use]
 pub fn nearest_name(name: &str) -> Option<String> {
     let name = normalise(name).replace('_', "-");

@@ -1,16 +1,16 @@
-//! The form of the shipped table: facts in, bytes out, and back.
+//! The format of the shipped table: facts in, bytes out, and back.
 //!
-//! Everything that repeats stands once and is referred to by number: signals, pins, rows (a pin and
+//! Everything that repeats is stored once and referred to by number: signals, pins, rows (a pin and
 //! its usages), dies (lists of rows), layouts (the pins of a package), parts. Numbers are written
-//! as the difference to the one before, seven bits a byte; names as the difference to the name
-//! before; the whole is deflated.
+//! as the difference from the one before, seven bits per byte; names as the difference from the
+//! name before; the whole is deflated.
 
 use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 
-/// Version of the form.
+/// Version of the format.
 const VERSION: u64 = 2;
-/// Bytes that an unpacked table may have: ten times what it has.
+/// The most bytes that an unpacked table may have: ten times what it has.
 const UNPACKED_MAX: usize = 16 << 20;
 
 /// The facts of all parts.
@@ -24,9 +24,9 @@ pub struct Data {
     pub positions: Vec<String>,
     /// Names of packages.
     pub packages: Vec<String>,
-    /// What follows the base of a part number: `T6`.
+    /// Codes that follow the base of a part number: `T6`.
     pub codes: Vec<String>,
-    /// Processor cores: `Cortex-M7`, and `Cortex-M7 + Cortex-M4` where a part has both.
+    /// Processor cores: `Cortex-M7`, and `Cortex-M7 + Cortex-M4` if a part has both.
     pub cores: Vec<String>,
     /// Pins with their usages.
     pub rows: Vec<Row>,
@@ -38,7 +38,7 @@ pub struct Data {
     pub parts: Vec<PartData>,
 }
 
-/// A pin and what it can be used for.
+/// A pin and its usages.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Row {
     /// Index into the pins.
@@ -65,11 +65,11 @@ pub struct PartData {
     pub codes: Vec<usize>,
     /// Index into the dies.
     pub die: usize,
-    /// Index into the layouts; none where the package is not known.
+    /// Index into the layouts; `None` if the package is not known.
     pub layout: Option<usize>,
     /// Index into the cores.
     pub core: usize,
-    /// Bytes of flash in the part; zero where all of it is outside.
+    /// Bytes of flash in the part; zero if all of it is outside.
     pub flash_bytes: usize,
     /// Bytes of RAM in the part.
     pub ram_bytes: usize,
@@ -116,7 +116,7 @@ pub fn pack(data: &Data) -> Vec<u8> {
         out.difference(&mut die, part.die);
         out.difference(&mut layout, part.layout.map_or(0, |index| index + 1));
     }
-    // Column by column: neighbours are alike, which packs well.
+    // Column by column: neighbours are similar, which packs well.
     for of in COLUMNS {
         let mut before = 0;
         for part in &data.parts {
@@ -127,7 +127,7 @@ pub fn pack(data: &Data) -> Vec<u8> {
     compress_to_vec(&out.bytes, 10)
 }
 
-/// Unpacks what [`pack`] made; none when the bytes are damaged.
+/// Unpacks what [`pack`] made; `None` if the bytes are damaged.
 #[must_use]
 pub fn unpack(packed: &[u8]) -> Option<Data> {
     let bytes = decompress_to_vec_with_limit(packed, UNPACKED_MAX).ok()?;
@@ -336,7 +336,8 @@ mod tests {
             prop_assert_eq!(unpack(&pack(&data)), Some(data));
         }
 
-        /// Damage is told or gives other facts; it never panics and never takes endless memory.
+        /// Damage is reported or gives other facts; it never panics and never takes unlimited
+        /// memory.
         #[test]
         fn damage_does_no_harm(data in facts(), at in 0..2000_usize, to: u8, cut in 0..400_usize) {
             let mut raw = decompress_to_vec_with_limit(&pack(&data), UNPACKED_MAX).unwrap_or_default();

@@ -2,8 +2,8 @@
 //!
 //! The facts are one compressed table, made by `cargo xtask parts` from packages of public
 //! registries (see `data/README.md`); RP2040 and RP2350 are rules. The table is unpacked at the
-//! first question. This crate stands beside the built-in boards of `sensedsl-board`, on which it
-//! depends: who looks for a name asks there first and here second. A table that lists no usages takes
+//! first question. This crate complements the built-in boards of `sensedsl-board`, on which it
+//! depends: a name is looked up there first and here second. A table that lists no usages takes
 //! them from here.
 
 mod complete;

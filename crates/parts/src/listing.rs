@@ -29,7 +29,7 @@ pub fn all() -> impl Iterator<Item = Part> {
 }
 
 impl Part {
-    /// The number of the part, of its plainest grade.
+    /// The number of the part, with its plainest grade.
     #[must_use]
     pub fn name(&self) -> String {
         self.numbers().next().unwrap_or_default()
@@ -57,7 +57,7 @@ impl Part {
         }
     }
 
-    /// The package, where it is known.
+    /// The package, if it is known.
     #[must_use]
     pub fn package(&self) -> Option<&'static str> {
         match self.0 {
@@ -66,7 +66,7 @@ impl Part {
         }
     }
 
-    /// The contacts of the package by its name: 100 of `LQFP100`.
+    /// The number of contacts of the package, from its name: 100 for `LQFP100`.
     #[must_use]
     pub fn contacts(&self) -> Option<u32> {
         let package = self.package()?;
@@ -85,7 +85,7 @@ impl Part {
         core.split(" + ")
     }
 
-    /// Bytes of flash in it; none where the flash is a chip beside it.
+    /// Bytes of flash in it; `None` if the flash is a separate chip.
     #[must_use]
     pub fn flash_bytes(&self) -> Option<usize> {
         match self.0 {
@@ -94,7 +94,7 @@ impl Part {
         }
     }
 
-    /// Bytes of RAM in it, that of its backup domain not counted.
+    /// Bytes of RAM in it, without that of its backup domain.
     #[must_use]
     pub fn ram_bytes(&self) -> usize {
         match self.0 {
@@ -103,7 +103,7 @@ impl Part {
         }
     }
 
-    /// Whether it is known where on the package each pin is.
+    /// Whether the position of each pin on the package is known.
     #[must_use]
     pub fn has_positions(&self) -> bool {
         self.layout().is_some()

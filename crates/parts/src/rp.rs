@@ -12,13 +12,13 @@ pub struct Chip {
     pub package: &'static str,
     /// The cores that run the firmware.
     pub core: &'static str,
-    /// Bytes of RAM. The flash is a chip of its own, of whatever size.
+    /// Bytes of RAM. The flash is a separate chip of any size.
     pub ram_bytes: usize,
-    /// GPIO pins.
+    /// Number of GPIO pins.
     pub pins: u8,
-    /// The first pin that is an input of the converter; all later ones are as well.
+    /// The first pin that is an input of the converter; all later ones are too.
     first_analog: u8,
-    /// PIO blocks.
+    /// Number of PIO blocks.
     pio: u8,
     /// Whether it has the functions that came with RP2350.
     second: bool,

@@ -11,7 +11,7 @@ use crate::listing::{Origin, Part};
 /// A usage and its alternate function.
 pub type Usage = (String, Option<u8>);
 
-/// The columns of usages, with the starts of what stands in them; the last takes the rest.
+/// The columns of usages, each with the prefixes of the usages in it; the last takes the rest.
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
@@ -55,7 +55,7 @@ impl Sheet {
         Self { rows }
     }
 
-    /// The pins and usages that all sheets have, positions where they agree.
+    /// The pins and usages that all sheets have, with positions where they agree.
     #[must_use]
     pub fn common(sheets: &[Self]) -> Self {
         let mut sheets = sheets.iter();
@@ -104,8 +104,8 @@ impl Sheet {
         shared
     }
 
-    /// What a wiring can depend on: the pins, their usages, and which pins share a place. Sheets
-    /// with the same key have the same wirings.
+    /// Everything that a wiring can depend on: the pins, their usages, and which pins share a
+    /// place. Sheets with the same key have the same wirings.
     #[must_use]
     pub fn key(&self) -> String {
         let mut places: BTreeMap<&str, usize> = BTreeMap::new();

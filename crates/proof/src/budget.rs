@@ -1,24 +1,25 @@
-//! How much of a certificate is read and looked at, so that a hostile one is refused soon.
+//! Limits on how much of a certificate is read and examined, so that a hostile one is refused
+//! early.
 //!
-//! Every step of a record goes through all choices that are left in its case, so the text alone does
-//! not bound the time.
+//! Every step of a record goes through all choices that are left in its case, so the length of the
+//! text alone does not bound the time.
 
 use crate::{Refuted, Unusable, ensure};
 
-/// Bytes of a certificate; one of a hundred devices on eight boards has two MiB.
+/// The most bytes in a certificate; one for a hundred devices on eight boards has two MiB.
 pub const BYTES_MAX: usize = 8 << 20;
-/// Lists and objects in a certificate that are not empty; they take memory before all else.
+/// The most non-empty lists and objects in a certificate; they above all take memory.
 pub const LISTS_MAX: usize = 120_000;
-/// Choices that are looked at, which takes a second or two.
+/// The most choices that are examined, which takes a second or two.
 pub const WORK_MAX: usize = 150_000_000;
 
-/// What is said of a record beyond [`WORK_MAX`].
+/// The message about a record beyond [`WORK_MAX`].
 pub const TOO_LONG: &str = "the proof is longer than the verifier looks at";
 
 /// Checks that a text is not too large to be read.
 ///
 /// # Errors
-/// What it has too much of.
+/// The part of which it has too much.
 pub fn fits(text: &str) -> Result<(), Unusable> {
     if text.len() > BYTES_MAX {
         return Err(Unusable(format!("it has more than {} MiB", BYTES_MAX >> 20)));
@@ -35,7 +36,7 @@ pub fn fits(text: &str) -> Result<(), Unusable> {
     Ok(())
 }
 
-/// What is left for the proof of a certificate.
+/// The budget that is left for verifying a certificate.
 pub(crate) struct Budget {
     work: usize,
 }
@@ -45,7 +46,7 @@ impl Budget {
         Self { work: WORK_MAX }
     }
 
-    /// So many choices are looked at.
+    /// Spends the work of examining this many choices.
     pub(crate) fn work(&mut self, choices: usize) -> Result<(), Refuted> {
         ensure(self.work >= choices, || TOO_LONG.into())?;
         self.work -= choices;

@@ -1,7 +1,7 @@
-//! The certificate as it stands in the file. Everything is called by name.
+//! The certificate as it is in the file. Everything is identified by name.
 //!
 //! All numbers have 32 bits, so that no sum of products of three of them overflows the 128 bits in
-//! which they are added up. Unknown fields and names given twice are refused.
+//! which they are added up. Unknown fields and duplicate names are refused.
 
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
@@ -13,7 +13,7 @@ use std::ops::Deref;
 /// Name and version of the format.
 pub const NAME: &str = "SenseDSL certificate 4";
 
-/// Things by name, no name twice.
+/// Things by name, without duplicates.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Map<T>(BTreeMap<String, T>);
 
@@ -71,9 +71,9 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Map<T> {
 pub struct Certificate {
     /// [`NAME`].
     pub format: String,
-    /// What the problem was made of.
+    /// The sources from which the problem was made.
     pub subject: Subject,
-    /// What was asked.
+    /// The problem that was solved.
     pub problem: Problem,
     /// The claim; `null` claims that there is no wiring.
     #[serde(deserialize_with = "stated")]
@@ -87,7 +87,7 @@ fn stated<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Opt
     Option::deserialize(from)
 }
 
-/// What the problem was made of; the hashes are SHA-256 in lower-case hexadecimal.
+/// The sources from which the problem was made; the hashes are SHA-256 in lower-case hexadecimal.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Subject {
@@ -101,17 +101,17 @@ pub struct Subject {
     pub built_in: Map<String>,
 }
 
-/// What was asked.
+/// The problem that was solved.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Problem {
-    /// Boards; true for a spare one, which counts when a device is on it.
+    /// Boards; true for a spare one, which counts if a device is on it.
     pub boards: Map<bool>,
     /// Pins, each with the cost of using it.
     pub pins: Map<u32>,
-    /// Pins that something else is on.
+    /// Pins that something else is on, too.
     pub shared: BTreeSet<String>,
-    /// Peripherals that need DMA streams: for each request the streams that can serve it.
+    /// Peripherals that need DMA streams: for each request, the streams that can serve it.
     pub dma: Map<Vec<BTreeSet<String>>>,
     /// Devices; each takes one of its alternatives.
     pub devices: Map<Map<Alternative>>,
@@ -121,9 +121,10 @@ pub struct Problem {
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alternative {
-    /// Where it is.
+    /// The board that it is on.
     pub board: String,
-    /// Resources taken, each with its holder: [`OWN`], or what several devices take it for.
+    /// Resources taken, each with its holder: [`OWN`], or the purpose for which several devices
+    /// take it.
     #[serde(default)]
     pub claims: Map<String>,
     /// Soft rules violated.
@@ -143,10 +144,10 @@ pub struct Alternative {
 pub struct Candidate {
     /// The pin.
     pub pin: String,
-    /// [`OWN`], or what several devices hold the pin for.
+    /// [`OWN`], or the purpose for which several devices hold the pin.
     #[serde(default = "own")]
     pub holder: String,
-    /// The pin's function; devices that hold a pin together agree on it.
+    /// The pin's function; devices that hold a pin together must agree on it.
     pub signal: String,
     /// Further resources taken, each with its holder.
     #[serde(default)]
@@ -159,7 +160,7 @@ pub struct Candidate {
     pub moved: bool,
 }
 
-/// The holder of what a device has for itself.
+/// The holder of whatever a device has for itself.
 pub const OWN: &str = "own";
 
 fn own() -> String {
@@ -170,21 +171,21 @@ fn own() -> String {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
-    /// What it costs.
+    /// The objective of the wiring.
     pub objective: Objective,
-    /// What each device takes.
+    /// The choice of each device.
     pub wiring: Map<Choice>,
-    /// For each peripheral in use the streams of its requests.
+    /// For each peripheral in use, the streams of its requests.
     pub streams: Map<Vec<String>>,
 }
 
-/// What a device takes.
+/// The choice of a device.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Choice {
     /// The alternative.
     pub takes: String,
-    /// For each of its roles the candidate.
+    /// The candidate for each of its roles.
     pub wires: Map<String>,
 }
 
@@ -219,22 +220,22 @@ impl fmt::Display for Objective {
     }
 }
 
-/// Numbers in a row; what belongs together stands side by side.
+/// Numbers in a row; those that belong together are adjacent.
 pub type Row = Vec<u64>;
 
 /// The record of a search that no wiring weighs less than the answer, or that there is none.
 ///
 /// Boards, pins, users of DMA, devices, their alternatives, the roles of these and their candidates
-/// are called by their place in the order of names; so are all resources and holders that are
+/// are identified by their place in the order of names; so are all resources and holders that are
 /// claimed, rules that are violated, and streams. The holder `own` is 0.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Search {
-    /// What each part of the objective weighs.
+    /// The weight of each part of the objective.
     pub weights: [u64; 5],
-    /// What is opened once for all who use it.
+    /// Things that are opened once for all their users.
     pub facilities: Vec<Facility>,
-    /// Facilities of which so many must be open.
+    /// Sets of facilities of which a minimum number must be open.
     pub covers: Vec<Cover>,
     /// Boards and devices that can change places.
     pub swaps: Vec<Swap>,
@@ -242,23 +243,23 @@ pub struct Search {
     pub steps: Vec<Step>,
 }
 
-/// What is opened once for all who use it together.
+/// Something that is opened once for all who use it together.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Facility {
-    /// Device, alternative: whoever takes one of these uses it.
+    /// Device, alternative: a device that takes one of these uses the facility.
     pub members: Row,
-    /// The resource that it occupies, if it does.
+    /// The resource that it occupies, if any.
     pub resource: Option<u64>,
-    /// For each wire that its members hold together the role of every member.
+    /// For each wire that its members hold together, the role of every member.
     pub wires: Vec<Row>,
     /// The users of DMA whose streams it needs.
     pub users: Row,
-    /// Resources that one member at a time can hold.
+    /// Resources that only one member at a time can hold.
     pub slots: Row,
 }
 
-/// Facilities of which so many must be open because there is no room for these devices otherwise.
+/// Facilities of which a minimum number must be open because these devices have no room otherwise.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cover {
@@ -268,11 +269,11 @@ pub struct Cover {
     pub great: Row,
     /// The other facilities that these devices can use.
     pub small: Row,
-    /// How many.
+    /// How many of `great` must be open.
     pub need: u64,
 }
 
-/// What changes places, in pairs. What is not named stays.
+/// Things that change places, in pairs. Anything that is not named stays.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Swap {
@@ -290,9 +291,9 @@ pub struct Swap {
     pub streams: Row,
     /// Rules.
     pub rules: Row,
-    /// Devices, each alternative with the one at its place.
+    /// Devices; each alternative changes places with the one at the same position.
     pub devices: Row,
-    /// Device, alternative, alternative.
+    /// Device, and two of its alternatives.
     pub ways: Row,
 }
 
@@ -302,21 +303,23 @@ pub struct Swap {
 pub enum Step {
     /// Nothing is left.
     Dead,
-    /// All that is left weighs too much.
+    /// Everything that is left weighs too much.
     Closed(By),
-    /// What weighs too much is removed. The next step is about the rest.
+    /// Everything that weighs too much is removed. The next step is about the rest.
     Narrowed(By),
-    /// It is so, which the next steps are about; or it is not, for which others follow.
+    /// Two cases: the next steps assume that the question is answered with yes, the steps after
+    /// them that it is answered with no.
     Split {
         /// The question.
         on: Question,
-        /// Swaps that keep the case, so what they make of the question is as good.
+        /// Swaps that keep the case, so that the questions into which they turn this one are as
+        /// good.
         #[serde(default)]
         swaps: Row,
     },
 }
 
-/// What is taken or refused.
+/// A choice that is taken or refused.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Question {
@@ -324,32 +327,32 @@ pub enum Question {
     Way(u64, u64),
     /// Device, alternative, role, candidate.
     Wire(u64, u64, u64, u64),
-    /// Nobody violates the rule.
+    /// No device violates the rule.
     Kept(u64),
-    /// Nobody is on the board.
+    /// No device is on the board.
     Unused(u64),
-    /// Somebody uses the facility.
+    /// At least one device uses the facility.
     Open(u64),
 }
 
-/// Multipliers: what everybody pays for what; see the module `search::price`.
+/// Multipliers: the prices of everything; see the module `search::price`.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct By {
-    /// How many units of these are a unit of weight.
+    /// How many units of these prices make a unit of weight.
     pub scale: u64,
-    /// Pin, what it costs beyond its weight.
+    /// Pin, its price beyond its weight.
     pub pins: Row,
-    /// Resource, what it costs.
+    /// Resource, its price.
     pub resources: Row,
-    /// Stream, what it costs.
+    /// Stream, its price.
     pub streams: Row,
-    /// Facility, device, what the device pays to it.
+    /// Facility, device, the price that the device pays to it.
     pub links: Row,
-    /// Facility, resource, what the member who holds it for itself pays to the facility.
+    /// Facility, resource, the price that the member that holds it for itself pays to the facility.
     pub tickets: Row,
-    /// Rule, device, 0 or the role and 1, what is paid for violating it there.
+    /// Rule, device, 0 or the role plus 1, the price of violating the rule there.
     pub rules: Row,
-    /// Cover, what each of its facilities saves.
+    /// Cover, the amount that each of its facilities saves.
     pub covers: Row,
 }

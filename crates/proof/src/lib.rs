@@ -3,14 +3,14 @@
 //! A certificate is one JSON text ([`mod@format`]) with the whole problem in names, the answer, and
 //! the record of a search. This crate reads nothing else, shares no code with the solver and does
 //! not search:
-//! 1. `wiring` goes through the rules for the one wiring given and adds up what it costs;
-//! 2. `search` walks through the record's cases, sees that none is left out, and computes from the
-//!    multipliers that it states a weight below which no wiring of a case can be.
+//! 1. `wiring` checks the given wiring against the rules and adds up what it costs;
+//! 2. `search` walks through the record's cases, checks that none is left out, and computes from
+//!    the stated multipliers a weight below which there is no wiring of a case.
 //!
-//! `budget` bounds how much it reads and how long it takes; `subject` compares files with what the
-//! problem was made of.
+//! `budget` bounds how much it reads and how long it takes; `subject` compares files with the
+//! sources of the problem.
 //!
-//! The objective is (moved, violated, shared, cost, spares), the first difference decides.
+//! The objective is (moved, violated, shared, cost, spares); the first difference decides.
 
 pub mod budget;
 pub mod format;
@@ -24,7 +24,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// What a certificate was found to prove.
+/// The claim that a certificate was found to prove.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verified {
     /// The wiring is valid and none is better.
@@ -70,9 +70,9 @@ impl std::error::Error for Refuted {}
 /// Reads a certificate.
 ///
 /// # Errors
-/// What keeps the text from being one.
+/// The reason why the text is not one.
 pub fn read(text: &str) -> Result<Certificate, Unusable> {
-    /// What can be read of any version.
+    /// The part that every version has.
     #[derive(Deserialize)]
     struct Head {
         format: String,
@@ -103,7 +103,7 @@ pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
     Ok(claimed.map_or(Verified::NoWiring, Verified::Best))
 }
 
-/// Checks that only boards, pins and peripherals are named that are there.
+/// Checks that all boards, pins and peripherals that are named exist.
 fn named(problem: &Problem) -> Result<(), Refuted> {
     for pin in &problem.shared {
         known(&problem.pins, "pin", pin)?;
@@ -120,12 +120,12 @@ fn named(problem: &Problem) -> Result<(), Refuted> {
     Ok(())
 }
 
-/// Checks that there is a thing of that name.
+/// Checks that there is a thing with that name.
 fn known<T>(things: &BTreeMap<String, T>, kind: &str, name: &str) -> Result<(), Refuted> {
     ensure(things.contains_key(name), || format!("there is no {kind} {name:?}"))
 }
 
-/// Makes a [`Refuted`] of a condition that does not hold.
+/// Returns [`Refuted`] if a condition does not hold.
 fn ensure(holds: bool, otherwise: impl FnOnce() -> String) -> Result<(), Refuted> {
     if holds { Ok(()) } else { Err(Refuted(otherwise())) }
 }

@@ -1,7 +1,7 @@
-//! What a certificate is of: whether the files at hand are those that its problem was made of.
+//! The subject of a certificate: whether given files are those from which its problem was made.
 //!
-//! This tells a certificate from one of another file, or of an earlier state. It is not a signature:
-//! whoever can change the certificate can change the hashes in it.
+//! This distinguishes a certificate from one of another file, or of an earlier state. It is not a
+//! signature: whoever can change the certificate can change the hashes in it.
 
 use crate::format::Subject;
 use crate::{Refuted, ensure};
@@ -15,7 +15,7 @@ pub fn sha256(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
 
-/// What of a subject was compared.
+/// The parts of a subject that were compared.
 #[derive(Debug)]
 pub struct Compared<'a> {
     subject: &'a Subject,
@@ -23,10 +23,10 @@ pub struct Compared<'a> {
     built_in: BTreeSet<&'a str>,
 }
 
-/// Compares files, each a path with the hash of its content, with what a certificate is of.
+/// Compares files, each a path with the hash of its content, with the subject of a certificate.
 ///
 /// A path that ends with the name of a file of the subject stands for that file. Any other stands
-/// for whatever has its content: the standard input, or a built-in text that was printed.
+/// for whatever has the same content: the standard input, or a built-in text that was printed.
 ///
 /// # Errors
 /// The first file that has changed, is not part of the subject, or is missing.
@@ -58,7 +58,7 @@ pub fn compare<'a>(
 }
 
 impl Subject {
-    /// Before anything was compared.
+    /// The comparison before any file was compared.
     #[must_use]
     pub const fn unseen(&self) -> Compared<'_> {
         Compared { subject: self, files: BTreeSet::new(), built_in: BTreeSet::new() }
@@ -85,7 +85,7 @@ impl fmt::Display for Compared<'_> {
     }
 }
 
-/// The parts of a path but for those that name no file and no folder.
+/// The parts of a path without those that do not name a file or folder.
 fn parts(path: &str) -> Vec<&str> {
     path.split(['/', '\\']).filter(|part| !matches!(*part, "" | "." | "..")).collect()
 }

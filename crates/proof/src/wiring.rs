@@ -1,10 +1,11 @@
-//! Whether a wiring keeps all rules, and its objective.
+//! Checks that a wiring keeps all rules, and computes its objective.
 
 use crate::format::{Alternative, Answer, Candidate, OWN, Objective, Problem};
 use crate::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Who holds a thing: the devices, and on whose behalf. Each device's own behalf is another one.
+/// The holders of a thing: the devices, and on whose behalf. Each device's own behalf is a
+/// different one.
 #[derive(Default)]
 struct Held<'a> {
     devices: BTreeSet<&'a str>,
@@ -22,7 +23,7 @@ impl<'a> Held<'a> {
     }
 }
 
-/// What is in use.
+/// Everything that is in use.
 #[derive(Default)]
 struct Used<'a> {
     pins: BTreeMap<&'a str, Held<'a>>,
@@ -103,7 +104,7 @@ impl<'a> Used<'a> {
     }
 }
 
-/// All requests of the peripherals in use have a stream of their own.
+/// Checks that all requests of the peripherals in use have a stream of their own.
 fn streams(problem: &Problem, answer: &Answer, used: &BTreeSet<&str>) -> Result<(), Refuted> {
     let mut taken = BTreeSet::new();
     ensure(answer.streams.len() == used.len(), || "streams are given to who needs none".into())?;

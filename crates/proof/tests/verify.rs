@@ -1,4 +1,4 @@
-//! A certificate small enough to be read, and what is refused of it.
+//! A certificate small enough to be read, and changes to it that are refused.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
@@ -6,8 +6,9 @@ use sensedsl_proof::format::Objective;
 use sensedsl_proof::subject::{compare, sha256};
 use sensedsl_proof::{Verified, read, verify};
 
-/// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
-/// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least, and that 1 is given back.
+/// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. A
+/// sensor on PA1 pays 1 more than it costs, so that each sensor pays at least 2, and that 1 is
+/// given back.
 const TWO_OF_THREE: &str = r#"{
 "format": "SenseDSL certificate 4",
 "subject": {"tool": "a tool", "options": {}, "files": {}, "built_in": {}},
@@ -46,7 +47,7 @@ const SPLIT: &str = r#"{"split": {"on": {"wire": [0, 0, 0, 0]}, "swaps": [0]}},
   {"closed": {"scale": 1}}"#;
 const CLOSED: &str = r#"{"closed": {"scale": 1, "pins": [0, 1]}}"#;
 
-/// What it says of files, each with its content, or why it refuses them.
+/// What the comparison says about files, each with its content, or why it refuses them.
 fn compared(subject: &str, given: &[(&str, &str)]) -> Result<String, String> {
     let empty = r#"{"tool": "a tool", "options": {}, "files": {}, "built_in": {}}"#;
     let certificate = read(&changed(TWO_OF_THREE, empty, subject)).expect("a certificate");
@@ -117,7 +118,7 @@ fn files_are_told_from_others() {
 #[test]
 fn shared_pins_come_before_the_cost() {
     let shared = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA1\"]");
-    // One shared pin is not needed: PA2 and PA3 are there.
+    // One shared pin is not needed: there are PA2 and PA3.
     let told = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
     let why = verified(&shared).expect_err("PA1 is shared");
     assert!(why.starts_with("the wiring has moved 0, violated 0, shared 1, cost 3"), "{why}");
@@ -140,7 +141,7 @@ fn no_wiring_is_verified() {
     let one_pin = problem.lines().filter(|line| !line.contains("\"PA1\": {\"pin\""));
     let one_pin: String = one_pin.collect();
     let one_pin = one_pin.replace("\"PA3\": {\"pin\": \"PA3\"", "\"PA3\": {\"pin\": \"PA2\"");
-    // A price of 20 on PA2: two pay it, and it is taken in once.
+    // A price of 20 on PA2: two devices pay it, and it is given back once.
     let rest = r#""answer": null, "search": {"weights": [1000, 200, 40, 1, 1],
         "facilities": [], "covers": [], "swaps": [], "steps": [{"closed": {"scale": 1, "pins": [1, 20]}}]}}"#;
     assert_eq!(verified(&format!("{one_pin}{rest}")), Ok(Verified::NoWiring));

@@ -20,7 +20,7 @@ const HEAD: [&str; 11] = [
     "Shared with",
 ];
 
-/// A head and a row for each wire.
+/// A heading and a row for each wire.
 #[must_use]
 pub fn csv(design: &Design, assignment: &Assignment) -> String {
     let mut out = line(&HEAD.map(String::from));
@@ -40,8 +40,8 @@ fn line(cells: &[String]) -> String {
     format!("{}\n", cells.join(","))
 }
 
-/// A cell as RFC 4180 wants it, and as a spreadsheet takes it for text: what would begin a formula
-/// gets the apostrophe that spreadsheets know for that.
+/// A cell as RFC 4180 requires it, and such that a spreadsheet takes it for text: a cell that would
+/// begin a formula gets the apostrophe that spreadsheets know for that.
 fn quoted(cell: &str) -> String {
     let cell = visible(cell);
     let is_formula = cell.len() > 1 && cell.starts_with(['=', '+', '-', '@']);

@@ -1,4 +1,4 @@
-//! What changes on the bench from one wiring to another: two answers in JSON in, the changes out.
+//! The changes on the bench from one wiring to another: two answers in JSON in, the changes out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,34 +9,34 @@ use serde_json::{Value, json};
 pub struct Wire {
     /// The device's name.
     pub device: String,
-    /// The word of its role.
+    /// The name of its role.
     pub role: String,
 }
 
-/// Where a wire is.
+/// The place of a wire.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The board's name.
     pub board: String,
     /// The pin.
     pub pin: String,
-    /// What it carries.
+    /// The signal that it carries.
     pub signal: String,
 }
 
-/// A wire that is not as it was.
+/// A wire that has changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Which wire.
+    /// The wire.
     pub wire: Wire,
-    /// Where it was; none where it is new.
+    /// Its old place; `None` if the wire is new.
     pub from: Option<Place>,
-    /// Where it is now; none where it is gone.
+    /// Its new place; `None` if the wire is gone.
     pub to: Option<Place>,
 }
 
 impl Change {
-    /// What has to be done: `added`, `removed`, `reconfigured` or `moved`.
+    /// The change to make: `added`, `removed`, `reconfigured` or `moved`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match (&self.from, &self.to) {
@@ -49,7 +49,7 @@ impl Change {
         }
     }
 
-    /// For scripts.
+    /// The change as JSON, for scripts.
     #[must_use]
     pub fn value(&self) -> Value {
         let place = |place: &Option<Place>| {
@@ -67,7 +67,7 @@ impl Change {
     }
 }
 
-/// The wires of an answer of `solve`; none where it lacks boards, devices or wires.
+/// The wires of an answer of `solve`; `None` if it lacks boards, devices or wires.
 #[must_use]
 pub fn wires(answer: &Value) -> Option<BTreeMap<Wire, Place>> {
     let mut wires = BTreeMap::new();

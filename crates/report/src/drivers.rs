@@ -1,4 +1,4 @@
-//! What people and programs read of the library's parts: facts in, tables, pages and JSON out.
+//! The library's parts for people and programs: facts in, tables, pages and JSON out.
 
 mod human;
 mod json;
@@ -12,8 +12,8 @@ pub use human::{listing, one};
 pub use json::{value, values};
 pub use page::{index, page};
 
-/// Whether the part is of the kind, if one is asked for, and all words of `search` are somewhere in what is
-/// known of it: anywhere in a name, at the beginning of a word in a sentence.
+/// Whether the part is of the kind, if one is asked for, and all words of `search` occur in what is
+/// known about it: anywhere in a name, at the beginning of a word in a sentence.
 #[must_use]
 pub fn is_wanted(part: &PartFacts, kind: Option<KindName>, search: &str) -> bool {
     if kind.is_some_and(|kind| !part.kinds.contains(&kind)) {
@@ -34,13 +34,13 @@ pub fn is_wanted(part: &PartFacts, kind: Option<KindName>, search: &str) -> bool
             text.split(|c: char| !c.is_alphanumeric()).any(|one| one.starts_with(word))
         };
         let is_name = names.iter().any(|name| name.contains(word));
-        // `can` is a bus, and a word of many sentences.
+        // `can` is a bus, and also a word in many sentences.
         let is_kind = KindName::from_name(word).is_some();
         is_name
             || part.words.iter().any(|one| one.starts_with(word))
             || (!is_kind && sentences.iter().any(begins))
     };
-    // Several of them are looked for as one is: `motor drivers`.
+    // A plural is found like its singular: `motor drivers`.
     let is_found = |word: &str| {
         let one = word.strip_suffix('s').filter(|one| one.len() > 3);
         is_in(word) || one.is_some_and(is_in)

@@ -1,4 +1,4 @@
-//! A wiring as people read it in a terminal.
+//! A wiring for people to read in a terminal.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
 use crate::rows::{Row, dividers, rows};
 
-/// How parts of the table are set off; empty strings where there is no colour.
+/// How parts of the table are highlighted; empty strings if there is no colour.
 #[derive(Clone, Copy, Debug, Default)]
 struct Style {
     head: &'static str,
@@ -27,11 +27,11 @@ const COLOURED: Style = Style {
 };
 
 const HEAD: [&str; 7] = ["Device", "Role", "Pin", "Signal", "Unit", "Where", "Usages"];
-/// The column that is set off, and the one that is aligned right.
+/// The column that is highlighted, and the one that is right-aligned.
 const PIN: usize = 2;
 const USAGES: usize = 6;
 
-/// The table, the totals and what is known of them.
+/// The table, the totals and how good they are known to be.
 #[must_use]
 pub fn human(design: &Design, assignment: &Assignment, colour: bool) -> String {
     let style = if colour { COLOURED } else { Style::default() };

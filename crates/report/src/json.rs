@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// Version of the format.
 const VERSION: u32 = 1;
 
-/// A wiring.
+/// The answer with a wiring.
 #[must_use]
 pub fn wired(design: &Design, assignment: &Assignment) -> Value {
     let boards: Vec<Value> = assignment
@@ -92,7 +92,7 @@ fn wires(design: &Design, on: &BoardAssignment, board: &Board, wires: &[Wire]) -
     wires.iter().filter_map(value).collect()
 }
 
-/// The exact number of wirings, beside the best one where there is one.
+/// Adds the exact number of wirings to an answer.
 #[must_use]
 pub fn with_count(mut value: Value, count: &str) -> Value {
     if let Some(object) = value.as_object_mut() {
@@ -101,7 +101,7 @@ pub fn with_count(mut value: Value, count: &str) -> Value {
     value
 }
 
-/// The boards and devices that are not in it, because they are in error.
+/// Adds the boards and devices that are not in the answer because they are in error.
 #[must_use]
 pub fn with_left_out(mut value: Value, names: &[&str]) -> Value {
     if let Some(object) = value.as_object_mut() {
@@ -110,7 +110,7 @@ pub fn with_left_out(mut value: Value, names: &[&str]) -> Value {
     value
 }
 
-/// That there is none.
+/// The answer that there is no wiring.
 #[must_use]
 pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
     let name = |index: &_| design.part(*index).map(|part| part.name.value.clone());
@@ -152,7 +152,8 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
     value
 }
 
-/// Where the tables speak of what is fought for: the resource, the board, the pin and its line.
+/// The rows of the tables that show what is contested: the resource, the board, the pin and its
+/// line.
 fn places(design: &Design, conflict: &NoWiring) -> Vec<Value> {
     let mut places = Vec::new();
     for contested in &conflict.resources {
@@ -169,7 +170,7 @@ fn places(design: &Design, conflict: &NoWiring) -> Vec<Value> {
     places
 }
 
-/// An earlier answer, read back to be kept; none where the value is none.
+/// An earlier answer, read back to be kept; `None` if the value is not an answer.
 #[must_use]
 pub fn keep(value: &Value) -> Option<Keep> {
     let mut keep = Keep::default();

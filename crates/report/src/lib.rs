@@ -1,4 +1,4 @@
-//! What people and scripts read of a wiring: tables, JSON, CSV, Markdown, a picture.
+//! A wiring for people and scripts: tables, JSON, CSV, Markdown, a picture.
 
 pub mod csv;
 pub mod diff;

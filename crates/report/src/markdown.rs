@@ -53,7 +53,7 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
     out
 }
 
-/// Its name, with those of a chip's values.
+/// The device's name, with those of a chip's values.
 fn device(row: &Row) -> String {
     if row.values.is_empty() {
         return cell(&row.device);
@@ -61,7 +61,8 @@ fn device(row: &Row) -> String {
     cell(&format!("{} ({})", row.device, row.values.join(", ")))
 }
 
-/// Text that cannot end its cell, begin markup or become a link, a formula or an entity.
+/// Text escaped so that it cannot end its cell, begin markup or become a link, a formula or an
+/// entity.
 fn cell(text: &str) -> String {
     let mut out = String::new();
     let is_site = text.to_ascii_lowercase().contains("www");

@@ -10,7 +10,7 @@ pub struct Row {
     pub board: String,
     /// The name of the device, or of the chip; `link` for the wires of a serial link.
     pub device: String,
-    /// Its identifiers: several of a chip, none of a link.
+    /// Its identifiers: several for a chip, none for a link.
     pub ids: Vec<u8>,
     /// The names of a chip's values; empty for a device by itself.
     pub values: Vec<String>,
@@ -24,11 +24,11 @@ pub struct Row {
     pub signal: String,
     /// The peripheral instance; empty for a bare GPIO.
     pub unit: String,
-    /// Where on the board: side, header, position, label, as far as the table says.
+    /// Its place on the board: side, header, position, label, as far as the table gives them.
     pub place: String,
-    /// What else is on the pin; empty where nothing is.
+    /// The other thing that is on the pin; empty if there is none.
     pub shared: String,
-    /// Usages of the pin.
+    /// Number of usages of the pin.
     pub usages: u32,
 }
 
@@ -75,7 +75,7 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
     rows
 }
 
-/// The devices of a board that have resistors between them and their pins, and which.
+/// The devices of a board that have resistors between them and their pins, with these resistors.
 pub(super) fn dividers<'a>(
     design: &'a Design,
     on: &'a BoardAssignment,
@@ -87,7 +87,7 @@ pub(super) fn dividers<'a>(
     })
 }
 
-/// Whose wires they are.
+/// The owner of wires.
 struct Who<'a> {
     name: &'a str,
     ids: Vec<u8>,

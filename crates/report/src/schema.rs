@@ -64,9 +64,9 @@ fn item(design: &Design, device: &Device) -> Option<Value> {
     Some(Value::Object(object))
 }
 
-/// A raw value as JSON writes it: without a fraction where the type has none.
+/// A raw value as JSON writes it: without a fraction if the type has none.
 fn raw(scalar: ScalarType, number: f64) -> Value {
-    /// Every whole number up to it is a double.
+    /// Every whole number up to this is exact as a double.
     const EXACT: f64 = 9_007_199_254_740_992.0;
     let is_real = matches!(scalar, ScalarType::Float32 | ScalarType::Float64);
     if is_real || number.fract() != 0.0 || number.abs() > EXACT {

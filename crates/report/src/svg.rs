@@ -1,9 +1,9 @@
-//! A picture of each board: its pins along two edges, the used ones with what they are used for.
+//! A picture of each board: its pins along two edges, the used ones labelled with their use.
 //!
-//! Pins stand on the side the table gives them (`left` or `right` by name, otherwise the first half
-//! of the natural order on the left), in natural order; where the table tells their places at a
-//! connector, in the order of those. Beside its name stands what is printed beside the pin. Below a
-//! board stand its chips, a box each.
+//! Pins are on the side that the table gives them (`left` or `right` by name, otherwise the first
+//! half of the natural order on the left), in natural order, or in the order of their places on a
+//! connector if the table gives these. The text that is printed beside a pin is shown beside its
+//! name. Below a board are its chips, one box each.
 
 mod chips;
 
@@ -23,7 +23,7 @@ const ROW_HEIGHT: usize = 22;
 const HEAD_HEIGHT: usize = 64;
 const CHIP_WIDTH: usize = 220;
 const LABEL_WIDTH: usize = 330;
-/// From the edge to the place of a pin, past the longest name.
+/// Distance from the edge to the place of a pin, past the longest name.
 const PLACE_INSET: usize = 54;
 const MARGIN: usize = 20;
 const LEGEND_HEIGHT: usize = 30;
@@ -121,7 +121,7 @@ fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
     (left.to_vec(), right.to_vec())
 }
 
-/// By connector and place at it; what has no place comes last.
+/// By connector and place on it; pins without a place come last.
 fn in_rows(a: &Pin, b: &Pin) -> Ordering {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let placed = |pin: &Pin| pin.header.is_none() || pin.position.is_none();
@@ -132,7 +132,7 @@ fn in_rows(a: &Pin, b: &Pin) -> Ordering {
         .then_with(|| a.name.cmp(&b.name))
 }
 
-/// What is printed beside a pin, and its place at a connector.
+/// The text that is printed beside a pin, and its place on a connector.
 fn place(pin: &Pin) -> String {
     let at = match (&pin.header, &pin.position) {
         (Some(header), Some(position)) => Some(format!("{header}.{position}")),
@@ -188,7 +188,7 @@ fn pin_picture(out: &mut String, y: usize, on_left: bool, pin: &Pin, uses: &[&Ro
     );
 }
 
-/// What a pin is used for, or what it could be.
+/// The use of a pin, or its possible uses.
 fn label(pin: &Pin, uses: &[&Row]) -> String {
     const LETTERS_MAX: usize = 46;
     let text = match uses {
@@ -207,7 +207,7 @@ fn label(pin: &Pin, uses: &[&Row]) -> String {
     cut(&text, LETTERS_MAX)
 }
 
-/// The text, cut where it is too long for its place.
+/// The text, cut if it is too long for its place.
 fn cut(text: &str, letters_max: usize) -> String {
     if text.chars().count() <= letters_max {
         return text.to_owned();
@@ -233,7 +233,7 @@ fn legend(out: &mut String, top: usize, kinds: &[&str]) {
     }
 }
 
-/// The sign of a kind in its colour, for those who cannot tell the colours, and for prints.
+/// The sign of a kind in its colour, for those who cannot tell colours apart, and for prints.
 fn letter(out: &mut String, (x, y): (usize, usize), kind: &str) {
     let Some(spec) = KindName::from_name(kind).map(KindName::spec) else { return };
     let ink = if is_dark(spec.colour) { "#FFFFFF" } else { "#1B2733" };
@@ -244,7 +244,7 @@ fn letter(out: &mut String, (x, y): (usize, usize), kind: &str) {
     );
 }
 
-/// Whether white can be read on a colour better than black, by its luma (ITU-R BT.601).
+/// Whether white is easier to read on a colour than black, by its luma (ITU-R BT.601).
 fn is_dark(colour: &str) -> bool {
     const HALF: u32 = 140_000;
     let part = |at: usize| {

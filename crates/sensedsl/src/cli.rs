@@ -104,7 +104,7 @@ pub(crate) struct On {
 }
 
 impl On {
-    /// As the session wants it.
+    /// The board and the target in the session's form.
     pub(crate) fn asked(&self) -> sensedsl_session::On<'_> {
         sensedsl_session::On { board: self.board.as_deref(), target: self.target.as_deref() }
     }
@@ -404,8 +404,8 @@ pub(crate) struct ManArgs {
     pub(crate) dir: Option<PathBuf>,
 }
 
-/// The name of a board: any text, of which shells complete what is built in. Whether there is such a
-/// board is said by who looks for it, with the nearest name.
+/// The name of a board: any text; shells complete the built-in ones. The code that looks the board up reports a name
+/// that does not exist, with the nearest one.
 #[derive(Clone)]
 struct BoardName;
 
@@ -428,7 +428,7 @@ impl TypedValueParser for BoardName {
     }
 }
 
-/// The name of a driver: any text, of which shells complete what is in the library.
+/// The name of a driver: any text; shells complete those of the library.
 #[derive(Clone)]
 struct DriverName;
 
@@ -449,13 +449,13 @@ impl TypedValueParser for DriverName {
     }
 }
 
-/// The word of a kind.
+/// The name of a kind.
 fn kind() -> impl TypedValueParser<Value = KindName> {
     PossibleValuesParser::new(KindName::ALL.map(KindName::name))
         .try_map(|word| KindName::from_name(&word).ok_or("not a kind"))
 }
 
-/// A time that a clock can be set to.
+/// A number of seconds that a clock can be set to.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     const SECONDS_MAX: f64 = 1e6;
     match text.parse::<f64>() {

@@ -21,18 +21,18 @@ use cli::{Cli, Command};
 use files::Refused;
 use terminal::Terminal;
 
-/// How a command ended, when nothing went wrong with the machine.
+/// The result of a command, if nothing went wrong with the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
-    /// 0
+    /// Exit status 0.
     Done,
-    /// 1
+    /// Exit status 1.
     Wrong,
-    /// 2
+    /// Exit status 2.
     Misused,
 }
 
-/// A command ended before its end, and has told why.
+/// A command has ended early, and has reported the reason.
 #[derive(Debug)]
 pub(crate) struct Reported(pub(crate) Status);
 
@@ -64,7 +64,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Says why a command ended before its end, unless it said so itself.
+/// Reports why a command ended early, unless it has done so itself.
 fn ended(error: &anyhow::Error, terminal: &Terminal) -> Status {
     if let Some(Reported(status)) = error.downcast_ref::<Reported>() {
         return *status;
@@ -76,8 +76,8 @@ fn ended(error: &anyhow::Error, terminal: &Terminal) -> Status {
     Status::Misused
 }
 
-/// Ends with what is wrong with the call. It repeats arguments, which a pattern of the shell may have
-/// taken from names of files.
+/// Exits with the error in the call. The error repeats arguments, which may come from file names through a shell
+/// pattern.
 fn refused(error: &clap::Error) -> ! {
     let arguments = std::env::args_os();
     let shown = arguments.map(|argument| visible(&argument.to_string_lossy()).into_owned());

@@ -1,4 +1,4 @@
-//! What is printed where: the result to the standard output, messages to the standard error.
+//! The streams: results go to the standard output, messages to the standard error.
 
 use std::io::{self, IsTerminal as _, Write as _};
 
@@ -7,14 +7,14 @@ use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render, visible, vis
 
 use crate::files::Refused;
 
-/// Diagnostics that are shown at once. People begin with the first ones, and a file that is not in the
+/// The most diagnostics that are shown at once. People start with the first ones, and a file that is not in the
 /// language at all has thousands.
 const SHOWN_MAX: usize = 100;
 
-/// Signs of a progress bar.
+/// The width of a progress bar in characters.
 const BAR_WIDTH: usize = 40;
 
-/// The two streams and how much is said.
+/// The two streams, and how much is printed.
 pub(crate) struct Terminal {
     quiet: bool,
     verbose: bool,
@@ -30,17 +30,17 @@ impl Terminal {
         AutoStream::choice(&io::stdout()) != ColorChoice::Never && io::stdout().is_terminal()
     }
 
-    /// Whether nothing but errors and the result is wanted.
+    /// Whether only errors and the result are wanted.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
-    /// Whether more is wanted than usual.
+    /// Whether more output than usual is wanted.
     pub(crate) fn verbose(&self) -> bool {
         self.verbose
     }
 
-    /// The result.
+    /// Prints the result.
     pub(crate) fn result(&self, text: &str) -> io::Result<()> {
         let mut out = io::stdout().lock();
         out.write_all(text.as_bytes())?;
@@ -52,29 +52,29 @@ impl Terminal {
         !self.quiet && io::stdout().is_terminal()
     }
 
-    /// A line that is shown before the result is known as a whole.
+    /// Prints a line before the whole result is known.
     pub(crate) fn passing(&self, line: &str) -> io::Result<()> {
         let mut out = io::stdout().lock();
         writeln!(out, "{}", visible(line))?;
         out.flush()
     }
 
-    /// A result that only people read: dropped when quiet.
+    /// Prints a result that only people read: dropped when quiet.
     pub(crate) fn note(&self, text: &str) -> io::Result<()> {
         self.coloured_note(&visible_lines(text))
     }
 
-    /// A note with our own colours; what it says of others' is visible already.
+    /// Prints a note with our own colours; texts of others in it have been made visible already.
     pub(crate) fn coloured_note(&self, text: &str) -> io::Result<()> {
         if self.quiet { Ok(()) } else { self.result(text) }
     }
 
-    /// A line about the result, which goes with the messages: dropped when quiet.
+    /// Prints a line about the result, which goes with the messages: dropped when quiet.
     pub(crate) fn aside(&self, line: &str) -> io::Result<()> {
         if self.quiet { Ok(()) } else { writeln!(io::stderr().lock(), "{}", visible(line)) }
     }
 
-    /// How far a long work is, where somebody looks; gone when it is done.
+    /// Shows the progress of a long task if people can see it; removed when it is done.
     pub(crate) fn progress(&self, what: &str, done: usize, total: usize) {
         if self.quiet || !io::stderr().is_terminal() {
             return;
@@ -85,11 +85,11 @@ impl Terminal {
             let filled = "#".repeat(BAR_WIDTH * done / total);
             format!("\r[{filled:.<BAR_WIDTH$}] {done} of {total} {what}")
         };
-        // There is nowhere to report that reporting failed.
+        // There is nowhere to report a failure to report.
         let _ = io::stderr().lock().write_all(text.as_bytes());
     }
 
-    /// Diagnostics for people; hints and warnings are dropped when quiet.
+    /// Prints diagnostics for people; hints and warnings are dropped when quiet.
     pub(crate) fn diagnostics(
         &self,
         diagnostics: &[Diagnostic],
@@ -99,7 +99,7 @@ impl Terminal {
             diagnostics.iter().filter(|one| !self.quiet || one.severity == Severity::Error);
         let all = wanted.clone().count();
         let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
-        // An error that comes after many warnings is why the command fails: it must be among those shown.
+        // An error after many warnings is the reason why the command fails: it must be among those shown.
         let mut room = SHOWN_MAX.saturating_sub(wanted.clone().filter(is_error).count());
         let fits = |one: &&Diagnostic| {
             let others = room;
@@ -116,20 +116,20 @@ impl Terminal {
         io::stderr().lock().write_all(text.as_bytes())
     }
 
-    /// That a file of the command line was not read.
+    /// Reports that a file from the command line was not read.
     pub(crate) fn refusal(&self, refused: &Refused) {
-        // There is nowhere to report that reporting failed.
+        // There is nowhere to report a failure to report.
         let _ = self.diagnostics(std::slice::from_ref(&*refused.diagnostic), &refused.sources);
     }
 
-    /// That the call or the machine is wrong.
+    /// Reports that the call or the machine is wrong.
     pub(crate) fn failure(&self, error: &anyhow::Error) {
-        // There is nowhere to report that reporting failed.
+        // There is nowhere to report a failure to report.
         let _ = writeln!(io::stderr().lock(), "error: {}", visible(&format!("{error:#}")));
     }
 }
 
-/// Whether the reader of our output went away (`sensedsl … | head`), which is not a failure.
+/// Whether the reader of our output has gone (`sensedsl … | head`), which is not a failure.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -1,7 +1,7 @@
-//! Every command that the program lists explains itself.
+//! Every listed command has help.
 //!
-//! The other tests of the program are in `tests/` of the repository. That Cargo builds the program
-//! for this one spares them building it.
+//! The other tests of the program are in `tests/` of the repository. Because Cargo builds the
+//! program for this test, they need not build it.
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -10,7 +10,7 @@
 
 use std::process::Command;
 
-/// The standard output of the program, which must succeed.
+/// The standard output of a call that must succeed.
 fn says(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_sensedsl")).args(arguments).output().unwrap();
     assert!(output.status.success(), "{arguments:?}: {}", output.status);

@@ -1,4 +1,4 @@
-//! `--timeout` of the commands that ask many questions: they end with what is known by then.
+//! `--timeout` of the commands that ask many questions: they end with the results so far.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(
     clippy::unwrap_used,
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-/// Boards, and devices that may go to any of them.
+/// A file with boards, and devices that may be on any of them.
 fn file(name: &str, boards: usize, devices: usize) -> PathBuf {
     let mut text = String::new();
     for board in 0..boards {
@@ -33,7 +33,8 @@ fn run(arguments: &[&str], file: &PathBuf, more: &[&str]) -> Output {
     command.args(arguments).arg(file).args(more).output().unwrap()
 }
 
-/// As [`run`], in less than the time; once in three times, because of what else the machine does.
+/// Runs the program like [`run`], within a time limit; in one of three tries, because the machine
+/// may be busy.
 fn run_within(most: Duration, arguments: &[&str], file: &PathBuf, more: &[&str]) -> Output {
     let mut tries = (0..3).map(|_| {
         let start = Instant::now();
@@ -50,12 +51,12 @@ fn json(output: &Output) -> serde_json::Value {
 #[test]
 fn capacity_ends_with_the_kinds_that_were_looked_at() {
     let boards = file("capacity.sense", 100, 1);
-    // Far more than is kept to on a quiet machine, far less than all of it takes.
+    // Far more than is needed on a quiet machine, far less than the whole takes.
     let most = Duration::from_secs(4);
     let more = ["--timeout", "1", "--format", "json"];
     let cut = run_within(most, &["capacity"], &boards, &more);
     let said = String::from_utf8_lossy(&cut.stderr).into_owned();
-    // On a slow machine not even the wiring is found.
+    // On a slow machine, not even the wiring is found.
     if cut.status.success() {
         let answer = json(&cut);
         assert_eq!(answer["complete"], false);
@@ -76,7 +77,7 @@ fn explain_ends_with_the_pins_that_were_looked_at() {
     let more = ["Dev1", "--timeout", "2", "--format", "json"];
     let cut = run_within(Duration::from_secs(5), &["explain", "wiring"], &boards, &more);
     let said = String::from_utf8_lossy(&cut.stderr).into_owned();
-    // On a slow machine not even the wiring is found.
+    // On a slow machine, not even the wiring is found.
     if cut.status.success() {
         assert!(said.contains("stopped: there may be more pins"), "{said}");
         assert_eq!(json(&cut)["complete"], false);

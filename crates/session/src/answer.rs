@@ -1,4 +1,4 @@
-//! What a snapshot is asked, and what the answer has to say.
+//! Questions to a snapshot, and their answers.
 
 use std::borrow::Cow;
 
@@ -12,43 +12,43 @@ use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
 
 use crate::{Snapshot, has_errors};
 
-/// Which wiring is wanted.
+/// The wiring that is wanted.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum Goal<'a> {
-    /// The best one.
+    /// The best wiring.
     #[default]
     Best,
-    /// Any will do.
+    /// Any wiring.
     Any,
-    /// The best one with a certificate of what the design was made of.
+    /// The best wiring, with a certificate for this subject.
     Proved(&'a Subject),
 }
 
 /// A question to a snapshot. The default asks for the best wiring of a design without mistakes.
 #[derive(Clone, Copy, Default)]
 pub struct Ask<'a> {
-    /// Which wiring is wanted.
+    /// The wiring that is wanted.
     pub goal: Goal<'a>,
-    /// The wiring from which as few wires as possible are to move.
+    /// The earlier wiring, from which as few wires as possible may move.
     pub keep: Option<&'a Keep>,
-    /// Leave out what is in error and wire the rest.
+    /// Whether to leave out everything in error and wire the rest.
     pub partly: bool,
-    /// Says when time is up.
+    /// Tells the search when time is up.
     pub cancel: Cancel<'a>,
 }
 
-/// What a search gave, with everything there is to say.
+/// The result of a search, with all its diagnostics.
 #[derive(Debug)]
 pub struct Answer<'s> {
-    /// What was wired; none where the snapshot has nothing that can be.
+    /// The design that was wired; none if the snapshot has nothing to wire.
     pub design: Option<Cow<'s, Design>>,
     /// The names of the boards and devices that were left out, in file order.
     pub left_out: Vec<Spanned<String>>,
-    /// What became of the search; none where mistakes forbade it.
+    /// The outcome of the search; none if mistakes ruled it out.
     pub solved: Option<Solved>,
-    /// The text that proves it, or why there is none; where one was asked for.
+    /// The text that proves the wiring, or why there is none; only if a certificate was requested.
     pub certificate: Option<Result<String, Box<Diagnostic>>>,
-    /// Of the snapshot and of the wiring, in the order of the places.
+    /// The diagnostics of the snapshot and of the wiring, in the order of their places.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -64,7 +64,8 @@ impl Answer<'_> {
 }
 
 impl Snapshot {
-    /// Wires the design. One with mistakes is not wired, unless the question is for a part of it.
+    /// Wires the design. A design with mistakes is not wired, unless the question allows a part of
+    /// it.
     #[must_use]
     pub fn solve(&self, ask: &Ask<'_>) -> Answer<'_> {
         let known = self.diagnostics().to_vec();
@@ -72,7 +73,7 @@ impl Snapshot {
             (Some(design), _) => {
                 let answer = answer(Cow::Borrowed(design), known, ask);
                 match &answer.design {
-                    // A device that no pin can serve.
+                    // There is a device that no pin can serve.
                     Some(design) if ask.partly && answer.solved.is_none() => {
                         let design = design.clone().into_owned();
                         let partial = Partial { design, left_out: Vec::new() };
@@ -112,8 +113,8 @@ fn answer<'s>(
     Answer { design: Some(design), left_out: Vec::new(), solved, certificate, diagnostics }
 }
 
-/// Wires what is sound of a design. Of rules without effect nothing is said: they may be about what
-/// was left out.
+/// Wires the sound part of a design. Rules without effect are not reported: they may be about
+/// something that was left out.
 fn in_part<'s>(
     mut partial: Partial,
     mut diagnostics: Vec<Diagnostic>,
@@ -135,7 +136,7 @@ fn in_part<'s>(
     found.retain(|one| one.code != w0604_unused_rule::CODE);
     apply_allows(&design, &mut found);
     found.retain(|one| one.code != w0604_unused_rule::CODE);
-    // What is known already keeps its order, in which a full list begins with the reason that it is full.
+    // Earlier diagnostics keep their order: a full list begins with the reason that it is full.
     if !found.is_empty() {
         diagnostics.extend(found);
         sort(&mut diagnostics);
@@ -152,7 +153,7 @@ fn asked(wiring: &Wiring<'_>, ask: &Ask<'_>) -> Proved {
     }
 }
 
-/// What the outcome of a search has to say.
+/// The diagnostics for the outcome of a search.
 fn of_wiring(design: &Design, wiring: &Wiring<'_>, solved: Option<&Solved>) -> Vec<Diagnostic> {
     match solved {
         Some(Solved::Wired(assignment)) => {

@@ -1,12 +1,12 @@
-//! The pipeline as its users see it: files with edits in, snapshots out.
+//! The pipeline for its users: files with edits in, snapshots out.
 //!
-//! A [`Workspace`] holds the texts that an editor has open; other files come through
-//! [`sensedsl_model::Files`]. [`Workspace::snapshot`] reads a file and what it uses, and
-//! [`Snapshot::solve`] finds the wiring. A snapshot never changes: after an edit there is a new one.
-//! A mistake in one device leaves that device out, and the rest can still be asked for its wiring.
+//! A [`Workspace`] holds the texts that are open in an editor; other files come through
+//! [`sensedsl_model::Files`]. [`Workspace::snapshot`] reads a file and everything that it uses, and
+//! [`Snapshot::solve`] finds the wiring. A snapshot never changes: after an edit there is a new
+//! one. A mistake in one device leaves only that device out, and the rest can still be wired.
 //!
-//! Nothing here does I/O, has a thread or a clock: whoever calls brings the files and says when time
-//! is up. So the command line, an editor and a web page share this crate.
+//! Nothing here does I/O or has a thread or a clock: the caller provides the files and tells when
+//! time is up. That is why the command line, an editor and a web page can share this crate.
 
 mod answer;
 mod fit;

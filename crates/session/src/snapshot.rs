@@ -1,21 +1,21 @@
-//! What is known of a file at one moment.
+//! What is known about a file at one moment.
 
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_model::design::{Design, Spanned};
 use sensedsl_model::{Partial, Resolved, SyntaxTree};
 
-/// A file as it was read: its tree, its design, and everything there is to say of them.
+/// A file as it was read: its tree, its design, and all their diagnostics.
 #[derive(Debug)]
 pub struct Snapshot {
     resolved: Resolved,
 }
 
-/// A design without mistakes, or what is left of it without the parts in error.
+/// A design without mistakes, or the rest of a design without the parts in error.
 #[derive(Clone, Copy, Debug)]
 pub struct Sound<'a> {
     /// The design.
     pub design: &'a Design,
-    /// The names of the boards and devices that are not in it, in file order.
+    /// The names of the boards and devices left out, in file order.
     pub left_out: &'a [Spanned<String>],
 }
 
@@ -24,20 +24,20 @@ impl Snapshot {
         Self { resolved }
     }
 
-    /// Of a file that could not be read.
+    /// The snapshot of a file that could not be read.
     #[must_use]
     pub fn unread(why: Diagnostic, sources: SourceMap) -> Self {
         let diagnostics = vec![why];
         Self { resolved: Resolved { diagnostics, sources, ..Resolved::default() } }
     }
 
-    /// The design, where nothing is wrong with it.
+    /// The design, if it has no mistakes.
     #[must_use]
     pub fn design(&self) -> Option<&Design> {
         self.resolved.design.as_ref()
     }
 
-    /// The design as far as it is sound; none where no board can be read.
+    /// The sound part of the design; none if no board can be read.
     #[must_use]
     pub fn sound(&self) -> Option<Sound<'_>> {
         match (&self.resolved.design, &self.resolved.partial) {
@@ -51,20 +51,20 @@ impl Snapshot {
         self.resolved.partial.as_ref()
     }
 
-    /// What reading it has to say, in the order of the places. [`Self::solve`] adds what the wiring
-    /// has to say.
+    /// The diagnostics from reading the file, in the order of their places. [`Self::solve`] adds
+    /// those of the wiring.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.resolved.diagnostics
     }
 
-    /// All texts that were read, and those of what is built in.
+    /// All texts that were read, and those that are built in.
     #[must_use]
     pub fn sources(&self) -> &SourceMap {
         &self.resolved.sources
     }
 
-    /// The files that were read, each once: the one that was asked for, those it uses, tables.
+    /// The files that were read, each once: the requested one, those it uses, and tables.
     #[must_use]
     pub fn files(&self) -> &[FileId] {
         &self.resolved.files
@@ -76,7 +76,7 @@ impl Snapshot {
         &self.resolved.trees
     }
 
-    /// The place of what concerns the whole design: the name of its first board.
+    /// The place for diagnostics about the whole design: the name of its first board.
     #[must_use]
     pub fn place(&self) -> Option<Span> {
         let Sound { design, .. } = self.sound()?;

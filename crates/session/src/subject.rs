@@ -1,4 +1,4 @@
-//! What a certificate is of: the files that were read, what is built in, the options.
+//! The subject of a certificate: the files that were read, what is built in, the options.
 
 use std::collections::BTreeSet;
 
@@ -11,21 +11,21 @@ use sensedsl_parts::Completion;
 
 use crate::{On, Snapshot};
 
-/// How a snapshot came to be, as its certificate tells it.
+/// How a snapshot was made, as its certificate states it.
 #[derive(Clone, Copy, Debug)]
 pub struct Origin<'a> {
     /// The program with its version.
     pub tool: &'a str,
-    /// The file that was asked for, as its snapshot was.
+    /// The requested file, with the path of its snapshot.
     pub path: &'a str,
-    /// What it was looked at for.
+    /// The board and target that the file was read for.
     pub on: On<'a>,
-    /// The path and text of the earlier answer, where wires were to be kept.
+    /// The path and text of the earlier answer, if wires were to be kept.
     pub keep: Option<(&'a str, &'a str)>,
 }
 
 impl Snapshot {
-    /// What a certificate of the design is of. Nothing but the origin, where there is no design.
+    /// The subject of a certificate for the design. If there is no design, it is only the origin.
     #[must_use]
     pub fn subject(&self, origin: &Origin<'_>) -> Subject {
         let sources = self.sources();
@@ -52,7 +52,7 @@ impl Snapshot {
     }
 }
 
-/// What is built in, by the arguments that print it, with the checksum of what they print.
+/// The built-in data in use: the arguments that print each, with the checksum of the output.
 fn built_in(design: &Design, sources: &SourceMap) -> Vec<(String, String)> {
     let mut found = BTreeSet::new();
     for board in &design.boards {
@@ -62,20 +62,20 @@ fn built_in(design: &Design, sources: &SourceMap) -> Vec<(String, String)> {
     found.into_iter().collect()
 }
 
-/// The name of a file as the one that was asked for gives it: seen from that one's folder.
+/// The name of a file as the requested file gives it, relative to that file's folder.
 fn named(main: &str, path: &str) -> String {
     let folder = main.rfind('/').map_or("", |end| main.get(..=end).unwrap_or_default());
     normal_path(path.strip_prefix(folder).unwrap_or(path))
 }
 
-/// The pins that are built in, and the arguments that print them.
+/// The built-in pins, and the arguments that print them.
 fn pins(board: &Board, sources: &SourceMap) -> Option<(String, String)> {
     let shown = sources.name(board.table_file);
     if board.built_in {
         let name = shown.strip_prefix("boards/")?.strip_suffix("/pins.csv")?;
         return Some((format!("boards {name}"), printed_board(catalog::find(name)?)));
     }
-    // A table without usages has those of its part, and so has a bare part.
+    // A table without usages has those of its part, and so does a bare part.
     let mut table = table::load(sources.text(board.table_file)).board;
     table.mcu.clone_from(&board.mcu);
     let found = match sensedsl_parts::complete(&mut table) {
@@ -101,7 +101,7 @@ pub fn printed_board(board: &catalog::Entry) -> String {
     let mut table = board.table();
     match sensedsl_parts::complete(&mut table) {
         Completion::Part { .. } => table.to_csv(),
-        // What lists its usages is printed as it stands.
+        // A table that lists its usages is printed unchanged.
         Completion::Own | Completion::Unknown => board.csv().to_owned(),
     }
 }

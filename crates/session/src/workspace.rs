@@ -9,22 +9,22 @@ use sensedsl_model::{Files, Request, Unread, Wanted, What, normal_path, resolve}
 
 use crate::Snapshot;
 
-/// What a file is looked at for. The default is the file's own board and the newest target.
+/// What to read a file for. The default is the file's own board and the newest target.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct On<'a> {
-    /// A table or a built-in board that wins over what the file says.
+    /// A table or a built-in board that overrides the file's.
     pub board: Option<&'a str>,
     /// The target; none for the default.
     pub target: Option<&'a str>,
 }
 
-/// The texts that are open, by path. They win over the files of the same path.
+/// The open texts, by path. They override files with the same path.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
     texts: BTreeMap<String, String>,
 }
 
-/// An edit at a place that the text does not have.
+/// An edit at a place that is not in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misplaced {
     /// The file.
@@ -48,7 +48,7 @@ impl Workspace {
         self.texts.insert(normal_path(path), text.into());
     }
 
-    /// Closes a file: what is stored counts again.
+    /// Closes a file, so that its stored text counts again.
     pub fn close(&mut self, path: &str) {
         self.texts.remove(&normal_path(path));
     }
@@ -74,7 +74,8 @@ impl Workspace {
         }
     }
 
-    /// Reads a file, what it uses and its tables: open texts first, everything else from `files`.
+    /// Reads a file, the files it uses and its tables: open texts first, everything else from
+    /// `files`.
     #[must_use]
     pub fn snapshot(&self, path: &str, on: On<'_>, files: &dyn Files) -> Snapshot {
         let over = Overlay { workspace: self, files };
@@ -93,7 +94,7 @@ impl Workspace {
     }
 }
 
-/// Open texts before files.
+/// Files with the open texts in front of them.
 struct Overlay<'a> {
     workspace: &'a Workspace,
     files: &'a dyn Files,

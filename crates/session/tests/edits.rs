@@ -1,4 +1,4 @@
-//! A snapshot after many edits says what a fresh reading of the same text says; a mistake in one
+//! A snapshot after many edits is the same as a fresh reading of the same text; a mistake in one
 //! device leaves the others their wiring.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(
@@ -15,7 +15,7 @@ use sensedsl_session::{Ask, On, Workspace};
 
 const NAME: &str = "robot.sense";
 
-/// What edits insert: what people type, and what breaks most.
+/// What edits insert: what people type, and what breaks the most.
 const TYPED: [&str; 12] =
     ["", "", "}", "{", ";", "type = i2c;", "id = 3;", "\"", "A", "1", "/*", " pin = PA1;\n"];
 
@@ -51,7 +51,7 @@ fn random_edits_end_where_a_fresh_reading_is() {
     let mut undo: Vec<String> = Vec::new();
     for number in 0..edits {
         let text = workspace.text(NAME).unwrap().to_owned();
-        // People take back most of what they break.
+        // People undo most of what they break.
         if undo.len() > 8 || (!undo.is_empty() && next(&mut state, 3) == 0) {
             workspace.open(NAME, undo.pop().unwrap());
         } else {
@@ -91,8 +91,8 @@ fn an_edit_needs_a_place_that_there_is() {
     assert_eq!(workspace.text("a.sense"), None);
 }
 
-/// Five devices, of which one is replaced by `broken`; those that are wired, those that are left out,
-/// and the codes that are said.
+/// Five devices, one of which is replaced by `broken`: the devices that are wired, the ones left
+/// out, and the codes reported.
 fn five(broken: &str) -> (Vec<String>, Vec<String>, Vec<&'static str>) {
     let text = format!(
         "board Robot on STM32F4DiscoveryBoard {{
@@ -125,12 +125,12 @@ fn a_broken_device_leaves_the_others_their_wiring() {
         ("sensor Two returns uint16 { id = 2; type = analogue; }", "E0207"),
         ("sensor Two returns uint99 { id = 2; type = analog; }", "E0208"),
         ("sensor Two returns uint16 { id = 2; }", "E0206"),
-        // Understood, and wrong.
+        // Understood, but wrong.
         ("sensor Two returns uint16 { id = 2; type = analog; pin = PZ1; }", "E0310"),
         ("sensor Two returns uint16 { id = 1; type = analog; }", "E0203"),
         ("sensor Two returns uint16 { id = 2; type = i2c; driver = nobody; }", "E0216"),
         ("sensor Two returns uint16 { id = 2 type = analog; }", "E0104"),
-        // Nothing can serve it.
+        // No pin can serve it.
         ("sensor Two returns uint16 { id = 2; type = analog; pin = PB5; }", "E0314"),
         ("sensor Two returns uint16 { id = 2; type = analog; unit = ADC9; }", "E0311"),
     ] {

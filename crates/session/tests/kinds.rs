@@ -1,4 +1,5 @@
-//! Every kind of the registry is wired on a part that has everything, with all wires that it names.
+//! Every kind of the registry is wired on a part with every peripheral, with all wires that it
+//! names.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -8,17 +9,18 @@ use sensedsl_session::{Ask, Goal, On, Snapshot, Workspace};
 use sensedsl_wire::Direction;
 use sensedsl_wiring::{Cancel, capacity};
 
-/// Most devices that are tried at once.
+/// Most devices tried at the same time.
 const MANY: u32 = 20;
 
-/// A small part with something for every kind, with an analog sensor and so many devices of a kind.
+/// A small board with something for every kind, with an analog sensor and this many devices of a
+/// kind.
 fn several(kind: KindName, count: u32) -> String {
     let head = match kind.spec().directions {
         [Direction::Actuator, ..] => "actuator D{} accepts",
         _ => "sensor D{} returns",
     };
     let devices = (1..=count).map(|id| {
-        // What must differ from one device to the next on one bus.
+        // Devices on one bus must differ in this.
         let example = kind.spec().example.replace("0x40", &format!("{}", 0x10 + id));
         let head = head.replace("{}", &id.to_string());
         format!("{head} uint16 {{ id = {id}; type = {kind}; {example} }}\n")
@@ -41,7 +43,7 @@ fn is_wired(text: &str) -> bool {
     answer.wired().is_some()
 }
 
-/// What a kind says of sharing its wires is true: as many devices fit as `capacity` promises.
+/// A kind's statement about sharing its wires is true: as many devices fit as `capacity` promises.
 #[test]
 fn as_many_devices_fit_as_are_promised() {
     let snapshot = snapshot(&several(KindName::Analog, 0));

@@ -94,7 +94,7 @@ fn eight_of_two_boards(bencher: Bencher<'_, '_>, devices: u64) {
     solve_all(bencher, &family(2, devices, Mix::General));
 }
 
-/// The problem of `benches/naive.pl`: pins and signals alone.
+/// The problem of `benches/naive.pl`: only pins and signals.
 #[divan::bench(args = [(2, 1, 1), (3, 1, 3), (4, 1, 3)])]
 fn as_naive_prolog(bencher: Bencher<'_, '_>, (analog, i2c, icu): (u32, u32, u32)) {
     let mut builder = Builder::new(Target::None, &[(TABLE_1, false)]);

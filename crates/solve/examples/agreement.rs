@@ -1,5 +1,5 @@
-//! Seeded pin problems of all sorts as JSON lines, each with what we say of it: what
-//! `benches/agree.py` has other solvers check.
+//! Seeded pin problems of all sorts as JSON lines, each with our result, for `benches/agree.py`,
+//! which has other solvers check them.
 //!
 //!     cargo run --release -p sensedsl-solve --features problems --example agreement -- [NUMBER [FIRST]] > agreement.jsonl
 #![expect(
@@ -24,7 +24,7 @@ use support::board::TABLE_1;
 use support::generate::{Mix, Rng, problem, table};
 use support::json::{json, list};
 
-/// Nothing here should take as long.
+/// No problem here should take this long.
 const LIMIT: Duration = Duration::from_secs(5);
 
 fn main() {
@@ -37,7 +37,7 @@ fn main() {
     }
 }
 
-/// One to four boards, with and without a spare one, small or of middle size.
+/// One to four boards, with and without a spare one, small or medium-sized.
 fn plain(seed: u64, rng: &mut Rng) -> Problem {
     let boards = [1, 1, 1, 2, 2, 4][rng.below(6) as usize];
     let same = rng.below(3) == 0;
@@ -61,8 +61,8 @@ fn plain(seed: u64, rng: &mut Rng) -> Problem {
     problem(seed, &tables, devices, mix, rng.below(2) == 0).problem
 }
 
-/// Adds what people write: reserved and fixed pins, sides, things preferred and avoided; and pins
-/// that something else on the board is on.
+/// Adds what people write: reserved and fixed pins, sides, things preferred and avoided, and pins
+/// that something else on the board uses.
 fn restricted(mut problem: Problem, rng: &mut Rng) -> Problem {
     let reserved: Vec<bool> = problem.pins.iter().map(|_| rng.below(16) == 0).collect();
     let with_rules = rng.below(2) == 0;
@@ -75,11 +75,11 @@ fn restricted(mut problem: Problem, rng: &mut Rng) -> Problem {
         for role in device.alternatives.iter_mut().flat_map(|a| &mut a.roles) {
             role.candidates.retain(|c| !reserved[c.pin.0 as usize]);
             match kind {
-                // A side, of two.
+                // One of two sides.
                 0 => role.candidates.retain(|c| c.pin.0 / 16 % 2 == side),
-                // A wire that is fixed.
+                // A fixed wire.
                 1 => role.candidates.truncate(1),
-                // A side preferred, or pins avoided.
+                // A preferred side, or pins to avoid.
                 2 | 3 if with_rules => {
                     let bad = |c: &&mut Candidate| (c.pin.0 / 8 + side).is_multiple_of(2);
                     for c in role.candidates.iter_mut().filter(bad) {
@@ -117,7 +117,7 @@ fn print_instance(seed: u64, problem: &Problem) {
         Ok(Outcome::Stopped { .. }) => ("stopped", [0; 5], "null".to_owned()),
         Err(fault) => panic!("seed {seed}: {fault}"),
     };
-    // Small ones are counted too.
+    // Small problems are counted too.
     let count = if problem.devices.len() <= 4 && problem.boards.len() == 1 {
         count(problem, Cancel::NEVER).unwrap().to_string()
     } else {

@@ -1,5 +1,5 @@
-//! Seeded pin problems as JSON lines, each with our answer and the time it took: what
-//! `benches/compare.py` puts to other solvers.
+//! Seeded pin problems as JSON lines, each with our answer and the time it took, for
+//! `benches/compare.py`, which gives them to other solvers.
 //!
 //!     cargo run --release -p sensedsl-solve --features problems --example instances -- [FAMILY...] > instances.jsonl
 #![expect(
@@ -22,7 +22,7 @@ use support::json::json;
 
 /// Instances of each size of a family.
 const SEEDS: u64 = 5;
-/// A run ends there: no instance is worth more.
+/// A run ends after this time: no instance is worth more.
 const LIMIT: Duration = Duration::from_secs(20);
 
 /// A family: its name, the tables of its boards, its sizes, its mix.
@@ -36,9 +36,9 @@ struct Family {
 
 enum Boards {
     Table1,
-    /// Boards of that many pins each, all different.
+    /// Boards with these numbers of pins, all different.
     Different(&'static [u64]),
-    /// That many boards of that many pins, all the same.
+    /// This many boards with this many pins each, all the same.
     Same(usize, u64),
 }
 
@@ -148,8 +148,8 @@ fn print_instance(family: &Family, size: u64, seed: u64) {
     );
 }
 
-/// Status, objective (moved, violated, shared, cost, spares) and the best of a few runs, proof and
-/// tie-break included.
+/// Status, objective (moved, violated, shared, cost, spares) and the best time of a few runs,
+/// including proof and tie-break.
 fn measured(problem: &Problem) -> (&'static str, [u32; 5], f64) {
     let mut best = f64::INFINITY;
     let mut result = ("stopped", [0; 5]);

@@ -1,4 +1,4 @@
-//! What the solver answers: plain data, found by the search and judged by [`crate::check()`].
+//! The solver's answers: plain data, found by the search and verified by [`crate::check()`].
 
 use crate::check::Violation;
 use crate::problem::{DeviceId, DmaUserId, PinId, ResourceId, StreamId};
@@ -34,7 +34,7 @@ pub struct Objective {
 pub enum Optimality {
     /// Proved: no better answer exists.
     Proved,
-    /// Valid, not compared with others (asked for any, or time ran out).
+    /// Valid, but not proved best: any answer was asked for, or time ran out.
     Feasible,
 }
 
@@ -45,22 +45,22 @@ pub struct Answer {
     pub choices: Vec<Choice>,
     /// Streams of each used DMA user, one per request.
     pub dma: Vec<(DmaUserId, Vec<StreamId>)>,
-    /// What it costs.
+    /// Its objective value.
     pub objective: Objective,
-    /// What is known of it.
+    /// How good it is known to be.
     pub optimality: Optimality,
 }
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Conflict {
-    /// A minimal set: without any one of them the others have an answer. In order.
+    /// A minimal set, in order: without any one of these devices, the others have an answer.
     pub devices: Vec<DeviceId>,
-    /// Pins that all alternatives of those devices fight for. In order.
+    /// Pins that all alternatives of those devices compete for, in order.
     pub pins: Vec<PinId>,
-    /// Resources they fight for. In order.
+    /// Resources that they compete for, in order.
     pub resources: Vec<ResourceId>,
-    /// Streams they fight for. In order.
+    /// Streams that they compete for, in order.
     pub streams: Vec<StreamId>,
     /// False when the search was stopped before the devices were known to be a minimal set.
     pub minimal: bool,
@@ -71,9 +71,9 @@ pub struct Conflict {
 pub enum Outcome {
     /// An answer.
     Solved(Answer),
-    /// Proved to have none.
+    /// Proved to have no answer.
     Infeasible(Conflict),
-    /// The caller's stop came before the proof.
+    /// The caller stopped the search before the proof was complete.
     Stopped {
         /// The best answer so far; `None` does not mean that there is none.
         answer: Option<Answer>,
@@ -89,9 +89,9 @@ pub enum Fault {
     Malformed(&'static str),
     /// The objective's parts do not fit into 63 bits together.
     TooLarge,
-    /// The caller's [`crate::Cancel`] came before the answer.
+    /// The caller's [`crate::Cancel`] ended the search before an answer was found.
     Cancelled,
-    /// The checker rejected the answer of the search: a mistake in this crate.
+    /// The checker rejected the answer of the search: a bug in this crate.
     Rejected(Violation),
 }
 

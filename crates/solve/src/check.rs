@@ -14,13 +14,14 @@ use std::fmt;
 /// The rule that an answer breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Violation {
-    /// Not one choice per device, or a choice that names no alternative or candidate.
+    /// A device without exactly one choice, or a choice of an alternative or candidate that does
+    /// not exist.
     Shape(DeviceId),
     /// Two roles of one device on one pin.
     OwnPinTwice(DeviceId, PinId),
-    /// A pin that devices hold without being one group, or with different signals.
+    /// A pin held by devices that are not one group, or with different signals.
     Pin(PinId),
-    /// A resource that devices hold without being one group.
+    /// A resource held by devices that are not one group.
     Resource(ResourceId),
     /// A used DMA user without its streams, an unused one with streams, or one out of order.
     Dma(DmaUserId),
@@ -28,9 +29,9 @@ pub enum Violation {
     Stream(StreamId),
     /// The objective is not what the wiring costs.
     Objective {
-        /// As the answer says.
+        /// The objective that the answer states.
         stated: Objective,
-        /// As the choices cost.
+        /// The objective computed from the choices.
         actual: Objective,
     },
 }
@@ -51,7 +52,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Who holds a pin (with its signal) or a resource so far.
+/// One device's hold on a pin (with its signal) or on a resource.
 struct Held<T> {
     device: DeviceId,
     holder: Holder,
@@ -68,7 +69,7 @@ struct Ledger {
     boards: BTreeSet<u32>,
 }
 
-/// Checks an answer against every rule of the problem, the stated objective included.
+/// Checks an answer against every rule of the problem, including the stated objective.
 ///
 /// # Errors
 /// The first [`Violation`] found.
@@ -144,7 +145,7 @@ impl Ledger {
     }
 }
 
-/// Adds a holder unless it disagrees with one of another device.
+/// Adds a holder unless it conflicts with the holder of another device.
 fn join<T: PartialEq>(holders: &mut Vec<Held<T>>, new: Held<T>) -> Option<()> {
     let agrees = |old: &Held<T>| {
         old.device == new.device

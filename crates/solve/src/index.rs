@@ -1,4 +1,4 @@
-//! Typed indices: a vector knows what it is indexed by, so a pin never reads a device's entry.
+//! Typed indices: a vector knows its index type, so a pin never reads a device's entry.
 //!
 //! Every id of the crate is a `u32` of its own type. [`Ids`] are consecutive ids, [`IdVec`] holds
 //! one item for each id, [`Rows`] holds a list for each id, and [`Blocks`] says which consecutive
@@ -16,7 +16,7 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut, Range};
 
-/// A number that names one thing of one sort.
+/// A number that identifies one thing of one type.
 pub(crate) trait Id: Copy + Ord + Debug {
     fn new(index: usize) -> Self;
     fn index(self) -> usize;
@@ -57,7 +57,7 @@ ids! {
     CandId;
     /// A wire that several devices share.
     WireId;
-    /// A resource that at most one wire of its own can pass.
+    /// A resource that at most one unshared wire can pass.
     GateId;
     /// A wire that needs a pin in the flow: a role position of a device, or a shared wire.
     DemandId;
@@ -65,7 +65,7 @@ ids! {
     NodeId;
     /// A constraint with a Lagrange multiplier.
     PriceId;
-    /// Something that is opened once for all who use it.
+    /// Something that is opened once for all its users.
     FacilityId;
     /// A soft rule that several wires can violate.
     PenaltyId;
@@ -87,7 +87,7 @@ ids! {
     ColumnId;
     /// A row of the linear program.
     RowId;
-    /// An entry of its matrix, column by column.
+    /// An entry of the program's matrix, counted column by column.
     EntryId;
     /// A place among the entries of all rows.
     PlaceId;
@@ -141,17 +141,17 @@ impl<I: Id> Ids<I> {
         IdIter { range: self.start..self.end, id: PhantomData }
     }
 
-    /// The id that stands at this position; it may lie beyond the end.
+    /// The id at this position, which may be past the end.
     pub(crate) fn at(self, position: usize) -> I {
         I::new(self.start as usize + position)
     }
 
-    /// The id at this position, if there are so many.
+    /// The id at this position, unless it is past the end.
     pub(crate) fn nth(self, position: usize) -> Option<I> {
         (position < self.len()).then(|| self.at(position))
     }
 
-    /// Where the id stands among these.
+    /// The position of the id in the range.
     pub(crate) fn position(self, id: I) -> usize {
         id.index() - self.start as usize
     }
@@ -281,7 +281,7 @@ impl<I: Id, T: Clone> IdVec<I, T> {
         self.items.fill(item);
     }
 
-    /// Forgets what is in it and holds the same item for each of `count` ids.
+    /// Replaces the contents with the same item for each of `count` ids.
     pub(crate) fn reset(&mut self, item: T, count: usize) {
         self.items.clear();
         self.items.resize(count, item);

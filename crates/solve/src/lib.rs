@@ -1,8 +1,8 @@
 //! Exact pin assignment: integers in, a checked answer out.
 //!
 //! Four pure functions over a [`Problem`]: [`solve`] gives the one best answer or the reason why
-//! there is none, [`enumerate`] all answers best first, [`count`] their number, [`check`] judges
-//! an answer without any code of the search. No answer leaves the crate unchecked.
+//! there is none, [`enumerate`] gives all answers, best first, [`count`] gives their number, and
+//! [`check`] judges an answer without any code of the search. No answer leaves the crate unchecked.
 
 pub mod answer;
 mod bounds;

@@ -1,4 +1,4 @@
-//! The pin problem: what the solver is asked, in integers only.
+//! The pin problem: the solver's input, in integers only.
 //!
 //! Names, spans and hardware words stay outside: crate `wiring` makes a [`Problem`] and reads the
 //! answer back. A pin that may not be used is simply not a candidate. Every other rule is of one of
@@ -43,7 +43,7 @@ pub struct StreamId(pub u32);
 pub enum Holder {
     /// The claiming device alone.
     Own,
-    /// Everybody who names the same number: the devices of one bus, PWM outputs of one frequency.
+    /// All who name the same number: the devices of one bus, or PWM outputs of one frequency.
     Group(u32),
 }
 
@@ -51,9 +51,9 @@ pub enum Holder {
 /// [`Holder::Group`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Claim {
-    /// What is taken.
+    /// The resource that is taken.
     pub resource: ResourceId,
-    /// On whose behalf.
+    /// The holder on whose behalf it is taken.
     pub holder: Holder,
 }
 
@@ -64,14 +64,14 @@ pub struct Pin {
     pub board: BoardId,
     /// Opportunity cost: number of usages in the pin's row of the board table.
     pub cost: u32,
-    /// Something else is on it: it is used only where that violates fewer rules.
+    /// True if something else is on it: it is used only where that violates fewer rules.
     pub shared: bool,
 }
 
 /// A board that devices may go to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Board {
-    /// A spare board counts in the objective as soon as one device is on it.
+    /// True for a spare board: it counts in the objective as soon as one device is on it.
     pub spare: bool,
 }
 
@@ -82,20 +82,20 @@ pub struct Candidate {
     pub pin: PinId,
     /// [`Holder::Own`], or the bus whose devices share the wire.
     pub holder: Holder,
-    /// The signal, for the tie-break. Its exclusiveness, where wanted, is among `claims`.
+    /// The signal, for the tie-break. If it must be exclusive, that is one of the `claims`.
     pub signal: SignalId,
-    /// Resources taken beside the pin (signal, interrupt line, pad).
+    /// Resources taken in addition to the pin (signal, interrupt line, pad).
     pub claims: Vec<Claim>,
     /// Soft rules this candidate violates (each rule counts once in the whole answer).
     pub violates: Vec<RuleId>,
-    /// True where the wire differs from the wiring that is to be kept.
+    /// True if the wire differs from the wiring that is to be kept.
     pub moved: bool,
 }
 
 /// One role of an alternative: exactly one candidate is chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Role {
-    /// Sorted by (pin, signal), no pair twice.
+    /// The candidates, sorted by (pin, signal), without duplicates.
     pub candidates: Vec<Candidate>,
 }
 
@@ -117,27 +117,27 @@ pub struct Alternative {
 /// A device: exactly one alternative is chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Device {
-    /// The choices. No (pins, signals) answer is reachable through two alternatives that are on
-    /// one board, so answers are told apart by their pins and signals alone.
+    /// The choices. No (pins, signals) answer is reachable through two alternatives on the same
+    /// board, so pins and signals alone tell answers apart.
     pub alternatives: Vec<Alternative>,
 }
 
-/// One request of a peripheral instance: exactly one stream of `streams`, held by nobody else.
+/// One request of a peripheral instance: exactly one stream of `streams`, held by no other request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmaRequest {
     /// Streams that can serve it, best first.
     pub streams: Vec<StreamId>,
 }
 
-/// A peripheral instance whose driver takes DMA streams; all its requests are served while at
-/// least one device uses it.
+/// A peripheral instance whose driver takes DMA streams; all its requests are served if at least
+/// one device uses it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmaUser {
     /// For example RX and TX of an I2C unit.
     pub requests: Vec<DmaRequest>,
 }
 
-/// The whole question.
+/// The whole problem.
 ///
 /// An answer gives each device one alternative and each of its roles one candidate so that
 /// 1. each pin is held by one device, or by several as one [`Holder::Group`],
@@ -145,9 +145,9 @@ pub struct DmaUser {
 /// 3. the DMA requests of all used [`DmaUser`]s get streams of their own.
 ///
 /// It is best when (moved wires, violated rules, shared pins used, sum of the costs of the distinct
-/// pins used, spare boards used) is lexicographically least, then its list of pins (devices in order, roles
-/// in order), then its list of signals. A wire that devices share as a group counts as one moved
-/// wire. The signals of a group's shared pin agree.
+/// pins used, spare boards used) is lexicographically least, then its list of pins (devices in
+/// order, roles in order), then its list of signals. A wire that devices share as a group counts as
+/// one moved wire. All devices of a group use a shared pin with the same signal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Problem {
     /// All pins of all boards in tie-break order.

@@ -1,54 +1,54 @@
 //! The record of a search that proves a weight: its splits, and the multipliers that narrowed or
 //! closed each case.
 //!
-//! A record names everything by its place in the [`crate::Problem`]. It holds nothing that has to be
-//! believed: crate `proof` recomputes every step from the statement of the problem.
+//! A record refers to everything by its index in the [`crate::Problem`]. Nothing in it has to be
+//! trusted: crate `proof` recomputes every step from the statement of the problem.
 
 use crate::problem::{BoardId, DeviceId, DmaUserId, PinId, ResourceId, RuleId, StreamId};
 
-/// An alternative: its device, and its place in the device.
+/// An alternative: its device, and its index in the device.
 pub type Way = (DeviceId, usize);
 
-/// Devices that change places, in pairs, each with all that it alone claims and violates.
+/// Pairs of devices that change places, each with everything that it alone claims and violates.
 pub type Exchange = Vec<(DeviceId, DeviceId)>;
 
 /// A record.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
-    /// What moved wires, violated rules, shared pins, cost and spare boards weigh.
+    /// The weights of moved wires, violated rules, shared pins, cost and spare boards.
     pub weights: [u64; 5],
-    /// What is opened once for all who use it.
+    /// The facilities.
     pub facilities: Vec<Facility>,
-    /// Facilities of which so many must be open.
+    /// Sets of facilities of which a minimum number must be open.
     pub covers: Vec<Cover>,
-    /// The cases, depth first: after [`Step::Narrowed`] comes what is left, after [`Step::Split`] the
-    /// case that it is taken, then the case that it is refused.
+    /// The cases, depth first. After [`Step::Narrowed`] comes what is left. After [`Step::Split`]
+    /// comes the case in which the choice is taken, then the case in which it is refused.
     pub steps: Vec<Step>,
 }
 
 /// Something that is opened once for all who use it together: a bus, a timer at one frequency.
 #[derive(Clone, Debug, Default)]
 pub struct Facility {
-    /// Whoever takes one of these uses the facility.
+    /// The alternatives that use the facility.
     pub members: Vec<Way>,
-    /// What it occupies.
+    /// The resource that it occupies.
     pub resource: Option<ResourceId>,
     /// The wires that its members hold together: for each, the role of every member.
     pub wires: Vec<Vec<usize>>,
-    /// Whose streams it needs.
+    /// The DMA users whose streams it needs.
     pub users: Vec<DmaUserId>,
-    /// Resources that one member at a time can hold in it.
+    /// Resources in it that only one member at a time can hold.
     pub slots: Vec<ResourceId>,
 }
 
-/// Facilities of which so many must be open, or these devices have no room.
+/// Facilities of which a minimum number must be open, or these devices have no room.
 #[derive(Clone, Debug, Default)]
 pub struct Cover {
-    /// The devices that have to use one of `great` or `small`.
+    /// The devices, each of which must use one of `great` or `small`.
     pub devices: Vec<DeviceId>,
-    /// Facilities of which `need` are open.
+    /// Facilities of which at least `need` must be open.
     pub great: Vec<usize>,
-    /// The others, all of which may be open.
+    /// The other facilities, all of which may be open.
     pub small: Vec<usize>,
     /// How many of `great` are needed.
     pub need: usize,
@@ -59,17 +59,17 @@ pub struct Cover {
 pub enum Step {
     /// Nothing is left.
     Dead,
-    /// All that is left weighs too much.
+    /// Everything that is left weighs too much.
     Closed(Multipliers),
-    /// Some choices weigh too much.
+    /// Some choices weigh too much and are removed.
     Narrowed(Multipliers),
-    /// Either it is so, or it is not.
+    /// Two cases: a choice is taken, or it is refused.
     Split {
-        /// The question.
+        /// The choice.
         on: Question,
-        /// What puts another device in the place of its own, which is as good for it.
+        /// Exchanges that replace its device by another one that is equally good for it.
         twins: Vec<Exchange>,
-        /// Other boards that are as good for it.
+        /// Other boards that are equally good for it.
         boards: Vec<BoardId>,
     },
 }
@@ -81,31 +81,32 @@ pub enum Question {
     Way(DeviceId, usize),
     /// The device takes the alternative, and its role the candidate.
     Wire(DeviceId, usize, usize, usize),
-    /// Nobody violates the rule.
+    /// No device violates the rule.
     Kept(RuleId),
-    /// Nobody uses the board.
+    /// No device uses the board.
     Unused(BoardId),
-    /// Somebody uses the facility.
+    /// At least one device uses the facility.
     Open(usize),
 }
 
-/// What everybody pays for what, in units of weight divided by `1 << shift`.
+/// The prices of everything, in units of weight divided by `1 << shift`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Multipliers {
-    /// See above.
+    /// The scale of all prices.
     pub shift: u32,
-    /// What a pin costs beyond its weight.
+    /// The price of a pin, beyond its weight.
     pub pins: Vec<(PinId, i64)>,
-    /// What a resource costs.
+    /// The price of a resource.
     pub resources: Vec<(ResourceId, i64)>,
-    /// What a stream costs.
+    /// The price of a stream.
     pub streams: Vec<(StreamId, i64)>,
-    /// What a device pays to a facility that it uses.
+    /// The price that a device pays to a facility that it uses.
     pub links: Vec<(usize, DeviceId, i64)>,
-    /// What the holder of a resource pays to a facility.
+    /// The price that the holder of a resource pays to a facility.
     pub tickets: Vec<(usize, ResourceId, i64)>,
-    /// What a device pays for a rule that it violates as a whole (0) or by a role (1 and up).
+    /// The price that a device pays for a rule that it violates as a whole (0) or by a role (1 and
+    /// up).
     pub rules: Vec<(RuleId, DeviceId, usize, i64)>,
-    /// What an open facility saves for each of its covers.
+    /// The amount that an open facility saves for each of its covers.
     pub covers: Vec<(usize, i64)>,
 }

@@ -1,7 +1,7 @@
-//! What the pads and buses of an MCU are connected to.
+//! The connections of an MCU's pads and buses.
 //!
 //! The machine asks, the world answers. All times are virtual nanoseconds since the board got power, and they never go
-//! backwards from one call to the next, with one exception that is said: [`Surroundings::next_edge`] asks about the
+//! backwards from one call to the next, with one documented exception: [`Surroundings::next_edge`] asks about the
 //! future.
 
 use std::fmt;
@@ -9,14 +9,14 @@ use std::fmt;
 /// A pad of the MCU: port `0` is A, and pins count from 0 to 15.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pad {
-    /// 0 for port A, 1 for port B, and so on.
+    /// The port: 0 for port A, 1 for port B, and so on.
     pub port: u8,
-    /// 0 to 15.
+    /// The pin, from 0 to 15.
     pub pin: u8,
 }
 
 impl Pad {
-    /// The pad that is called `name`, as in `PA5`.
+    /// The pad with that name, as in `PA5`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let mut letters = name.strip_prefix('P')?.chars();
@@ -34,12 +34,12 @@ impl fmt::Display for Pad {
     }
 }
 
-/// What the MCU does on an I2C bus as its master.
+/// An action of the MCU on an I2C bus, as its master.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum I2cEvent {
-    /// A start, or a repeated one, and the address of 7 bits.
+    /// A start or a repeated start, and the 7-bit address.
     Start {
-        /// Without the bit for the direction.
+        /// The address without the direction bit.
         address: u8,
         /// Whether the master reads.
         read: bool,
@@ -55,80 +55,81 @@ pub enum I2cEvent {
     Stop,
 }
 
-/// What the bus answers to an [`I2cEvent`].
+/// The bus's answer to an [`I2cEvent`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum I2cReply {
-    /// Somebody pulled SDA low: the address or the byte was taken. After [`I2cEvent::Stop`]: the bus is free.
+    /// SDA was pulled low: the address or the byte was taken. After [`I2cEvent::Stop`]: the bus is free.
     Ack,
-    /// Nobody did.
+    /// SDA was not pulled low.
     Nack,
-    /// What the master read.
+    /// The byte that the master read.
     Byte(u8),
-    /// Somebody holds SDA low. The bus stays busy until the master has clocked it free by hand.
+    /// Something holds SDA low. The bus stays busy until the master has clocked it free by hand.
     Stuck,
-    /// Somebody holds SCL low: nothing more happens on the bus, until [`Surroundings::level`] says that SCL is high.
+    /// Something holds SCL low: nothing more happens on the bus until [`Surroundings::level`] reports SCL as high.
     Silent,
 }
 
-/// An output of a timer: that of a channel, or its complement.
+/// An output of a timer: a channel's, or its complement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TimerOutput {
     /// The timer's number.
     pub timer: u8,
-    /// The channel, from 1.
+    /// The channel, counted from 1.
     pub channel: u8,
-    /// `CH1N` in place of `CH1`.
+    /// Whether it is the complement: `CH1N` instead of `CH1`.
     pub is_complement: bool,
 }
 
-/// A frame of a CAN bus.
+/// A CAN frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanFrame {
-    /// 11 bits, or 29 where `extended` is set.
+    /// The identifier, with 11 bits, or with 29 if `extended` is set.
     pub id: u32,
     /// Whether the identifier has 29 bits.
     pub extended: bool,
-    /// A request for a frame, which has no data.
+    /// Whether it is a request for a frame, which has no data.
     pub remote: bool,
-    /// How many bytes of `data` count, 8 at most.
+    /// The number of bytes of `data` that count, at most 8.
     pub length: u8,
-    /// What is sent.
+    /// The data.
     pub data: [u8; 8],
 }
 
-/// What the MCU's pads and buses are connected to. Times are virtual nanoseconds since the board got power.
+/// The connections of the MCU's pads and buses. Times are virtual nanoseconds since the board got power.
 ///
-/// Units are numbered as the MCU's manual does it: `1` is I2C1, USART1, SPI1, TIM1, CAN1; channels of a timer and of
-/// the DAC start at 1. A method that nothing is connected to has a body that says so, so that a test's world names only
-/// what it is about.
+/// Units are numbered as in the MCU's manual: `1` is I2C1, USART1, SPI1, TIM1, CAN1; channels of a timer and of the DAC
+/// start at 1. The default methods stand for pads and buses with nothing connected, so that a test's world implements
+/// only what it is about.
 pub trait Surroundings: Send {
-    /// What a converter samples at a pad.
+    /// The voltage that a converter samples at a pad.
     fn millivolts(&mut self, pad: Pad, now_ns: u64) -> f64 {
         let _ = (pad, now_ns);
         0.0
     }
 
-    /// The level that is driven from outside; `None`: nothing drives it, and the pull decides. A source of a voltage
-    /// drives its pad, too, and a resistor that pulls a bus up drives its wires high: firmware looks for loose wires.
+    /// The level that is driven from outside; `None` if nothing drives it, so that the pull resistor decides. A voltage
+    /// source also drives its pad, and a pull-up resistor of a bus drives its wires high: firmware looks for loose
+    /// wires.
     fn level(&mut self, pad: Pad, now_ns: u64) -> Option<bool> {
         let _ = (pad, now_ns);
         None
     }
 
     /// The first change of [`Surroundings::level`] after a time, and the level from then on. Captures, encoders and
-    /// external interrupts live on it. A world that changes its mind (because the MCU drove a pad, say) does so before
-    /// the time that it gave, and the machine asks again after each [`Surroundings::driven`].
+    /// external interrupts depend on it. A world that changes an edge it has announced (because the MCU drove a pad,
+    /// say) does so before the time of that edge, and the machine asks again after each [`Surroundings::driven`].
     fn next_edge(&mut self, pad: Pad, after_ns: u64) -> Option<(u64, bool)> {
         let _ = (pad, after_ns);
         None
     }
 
-    /// An output of the MCU changed: triggers, chip selects, LEDs. `None`: the MCU does not drive the pad any more.
+    /// An output of the MCU changed: triggers, chip selects, LEDs. `None` if the MCU no longer drives the pad.
     fn driven(&mut self, pad: Pad, level: Option<bool>, now_ns: u64) {
         let _ = (pad, level, now_ns);
     }
 
-    /// The MCU is the master of an I2C bus.
+    /// The MCU acts as the master of an I2C bus.
     fn i2c(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
         let _ = (unit, now_ns);
         match event {
@@ -138,20 +139,20 @@ pub trait Surroundings: Send {
         }
     }
 
-    /// The MCU shifts a byte out of an SPI port, and another one in. Whom it is for say the chip selects.
+    /// The MCU shifts a byte out of an SPI port, and another one in. The chip selects determine the chip.
     fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
         let _ = (unit, out, now_ns);
         0xFF
     }
 
-    /// A byte that has arrived at a serial port, if there is one. Asked as often as the port can take one, about once a
-    /// byte's time.
+    /// A byte that has arrived at a serial port, if there is one. The machine asks as often as the port can take a
+    /// byte, which is about once in the time of one.
     fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
         let _ = (unit, now_ns);
         None
     }
 
-    /// A byte has left a serial port.
+    /// The MCU has sent a byte on a serial port.
     fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
         let _ = (unit, byte, now_ns);
     }
@@ -162,17 +163,17 @@ pub trait Surroundings: Send {
         None
     }
 
-    /// A frame has left on a CAN bus.
+    /// The MCU has sent a frame on a CAN bus.
     fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
         let _ = (unit, frame, now_ns);
     }
 
-    /// An output of a timer has another waveform than before. A width of 0 is off.
+    /// An output of a timer has a new waveform. A width of 0 means off.
     fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, now_ns: u64) {
         let _ = (output, period_ns, width_ns, now_ns);
     }
 
-    /// An output of the DAC has another voltage than before.
+    /// An output of the DAC has a new voltage.
     fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
         let _ = (channel, millivolts, now_ns);
     }

@@ -1,7 +1,7 @@
-//! Typed views over the tree: what a file says, without trivia and punctuation.
+//! Typed views over the tree: the contents of a file, without trivia and punctuation.
 //!
-//! A view is a cheap handle. Where the text is incomplete the accessors return `None` or leave the
-//! broken part out; whoever needs all of it first looks whether the parse has errors.
+//! A view is a cheap handle. If the text is incomplete, the accessors return `None` or leave the
+//! broken part out; callers that need everything first check the parse for errors.
 
 mod parts;
 mod rules;
@@ -18,13 +18,13 @@ use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::literal;
 use rowan::TextRange;
 
-/// A view over one kind of node, or several.
+/// A view over one or several kinds of nodes.
 pub trait AstNode: Sized {
-    /// The view over `node`, when it is of this kind.
+    /// The view over `node`, if the node is of this kind.
     fn cast(node: SyntaxNode) -> Option<Self>;
     /// The node.
     fn syntax(&self) -> &SyntaxNode;
-    /// Where it is, without the trivia around it.
+    /// The range of the node, without the trivia around it.
     fn range(&self) -> TextRange {
         self.syntax().text_range()
     }
@@ -50,7 +50,7 @@ macro_rules! node {
 
 use node;
 
-/// Declares a view over any of several views.
+/// Declares a view that is one of several views.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident($view:ty)),+ $(,)? }) => {
         $(#[$doc])*
@@ -110,13 +110,13 @@ node!(
     Property = Property
 );
 choice!(
-    /// What a file is made of.
+    /// An item of a file.
     FileItem {
-        /// Another file brought in.
+        /// A file that is used.
         Use(Use),
         /// A board.
         Board(Board),
-        /// A value with a name.
+        /// A named value.
         Constant(Constant),
         /// A device that may go on any board.
         Device(Device),
@@ -127,7 +127,7 @@ choice!(
     }
 );
 choice!(
-    /// What a board holds.
+    /// An item of a board.
     BoardItem {
         /// A device that stays on this board.
         Device(Device),
@@ -142,16 +142,16 @@ choice!(
     }
 );
 choice!(
-    /// What is wired: a part with one value, or with several.
+    /// A part: one with one value, or one with several.
     Item {
         /// A part with one value.
         Device(Device),
-        /// A part with several.
+        /// A part with several values.
         Chip(Chip),
     }
 );
 choice!(
-    /// What a device holds.
+    /// An item of a device.
     DeviceItem {
         /// A property of the device.
         Property(Property),
@@ -159,7 +159,7 @@ choice!(
         Rule(Rule),
     }
 );
-/// Where the pins of a board are told.
+/// The source of a board's pins.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum BoardSource {
     /// A built-in board or MCU part.
@@ -169,7 +169,7 @@ pub enum BoardSource {
 }
 
 impl BoardSource {
-    /// Where it is.
+    /// The range of the source.
     #[must_use]
     pub fn range(&self) -> TextRange {
         match self {
@@ -179,21 +179,21 @@ impl BoardSource {
     }
 }
 
-/// Which way the data of a device goes.
+/// The direction of a device's data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
-    /// To the host.
+    /// To the host: a sensor.
     Sensor,
-    /// From the host.
+    /// From the host: an actuator.
     Actuator,
 }
 
 impl SourceFile {
-    /// All items in their order.
+    /// All items in order.
     pub fn items(&self) -> impl Iterator<Item = FileItem> + use<> {
         children(&self.0)
     }
-    /// The files brought in.
+    /// The files used.
     pub fn uses(&self) -> impl Iterator<Item = Use> + use<> {
         children(&self.0)
     }
@@ -209,7 +209,7 @@ impl SourceFile {
     pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
         children(&self.0)
     }
-    /// The devices and chips outside any board, in the file's order.
+    /// The devices and chips outside any board, in file order.
     pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
         children(&self.0)
     }
@@ -245,7 +245,7 @@ impl Constant {
 }
 
 impl Board {
-    /// The word `spare`, when the board is used only if needed.
+    /// The word `spare`, if it is there.
     #[must_use]
     pub fn spare_token(&self) -> Option<SyntaxToken> {
         token(&self.0, SyntaxKind::SpareKw)
@@ -260,13 +260,13 @@ impl Board {
     pub fn name(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// What stands after `on`.
+    /// The source after `on`.
     #[must_use]
     pub fn on(&self) -> Option<BoardSource> {
         let clause = self.0.children().find(|node| node.kind() == SyntaxKind::OnClause)?;
         name(&clause).map(BoardSource::Name).or_else(|| string(&clause).map(BoardSource::File))
     }
-    /// All items in their order.
+    /// All items in order.
     pub fn items(&self) -> impl Iterator<Item = BoardItem> + use<> {
         children(&self.0)
     }
@@ -278,7 +278,7 @@ impl Board {
     pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
         children(&self.0)
     }
-    /// The devices and chips in their order.
+    /// The devices and chips in order.
     pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
         children(&self.0)
     }
@@ -290,7 +290,7 @@ impl Board {
     pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
         children(&self.0)
     }
-    /// The links; the grammar does not say that there is only one.
+    /// The links; the grammar allows several.
     pub fn links(&self) -> impl Iterator<Item = Link> + use<> {
         children(&self.0)
     }
@@ -309,7 +309,7 @@ impl Link {
 }
 
 impl Device {
-    /// Which way the data goes, told by the first keyword.
+    /// The direction of the data, from the first keyword.
     #[must_use]
     pub fn direction(&self) -> Option<Direction> {
         let sensor = token(&self.0, SyntaxKind::SensorKw).map(|_| Direction::Sensor);
@@ -325,7 +325,7 @@ impl Device {
     pub fn ty(&self) -> Option<Type> {
         children(&self.0).next()
     }
-    /// All items in their order.
+    /// All items in order.
     pub fn items(&self) -> impl Iterator<Item = DeviceItem> + use<> {
         children(&self.0)
     }
@@ -340,23 +340,23 @@ impl Device {
 }
 
 impl Type {
-    /// The name of the scalar. Whether there is such a type is not checked here.
+    /// The name of the scalar type. Whether that type exists is not checked here.
     #[must_use]
     pub fn scalar(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// Whether a length is written, be it broken or not.
+    /// Whether a length is written, even if it is broken.
     #[must_use]
     pub fn is_array(&self) -> bool {
         token(&self.0, SyntaxKind::LBracket).is_some()
     }
-    /// The number of elements of an array and where it stands, when a number is written.
+    /// The number of elements of an array, with its range, if a number is written.
     #[must_use]
     pub fn length(&self) -> Option<(u64, TextRange)> {
         let digits = token(&self.0, SyntaxKind::Int)?;
         Some((literal::integer(digits.text())?, digits.text_range()))
     }
-    /// The constant that is the number of elements of an array, when a name is written.
+    /// The constant for the number of elements of an array, if a name is written.
     #[must_use]
     pub fn length_name(&self) -> Option<Name> {
         names(&self.0).nth(1)
@@ -390,7 +390,7 @@ fn token(node: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxToken> {
     tokens(node, kind).next()
 }
 
-/// The identifiers of a node itself are names: its keywords and units have kinds of their own.
+/// The identifiers of a node are names; keywords and units have other token kinds.
 fn names(node: &SyntaxNode) -> impl Iterator<Item = Name> + use<> {
     tokens(node, SyntaxKind::Ident).map(Name)
 }

@@ -1,29 +1,29 @@
-//! What can be wrong with the text of a file, as data: a kind with what a message needs, and a place.
+//! The mistakes that a text can contain, as data: a kind with what a message needs, and a place.
 //!
-//! This crate words no messages. A consumer turns each kind into a coded diagnostic; the `Display`
-//! forms here are the noun phrases such a message is made of ("a sensor name", "the end of the file").
+//! This crate words no messages. A consumer turns each kind into a coded diagnostic. The `Display`
+//! forms here are noun phrases for such messages ("a sensor name", "the end of the file").
 
 use rowan::TextRange;
 use sensedsl_limits::DIAGNOSTICS_MAX;
 use std::fmt;
 
-/// One mistake in the text, at its place.
+/// A mistake in the text, with its place.
 ///
-/// An empty range is the place where something is missing: directly after the token before it.
+/// An empty range marks where something is missing: directly after the token before it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SyntaxError {
-    /// What is wrong.
+    /// The mistake.
     pub kind: SyntaxErrorKind,
-    /// Where it is.
+    /// Its place.
     pub range: TextRange,
 }
 
-/// What is wrong, with the data that a message needs.
+/// A mistake, with the data that a message needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SyntaxErrorKind {
-    /// A character that no token begins with; the range covers a whole run of such characters.
+    /// A character that begins no token; the range covers a whole run of such characters.
     UnexpectedCharacter {
-        /// The first of them.
+        /// The first character of the run.
         character: char,
     },
     /// A `/*` without its `*/`.
@@ -32,75 +32,75 @@ pub enum SyntaxErrorKind {
     UnterminatedString,
     /// A `\` in a string followed by something that is not an escape.
     UnknownEscape {
-        /// The escape as it is written, with its `\`.
+        /// The escape as written, with its `\`.
         escape: String,
     },
-    /// A pin behind the name of a device, where its type stands: `sensor Front on PA0`.
+    /// A pin after the name of a device, in place of its type: `sensor Front on PA0`.
     PinInHead {
-        /// The head as it is meant: `sensor Front returns uint16`.
+        /// The head that was probably meant: `sensor Front returns uint16`.
         head: String,
-        /// What stands there for a pin.
+        /// The word in the place of a pin.
         pin: String,
     },
-    /// A digit that the base of its number does not have: `0b102`.
+    /// A digit that is invalid in the number's base: `0b102`.
     InvalidDigit {
         /// The digit.
         digit: char,
         /// The base, 2 or 16.
         base: u32,
     },
-    /// A number that lacks the digits it announces: `0x`, `1.`, `.5`.
+    /// A number without the digits that must follow: `0x`, `1.`, `.5`.
     MissingDigits {
-        /// The number as it is written.
+        /// The number as written.
         number: String,
     },
     /// An integer above 2^64 - 1 or a float that is not finite.
     NumberTooLarge {
-        /// The number as it is written.
+        /// The number as written.
         number: String,
     },
-    /// A name with letters that are not ASCII, which no generated language takes.
+    /// A name with non-ASCII letters, which no generated language accepts.
     NonAsciiName {
         /// The name.
         name: String,
     },
-    /// A name that is written with hyphens: `STM32F407G-DISC1`.
+    /// A name written with hyphens: `STM32F407G-DISC1`.
     HyphenInName {
-        /// The name as it is written.
+        /// The name as written.
         name: String,
         /// The name with underscores instead.
         suggestion: String,
-        /// Whether it is a value, where a minus may be meant.
+        /// Whether it is a value, where a minus sign may be meant.
         in_value: bool,
     },
-    /// A word at the beginning of an item that begins no item of this block.
+    /// A word in the place of an item that no item of this block begins with.
     UnknownItem {
         /// The word.
         found: String,
-        /// The keyword that is probably meant.
+        /// The keyword that was probably meant.
         suggestion: Option<&'static str>,
-        /// The block it stands in.
+        /// The block around it.
         block: Block,
     },
-    /// An item of the language that may not stand in this block: a board in a board.
+    /// An item that is not allowed in this block, such as a board in a board.
     NotAllowedHere {
         /// The item.
         item: Item,
-        /// The block it stands in.
+        /// The block around it.
         block: Block,
     },
-    /// Something else than the grammar has at this place.
+    /// Something other than what the grammar expects here.
     Expected {
-        /// What the grammar has.
+        /// What the grammar expects.
         expected: Expected,
-        /// What is there.
+        /// What was found.
         found: Found,
     },
     /// A token where an item should begin or after a complete statement.
     StrayToken {
         /// The token.
         found: Found,
-        /// The block it stands in.
+        /// The block around it.
         block: Block,
     },
     /// A `}` that closes nothing.
@@ -126,7 +126,7 @@ pub enum SyntaxErrorKind {
     },
     /// A `(` that is never closed.
     MissingCloseParen {
-        /// It.
+        /// The `(`.
         open: TextRange,
     },
     /// A list or an array length that is never closed.
@@ -142,10 +142,10 @@ pub enum SyntaxErrorKind {
     UnknownUnit {
         /// The word.
         found: String,
-        /// The unit that is probably meant.
+        /// The unit that was probably meant.
         suggestion: Option<&'static str>,
     },
-    /// Something between `(` and `)` that is written between `[` and `]`: `(1, 2)`.
+    /// A list in `(` and `)` that belongs in `[` and `]`: `(1, 2)`.
     ParenthesesAroundList,
     /// A type of several words: `unsigned int`.
     TypeOfWords {
@@ -157,26 +157,26 @@ pub enum SyntaxErrorKind {
         /// The unit.
         unit: String,
     },
-    /// Blocks, lists or expressions nested deeper than any use of them.
+    /// Blocks, lists or expressions nested more deeply than the limit.
     NestingTooDeep {
         /// The deepest allowed nesting.
         limit: usize,
     },
-    /// More tokens than are read; nothing behind the range was looked at.
+    /// More tokens than are read; nothing after the range was read.
     TooManyTokens {
-        /// How many are read.
+        /// The number of tokens that are read.
         limit: usize,
     },
-    /// More mistakes than are listed.
+    /// More mistakes than are reported.
     More {
-        /// How many are listed.
+        /// The number of mistakes reported.
         listed: usize,
-        /// How many are not.
+        /// The number of mistakes not reported.
         more: usize,
     },
 }
 
-/// Mistakes as they are found: the first are kept, the others are counted.
+/// The mistakes found: the first ones are kept, the others counted.
 #[derive(Debug, Default)]
 pub(crate) struct Errors {
     pub(crate) list: Vec<SyntaxError>,
@@ -193,10 +193,10 @@ impl Errors {
     }
 }
 
-/// What the grammar has at a place.
+/// What the grammar expects at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// The name of what is declared here.
+    /// The name of the item declared here.
     NameOf(Item),
     /// The name of a property.
     PropertyName,
@@ -218,7 +218,7 @@ pub enum Expected {
     Code,
     /// The number of elements of an array, or the name of a constant.
     ArrayLength,
-    /// A value: of a list, after a sign or an operator.
+    /// A value in a list, or after a sign or an operator.
     Value,
     /// The end of a value.
     EndOfValue,
@@ -232,16 +232,16 @@ pub enum Expected {
     Semicolon,
 }
 
-/// What is at a place.
+/// What was found at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// A token, as it is written.
+    /// A token, as written.
     Token(String),
-    /// Nothing any more.
+    /// The end of the file.
     EndOfFile,
 }
 
-/// What a file is made of.
+/// An item of a file or of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "each is named after the grammar")]
 pub enum Item {
@@ -260,7 +260,7 @@ pub enum Item {
     Property,
 }
 
-/// What an item stands in.
+/// A file or a block, which holds items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "each is named after the grammar")]
 pub enum Block {

@@ -1,12 +1,11 @@
-//! The canonical layout: in comes a text, out comes the same sequence of tokens and comments with
-//! one statement a line, four spaces for each block and one space between words.
+//! The canonical layout: a text in; the same tokens and comments out, with one statement per line,
+//! four spaces of indentation per block and one space between words.
 //!
-//! A block that is written on one line stays there where it fits and has neither comments nor blocks
-//! in it.
+//! A block written on one line stays on one line if it fits and contains no comments or blocks.
 //!
-//! Numbers and strings keep their spelling. Comments keep their place: behind a statement, on a line
-//! of their own or within a statement. At most one blank line is kept between statements, none at
-//! the edges of a block. Laying out twice changes nothing.
+//! Numbers and strings keep their spelling. Comments keep their place: after a statement, on a line
+//! of their own, or within a statement. At most one blank line is kept between statements, and none
+//! at the edges of a block. The layout of a laid-out text is the same text.
 
 use crate::error::SyntaxError;
 use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
@@ -14,7 +13,7 @@ use crate::{lexer, parser};
 use sensedsl_limits::TOKENS_MAX;
 
 const INDENT: &str = "    ";
-/// Longest line of a block that stays on one.
+/// The longest line for a block that stays on one line.
 const LINE_LETTERS_MAX: usize = 100;
 
 /// The text in its canonical layout, or the mistakes that prevent it.
@@ -42,7 +41,7 @@ pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
     Ok(printer.finish())
 }
 
-/// On which sides of it a token takes a space, if its neighbour does too.
+/// The sides on which a token takes a space, if its neighbour does too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Sides {
     before: bool,
@@ -59,14 +58,14 @@ fn sides(token: &SyntaxToken) -> Sides {
         let spaced = parent.is_some_and(|node| node.children().any(is_operation));
         return Sides { before: spaced, after: spaced };
     }
-    // A sign stands at what it is of; an operator does not.
+    // A sign has no space before its operand; an operator does.
     let is_sign = matches!(kind, Plus | Minus) && !within(SyntaxKind::Binary);
     let is_array = kind == LBracket && within(SyntaxKind::Type);
     let before = !matches!(kind, Semicolon | Comma | RBracket | RParen) && !is_array;
     Sides { before, after: !matches!(kind, LBracket | LParen) && !is_sign }
 }
 
-/// Whether the block that the brace opens is written on one line and can stay there.
+/// Whether the block that the brace opens is written on one line and can stay that way.
 fn stays_inline(brace: &SyntaxToken, depth: usize) -> bool {
     let Some(block) = brace.parent().filter(|block| block.kind() != SyntaxKind::Board) else {
         return false;
@@ -95,35 +94,35 @@ fn stays_inline(brace: &SyntaxToken, depth: usize) -> bool {
     braces == 2 && letters <= LINE_LETTERS_MAX
 }
 
-/// The lines of a text, whichever way they end.
+/// The lines of a text, with any kind of line ending.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split("\r\n").flat_map(|lines| lines.split(['\n', '\r']))
 }
 
-/// What was printed last.
+/// The last thing printed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Last {
     Nothing,
     Token,
     LineComment,
     BlockComment {
-        /// Whether nothing but comments stands before it on its line.
+        /// Whether only comments are before it on its line.
         leads: bool,
     },
 }
 
 struct Printer {
     out: String,
-    /// How many blocks are open.
+    /// The number of open blocks.
     depth: usize,
     last: Last,
-    /// The last token, comments aside.
+    /// The last token that is not a comment.
     last_token: Option<SyntaxKind>,
-    /// Whether that takes a space after it.
+    /// Whether that token takes a space after it.
     space_after: bool,
     /// The line breaks in the source since the last token or comment.
     breaks: usize,
-    /// Whether the block that is open stays on one line.
+    /// Whether the open block stays on one line.
     is_inline: bool,
 }
 
@@ -211,8 +210,8 @@ impl Printer {
         self.space_after = sides.after;
     }
 
-    /// Begins a line, after a blank one if the source has one here. A line within a statement is
-    /// indented once more.
+    /// Begins a line, after a blank line if the source has one here. A continuation line of a
+    /// statement is indented once more.
     fn new_line(&mut self) {
         let between = self.between_statements();
         if self.last != Last::Nothing {

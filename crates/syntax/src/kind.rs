@@ -1,12 +1,12 @@
-//! The kinds of tokens and nodes of the tree, and the binding to the tree library.
+//! The kinds of tokens and nodes in the tree, and the binding to the tree library.
 //!
-//! Keywords are contextual: the lexer only knows identifiers, and the parser turns an identifier
-//! into a keyword where the grammar has one, so `driver = srf08;` remains a property.
+//! Keywords are contextual: the lexer knows only identifiers, and the parser turns an identifier
+//! into a keyword where the grammar expects one, so that `driver = srf08;` remains a property.
 
-/// Makes the type, and the list of all kinds by their discriminants.
+/// Generates the type, and the list of all kinds by their discriminants.
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident,)*) => {
-        /// What a token or a node of the tree is.
+        /// The kind of a token or a node.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
         #[expect(missing_docs, reason = "each kind is named after the grammar")]
@@ -14,18 +14,18 @@ macro_rules! kinds {
             $($(#[$doc])* $kind,)*
         }
 
-        /// Every kind at the index of its discriminant, the way back from a raw kind.
+        /// Every kind at the index of its discriminant, to convert a raw kind back.
         const ALL: &[SyntaxKind] = &[$(SyntaxKind::$kind),*];
     };
 }
 
 kinds! {
-    // Trivia: the parser steps over these.
+    // Trivia, which the parser skips.
     Bom,
     Whitespace,
     LineComment,
     BlockComment,
-    /// Characters that belong to no token; reported by the lexer, skipped by the parser.
+    /// Characters that do not belong to any token; reported by the lexer, skipped by the parser.
     Unknown,
 
     // Tokens.
@@ -72,7 +72,7 @@ kinds! {
     ReserveKw,
     ReleaseKw,
     AllowKw,
-    /// Before a number: it is the code, not the shown value.
+    /// Before a number: marks it as a code, not a shown value.
     RawKw,
 
     // Nodes.
@@ -100,7 +100,7 @@ kinds! {
     NameValue,
     StringValue,
     List,
-    /// A name, a bracketed or another signed value with a sign before it: `-N`, `-(1 + N)`.
+    /// A sign before a name, a bracketed value or another signed value: `-N`, `-(1 + N)`.
     Signed,
     Paren,
     Binary,
@@ -110,7 +110,7 @@ kinds! {
 }
 
 impl SyntaxKind {
-    /// Whether the parser steps over tokens of this kind.
+    /// Whether the parser skips tokens of this kind.
     #[must_use]
     pub fn is_trivia(self) -> bool {
         self <= Self::Unknown
@@ -129,7 +129,7 @@ impl SyntaxKind {
     }
 }
 
-/// The binding of [`SyntaxKind`] to the tree library; it has no values.
+/// The type that binds [`SyntaxKind`] to the tree library; it has no values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SenseDsl {}
 

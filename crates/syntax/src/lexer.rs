@@ -1,8 +1,8 @@
 //! From text to tokens. Every character of the text belongs to exactly one token, in order, so that
-//! the tokens spell the text again; what no token begins with becomes an `Unknown` token.
+//! the tokens spell the whole text; characters that begin no token become `Unknown` tokens.
 //!
-//! The mistakes within a token (an unknown escape, a digit that the base does not have) are found
-//! here; whether the token is at the right place is for the parser.
+//! Mistakes within a token (an unknown escape, a digit that the base does not have) are found here;
+//! the parser checks whether a token is in the right place.
 
 use crate::error::{Errors, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
@@ -13,22 +13,22 @@ use rowan::{TextRange, TextSize};
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Token {
-    /// What it is.
+    /// The kind of the token.
     pub(crate) kind: SyntaxKind,
-    /// Where it is.
+    /// The range of the token.
     pub(crate) range: TextRange,
 }
 
-/// All tokens of a text and the mistakes within them.
+/// All tokens of a text, and the mistakes within them.
 #[derive(Debug)]
 pub(crate) struct Lexed {
     pub(crate) tokens: Vec<Token>,
     pub(crate) errors: Errors,
-    /// Where the text was left because it has more tokens than are read.
+    /// Where lexing stopped because the text has more tokens than are read.
     pub(crate) cut: Option<TextSize>,
 }
 
-/// Splits `text` into tokens, `most` at the most.
+/// Splits `text` into at most `most` tokens.
 pub(crate) fn lex(text: &str, most: usize) -> Lexed {
     let (tokens, errors) = (Vec::new(), Errors::default());
     let mut lexer = Lexer { text, position: 0, tokens, errors };
@@ -43,7 +43,7 @@ pub(crate) fn lex(text: &str, most: usize) -> Lexed {
     Lexed { tokens: lexer.tokens, errors: lexer.errors, cut }
 }
 
-/// An offset as the tree counts it. Texts are far below 4 GiB: the binary refuses larger files.
+/// An offset in the tree's type. Texts are far below 4 GiB: the binary refuses larger files.
 fn size(offset: usize) -> TextSize {
     TextSize::new(u32::try_from(offset).unwrap_or(u32::MAX))
 }
@@ -113,7 +113,7 @@ impl<'a> Lexer<'a> {
             '0'..='9' => self.number(start),
             _ if is_name_start(first) => {
                 self.bump_while(is_name_continue);
-                // `deg/s` is one word behind a number, and a division elsewhere.
+                // `deg/s` is one word after a number, and a division elsewhere.
                 let before = self.text.get(..start).unwrap_or_default().trim_end_matches(' ');
                 let is_unit = before.ends_with(|last: char| last.is_ascii_digit());
                 let length = Unit::with_slash(rest).filter(|_| is_unit);
@@ -128,7 +128,7 @@ impl<'a> Lexer<'a> {
     /// Whether what begins there can be the unit of a number: `50 %`.
     fn is_behind_a_number(&self, start: usize) -> bool {
         let before = self.text.get(..start).unwrap_or_default().trim_end_matches(' ');
-        // Before an operand it is meant as an operator, which there is not.
+        // Before an operand it was meant as an operator that does not exist.
         let behind = self.rest().trim_start_matches(' ');
         let is_operator = behind.starts_with(|next: char| next.is_alphanumeric() || next == '(');
         before.ends_with(|last: char| last.is_ascii_digit()) && !is_operator
@@ -139,7 +139,7 @@ impl<'a> Lexer<'a> {
         if let Some(length) = body.find("*/") {
             self.position = start + 2 + length + 2;
         } else {
-            // The place of the mistake is where the comment begins, not the rest of the file.
+            // The place of the mistake is the beginning of the comment, not the rest of the file.
             self.position = self.text.len();
             self.error(SyntaxErrorKind::UnterminatedComment, start, start + 2);
         }
@@ -157,7 +157,7 @@ impl<'a> Lexer<'a> {
                     let (escape, meaning) = literal::escape(self.rest());
                     let at = self.position;
                     self.position += escape.len();
-                    // A `\` at the end of the line is told as the unterminated string that it is.
+                    // A `\` at the end of the line is reported as an unterminated string.
                     if meaning.is_none() && escape.len() > 1 {
                         let kind = SyntaxErrorKind::UnknownEscape { escape: escape.to_owned() };
                         self.error(kind, at, self.position);
@@ -196,8 +196,8 @@ impl<'a> Lexer<'a> {
         SyntaxKind::Float
     }
 
-    /// The digits after `0x` or `0b`. Decimal digits beyond the base belong to the number as well:
-    /// `0b102` is one mistaken number, not two numbers.
+    /// The digits after `0x` or `0b`. Decimal digits that the base does not have still belong to
+    /// the number: `0b102` is one wrong number, not two numbers.
     fn based_integer(&mut self, start: usize, base: u32) -> SyntaxKind {
         let digits_start = self.position;
         self.bump_while(|character| is_digit(character) || character.is_digit(base));
@@ -215,8 +215,8 @@ impl<'a> Lexer<'a> {
         SyntaxKind::Int
     }
 
-    /// `..`, after its first dot. A third one is a mistake of its own: ranges have two here, whatever
-    /// other languages have.
+    /// `..`, after its first dot. A third dot is a separate mistake: ranges have two dots here,
+    /// unlike in some other languages.
     fn dots(&mut self) -> SyntaxKind {
         self.bump();
         let start = self.position;
@@ -251,7 +251,7 @@ impl<'a> Lexer<'a> {
         SyntaxKind::Float
     }
 
-    /// `e`, a sign and digits. Without digits the `e` is not an exponent: it begins a unit.
+    /// `e`, a sign and digits. Without digits, the `e` begins a unit, not an exponent.
     fn exponent(&mut self) -> bool {
         if !matches!(self.peek(), Some('e' | 'E')) {
             return false;
@@ -267,7 +267,7 @@ impl<'a> Lexer<'a> {
     }
 
     fn check_size(&mut self, start: usize, fits: bool) {
-        // A number that lacks digits has been reported as that.
+        // A number without its digits has already been reported.
         let reported =
             self.errors.list.last().is_some_and(|error| error.range.start() == size(start));
         if !fits && !reported {
@@ -276,14 +276,14 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// A run of characters that no token begins with, reported once. A `#` takes the rest of its
-    /// line along: it is meant to begin a comment.
+    /// A run of characters that begin no token, reported once. A `#` includes the rest of its line,
+    /// because it is meant to begin a comment.
     fn unknown(&mut self, start: usize, first: char) -> SyntaxKind {
         if first == '#' {
             self.bump_while(|character| !is_line_end(character));
         }
         if is_other_quote(first) {
-            // A text between such quotes is one mistake.
+            // A text between such quotes is a single mistake.
             let ends = |character| is_other_quote(character) || is_line_end(character);
             let length = self.rest().find(ends).unwrap_or_default();
             if self.rest().get(length..).is_some_and(|rest| rest.starts_with(is_other_quote)) {
@@ -322,7 +322,7 @@ fn punctuation(character: char) -> Option<SyntaxKind> {
     })
 }
 
-/// White space is that of ASCII; a no-break space from a web page is worth a report.
+/// Only ASCII white space counts; a no-break space from a web page deserves a report.
 fn is_space(character: char) -> bool {
     matches!(character, ' ' | '\t' | '\n' | '\r' | '\u{b}' | '\u{c}')
 }
@@ -335,7 +335,7 @@ fn is_digit(character: char) -> bool {
     character.is_ascii_digit() || character == '_'
 }
 
-/// Letters beyond ASCII belong to a name, which the parser then reports as a whole.
+/// Non-ASCII letters belong to a name, which the parser then reports as a whole.
 fn is_name_start(character: char) -> bool {
     character.is_alphabetic() || character == '_'
 }
@@ -344,7 +344,7 @@ fn is_name_continue(character: char) -> bool {
     character.is_alphanumeric() || character == '_'
 }
 
-/// Quotes that are not `"`: those of other languages and of word processors.
+/// Quotes other than `"`, from other languages and from word processors.
 fn is_other_quote(character: char) -> bool {
     matches!(character, '\'' | '`' | '\u{2018}'..='\u{201f}' | '«' | '»' | '‹' | '›')
 }
@@ -364,8 +364,8 @@ fn starts_token(rest: &str) -> bool {
         && characters.next().is_some_and(|next| next == '.' || next.is_ascii_digit())
 }
 
-/// The length of a word such as `8N1`: digits, letters, digits. Such a word is not a number with a unit,
-/// since no unit has digits; serial lines call their frames like that.
+/// The length of a word such as `8N1`: digits, letters, digits. Such a word is not a number with a
+/// unit, because no unit contains digits; it is a frame format of a serial line.
 fn frame_word(text: &str) -> Option<usize> {
     let run = |from: usize, of: fn(&u8) -> bool| {
         let rest = text.as_bytes().get(from..).unwrap_or_default();

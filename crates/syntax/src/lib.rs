@@ -1,9 +1,9 @@
 //! From the text of a `.sense` file to a lossless tree, typed views over it and a canonical layout.
 //!
-//! In comes any text; out comes a tree that spells exactly that text, as far as the budget of tokens
-//! goes, and a list of mistakes. Parsing never fails and never panics: one tree serves the compiler,
-//! the formatter and the editor, also while the text is half written. Nothing here knows boards, kinds or properties: what the names
-//! mean is the business of the model.
+//! Any text goes in. Out come a tree that spells exactly that text, as far as the token budget
+//! goes, and a list of mistakes. Parsing never fails and never panics: one tree serves the
+//! compiler, the formatter and the editor, even while the text is incomplete. Nothing here knows
+//! boards, kinds or properties: the model decides what names mean.
 //!
 //! ```
 //! use sensedsl_syntax::parse;
@@ -45,13 +45,13 @@ impl Parse {
         SyntaxNode::new_root(self.green.clone())
     }
 
-    /// The mistakes in the order of the text.
+    /// The mistakes, in text order.
     #[must_use]
     pub fn errors(&self) -> &[SyntaxError] {
         &self.errors
     }
 
-    /// How many tokens were read, spaces and comments included.
+    /// The number of tokens read, including spaces and comments.
     #[must_use]
     pub fn tokens(&self) -> usize {
         self.tokens
@@ -71,8 +71,8 @@ pub fn parse(text: &str) -> Parse {
     parse_within(text, TOKENS_MAX)
 }
 
-/// Parses the text of a file as far as `most` tokens go; that there are more is one of the mistakes,
-/// and the tree does not have the rest of the text.
+/// Parses the text of a file up to `most` tokens. Any further tokens are reported as one of the
+/// mistakes, and that part of the text is not in the tree.
 #[must_use]
 pub fn parse_within(text: &str, most: usize) -> Parse {
     let lexed = lexer::lex(text, most);
@@ -84,7 +84,7 @@ pub fn parse_within(text: &str, most: usize) -> Parse {
 ///
 /// # Errors
 ///
-/// A text with mistakes is not laid out: the mistakes are returned.
+/// The mistakes, because a text with mistakes is not laid out.
 pub fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
     fmt::format(text)
 }

@@ -1,7 +1,7 @@
-//! What the text of a number or string token means. Total: broken tokens yield `None` or the part
-//! that can be understood; the lexer has reported them.
+//! The meaning of a number or string token. Total: broken tokens yield `None` or the part that can
+//! be understood; the lexer has already reported them.
 
-/// The value of an integer token, or `None` when it does not fit or has no digits.
+/// The value of an integer token, or `None` if it does not fit or has no digits.
 pub(crate) fn integer(text: &str) -> Option<u64> {
     let (digits, base) = split_base(text);
     let mut value: u64 = 0;
@@ -14,7 +14,7 @@ pub(crate) fn integer(text: &str) -> Option<u64> {
     seen.then_some(value)
 }
 
-/// The value of a float token, or `None` when it is not finite or incomplete.
+/// The value of a float token, or `None` if it is not finite or incomplete.
 pub(crate) fn float(text: &str) -> Option<f64> {
     let plain: String = text.chars().filter(|&character| character != '_').collect();
     plain.parse().ok().filter(|value: &f64| value.is_finite())
@@ -31,7 +31,8 @@ pub(crate) fn split_base(text: &str) -> (&str, u32) {
     }
 }
 
-/// The content of a string token: no quotes, escapes replaced, unknown escapes left as they are.
+/// The content of a string token: without quotes, with escapes replaced, and unknown escapes
+/// unchanged.
 pub(crate) fn unescape(token: &str) -> String {
     let mut rest = token.strip_prefix('"').unwrap_or(token);
     let mut content = String::with_capacity(rest.len());
@@ -55,9 +56,9 @@ pub(crate) fn unescape(token: &str) -> String {
     content
 }
 
-/// The escape that `text` begins with, and the character it stands for if there is such an escape.
+/// The escape that `text` begins with, and the character it stands for, if the escape exists.
 ///
-/// `text` begins with `\`. The escape never reaches over a quote that it does not itself name, nor
+/// `text` begins with `\`. The escape never extends over a quote that it does not itself name, or
 /// over the end of the line, so that a broken escape does not swallow the end of its string.
 pub(crate) fn escape(text: &str) -> (&str, Option<char>) {
     let after = text.get(1..).unwrap_or_default();

@@ -1,12 +1,12 @@
-//! From tokens to the tree: recursive descent that never gives up.
+//! From tokens to the tree: recursive descent that never stops at a mistake.
 //!
-//! This file is the machinery (look-ahead, building the tree, reporting); the grammar is in
-//! [`items`], [`heads`], [`statements`], [`names`] and [`expressions`]. Every token ends up in the tree exactly once. A mistake
-//! is reported where it is, what cannot be understood goes into an `Error` node, and parsing goes on
-//! at the next statement.
+//! This file has the machinery (look-ahead, building the tree, reporting). The grammar is in
+//! [`items`], [`heads`], [`statements`], [`names`] and [`expressions`]. Every token ends up in the
+//! tree exactly once. A mistake is reported where it is, tokens that cannot be understood go into
+//! an `Error` node, and parsing continues at the next statement.
 //!
-//! Two rules keep one mistake from being reported twice: no second complaint is made before another
-//! token has been consumed, and none where the lexer has found unknown characters just before.
+//! Two rules keep a mistake from being reported twice: there is no second report before another
+//! token has been consumed, and none right after unknown characters that the lexer has reported.
 
 mod expressions;
 mod heads;
@@ -20,22 +20,22 @@ use crate::lexer::{Lexed, Token};
 use rowan::{GreenNode, GreenNodeBuilder, Language, TextRange, TextSize};
 use std::collections::BTreeSet;
 
-/// How deep blocks, lists and expressions may nest, together. A design needs a few; the bound
-/// protects the stack from hostile input, here and wherever the tree is walked.
+/// How deep blocks, lists and expressions together may nest. A design needs only a few levels; the
+/// limit protects the stack from hostile input, here and wherever the tree is walked.
 pub(crate) const NESTING_LIMIT: usize = 32;
 
-/// Builds the tree of `text` and lists all its mistakes, those of the lexer included, in order.
+/// Builds the tree of `text` and lists all its mistakes in order, including the lexer's.
 pub(crate) fn parse(text: &str, lexed: &Lexed) -> (GreenNode, Vec<SyntaxError>) {
     let mut parser = Parser::new(text, &lexed.tokens);
     parser.file();
     let mut errors = parser.unswallowed_errors(&lexed.errors.list);
     let more = parser.errors.more + lexed.errors.more;
     if lexed.cut.is_some() {
-        // What is missing at the cut stands behind it.
+        // What seems to be missing at the cut may be in the text after it.
         errors.retain(|error| !error.range.is_empty() || error.range.start() < parser.gap().end());
     }
     errors.extend_from_slice(&lexed.errors.list);
-    // At one place, what is missing comes before what is wrong with the next token.
+    // At the same place, a missing item comes before a mistake in the next token.
     errors.sort_by_key(|error| (error.range.start(), error.range.end()));
     let end = TextRange::empty(lexed.cut.unwrap_or(parser.gap().end()));
     if lexed.cut.is_some() {
@@ -52,21 +52,21 @@ pub(crate) fn parse(text: &str, lexed: &Lexed) -> (GreenNode, Vec<SyntaxError>) 
 struct Parser<'a> {
     text: &'a str,
     tokens: &'a [Token],
-    /// The indices of the tokens that are no trivia.
+    /// The indices of the tokens that are not trivia.
     significant: Vec<usize>,
-    /// How many significant tokens are consumed.
+    /// The number of significant tokens consumed.
     consumed: usize,
-    /// How many tokens of any kind are in the tree.
+    /// The number of tokens of any kind in the tree.
     built: usize,
     builder: GreenNodeBuilder<'static>,
     errors: Errors,
-    /// `consumed` at the time of the last complaint.
+    /// The value of `consumed` at the last report.
     complained: Option<usize>,
     /// The block whose items are being parsed.
     block: Block,
-    /// How many blocks, lists and operations are open.
+    /// The number of open blocks, lists and operations.
     depth: usize,
-    /// How many more `{` than `}` the file has, as far as not yet explained by a report.
+    /// How many more `{` than `}` the file has, minus those already explained by a report.
     unclosed: usize,
 }
 
@@ -89,7 +89,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    // Look-ahead; trivia do not count.
+    // Look-ahead, which ignores trivia.
 
     fn significant_token(&self, index: usize) -> Option<Token> {
         self.significant.get(index).and_then(|&index| self.tokens.get(index)).copied()
@@ -111,7 +111,7 @@ impl<'a> Parser<'a> {
         self.nth_at(0, kind)
     }
 
-    /// The text of a token ahead; empty after the last.
+    /// The text of a token ahead; empty after the last token.
     fn nth_text(&self, n: usize) -> &'a str {
         self.nth(n)
             .and_then(|token| self.text.get(std::ops::Range::from(token.range)))
@@ -144,7 +144,7 @@ impl<'a> Parser<'a> {
         self.tokens.get(start..end).unwrap_or_default()
     }
 
-    /// Whether the token `n` ahead begins a line, or there is none.
+    /// Whether the token `n` ahead begins a line or does not exist.
     fn nth_begins_line(&self, n: usize) -> bool {
         let breaks = |token: &Token| {
             let text = self.text.get(std::ops::Range::from(token.range));
@@ -159,7 +159,7 @@ impl<'a> Parser<'a> {
 
     // Building the tree.
 
-    /// Begins a node at the next token; the trivia before it stay outside.
+    /// Begins a node at the next token; the trivia before it stays outside.
     fn start(&mut self, kind: SyntaxKind) {
         self.build_trivia();
         self.builder.start_node(SenseDsl::kind_to_raw(kind));
@@ -169,7 +169,7 @@ impl<'a> Parser<'a> {
         self.builder.finish_node();
     }
 
-    /// Consumes the next token as what it is.
+    /// Consumes the next token with its own kind.
     fn bump(&mut self) {
         if let Some(kind) = self.kind() {
             self.bump_as(kind);
@@ -229,13 +229,14 @@ impl<'a> Parser<'a> {
 
     // Reporting.
 
-    /// The end of the last consumed token, as an empty range: the place of what is missing.
+    /// The end of the last consumed token, as an empty range, which is the place of a missing
+    /// token.
     fn gap(&self) -> TextRange {
         let last = self.consumed.checked_sub(1).and_then(|index| self.significant_token(index));
         TextRange::empty(last.map_or(TextSize::new(0), |token| token.range.end()))
     }
 
-    /// The range of the next token; after the last token, the place directly behind it.
+    /// The range of the next token; after the last token, the place directly after it.
     fn here(&self) -> TextRange {
         self.nth(0).map_or_else(|| self.gap(), |token| token.range)
     }
@@ -249,7 +250,7 @@ impl<'a> Parser<'a> {
         self.complained = Some(self.consumed);
     }
 
-    /// Reports, unless it would be a consequence of what has just been reported.
+    /// Reports a mistake, unless it would be a consequence of what has just been reported.
     fn complain(&mut self, kind: SyntaxErrorKind, range: TextRange) {
         let unknown = |token: &Token| token.kind == SyntaxKind::Unknown;
         let explained =
@@ -259,14 +260,15 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Complains that something else is here: at the token, or where the line ends too early.
+    /// Reports an unexpected token: at the token, or at the end of the line if that comes too
+    /// early.
     fn expected(&mut self, expected: Expected) {
         let range = if self.begins_line() { self.gap() } else { self.here() };
         self.complain(SyntaxErrorKind::Expected { expected, found: self.found() }, range);
     }
 
-    /// The errors without those that something is missing which an unterminated comment or string
-    /// has swallowed.
+    /// The errors, without those for missing tokens that an unterminated comment or string has
+    /// swallowed.
     fn unswallowed_errors(&mut self, lexer_errors: &[SyntaxError]) -> Vec<SyntaxError> {
         let in_comment = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnterminatedComment;
         let in_string = |error: &&SyntaxError| error.kind == SyntaxErrorKind::UnterminatedString;

@@ -1,4 +1,4 @@
-//! The units a number may have, and the way from a word to one of them.
+//! The units that a number may have, and how a word maps to one of them.
 
 use std::fmt;
 
@@ -89,7 +89,7 @@ impl Unit {
         Self::MetresPerSecondSquared,
     ];
 
-    /// The unit as it is written.
+    /// The unit as written.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -121,13 +121,14 @@ impl Unit {
         }
     }
 
-    /// The unit that is written like this, if there is one.
+    /// The unit that is written like this, if it exists.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|unit| unit.name() == name)
     }
 
-    /// How long the unit with a slash is that a text begins with: 5 of `deg/s;`. A longer word is none.
+    /// The length of the unit with a slash that a text begins with: 5 for `deg/s;`. A longer word
+    /// does not count.
     pub(crate) fn with_slash(text: &str) -> Option<usize> {
         let names = Self::ALL.map(Self::name).into_iter().filter(|name| name.contains('/'));
         let ends = |name: &&str| {
@@ -139,9 +140,9 @@ impl Unit {
         names.filter(ends).map(str::len).max()
     }
 
-    /// The unit that is probably meant by a word that is none.
+    /// The unit probably meant by a word that is not a unit.
     pub(crate) fn similar(word: &str) -> Option<&'static str> {
-        // Both code points of the micro sign, then words that are spelled out.
+        // Both code points of the micro sign, then units as words.
         let lower = word.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
         let spelled_out = [
             ("usec", Self::Microseconds),

@@ -1,5 +1,5 @@
-//! Malformed texts and exactly what is reported for each: `line:column`, the text that is marked
-//! (nothing where something is missing) and the kind of mistake.
+//! Malformed texts and exactly what is reported for each: `line:column`, the marked text (empty
+//! where something is missing) and the kind of mistake.
 
 mod mistakes;
 
@@ -443,7 +443,7 @@ sensor Last returns uint32 {
     )]);
 }
 
-/// What is understood of a broken file is in the views as if it were whole.
+/// The parts of a broken file that are understood appear in the views as if the file were correct.
 #[test]
 fn mistakes_leave_the_rest_intact() {
     let text = "board A { Sensor X return uint8 { id 17; delay = 60 mss } reserve PA0 PA1; }";

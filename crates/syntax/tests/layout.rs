@@ -113,7 +113,7 @@ fn comments_keep_their_place() {
         "board A {\nid = // why\n17;\na = /* b */ 17 /* c */ ;\nl = [ /* d */ 1, // e\n2\n// f\n];\n}",
         "board A {\n    id = // why\n        17;\n    a = /* b */ 17 /* c */;\n    l = [/* d */ 1, // e\n        2\n        // f\n        ];\n}\n",
     );
-    // The lines of a comment are left as they are.
+    // The lines of a comment stay as they are.
     check("board A {\r\n/* a\r\n   b  \r\n */\r\n}", "board A {\n    /* a\n   b\n */\n}\n");
     check("board A { /* empty */ }", "board A { /* empty */\n}\n");
 }

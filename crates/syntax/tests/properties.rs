@@ -8,7 +8,7 @@ use invariants::check;
 use proptest::prelude::*;
 use sensedsl_syntax::{SyntaxErrorKind, parse, parse_within};
 
-/// Pieces that texts of the language are made of, and some that are not.
+/// Pieces of the language, and some that are not.
 fn piece() -> impl Strategy<Value = &'static str> {
     prop::sample::select(vec![
         "board",
@@ -87,7 +87,7 @@ fn piece() -> impl Strategy<Value = &'static str> {
     ])
 }
 
-/// White space and comments that may stand anywhere.
+/// White space and comments, which are allowed anywhere.
 fn trivia() -> impl Strategy<Value = &'static str> {
     prop::sample::select(vec![
         " ",
@@ -227,11 +227,11 @@ proptest! {
         let mut text = String::new();
         for token in items.concat() {
             text.push_str(token);
-            // Numbers and units excepted, a line break is as good as a space.
+            // Except in numbers and before units, a line break is as good as a space.
             let space = spaces.next().unwrap_or(" ");
             let in_number = token.starts_with(|c: char| c.is_ascii_digit());
             text.push_str(if in_number { " " } else { space });
-            // A division that a comment touches would begin one.
+            // A division that touches a comment would begin one.
             if token == "/" && space.starts_with('/') {
                 text.insert(text.len() - space.len(), ' ');
             }
@@ -251,7 +251,7 @@ proptest! {
     }
 }
 
-/// What takes long where something is quadratic, and much stack where something recurses.
+/// Pieces that take long where something is quadratic, and much stack where something recurses.
 const HOSTILE: &[&str] = &[
     "[",
     "]",
@@ -321,8 +321,8 @@ const HOSTILE: &[&str] = &[
 fn hostile_texts_take_linear_time_and_little_stack() {
     for piece in HOSTILE {
         let text = piece.repeat(1_000_000 / piece.len());
-        // Linear time is some 100 ms here; quadratic time would be minutes. What else the machine does
-        // may take seconds once, and not three times.
+        // Linear time is about 100 ms here; quadratic time would be minutes. Other load on the
+        // machine may cost seconds once, but not three times.
         let is_quick = (0..3).any(|_| {
             let start = std::time::Instant::now();
             let parsed = parse_within(&text, usize::MAX);
@@ -340,7 +340,7 @@ fn deep_nesting_is_reported_and_takes_little_stack() {
         let parsed = parse(&text);
         assert_eq!(parsed.syntax().text(), text.as_str());
         let too_deep = SyntaxErrorKind::NestingTooDeep { limit: 32 };
-        // `a = [a = [` is not nested: there the `]` is missing.
+        // `a = [a = [` is not nested: its `]` is missing.
         let expected = usize::from(close == "}");
         let reported = parsed.errors().iter().filter(|error| error.kind == too_deep).count();
         assert_eq!(reported, expected, "{open}");

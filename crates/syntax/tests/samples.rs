@@ -1,5 +1,5 @@
-//! Whole files with everything the language has: they are read without a mistake, are laid out as
-//! they stand, and none of their mutations breaks what holds for every text.
+//! Whole files with everything in the language: they are read without a mistake, their layout does
+//! not change, and no mutation of them breaks what holds for every text.
 #![expect(clippy::disallowed_methods, reason = "a long run is asked for in the environment")]
 #![allow(
     clippy::indexing_slicing,
@@ -33,7 +33,7 @@ fn samples_are_read_and_laid_out() {
     }
 }
 
-/// Pieces that mean something somewhere.
+/// Pieces that mean something in some place.
 const PIECES: &[&str] = &[
     "chip C {",
     "connection c for i2c {",
@@ -92,7 +92,7 @@ const PIECES: &[&str] = &[
     "returns",
 ];
 
-/// Small numbers from a seed, the same everywhere.
+/// Small numbers from a seed, the same on every machine.
 struct Random(u64);
 
 impl Random {
@@ -105,7 +105,7 @@ impl Random {
     }
 }
 
-/// The items of all samples: shorter than whole files, and as sound.
+/// The items of all samples, which are shorter than whole files and just as correct.
 fn items() -> Vec<&'static str> {
     let mut items = Vec::new();
     for (_, text) in SAMPLES {
@@ -119,7 +119,7 @@ fn items() -> Vec<&'static str> {
     items
 }
 
-/// What may stand for a space, and what for a digit, without being a mistake.
+/// What may replace a space, and what a digit, without being a mistake.
 const SPACES: &[&str] = &["\n", " /* x */ ", " // x\n", "\n\n\n", "\t", "\r\n", "/*\n x*/"];
 const VALUES: &[&str] =
     &["(1 + 2)", "N", "-N", "1 * 2", "- 3 / 4", "(5)", "[1..2, 3]", "1..N", "+-1", "0x1F"];
@@ -160,7 +160,7 @@ fn mutation(number: u64, items: &[&str]) -> String {
     text.into_iter().collect()
 }
 
-/// `SENSEDSL_MUTATIONS=1000000` for a long run, with `--release`.
+/// Set `SENSEDSL_MUTATIONS=1000000` for a long run, with `--release`.
 #[test]
 fn mutated_samples() {
     let wanted = std::env::var("SENSEDSL_MUTATIONS");
@@ -183,7 +183,7 @@ fn mutated_samples() {
         let started: Vec<_> = (0..threads).map(|first| scope.spawn(move || run(first))).collect();
         started.into_iter().map(|thread| thread.join().unwrap()).sum()
     });
-    // Enough of them are sound for the layout to be tried as well.
+    // Enough of them are correct that the layout is tested as well.
     assert!(laid_out > usize::try_from(count).unwrap() / 4, "{laid_out} of {count}");
     println!("{count} mutations, {laid_out} laid out");
 }

@@ -38,7 +38,7 @@ driver srf08 for i2c {
 actuator Free accepts bool {}
 "#;
 
-/// A value in the words of the views, if it is complete.
+/// A value as the views see it, if it is complete.
 fn describe(value: &Value) -> Option<String> {
     Some(match value {
         Value::Number(number) => {
@@ -288,7 +288,7 @@ fn what_is_computed() {
             sensedsl_syntax::TextRange::at(10.into(), (text.len() as u32).into())
         );
     }
-    // One operand of a broken operation is not taken for the other.
+    // One operand of a broken operation is not mistaken for the other.
     let broken = parse("const A = 1 + ; const B = ..2;").ast();
     let values: Vec<Value> = broken.constants().filter_map(|one| one.value()).collect();
     let (Value::Binary(sum), Value::Range(range)) = (&values[0], &values[1]) else {

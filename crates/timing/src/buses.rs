@@ -1,8 +1,9 @@
-//! Buses: how long the transfers of their devices take, at the clock that a bus gets.
+//! Buses: how long the transfers of their devices take at the bus's clock.
 //!
-//! An I2C transfer is a start condition, nine clocks a byte, a second start before what is read, and a stop
-//! condition with the time that the bus stays free after it (UM10204, 3.1). The conditions are counted as a clock each:
-//! the specification's least times are between 0.4 and 0.7 of one for each part of them.
+//! An I2C transfer is a start condition, nine clocks per byte, a second start condition before the
+//! bytes that are read, and a stop condition with the time that the bus stays free after it
+//! (UM10204, 3.1). Each condition is counted as one clock: the specification's minimum times for
+//! each part of them are between 0.4 and 0.7 of a clock.
 
 use std::collections::BTreeMap;
 
@@ -23,16 +24,18 @@ use crate::{Context, Wired};
 
 /// Clocks of a byte with its acknowledge.
 const I2C_BYTE_CLOCKS: u64 = 9;
-/// Clocks of a start condition, and of a stop with the pause after it.
+/// Clocks of a start condition, and of a stop condition with the pause after it.
 const I2C_CONDITION_CLOCKS: u64 = 1;
 /// Clocks of a byte.
 const SPI_BYTE_CLOCKS: u64 = 8;
-/// Bits of a frame with an extended identifier around its data, with the bits that are stuffed in at worst.
+/// Bits of a frame with an extended identifier, without its data, including the stuff bits in the
+/// worst case.
 const CAN_FRAME_BITS: u64 = 67 + 13;
-/// Bits of a byte, with those that are stuffed in at worst.
+/// Bits of a byte, including the stuff bits in the worst case.
 const CAN_BYTE_BITS: u64 = 10;
 
-/// What a device does on its bus in one of its cycles, and how many milliseconds lie between two such cycles.
+/// What a device does on its bus in one of its cycles, and the milliseconds between two such
+/// cycles.
 pub(crate) struct Script {
     pub(crate) transfers: Transfers,
     pub(crate) clocks: u64,
@@ -40,14 +43,15 @@ pub(crate) struct Script {
 }
 
 impl Transfers {
-    /// One transfer that is only a value, without what is on the bus around it.
+    /// One transfer of only a value, without the bytes around it on the bus.
     fn of_value(device: &Device, value_bytes: u64) -> Self {
         let elements = device.value.value.count() as u64;
         Self { count: 1, phases: 1, bytes: 0, elements, value_bytes }
     }
 }
 
-/// From one measurement of an I2C device to the next: it is asked each cycle, and answers once its waiting time is over.
+/// The time from one measurement of an I2C device to the next: it is polled each cycle, and answers
+/// once its waiting time is over.
 pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
     let delay_ms = delay_ms.max(1);
     wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1).saturating_mul(delay_ms)
@@ -57,7 +61,8 @@ pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) ->
     let device = wired.device;
     let least = context.board.profile().map_or(1, |profile| profile.i2c.read_bytes_min);
     let length = u64::from(i2c.length_bytes);
-    // Only a part whose registers have two bytes can have one beyond 0xFF; others of it count a byte less.
+    // Only a part whose registers have two bytes can have one beyond 0xFF; its other registers are
+    // counted as one byte less.
     let register = i2c.register.map_or(0, |register| 1 + u64::from(register > 0xFF));
     let mut transfers = Transfers::of_value(device, length);
     match device.direction {
@@ -93,7 +98,7 @@ fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
     Script { transfers, clocks, every_ms: wired.device.delay_ms }
 }
 
-/// What a device on a bus does.
+/// The work of a device on its bus.
 pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script> {
     match &wired.device.kind {
         Kind::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
@@ -109,7 +114,7 @@ pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script>
     }
 }
 
-/// The greatest clock that the devices of a unit stand.
+/// The greatest clock that all devices of a unit support.
 pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) -> Option<u32> {
     let asked = on_bus.filter_map(|wired| match &wired.device.kind {
         Kind::I2c(i2c) => Some(i2c.speed_hz),
@@ -126,7 +131,7 @@ pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) 
     asked.min()
 }
 
-/// The exact clock of a bus whose devices stand so much.
+/// The exact clock of a bus whose devices support this clock.
 pub(crate) fn exact_hz(context: &Context<'_>, unit: &UnitName, asked_hz: u32) -> Option<u32> {
     let profile = context.board.profile()?;
     let facts = profile.unit(unit.as_str())?;
@@ -161,7 +166,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
         row.clock_hz = hz;
         row.a_second = Some(Count::Bytes(a_second(|script| script.transfers.bytes)));
         row.cycle_ns = hz.map(|hz| clocks_ns(clocks, hz));
-        // What is asked each cycle; a device that answers late only asks for less.
+        // The work that is due each cycle; a device that answers late only lowers it.
         row.busy_ns = hz.map(|hz| clocks_ns(a_second(|script| script.clocks), hz));
         let transfers = scripts().map(|script| script.transfers);
         let own_ns = row.cycle_ns.unwrap_or_default() + work.of_bus(transfers);

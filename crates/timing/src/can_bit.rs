@@ -1,24 +1,26 @@
-//! The bit of a CAN bus: the divider of the unit's clock, and the steps before and behind the sample.
+//! The bit of a CAN bus: the divider of the unit's clock, and the steps before and after the sample
+//! point.
 
 use sensedsl_board::profile::Dividers;
 
-/// Steps before the sample, beside the first, which every bit has.
+/// Most steps before the sample point, besides the first step, which every bit has.
 const BEFORE_MAX: u32 = 16;
-/// Steps behind the sample.
+/// Most steps after the sample point.
 const BEHIND_MAX: u32 = 8;
-/// A sample that comes earlier in the bit leaves too little for the way along the wire: thousandths of the bit.
+/// The earliest sample point, in thousandths of the bit; an earlier one leaves too little time for
+/// the propagation delay.
 const SAMPLE_MIN: u32 = 770;
-/// So many steps a bit may jump to follow its sender.
+/// The largest resynchronization jump, in steps.
 const JUMP_MAX: u32 = 4;
 
-/// What a bit is made of.
+/// The parts of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanBit {
-    /// Clocks of the unit in a step.
+    /// Clocks of the unit per step.
     pub divider: u32,
-    /// Steps before the sample, beside the first.
+    /// Steps before the sample point, besides the first.
     pub before: u32,
-    /// Steps behind it.
+    /// Steps after the sample point.
     pub behind: u32,
 }
 
@@ -29,27 +31,27 @@ impl CanBit {
         1 + self.before + self.behind
     }
 
-    /// Steps that a bit may jump to follow its sender.
+    /// The resynchronization jump, in steps.
     #[must_use]
     pub fn jump(self) -> u32 {
         self.behind.min(JUMP_MAX)
     }
 
-    /// Bits a second that come of the unit's clock, to the nearest.
+    /// The bit rate that results from the unit's clock, to the nearest hertz.
     #[must_use]
     pub fn rate_hz(self, unit_hz: u32) -> Option<u32> {
         let clocks = self.divider.checked_mul(self.steps())?;
         unit_hz.checked_add(clocks / 2)?.checked_div(clocks)
     }
 
-    /// When the sample is taken, in thousandths of the bit.
+    /// The sample point, in thousandths of the bit.
     fn sample(self) -> u32 {
         (1 + self.before) * 1_000 / self.steps()
     }
 }
 
-/// The bit whose rate is nearest to `asked_hz`; of equals the one that is sampled nearest to 87.5 %, then that of the
-/// finest steps. `None` if the dividers make none.
+/// The bit whose rate is nearest to `asked_hz`; of equal ones, the one whose sample point is
+/// nearest to 87.5 %, then the one with the finest steps. `None` if the dividers allow none.
 #[must_use]
 pub fn can_bit(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<CanBit> {
     let ([least, greatest], [few, many]) = (dividers.range, dividers.steps);
@@ -91,7 +93,7 @@ mod tests {
         assert_eq!(rate(800_000), Some(807_692));
     }
 
-    /// The clocks that firmware makes for controllers, with the rates that buses have.
+    /// The controller clocks that firmware sets, with the usual bit rates.
     #[test]
     fn usual_rates_are_made_of_usual_clocks() {
         for unit_hz in [24, 36, 40, 42, 45, 48, 50, 54, 64, 80, 170].map(|mhz| mhz * 1_000_000) {

@@ -8,10 +8,10 @@ use crate::Context;
 use crate::clocks::timer_hz;
 use crate::rows::{Count, Part, Row};
 
-/// A timer counts so many ticks from one overflow to the next.
+/// Ticks of a timer from one overflow to the next.
 const COUNTER: u32 = 65_536;
 
-/// Interrupts a second of a capture, where the device says enough.
+/// Interrupts per second of a capture, if the device states enough.
 pub(crate) fn interrupts(device: &Device) -> Option<u64> {
     let icu = device.kind.icu()?;
     let edges = edges(device, icu)?;
@@ -24,14 +24,14 @@ pub(crate) fn interrupts(device: &Device) -> Option<u64> {
     Some(with_overflows(edges, captures, icu.tick_hz))
 }
 
-/// Captures and overflows a second of a counter that each edge sets to zero.
+/// Captures and overflows per second, for a counter that each edge resets.
 fn with_overflows(edges: u64, captures: u64, tick_hz: u32) -> u64 {
     let between = u64::from(tick_hz) / (edges.max(1) * u64::from(COUNTER));
-    // Without any edge the counter only overflows.
+    // Without any edges, the counter only overflows.
     (captures + edges * between).max(u64::from(tick_hz.div_ceil(COUNTER)))
 }
 
-/// Active edges a second.
+/// Active edges per second.
 fn edges(device: &Device, icu: &Icu) -> Option<u64> {
     if icu.pulse_us.is_some() {
         return Some(1_000_u64.div_ceil(u64::from(device.delay_ms.max(1))));
@@ -42,14 +42,14 @@ fn edges(device: &Device, icu: &Icu) -> Option<u64> {
     };
     match icu.mode {
         Mode::Frequency => raw(device.shown.max?),
-        // The shortest period comes most often.
+        // The shortest period has the most edges.
         Mode::Period => u64::from(icu.tick_hz).checked_div(raw(device.shown.min?)?),
-        // How often they come is not in the value.
+        // The value does not show how often edges come.
         Mode::Count | Mode::Width | Mode::Duty | Mode::Ppm => None,
     }
 }
 
-/// To the next whole number.
+/// Rounds up to a whole number.
 fn whole(value: f64) -> Option<u64> {
     const MOST: f64 = 1e12;
     #[expect(
@@ -96,11 +96,11 @@ mod tests {
 
     #[test]
     fn overflows_are_those_between_the_edges() {
-        // At 1 MHz an overflow comes every 65.5 ms: none in the millisecond between two edges.
+        // At 1 MHz there is an overflow every 65.5 ms: none in the millisecond between two edges.
         assert_eq!(with_overflows(1_000, 2_000, 1_000_000), 2_000);
-        // Three in each of five intervals of 200 ms.
+        // Three overflows in each of five intervals of 200 ms.
         assert_eq!(with_overflows(5, 10, 1_000_000), 10 + 5 * 3);
-        // The silent input is the worst case of a slow signal.
+        // A silent input is the worst case for a slow signal.
         assert_eq!(with_overflows(1, 1, 1_000_000), 16);
         assert_eq!(with_overflows(0, 0, 1_000_000), 16);
     }

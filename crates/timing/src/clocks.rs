@@ -1,31 +1,31 @@
-//! Dividers: what clock comes of another, and how near to the one that was asked for.
+//! Dividers: which clock results from another, and how near it is to the requested one.
 
 use sensedsl_board::profile::{Adcs, Cycles, Dividers, TargetProfile, Timer, Unit};
 
 use crate::Context;
 
-/// The prescaler of a timer has 16 bits.
+/// The greatest prescaler of a timer, which has 16 bits.
 pub(crate) const PRESCALER_MAX: u32 = 65_536;
 
-/// The tick of a timer as it is asked for.
+/// The requested tick of a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tick {
     /// The timer's clock.
     pub clock_hz: u32,
-    /// Ticks a second.
+    /// Ticks per second.
     pub tick_hz: u32,
 }
 
 impl Tick {
-    /// Whether the prescaler makes it, with nothing left over.
+    /// Whether the prescaler can produce it without remainder.
     #[must_use]
     pub fn is_possible(self) -> bool {
         let divides = self.clock_hz.checked_rem(self.tick_hz) == Some(0);
         divides && self.clock_hz / self.tick_hz <= PRESCALER_MAX
     }
 
-    /// The tick that is taken: the very one where the prescaler makes it, otherwise the nearest within a thousandth. The
-    /// drivers take whole ticks a second only.
+    /// The tick that is used: the exact one if the prescaler can produce it, otherwise the nearest
+    /// within a thousandth. The drivers take only whole numbers of ticks per second.
     #[must_use]
     pub fn made(self) -> Option<u32> {
         if self.is_possible() {
@@ -34,11 +34,11 @@ impl Tick {
         self.nearest().filter(|hz| hz.abs_diff(self.tick_hz) <= self.tick_hz / TICK_PARTS)
     }
 
-    /// The possible tick that is nearest.
+    /// The possible tick nearest to this one.
     #[must_use]
     pub fn nearest(self) -> Option<u32> {
         let clock_hz = self.clock_hz;
-        // A divisor of the clock comes with its partner.
+        // Each divisor of the clock comes with its quotient.
         let pairs = (1..=PRESCALER_MAX).filter(|divider| clock_hz.is_multiple_of(*divider));
         pairs
             .map(|divider| clock_hz / divider)
@@ -46,18 +46,18 @@ impl Tick {
     }
 }
 
-/// A tick may be off by one part in so many: clocks such as 79.96 MHz have no exact one.
+/// A tick may be off by one part in this many: clocks such as 79.96 MHz do not have an exact one.
 const TICK_PARTS: u32 = 1_000;
 
-/// The sampling time that a device gets: rather a little longer than asked, since too short a time spoils the
-/// reading; none where the converter has none so long.
+/// The sampling time that a device gets: at least as long as requested, because too short a time
+/// spoils the reading; none if the converter has none that long.
 #[must_use]
 pub fn sampling(facts: &Adcs, asked: Option<u16>) -> Option<Cycles> {
     let asked = asked.map_or(facts.sample_cycles_default, |asked| Cycles::new(asked.into()));
     facts.sample_cycles.iter().copied().find(|cycles| *cycles >= asked)
 }
 
-/// The clock of the converters of a board.
+/// The clock of a board's converters.
 pub(crate) fn converter_hz(context: &Context<'_>) -> Option<u32> {
     let facts = &context.board.profile()?.adc;
     context.clock_hz(facts.clock.as_deref()?)?.checked_div(facts.clock_divider)
@@ -73,7 +73,7 @@ pub(crate) fn unit_hz(context: &Context<'_>, unit: &Unit) -> Option<u32> {
     context.clock_hz(unit.clock.as_deref()?)
 }
 
-/// The divider of the fastest clock that is not above the one that was asked for; none where all are.
+/// The divider for the fastest clock not above the requested one; none if all are above it.
 fn divider_at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
     let [least, greatest] = dividers.range;
     let wanted = unit_hz.div_ceil(asked_hz.max(1)).max(least);
@@ -81,19 +81,20 @@ fn divider_at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u
     (divider <= greatest).then_some(divider)
 }
 
-/// The fastest clock that is not above the one that was asked for; none where all are.
+/// The fastest clock not above the requested one; none if all are above it.
 pub(crate) fn at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
     divider_at_most(dividers, unit_hz, asked_hz).map(|divider| unit_hz / divider)
 }
 
-/// What an SPI unit divides its clock by, so that a device can follow; none where it cannot go so slow.
+/// The divider of an SPI unit's clock that is slow enough for a device; none if the unit cannot go
+/// that slow.
 #[must_use]
 pub fn spi_divider(profile: &TargetProfile, unit_hz: u32, asked_hz: u32) -> Option<u32> {
     divider_at_most(profile.spi_dividers.as_ref()?, unit_hz, asked_hz)
         .filter(|divider| *divider > 0)
 }
 
-/// How often a clock is halved by a divider, which is a power of two.
+/// How often a divider, which is a power of two, halves a clock.
 #[must_use]
 pub const fn power_of_two(divider: u32) -> u32 {
     divider.trailing_zeros()
@@ -104,7 +105,7 @@ pub(crate) fn slowest_hz(dividers: &Dividers, unit_hz: u32) -> u32 {
     unit_hz.div_ceil(dividers.range[1].max(1))
 }
 
-/// The clock nearest to the one that was asked for, made of a divider and of steps in a bit.
+/// The clock nearest to the requested one, with a divider and a number of steps per bit.
 pub(crate) fn nearest(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
     let ([least, greatest], [few, many]) = (dividers.range, dividers.steps);
     let of_steps = (few..=many).filter_map(|steps| {
@@ -116,7 +117,7 @@ pub(crate) fn nearest(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Optio
     of_steps.min_by_key(|hz| hz.abs_diff(asked_hz))
 }
 
-/// How far one clock is from another, in millionths of the other.
+/// How far one clock is from another, in parts per million of the other.
 pub(crate) fn off_ppm(hz: u32, asked_hz: u32) -> u64 {
     u64::from(hz.abs_diff(asked_hz)) * 1_000_000 / u64::from(asked_hz).max(1)
 }

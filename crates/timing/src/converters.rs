@@ -1,4 +1,4 @@
-//! Analog sensors: how long a converter takes for the groups of its threads.
+//! Analog sensors: how long a converter takes for its threads' groups.
 
 use sensedsl_board::profile::Cycles;
 use sensedsl_model::kind::analog::Analog;
@@ -8,16 +8,16 @@ use crate::clocks::{converter_hz, sampling};
 use crate::processor::Work;
 use crate::rows::{Count, Part, Row, clocks_ns, per_second, shortest};
 
-/// Rows of samples that a group converts: as many as its greediest sensor wants, and an even number, which the
-/// driver asks for where it is more than one.
+/// Rows of samples that a group converts: as many as its most demanding sensor needs. If there is
+/// more than one row, the number is even, as the driver requires.
 #[must_use]
 pub fn depth(samples: impl Iterator<Item = u16>) -> u16 {
     let most = samples.max().unwrap_or(1);
     if most > 1 { most.next_multiple_of(2) } else { most }
 }
 
-/// The sampling times that the inputs of one group get, ascending, where they asked for these and the group can have
-/// `most` different ones: the shortest as asked, all others the longest.
+/// The sampling times that the inputs of a group get, ascending, if they requested these and the
+/// group can have `most` different ones: the shortest as requested, all others the longest.
 fn sampling_times(most: Option<u8>, mut asked: Vec<Cycles>) -> Vec<Cycles> {
     asked.sort_unstable();
     let (Some(most), Some(longest)) = (most, asked.last().copied()) else { return asked };

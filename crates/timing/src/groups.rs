@@ -1,7 +1,8 @@
-//! Groups: devices that never measure at the same time get starts that keep them apart for good.
+//! Groups: devices that never measure at the same time get start times that always keep them apart.
 //!
-//! Two devices with fixed periods meet again in the same place after their greatest common divisor, so it is enough
-//! that their measurements do not touch within it. Devices are placed in the file's order, each as early as it can be.
+//! Two devices with fixed periods meet again at the same offset after the greatest common divisor
+//! of their periods, so it is enough that their measurements do not touch within it. Devices are
+//! placed in file order, each as early as possible.
 
 use std::collections::BTreeMap;
 
@@ -12,22 +13,24 @@ use sensedsl_wiring::assignment::BoardAssignment;
 use crate::Turn;
 use crate::buses::i2c_period_ms;
 
-/// Milliseconds after the start at which a device begins; 0 for those that are not here.
+/// Milliseconds after the board's start at which each device begins; 0 for devices that are not
+/// listed.
 pub type Starts = BTreeMap<DeviceIndex, u32>;
 
-/// Places that are tried for one device: more than devices there can be, each moved past a few times.
+/// Most places tried for a device: more than there can be devices, even if each is moved past
+/// several times.
 const TRIES_MAX: usize = 4_096;
 
-/// Between two measurements: the transfer that starts one, and a tick of the kernel.
+/// Time between two measurements, for the transfer that starts one and a tick of the kernel.
 const GAP_MS: u32 = 1;
 
-/// The starts of all devices of a board.
+/// The start times of all devices of a board.
 #[must_use]
 pub fn starts(design: &Design, wiring: &BoardAssignment) -> Starts {
     turns(design, wiring).into_iter().map(|turn| (turn.device, turn.start_ms)).collect()
 }
 
-/// The turns of the groups on a board, in the file's order.
+/// The turns of the groups on a board, in file order.
 pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
     let mut turns: Vec<Turn> = Vec::new();
     for index in wiring.devices.iter().map(|wiring| wiring.device) {
@@ -46,14 +49,14 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
             Some(start_ms) => turn.start_ms = start_ms,
             None => turn.overlaps = true,
         }
-        // An array has its turn for itself, and needs a cycle that is long enough.
+        // An array has its own turns, and needs a cycle that is long enough.
         turn.overlaps |= device.value.value.length > Some(1) && turn.measuring_ms > period_ms;
         turns.push(turn);
     }
     turns
 }
 
-/// From one measurement to the next, of what measures when it is told to.
+/// The time from one measurement to the next, for a device that measures on demand.
 fn period_ms(device: &Device) -> Option<u32> {
     match &device.kind {
         Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
@@ -69,7 +72,8 @@ fn period_ms(device: &Device) -> Option<u32> {
     }
 }
 
-/// How long a device has its turn: the elements of an array that measures when it is told to, one after the other.
+/// How long a device's turn takes: for an array that measures on demand, the elements one after the
+/// other.
 fn measuring_ms(device: &Device) -> u32 {
     let each_ms = Design::measuring_us(device).div_ceil(1_000) + GAP_MS;
     let is_told = device.kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
@@ -77,7 +81,7 @@ fn measuring_ms(device: &Device) -> u32 {
     each_ms.saturating_mul(elements)
 }
 
-/// The earliest start that keeps clear of all others.
+/// The earliest start that does not collide with any other device.
 fn place<'t, I: Iterator<Item = &'t Turn>>(turn: &Turn, others: impl Fn() -> I) -> Option<u32> {
     let mut start_ms = 0_u32;
     for _ in 0..TRIES_MAX {
@@ -93,7 +97,8 @@ fn place<'t, I: Iterator<Item = &'t Turn>>(turn: &Turn, others: impl Fn() -> I) 
     None
 }
 
-/// That a start keeps clear of another device; otherwise how much later it has to be, where that helps.
+/// Whether a start does not collide with another device; if it does, how much later it must be, if
+/// that helps.
 fn clear_of(turn: &Turn, start_ms: u32, other: &Turn) -> Result<(), Option<u32>> {
     let common = gcd(turn.period_ms, other.period_ms);
     if turn.measuring_ms.checked_add(other.measuring_ms).is_none_or(|both| both > common) {
@@ -127,7 +132,7 @@ mod tests {
         Turn { group, device, start_ms, period_ms, measuring_ms, overlaps: false }
     }
 
-    /// Whether two devices ever measure at the same time, by going through every millisecond.
+    /// Whether two devices ever measure at the same time, by checking every millisecond.
     fn meet(one: &Turn, other: &Turn) -> bool {
         let measures = |turn: &Turn, at: u32| {
             at >= turn.start_ms && (at - turn.start_ms) % turn.period_ms < turn.measuring_ms

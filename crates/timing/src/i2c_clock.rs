@@ -1,9 +1,10 @@
-//! The clock of an I2C bus: what a device asks for and how the driver divides come in, the speed
-//! that the bus gets goes out.
+//! The clock of an I2C bus: a device's requested clock and the driver's dividers in, the speed of
+//! the bus out.
 //!
-//! The driver divides its unit's clock by whole numbers and halts the board where something is left
-//! over. A device names the fastest clock it stands, so the bus gets the fastest that the driver can
-//! make and that is not above it. Units with a timing register have their own counts ([`TimingRegister`]).
+//! The driver divides its unit's clock by whole numbers and halts the board if there is a
+//! remainder. A device states the fastest clock it supports, so the bus gets the fastest clock that
+//! the driver can produce and that is not above it. Units with a timing register use counts instead
+//! ([`TimingRegister`]).
 
 use std::ops::RangeInclusive;
 
@@ -12,22 +13,22 @@ use sensedsl_board::profile::{I2cMode, I2cs};
 use crate::i2c_register;
 pub use crate::i2c_register::TimingRegister;
 
-/// The clock that a bus gets.
+/// The clock of a bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BusClock {
-    /// Bus clocks a second.
+    /// Bus clocks per second.
     pub speed_hz: u32,
-    /// The driver's word for the duty cycle; empty where it is told register values.
+    /// The driver's word for the duty cycle; empty if the driver takes register values.
     pub duty: String,
     /// Steps of the divider in one bus clock.
     pub clocks: u32,
-    /// The dividers that the driver takes.
+    /// The dividers that the driver accepts.
     pub dividers: RangeInclusive<u32>,
-    /// What a unit with a timing register is told instead.
+    /// The register values, for a unit with a timing register.
     pub register: Option<TimingRegister>,
 }
 
-/// The fastest clock up to `speed_max_hz` that a unit can make of its own.
+/// The fastest clock up to `speed_max_hz` that a unit can produce from its own.
 #[must_use]
 pub fn fastest(facts: &I2cs, unit_hz: u32, speed_max_hz: u32) -> Option<BusClock> {
     let mut best: Option<BusClock> = None;
@@ -40,14 +41,14 @@ pub fn fastest(facts: &I2cs, unit_hz: u32, speed_max_hz: u32) -> Option<BusClock
     best.or_else(counted)
 }
 
-/// The slowest clock that a unit can make of its own.
+/// The slowest clock that a unit can produce from its own.
 #[must_use]
 pub fn slowest_hz(facts: &I2cs, unit_hz: u32) -> Option<u32> {
     let divided = all(facts, unit_hz).map(|clock| clock.speed_hz).min();
     divided.or_else(|| Some(i2c_register::slowest_hz(facts.timing?, unit_hz)))
 }
 
-/// All clocks that a driver accepts which divides.
+/// All clocks that a driver with dividers accepts.
 fn all(facts: &I2cs, unit_hz: u32) -> impl Iterator<Item = BusClock> + '_ {
     facts.modes.iter().flat_map(move |mode| {
         let [least, greatest] = mode.dividers;
@@ -88,7 +89,7 @@ mod tests {
 
     use super::*;
 
-    /// What `i2c_lld_set_clock` of the first I2C driver asserts, in its own words.
+    /// The assertions of `i2c_lld_set_clock` in the first I2C driver, with its names.
     fn driver_accepts(pclk1: u32, clock_speed: u32, duty: &str) -> bool {
         let divides = |clocks: u32, least: u32| {
             let clock_div = pclk1 / (clock_speed * clocks);
@@ -107,7 +108,7 @@ mod tests {
         *profile
     }
 
-    /// The clocks of I2C units on the boards whose driver divides them.
+    /// The clocks of I2C units on boards whose driver divides them.
     fn unit_clocks_hz() -> BTreeSet<u32> {
         let mut clocks_hz = BTreeSet::new();
         for facts in catalog::all().iter().map(|entry| entry.board().unwrap()) {
@@ -138,7 +139,7 @@ mod tests {
                     "{unit_hz}: {clock:?}"
                 );
                 assert!(clock.speed_hz <= asked_hz);
-                // What can be had as asked for, is.
+                // If the requested clock is possible, it is used.
                 for mode in &facts.modes {
                     let as_asked = driver_accepts(unit_hz, asked_hz, &mode.duty);
                     assert!(!as_asked || clock.speed_hz == asked_hz, "{asked_hz} of {unit_hz}");

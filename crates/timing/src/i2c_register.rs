@@ -1,40 +1,41 @@
-//! The timing register of an I2C unit (`TIMINGR`): the unit's clock and the bus clock that devices stand come in, the
-//! five fields and the clock that the bus gets go out.
+//! The timing register of an I2C unit (`TIMINGR`): the unit's clock and the bus clock that devices
+//! support in, the five fields and the resulting clock of the bus out.
 //!
-//! A part of a bus clock is as long as its count of prescaled clocks, and then as long as it takes the unit to see the
-//! edge: the analog filter (50 ns to 260 ns) and two to three clocks. The shortest of these is counted with, and no time
-//! for the slopes of the wires: so a real bus is a little slower than what is said here, never faster, and its low and
-//! high parts are never shorter than the specification allows (UM10204, table 10). The formulas are those of the
-//! reference manuals (RM0091, 26.4.9).
+//! A phase of a bus clock is as long as its count of prescaled clocks, plus the time that the unit
+//! needs to see the edge: the analog filter (50 ns to 260 ns) and two to three clocks. The
+//! calculation uses the shortest of these times, and no time for the slopes of the wires. So a real
+//! bus is a little slower than calculated, never faster, and its low and high phases are never
+//! shorter than the specification allows (UM10204, table 10). The formulas are from the reference
+//! manuals (RM0091, 26.4.9).
 
 use sensedsl_board::profile::I2cTiming;
 
 use crate::SECOND_NS;
 
-/// The fields of the register, as they are written into it.
+/// The fields of the register, as they are written to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimingRegister {
-    /// `PRESC`: the prescaler less one.
+    /// `PRESC`: the prescaler minus one.
     pub prescaler: u32,
-    /// `SCLDEL`: from data to the clock's rise.
+    /// `SCLDEL`: the delay from data to the clock's rising edge.
     pub data_setup: u32,
-    /// `SDADEL`: from the clock's fall to data.
+    /// `SDADEL`: the delay from the clock's falling edge to data.
     pub data_hold: u32,
-    /// `SCLH`: the high part less one.
+    /// `SCLH`: the high phase minus one.
     pub high: u32,
-    /// `SCLL`: the low part less one.
+    /// `SCLL`: the low phase minus one.
     pub low: u32,
-    /// Bus clocks a second, to the next lower hertz.
+    /// Bus clocks per second, rounded down to whole hertz.
     pub speed_hz: u32,
 }
 
-/// What the specification asks of a mode.
+/// The requirements of the specification for a mode.
 struct Mode {
     low_ns: u64,
     high_ns: u64,
-    /// Setup of data, with the longest rise of the wire before it.
+    /// Setup time of data, including the longest rise time of the wire.
     setup_ns: u64,
-    /// The latest that data may be valid, less the longest rise.
+    /// The latest time at which data may become valid, minus the longest rise time.
     valid_ns: u64,
 }
 
@@ -42,45 +43,45 @@ const STANDARD: Mode =
     Mode { low_ns: 4_700, high_ns: 4_000, setup_ns: 250 + 1_000, valid_ns: 3_450 - 1_000 };
 const FAST: Mode = Mode { low_ns: 1_300, high_ns: 600, setup_ns: 100 + 300, valid_ns: 900 - 300 };
 
-/// The fastest bus clock of the standard mode.
+/// The fastest bus clock in standard mode.
 const STANDARD_HZ: u32 = 100_000;
-/// The longest fall of a wire, in both modes.
+/// The longest fall time of a wire, in both modes.
 const FALL_NS: u64 = 300;
-/// What the analog filter takes at least, and at most.
+/// The shortest and the longest delay of the analog filter.
 const FILTER_NS: [u64; 2] = [50, 260];
-/// Clocks until the unit sees an edge, at least.
+/// Fewest clocks until the unit sees an edge.
 const EDGE_CLOCKS: u64 = 2;
 /// Greatest counts of the fields.
 const COUNT_MAX: u64 = 256;
 const DELAY_MAX: u64 = 15;
 const PRESCALER_MAX: u64 = 16;
 
-/// The fastest register up to a clock; none where the unit has none.
+/// The register values for the fastest clock up to a limit; none if no values are possible.
 pub(crate) fn fastest(facts: I2cTiming, unit_hz: u32, speed_max_hz: u32) -> Option<TimingRegister> {
     let prescalers = 1..=u64::from(facts.prescaler_max);
     let all = prescalers.filter_map(|prescaler| register(prescaler, unit_hz, speed_max_hz));
-    // Of equals the finest steps.
+    // Of equal clocks, the one with the finest steps wins.
     all.reduce(|best, one| if one.speed_hz > best.speed_hz { one } else { best })
 }
 
-/// The slowest clock that the register reaches.
+/// The slowest clock that the register allows.
 pub(crate) fn slowest_hz(facts: I2cTiming, unit_hz: u32) -> u32 {
-    // Rounded up, so that who asks for it gets it.
+    // Rounded up, so that this speed is reached when it is requested.
     speed_hz(u64::from(facts.prescaler_max) * 2 * COUNT_MAX, unit_hz).saturating_add(1)
 }
 
-/// The bus clock of so many counted clocks, with what the edges add.
+/// The bus clock for this many counted clocks, including what the edges add.
 fn speed_hz(clocks: u64, unit_hz: u32) -> u32 {
     let unit_hz = u64::from(unit_hz);
     let period = (clocks + 2 * EDGE_CLOCKS) * SECOND_NS + 2 * FILTER_NS[0] * unit_hz;
     u32::try_from(SECOND_NS * unit_hz / period).unwrap_or(u32::MAX)
 }
 
-/// The fastest register with a prescaler.
+/// The fastest register values with a given prescaler.
 fn register(prescaler: u64, unit_hz: u32, speed_max_hz: u32) -> Option<TimingRegister> {
     let mode = if speed_max_hz <= STANDARD_HZ { STANDARD } else { FAST };
     let hz = u64::from(unit_hz);
-    // Steps of the prescaled clock that last so long, after so many clocks of the unit by themselves.
+    // Steps of the prescaled clock that last this long, including a number of unprescaled clocks.
     let steps = |ns: u64, clocks: u64| {
         let whole = (ns * hz).div_ceil(SECOND_NS);
         whole.saturating_sub(clocks).div_ceil(prescaler)
@@ -89,7 +90,7 @@ fn register(prescaler: u64, unit_hz: u32, speed_max_hz: u32) -> Option<TimingReg
     let (low_min, high_min) = (part(mode.low_ns), part(mode.high_ns));
     let period_ns = SECOND_NS.div_ceil(u64::from(speed_max_hz.max(1)));
     let whole = steps(period_ns.saturating_sub(2 * FILTER_NS[0]), 2 * EDGE_CLOCKS);
-    // What the speed leaves over beside the least parts goes to both alike.
+    // The time left over after the minimum phases is divided equally between the two.
     let spare = whole.saturating_sub(low_min + high_min);
     let mut low = low_min + spare.div_ceil(2);
     let mut high = high_min + spare / 2;
@@ -97,17 +98,18 @@ fn register(prescaler: u64, unit_hz: u32, speed_max_hz: u32) -> Option<TimingReg
         high += low - COUNT_MAX;
         low = COUNT_MAX;
     }
-    // Units of more than 200 MHz cannot count the longest rise; they wait as long as they can.
+    // Units faster than 200 MHz cannot count the longest rise time; they wait as long as they can.
     let is_coarsest = prescaler == PRESCALER_MAX;
     let setup =
         steps(mode.setup_ns, 0).clamp(1, if is_coarsest { DELAY_MAX + 1 } else { u64::MAX });
-    // Data stays as long as the clock may take to fall; where that would make it late, as long as can be.
+    // Data is held as long as the clock may take to fall; if that would make it late, as long as
+    // possible.
     let hold = steps(FALL_NS - FILTER_NS[0], 3);
     let late = (mode.valid_ns.saturating_sub(FILTER_NS[1]) * hz / SECOND_NS).saturating_sub(4);
     let hold = hold.min(late / prescaler);
     let fits = high <= COUNT_MAX && setup <= DELAY_MAX + 1 && hold <= DELAY_MAX;
     let speed_hz = speed_hz(prescaler * (low + high), unit_hz);
-    // The filter must be done in a quarter of the low part.
+    // The filter must finish in a quarter of the low phase.
     let keeps_up = 4 * SECOND_NS < hz * (mode.low_ns - FILTER_NS[1]);
     let field = |count: u64| u32::try_from(count).unwrap_or(u32::MAX);
     (fits && keeps_up && speed_hz <= speed_max_hz).then(|| TimingRegister {
@@ -126,7 +128,7 @@ mod tests {
 
     const FACTS: I2cTiming = I2cTiming { prescaler_max: 16 };
 
-    /// What the manual asks, computed in another way: in picoseconds, part by part.
+    /// The manual's requirements, calculated in a different way: in picoseconds, phase by phase.
     fn check(register: TimingRegister, unit_hz: u32, asked_hz: u32) {
         let TimingRegister { prescaler, data_setup, data_hold, high, low, speed_hz } = register;
         let clock_ps = 1e12 / f64::from(unit_hz);
@@ -160,7 +162,7 @@ mod tests {
                 let found = fastest(FACTS, unit_hz, asked_hz);
                 let found = found.unwrap_or_else(|| panic!("{asked_hz} of {unit_hz}"));
                 check(found, unit_hz, asked_hz);
-                // No more than two steps away from what is asked, where the mode allows that.
+                // At most two steps away from the requested clock, if the mode allows that.
                 let step = f64::from(asked_hz) * (1.0 / f64::from(unit_hz)) * f64::from(asked_hz);
                 let slow = f64::from(asked_hz) - f64::from(found.speed_hz);
                 let is_tight = (95_000..=100_000).contains(&asked_hz) || asked_hz > 380_000;

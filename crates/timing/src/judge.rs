@@ -1,4 +1,5 @@
-//! What a [`Timing`] means: what cannot be kept, what is close to it, and groups that find no turns.
+//! Judges a [`Timing`]: requests that cannot be met, requests that nearly cannot, and groups that
+//! find no turns.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +14,7 @@ use sensedsl_wiring::assignment::Assignment;
 use crate::rows::{Part, Row, per_second};
 use crate::{BoardTiming, Context, MILLISECOND_NS, SECOND_NS, Timing, groups, link};
 
-/// From here on there is a warning.
+/// The load from which there is a warning.
 const WARN_NS: u64 = SECOND_NS / 100 * 70;
 
 pub(crate) fn judge(design: &Design, timing: &Timing) -> Vec<Diagnostic> {
@@ -38,7 +39,7 @@ fn of_board(design: &Design, timing: &BoardTiming) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// The place of a device's pace.
+/// The place of a device's cycle time.
 fn place(device: &Device) -> Span {
     device.delay_span.unwrap_or(device.name.span)
 }
@@ -58,7 +59,7 @@ fn names(design: &Design, devices: &[DeviceIndex]) -> String {
     }
 }
 
-/// What else than the pace could change.
+/// What could be changed other than the cycle time.
 fn otherwise(part: Part) -> &'static str {
     match part {
         Part::Converter => ", fewer `samples`, or a shorter `sampling`",
@@ -68,7 +69,7 @@ fn otherwise(part: Part) -> &'static str {
     }
 }
 
-/// Time for people.
+/// Formats a time for people.
 #[must_use]
 pub fn shown_time(ns: u64) -> String {
     let tenths = |unit: u64| {
@@ -96,7 +97,7 @@ fn of_unit(design: &Design, part: Part, unit: &str, rows: &[&Row]) -> Option<Dia
         let device = design.device(*worst.devices.first()?)?;
         return Some(w0623_nearly_busy::nearly_busy(place(device), unit, near / (SECOND_NS / 100)));
     }
-    // A thread that puts out pulses sleeps most of its time.
+    // A thread that sends pulses sleeps most of its time.
     let takes = match blamed.shortest_ms.filter(|_| part == Part::Thread) {
         Some(ms) => format!("{ms} ms"),
         None => shown_time(blamed.cycle_ns?),
@@ -134,7 +135,7 @@ fn of_unit(design: &Design, part: Part, unit: &str, rows: &[&Row]) -> Option<Dia
     Some(others.fold(diagnostic, |diagnostic, (span, text)| diagnostic.label(span, text)))
 }
 
-/// A cycle time that grows as much as there is too much to do.
+/// A cycle time that grows in proportion to the excess work.
 fn scaled_ms(delay_ms: u32, busy_ns: u64) -> u64 {
     let ms = u128::from(delay_ms) * u128::from(busy_ns) / u128::from(SECOND_NS) + 1;
     u64::try_from(ms).unwrap_or(u64::MAX)
@@ -161,7 +162,7 @@ fn of_processor(design: &Design, timing: &BoardTiming, row: &Row) -> Option<Diag
         .then(|| w0623_nearly_busy::nearly_busy(place(device), "the processor", percent))
 }
 
-/// A link that cannot carry what is asked for each cycle.
+/// Reports a link that cannot carry what is requested for each cycle.
 pub(crate) fn of_link(context: &Context<'_>) -> Option<Diagnostic> {
     let reports = link::reports(context);
     let (_, most) = link::capacity(context);
@@ -202,7 +203,7 @@ pub(crate) fn of_link(context: &Context<'_>) -> Option<Diagnostic> {
     (busy_ns > WARN_NS).then(|| w0623_nearly_busy::nearly_busy(place(worst.device), &name, percent))
 }
 
-/// Groups whose devices cannot take turns, once each.
+/// Reports groups whose devices cannot take turns, once each.
 pub(crate) fn turns(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for (wiring, board) in assignment.used(design) {

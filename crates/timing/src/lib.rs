@@ -1,9 +1,9 @@
-//! What a wired design asks of its hardware each second, and whether the hardware can do it.
+//! What a wired design requires of its hardware each second, and whether the hardware can do it.
 //!
-//! In: a design with its wiring, and the facts of target profiles and boards. Out: a [`Timing`], which
-//! has for each converter, bus, link, capture and thread the exact clock, the time it takes and its share of what
-//! is possible; and diagnostics for what cannot be. A fact that no profile states makes a figure that is
-//! not known, never a guess.
+//! A design with its wiring, and the facts of target profiles and boards, go in. A [`Timing`] comes
+//! out, which has the exact clock, the time taken and the share of capacity for each converter,
+//! bus, link, capture and thread; and diagnostics for what is impossible. If no profile states a
+//! fact, the figures that depend on it are unknown, never guessed.
 
 mod buses;
 mod can_bit;
@@ -37,51 +37,53 @@ pub use judge::shown_time;
 pub use link::finish_ms;
 pub use rows::{Count, Cycle, Part, Row};
 
-/// Nanoseconds of a second.
+/// Nanoseconds per second.
 pub const SECOND_NS: u64 = 1_000_000_000;
-/// Nanoseconds of a millisecond.
+/// Nanoseconds per millisecond.
 const MILLISECOND_NS: u64 = 1_000_000;
-/// The reporter's cycle where nothing asks for another.
+/// The reporter's cycle, unless something requires another.
 const REPORT_MS: u32 = 10;
 
-/// What all boards have to do.
+/// The load of all boards.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {
-    /// One for each board that carries a device.
+    /// The load of each board that carries a device.
     pub boards: Vec<BoardTiming>,
 }
 
-/// What one board has to do.
+/// The load of one board.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoardTiming {
-    /// Which board.
+    /// The board.
     pub board: BoardIndex,
     /// The clock of its processor.
     pub core_hz: Option<u32>,
-    /// Part by part: converters, buses and ports, the link, captures, threads, the processor as a whole.
+    /// The rows by part: converters, buses and ports, the link, captures, threads, the processor as
+    /// a whole.
     pub rows: Vec<Row>,
-    /// The devices of groups, with the milliseconds after the start at which each first measures.
+    /// The devices of groups, each with its first measurement in milliseconds after the start.
     pub turns: Vec<Turn>,
 }
 
-/// When a device of a group measures.
+/// The times at which a device of a group measures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Turn {
     /// The group.
     pub group: String,
     /// The device.
     pub device: DeviceIndex,
-    /// When it begins, after the start of the board.
+    /// The first measurement, in milliseconds after the board's start.
     pub start_ms: u32,
-    /// From one measurement to the next.
+    /// The time from one measurement to the next.
     pub period_ms: u32,
-    /// How long one lasts.
+    /// The duration of a measurement.
     pub measuring_ms: u32,
-    /// Another device of the group measures meanwhile, because there is no time for turns.
+    /// True if another device of the group measures at the same time, because there is no time for
+    /// turns.
     pub overlaps: bool,
 }
 
-/// A device with the wires that its kind is about; an array with those of one element.
+/// A device with the wires of its kind; for an array, with those of one element.
 #[derive(Clone, Copy)]
 pub(crate) struct Wired<'a> {
     pub(crate) index: DeviceIndex,
@@ -89,7 +91,7 @@ pub(crate) struct Wired<'a> {
     pub(crate) wiring: &'a ConnectionWiring,
 }
 
-/// A board with all that its parts are computed from.
+/// A board with everything that its parts are computed from.
 pub(crate) struct Context<'a> {
     pub(crate) board: &'a Board,
     pub(crate) wiring: &'a BoardAssignment,
@@ -119,7 +121,7 @@ impl<'a> Context<'a> {
         Self { board, wiring, devices, elements, starts }
     }
 
-    /// What the clock tree gives, by name: that of the system's own making, or else the board's.
+    /// A clock of the clock tree, by name: the system's own, or else the board's.
     pub(crate) fn clock_hz(&self, name: &str) -> Option<u32> {
         if let Some(hz) = self.board.profile().and_then(|profile| profile.clocks_hz.get(name)) {
             return Some(*hz);
@@ -127,13 +129,13 @@ impl<'a> Context<'a> {
         self.system()?.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
     }
 
-    /// What the board's system has for it.
+    /// The facts that the board's system has for it.
     pub(crate) fn system(&self) -> Option<&SystemFacts> {
         let system = self.board.profile().map(TargetProfile::system);
         self.board.facts.as_ref()?.facts_of(system)
     }
 
-    /// What devices share that one thread serves.
+    /// What devices served by one thread have in common.
     pub(crate) fn cycle(&self, wired: &Wired<'_>) -> Cycle {
         let Wired { index, device, .. } = wired;
         Cycle {
@@ -143,7 +145,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Devices of a kind by unit and cycle.
+    /// Devices of a kind, by unit and cycle.
     pub(crate) fn classes<'c, T>(
         &'c self,
         of: impl Fn(&'c Wired<'a>) -> Option<T>,
@@ -159,7 +161,7 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Computes what every board that carries a device has to do.
+/// Computes the load of every board that carries a device.
 #[must_use]
 pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
     let boards = assignment.used(design).map(|(wiring, board)| {
@@ -181,11 +183,11 @@ pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
     Timing { boards: boards.collect() }
 }
 
-/// What cannot be, and what is close to it.
+/// Reports what is impossible, and what is nearly so.
 #[must_use]
 pub fn check(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     let mut diagnostics = refusals(design, assignment);
-    // A load that follows from a clock that there is not says nothing.
+    // A load based on an impossible clock is meaningless.
     if diagnostics.is_empty() {
         diagnostics.extend(judge::judge(design, &timing(design, assignment)));
         diagnostics.extend(judge::turns(design, assignment));
@@ -193,14 +195,15 @@ pub fn check(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Clocks and sampling times that the hardware cannot make, and values that it cannot hold.
+/// Reports clocks and sampling times that the hardware cannot produce, and values that it cannot
+/// hold.
 #[must_use]
 pub fn refusals(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     let boards = assignment.used(design);
     boards.flat_map(|(wiring, board)| refusals_of(design, board, wiring)).collect()
 }
 
-/// Clocks and sampling times that the hardware of one board cannot make, and values that it cannot hold.
+/// Like [`refusals`], for one board.
 #[must_use]
 pub fn refusals_of(design: &Design, board: &Board, wiring: &BoardAssignment) -> Vec<Diagnostic> {
     let context = Context::new(design, board, wiring);

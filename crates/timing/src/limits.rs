@@ -1,4 +1,5 @@
-//! Clocks that cannot be made of those that there are, each with the nearest that can.
+//! Reports clocks that cannot be derived from the available ones, each with the nearest possible
+//! clock.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +16,13 @@ use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
 use crate::{Context, Wired, buses, i2c_clock, ports};
 
-/// How far a serial port may be off: half a bit at the end of ten, shared by both ends and the slope of the edges.
+/// How far off a serial port may be: half a bit after ten bits, shared by both ends and the slopes
+/// of the edges.
 const SERIAL_OFF_PPM_MAX: u64 = 20_000;
-/// How far a CAN bus may be off (Bosch, CAN 2.0, 9.1: 1.58 % over both ends without resynchronising in the arbitration).
+/// How far off a CAN bus may be (Bosch, CAN 2.0, 9.1: 1.58 % over both ends without
+/// resynchronization in the arbitration).
 const CAN_OFF_PPM_MAX: u64 = 5_000;
-/// A pulse needs a count for its active and one for its other part.
+/// A pulse needs one count for its active part and one for the rest.
 const PWM_STEPS_MIN: u32 = 2;
 
 pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
@@ -36,7 +39,7 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
                 let span = uart.baud_span.unwrap_or(wired.device.kind_span);
                 of_baud(context, unit, uart.baud, span)
             }),
-            // What shares its unit with others is asked about as a bus, below.
+            // Kinds that share their unit are checked per bus, below.
             Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => None,
             Kind::Encoder(_) | Kind::Digital(_) | Kind::Dac(_) => None,
         });
@@ -112,7 +115,7 @@ fn of_pulses(context: &Context<'_>, wired: &Wired<'_>, frequency_hz: u32) -> Opt
     })
 }
 
-/// A rate that the divider misses by too much.
+/// Reports a rate that the divider misses by too much.
 fn of_baud(context: &Context<'_>, unit: &str, asked: u32, span: Span) -> Option<Diagnostic> {
     let exact = ports::exact_baud(context, unit, asked)?;
     if off_ppm(exact, asked) <= SERIAL_OFF_PPM_MAX {
@@ -156,7 +159,7 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
         let dividers = profile.spi_dividers.as_ref()?;
         (kind.spi()?.clock_span, "clock", Some(slowest_hz(dividers, hz)))
     };
-    // Without facts of its dividers nothing is known of the clock.
+    // Without facts about its dividers, nothing is known about the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;
     let message = format!(
         "{name} of {device} makes no clock of {asked_hz} Hz or less: its slowest is {slowest} Hz"

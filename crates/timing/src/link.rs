@@ -1,4 +1,4 @@
-//! The link: what the reports of a second come to, and what the medium carries.
+//! The link: the volume of the reports in a second, and the capacity of the medium.
 
 use std::collections::BTreeSet;
 
@@ -11,28 +11,30 @@ use crate::ports::exact_baud;
 use crate::rows::{Count, Part, Row};
 use crate::{Context, REPORT_MS, SECOND_NS};
 
-/// Bits of a byte on a serial line: start, eight of data, stop.
+/// Bits of a byte on a serial line: a start bit, eight data bits, a stop bit.
 const SERIAL_BYTE_BITS: u32 = 10;
-/// What a full-speed device can send at most in bulk: 19 packets of 64 bytes in a frame of a millisecond (USB 2.0, table 5-9).
+/// Most bytes that a full-speed device can send in bulk transfers: 19 packets of 64 bytes in a
+/// frame of one millisecond (USB 2.0, table 5-9).
 const USB_BYTES_A_SECOND: u32 = 1_216_000;
-/// What the rest of a frame may take beside its time on the line.
+/// The time that the rest of a frame may take in addition to its time on the line.
 const PATIENCE_MS: u32 = 50;
 
-/// What a second's reports come to.
+/// The volume of the reports in a second.
 pub(crate) struct Reports {
     /// The reporter's cycle.
     pub(crate) cycle_ms: u32,
-    /// Reports a second, at most.
+    /// Reports per second, at most.
     pub(crate) count: u64,
-    /// Values a second.
+    /// Values per second.
     pub(crate) values: u64,
-    /// Bytes a second, frames included.
+    /// Bytes per second, including the frames.
     pub(crate) bytes: u64,
-    /// Of them what devices send that are asked in cycles.
+    /// The part of these bytes from devices that are polled in cycles.
     pub(crate) cyclic_bytes: u64,
 }
 
-/// As often as something can become due, at most as often as the link allows.
+/// The report cycle: that of the link's `rate`, or else the shortest cycle time of a device, at
+/// most `REPORT_MS`.
 pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
     if let Some(rate_hz) = context.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
@@ -42,7 +44,7 @@ pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
     served.map(|wired| wired.device.delay_ms).fold(REPORT_MS, u32::min).max(1)
 }
 
-/// From one value of a device to the next; none for what measures by itself.
+/// The time from one value of a device to the next; none for a device that measures on its own.
 fn period_ms(device: &Device) -> Option<u32> {
     let kind = &device.kind;
     let is_asked = match kind {
@@ -66,7 +68,7 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
         return Reports { cycle_ms, count: 0, values: 0, bytes: 0, cyclic_bytes: 0 };
     }
     let most = 1_000_u64.div_ceil(u64::from(cycle_ms));
-    // In thousandths, so that a slow device counts as well.
+    // In thousandths, so that slow devices count as well.
     let rate = |device: &Device| {
         let own = period_ms(device).map(|ms| 1_000_000 / u64::from(ms.max(1)));
         own.unwrap_or(most * 1_000).min(most * 1_000)
@@ -81,7 +83,7 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
         wanted.map(|device| rate(device) * what(device)).sum::<u64>().div_ceil(1_000)
     };
     let frames = |cyclic: bool| {
-        // Devices of one pace and one start are read together, and go in one report.
+        // Devices with the same rate and start are read together, and are in the same report.
         let wanted = context.devices.iter().filter(|wired| {
             let is_sensor = wired.device.direction == Direction::Sensor;
             is_sensor && (!cyclic || period_ms(wired.device).is_some())
@@ -103,7 +105,7 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
     }
 }
 
-/// Bytes around values of so many.
+/// Bytes that a frame adds to a payload of this many bytes.
 fn frame_bytes(context: &Context<'_>, payload: u64) -> u64 {
     let checksum = context.board.link.checksum.size_bytes() as u64;
     let stamp = if context.board.link.stamp { STAMP_BYTES as u64 } else { 0 };
@@ -111,7 +113,7 @@ fn frame_bytes(context: &Context<'_>, payload: u64) -> u64 {
     digits + 2 + checksum + stamp
 }
 
-/// Bytes that the medium carries in a second.
+/// Bytes that the medium carries per second.
 pub(crate) fn capacity(context: &Context<'_>) -> (Option<u32>, Option<u32>) {
     match context.board.link.transport {
         Transport::None => (None, None),
@@ -141,12 +143,13 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     vec![row]
 }
 
-/// How long so many bytes take.
+/// How long this many bytes take.
 pub(crate) fn busy_ns(bytes: u64, most_a_second: u32) -> u64 {
     bytes.saturating_mul(SECOND_NS) / u64::from(most_a_second.max(1))
 }
 
-/// How long the reporter waits until the rest of a frame has gone out: its time on the line and some patience.
+/// How long the reporter waits until the rest of a frame has gone out: its time on the line plus a
+/// margin.
 #[must_use]
 pub fn finish_ms(frame_bytes: usize, baud: Option<u32>) -> u32 {
     let Some(baud) = baud else { return PATIENCE_MS };

@@ -1,4 +1,5 @@
-//! Memory: whether the values, buffers and stacks of a board fit. A program that does not is refused by the linker only.
+//! Memory: whether the values, buffers and stacks of a board fit. Otherwise only the linker would
+//! refuse a program that does not.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0626_memory_full::memory_full;
@@ -9,18 +10,19 @@ use sensedsl_wire::{Direction, ScalarType};
 use crate::Context;
 use crate::converters::depth;
 
-/// Kernel, drivers, shell and the stacks of start and interrupts, with some to spare: 5 to 6 KiB are taken.
+/// Kernel, drivers, shell, and the stacks for startup and interrupts, with a reserve: 5 to 6 KiB
+/// are used.
 const BASE_BYTES: u64 = 8 * 1_024;
 /// A thread with its stack.
 const THREAD_BYTES: u64 = 1_152;
-/// What the runtime keeps of a device beside its value.
+/// What the runtime stores for a device besides its value.
 const DEVICE_BYTES: u64 = 128;
 /// A sample of a converter.
 const SAMPLE_BYTES: u64 = 2;
-/// Frames to the board that are kept: one that comes in, and those among which it is looked for.
+/// Frames to the board that are stored: one that is arriving, and those in which it is looked for.
 const FRAMES_TO_BOARD: u64 = 4;
 
-/// That a board cannot hold what it is asked to.
+/// Reports a board that cannot hold what it is asked to.
 pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic> {
     let ram_bytes = context.system()?.ram_bytes?;
     let needed = needed_bytes(design, context);

@@ -1,4 +1,4 @@
-//! Serial ports of devices and timers that put out pulses: their exact clocks.
+//! Exact clocks of devices' serial ports and of timers that output pulses.
 
 use std::collections::BTreeMap;
 
@@ -57,7 +57,7 @@ fn port(context: &Context<'_>, wired: &Wired<'_>, unit: &str, uart: &Uart) -> Ro
     row
 }
 
-/// The rate that a serial port makes of its clock.
+/// The rate that a serial port derives from its clock.
 pub(crate) fn exact_baud(context: &Context<'_>, unit: &str, asked: u32) -> Option<u32> {
     let profile = context.board.profile()?;
     let hz = unit_hz(context, profile.serials.iter().find(|serial| serial.name == unit)?)?;

@@ -1,4 +1,4 @@
-//! The processor: what threads, interrupts and reports ask of it, from the instructions that were counted.
+//! The processor: the load of threads, interrupts and reports, from the counted instructions.
 
 use std::collections::BTreeMap;
 
@@ -14,15 +14,15 @@ use crate::link::reports;
 use crate::rows::{Count, Cycle, Part, Row, clocks_ns};
 use crate::{Context, MILLISECOND_NS};
 
-/// Pulses from here on are slept through.
+/// For pulses of at least this length, the thread sleeps.
 const SLEEP_US: u32 = 1_000;
 
 /// Transfers on a bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Transfers {
-    /// From a start condition to the stop.
+    /// Transfers, each from a start condition to the stop condition.
     pub(crate) count: u64,
-    /// Start conditions: one that writes and then reads has two.
+    /// Start conditions; a transfer that writes and then reads has two.
     pub(crate) phases: u64,
     /// Bytes on the bus.
     pub(crate) bytes: u64,
@@ -32,7 +32,7 @@ pub(crate) struct Transfers {
     pub(crate) value_bytes: u64,
 }
 
-/// What work costs on one board; nothing where it is not known.
+/// The cost of work on one board; nothing if it is unknown.
 pub(crate) struct Work {
     costs: Option<(Costs, u32)>,
 }
@@ -51,12 +51,12 @@ impl Work {
         self.costs.as_ref().map_or(0, |(costs, hz)| time_ns(costs, *hz, instructions(costs)))
     }
 
-    /// What a thread needs of the processor for a group of analog sensors.
+    /// The processor time that a thread needs for a group of analog sensors.
     pub(crate) fn of_converter(&self, sensors: &[Analog]) -> u64 {
         self.ns(|costs| converter(costs, sensors.iter().map(|sensor| sensor.samples)))
     }
 
-    /// What a thread needs of the processor for devices on a bus.
+    /// The processor time that a thread needs for devices on a bus.
     pub(crate) fn of_bus(&self, devices: impl Iterator<Item = Transfers>) -> u64 {
         self.ns(|costs| u64::from(costs.wake) + bus(costs, devices))
     }
@@ -88,31 +88,31 @@ fn bus(costs: &Costs, devices: impl Iterator<Item = Transfers>) -> u64 {
         .sum()
 }
 
-/// A thread: what it is called, its cycle, the devices it serves, and its instructions in a second.
+/// A thread: its name, its cycle, the devices it serves, and its instructions per second.
 struct Thread {
     name: String,
     cycle: Cycle,
     devices: Vec<DeviceIndex>,
-    /// Of one cycle at most, where they are known.
+    /// Most instructions of one cycle, if known.
     cycle_instructions: Option<u64>,
     instructions: Option<u64>,
-    /// Waited for with the processor held, in nanoseconds a cycle.
+    /// Time per cycle in which it waits without releasing the processor.
     held_ns: u64,
-    /// Slept through in a cycle.
+    /// Time per cycle in which it sleeps.
     slept_ns: u64,
     has_pulses: bool,
 }
 
-/// What one class is made of.
+/// The work of one class.
 #[derive(Default)]
 struct Load {
     devices: Vec<DeviceIndex>,
     samples: Vec<u16>,
-    /// With the milliseconds between two of them.
+    /// Transfers, each with the milliseconds between two of them.
     transfers: Vec<(Transfers, u32)>,
-    /// The length of a pulse.
+    /// The lengths of the pulses.
     pulses_us: Vec<u32>,
-    /// The runtime has no thread for some of it.
+    /// True if the runtime has no thread for some of the work.
     is_unknown: bool,
 }
 
@@ -159,7 +159,7 @@ impl Load {
             } else {
                 converter(costs, self.samples.iter().copied())
             };
-            // A device is looked at each cycle and talked to when it is ready.
+            // A device is checked each cycle, and communicated with when it is ready.
             let looked = self.transfers.len() as u64 * u64::from(costs.bus_device);
             let talked: u64 = self
                 .transfers
@@ -190,8 +190,8 @@ impl Load {
     }
 }
 
-/// What a thread is called beside its cycle: its unit, its priority, and its start where that is not at once. What has
-/// no unit has the name of its work.
+/// The name of a thread, without its cycle: its unit, its priority, and its start if that is not 0.
+/// Without a unit, it has the name of its work.
 fn name(unit: &str, cycle: Cycle) -> String {
     let has_number = unit.ends_with(|c: char| c.is_ascii_digit());
     let unit = if has_number { unit.to_owned() } else { unit.to_lowercase() };
@@ -209,7 +209,7 @@ fn times(instructions: u64, cycles: f64) -> u64 {
     all
 }
 
-/// The reporter's instructions of a second.
+/// The reporter's instructions per second.
 fn reporter(context: &Context<'_>, costs: &Costs) -> u64 {
     let reports = reports(context);
     let cycles = 1_000_u64.div_ceil(u64::from(reports.cycle_ms.max(1)));
@@ -252,7 +252,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     row.busy_ns = instructions.and_then(ns);
     rows.push(row);
     rows.extend(of_captures(context, costs));
-    // What has no figure of its own is not in the sum; it is told beside it.
+    // The sum is unknown if the busy time of any row is. Captures with an unknown rate have no row.
     let busy = rows.iter().map(|row| row.busy_ns).collect::<Option<Vec<u64>>>();
     let mut row = Row::new(Part::Processor, "all of it", Vec::new());
     row.clock_hz = core_hz(context);
@@ -261,7 +261,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     rows
 }
 
-/// All captures of which it is known how often they come.
+/// All captures whose rate is known.
 fn of_captures(context: &Context<'_>, costs: Option<&(Costs, u32)>) -> Option<Row> {
     let known: Vec<(DeviceIndex, u64)> = context
         .elements

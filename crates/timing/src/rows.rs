@@ -1,10 +1,10 @@
-//! The lines of the table: one part of the hardware each, with what it does.
+//! The rows of the table: one for each part of the hardware, with its load.
 
 use sensedsl_model::design::DeviceIndex;
 
 use crate::{MILLISECOND_NS, SECOND_NS};
 
-/// A kind of part.
+/// A kind of hardware part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// An analog-digital converter.
@@ -13,20 +13,20 @@ pub enum Part {
     Bus,
     /// A serial port of a device.
     Port,
-    /// A timer that puts out pulses.
+    /// A timer that outputs pulses.
     Output,
     /// The link to the host.
     Link,
-    /// Interrupts of captures and edges.
+    /// The interrupts of captures and edges.
     Interrupts,
-    /// What a thread asks of the processor.
+    /// A thread on the processor.
     Thread,
     /// The processor as a whole.
     Processor,
 }
 
 impl Part {
-    /// The word of the table and of JSON.
+    /// The word in the table and in JSON.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,26 +42,26 @@ impl Part {
     }
 }
 
-/// What devices have in common that one thread serves.
+/// What devices served by one thread have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cycle {
-    /// Cycle time.
+    /// The cycle time.
     pub delay_ms: u32,
-    /// Priority relative to `NORMALPRIO`.
+    /// The priority relative to `NORMALPRIO`.
     pub prio: i8,
-    /// When the first cycle begins, after the start of the board.
+    /// The start of the first cycle, in milliseconds after the board's start.
     pub start_ms: u32,
 }
 
 impl Cycle {
-    /// What a thread is called: `ADC1 60 ms +2`, with its start where that is not at once.
+    /// The name of a thread: `ADC1 60 ms +2`, with its start if that is not 0.
     #[must_use]
     pub fn title(self, unit: &str) -> String {
         let delay_ms = self.delay_ms;
         self.named(&format!("{unit} {delay_ms} ms"))
     }
 
-    /// A name with what tells it from others of the same cycle time.
+    /// A name with what distinguishes it from others with the same cycle time.
     pub(crate) fn named(self, name: &str) -> String {
         let Self { prio, start_ms, .. } = self;
         let prio = if prio == 0 { String::new() } else { format!(" {prio:+}") };
@@ -70,7 +70,7 @@ impl Cycle {
     }
 }
 
-/// So many of something in a second.
+/// A count of something per second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
     /// Conversions of a converter.
@@ -94,7 +94,7 @@ impl Count {
         }
     }
 
-    /// What is counted, in a few letters.
+    /// The unit of the count, in a few letters.
     #[must_use]
     pub const fn short_unit(self) -> &'static str {
         match self {
@@ -105,7 +105,7 @@ impl Count {
         }
     }
 
-    /// What is counted.
+    /// The unit of the count.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
@@ -117,43 +117,43 @@ impl Count {
     }
 }
 
-/// One line.
+/// A row of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// What kind of part.
+    /// The kind of part.
     pub part: Part,
-    /// `ADC1`, `I2C3`, `reporter`.
+    /// The name: `ADC1`, `I2C3`, `reporter`.
     pub name: String,
-    /// The devices it serves.
+    /// The devices that it serves.
     pub devices: Vec<DeviceIndex>,
-    /// How often, where it is done in cycles.
+    /// How often it works, if it works in cycles.
     pub cycle: Option<Cycle>,
-    /// The exact clock, where the part has one and it is known.
+    /// The exact clock, if the part has one and it is known.
     pub clock_hz: Option<u32>,
-    /// How long one cycle takes at most.
+    /// The longest duration of one cycle.
     pub cycle_ns: Option<u64>,
-    /// What is done in a second.
+    /// The work per second.
     pub a_second: Option<Count>,
-    /// How much of a second the part is busy, where it is known; may be more than a second.
+    /// The busy time per second, if known; may be more than a second.
     pub busy_ns: Option<u64>,
-    /// The shortest cycle time that can be kept beside the others.
+    /// The shortest possible cycle time, given the others.
     pub shortest_ms: Option<u32>,
 }
 
 impl Row {
-    /// Whether something is done in a second, known or not.
+    /// Whether the part has a count per second, known or not.
     #[must_use]
     pub const fn has_count(&self) -> bool {
         !matches!(self.part, Part::Output | Part::Processor)
     }
 
-    /// Whether the part can be busy, known or not.
+    /// Whether the part has a busy time, known or not.
     #[must_use]
     pub const fn has_share(&self) -> bool {
         !matches!(self.part, Part::Output | Part::Interrupts)
     }
 
-    /// A line of which nothing is known yet.
+    /// A row with nothing known yet.
     pub(crate) fn new(part: Part, name: impl Into<String>, mut devices: Vec<DeviceIndex>) -> Self {
         // An array has several elements.
         devices.dedup();
@@ -171,18 +171,18 @@ impl Row {
     }
 }
 
-/// Time of so many clocks, rounded up.
+/// The duration of this many clocks, rounded up.
 pub(crate) fn clocks_ns(clocks: u64, hz: u32) -> u64 {
     clocks.saturating_mul(SECOND_NS).div_ceil(u64::from(hz).max(1))
 }
 
-/// What is done once in so many milliseconds, in a second.
+/// The amount per second of work that is done once in this many milliseconds.
 pub(crate) fn per_second(once: u64, every_ms: u32) -> u64 {
     once.saturating_mul(1_000).div_ceil(u64::from(every_ms).max(1))
 }
 
-/// Gives each class of one unit the shortest cycle time that it can keep beside the others. `own_ns` is what its
-/// thread needs for a cycle from beginning to end.
+/// Sets the shortest cycle time that each class of a unit can keep, given the others. `own_ns` is
+/// the time that its thread needs for a cycle from beginning to end.
 pub(crate) fn shortest(rows: &mut [Row], own_ns: &[u64]) {
     let all_ns = rows.iter().filter_map(|row| row.busy_ns).fold(0_u64, u64::saturating_add);
     for (row, own_ns) in rows.iter_mut().zip(own_ns) {

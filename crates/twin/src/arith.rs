@@ -1,17 +1,17 @@
-//! Arithmetic that is the same to the last bit on every machine: the mathematical library of a system may round a sine
-//! or a logarithm its own way, and a run has to be repeatable to the byte.
+//! Arithmetic that is the same to the last bit on every machine. A system's math library may round a sine or a
+//! logarithm its own way, and a run must be repeatable to the byte.
 
 /// A full turn of [`sine`].
 pub(crate) const TURN: u64 = 1 << 32;
 
-/// The sine of a share of a turn, in 2^-32.
+/// The sine of a phase, given as a fraction of a turn in units of 2^-32.
 pub(crate) fn sine(phase: u64) -> f64 {
     let phase = phase % TURN;
     let quarter = TURN / 4;
     let (within, is_negative) = (phase % (TURN / 2), phase >= TURN / 2);
     let rising = if within > quarter { TURN / 2 - within } else { within };
     let x = number(rising) / number(quarter) * std::f64::consts::FRAC_PI_2;
-    // The series up to x^15: wrong by less than 1e-11 at a right angle.
+    // The series up to x^15: the error at a right angle is below 1e-11.
     let square = x * x;
     let mut term = x;
     let mut sum = x;
@@ -28,7 +28,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     let bits = x.to_bits();
     let exponent = (bits >> 52) & 0x7FF;
     let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
-    // From sqrt(1/2) to sqrt(2) the series of the inverse hyperbolic tangent is short.
+    // From sqrt(1/2) to sqrt(2), a few terms of the inverse hyperbolic tangent's series are enough.
     let (mantissa, exponent) = if mantissa > std::f64::consts::SQRT_2 {
         (mantissa / 2.0, exponent + 1)
     } else {
@@ -44,7 +44,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     2.0 * sum + (number(exponent) - 1023.0) * std::f64::consts::LN_2
 }
 
-/// The exponential function of the negative of a number from 0 to 1.
+/// The exponential of the negative of a number from 0 to 1.
 pub(crate) fn decay(x: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
     for step in 1..20_u32 {
@@ -54,7 +54,7 @@ pub(crate) fn decay(x: f64) -> f64 {
     sum
 }
 
-/// A pseudo-random number, always the same one for the same input (`SplitMix64`).
+/// A pseudo-random number that depends only on the input (`SplitMix64`).
 pub(crate) fn scrambled(mut state: u64) -> u64 {
     state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     state = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -62,12 +62,12 @@ pub(crate) fn scrambled(mut state: u64) -> u64 {
     state ^ (state >> 31)
 }
 
-/// The same as a number from -1 to 1.
+/// A pseudo-random number from -1 to 1 that depends only on the input.
 pub(crate) fn chance(state: u64) -> f64 {
     number(scrambled(state) >> 32) / number(TURN / 2) - 1.0
 }
 
-/// A whole number as a real one; exact up to 2^53, which is 104 days in nanoseconds.
+/// A whole number as a real one; exact up to 2^53, which in nanoseconds is 104 days.
 #[expect(clippy::cast_precision_loss, reason = "what does not fit is rounded the same everywhere")]
 pub(crate) const fn number(whole: u64) -> f64 {
     whole as f64
@@ -79,13 +79,13 @@ pub(crate) const fn signed_number(whole: i64) -> f64 {
     whole as f64
 }
 
-/// The nearest whole number; what does not fit saturates, and what is not a number is 0.
+/// The nearest whole number. A value that does not fit saturates; a NaN is 0.
 #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
 pub(crate) fn rounded(real: f64) -> i64 {
     real.round() as i64
 }
 
-/// A time in nanoseconds, rounded; 0 where it is negative.
+/// A time in nanoseconds, rounded; 0 if it is negative.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,7 +1,7 @@
 //! The bench: a board's wiring, with parts behind its pins and a world around them.
 //!
-//! In: what is to run on a board, and a world. Out: [`Surroundings`](sensedsl_surroundings::Surroundings) for an emulated MCU, and
-//! the same by connections for a board that knows no pads. Faults of the world happen here.
+//! In: the job of a board, and a world. Out: [`Surroundings`](sensedsl_surroundings::Surroundings) for an emulated MCU,
+//! and the same, addressed by connection, for a board that knows no pads. The world's faults happen here.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +34,7 @@ pub use peer::Peer;
 pub(crate) use units::Units;
 pub use units::number_of;
 
-/// What a converter reads at most, and at what voltage.
+/// The full-scale reading of a converter, and the voltage that gives it.
 const FULL: f64 = 4_095.0;
 const REFERENCE_MV: f64 = 3_300.0;
 const MS_NS: u64 = 1_000_000;
@@ -50,7 +50,7 @@ pub struct Bench {
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
-    /// By timer and channel: period and width of its pulses.
+    /// Period and width of the pulses, by timer and channel.
     waves: BTreeMap<TimerOutput, (u64, u64)>,
     recorder: Recorder,
     commands: Vec<Command>,
@@ -58,7 +58,7 @@ pub struct Bench {
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
     units: Units,
-    /// Who is on the CAN buses in place of the world's stations.
+    /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
     seed: u64,
     log: Option<log::Log>,
@@ -114,13 +114,13 @@ impl Bench {
         bench
     }
 
-    /// The board's sensors with what happens to them, in the order of the file.
+    /// The board's sensors and their signals, in the order of the file.
     #[must_use]
     pub fn subjects(&self) -> &[Subject] {
         &self.subjects
     }
 
-    /// From one message or frame of a device that sends by itself to the next.
+    /// The time between two messages or frames of a device that sends by itself.
     #[must_use]
     pub fn period_ns(&self, part: PartIndex) -> Option<u64> {
         let talker = self.talkers.values().find(|one| one.part == part);
@@ -130,7 +130,7 @@ impl Bench {
         talker.map(|one| one.talker.period_ns()).or_else(senders)
     }
 
-    /// The devices that a fault may keep from reporting, and from when to when.
+    /// The times, from start to end, at which a fault may keep a device from reporting.
     #[must_use]
     pub fn excused(&self, job: &BoardJob<'_>, device: DeviceIndex) -> Vec<(u64, u64)> {
         let own = job.devices.iter().find(|one| one.index == device);
@@ -145,7 +145,7 @@ impl Bench {
         self.faults.iter().zip(&self.broken).filter_map(hits).collect()
     }
 
-    /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
+    /// Period and width, in nanoseconds, of the pulses that the board sends, by timer and channel.
     #[must_use]
     pub fn waves(&self) -> &BTreeMap<TimerOutput, (u64, u64)> {
         &self.waves
@@ -157,7 +157,7 @@ impl Bench {
         self.faults.iter().any(|one| one.kind == FaultKind::Reset && one.is_there(now_ns))
     }
 
-    /// Random bytes that arrive on the link in this millisecond.
+    /// The random byte that arrives on the link in this millisecond, if one does.
     #[must_use]
     pub fn garbage(&self, now_ns: u64) -> Option<u8> {
         let is_there = |one: &&Fault| one.kind == FaultKind::Garbage && one.is_there(now_ns);
@@ -166,7 +166,7 @@ impl Bench {
         chance.to_be_bytes().first().copied()
     }
 
-    /// The supply is back: parts have forgotten what was written to them.
+    /// The supply is back: parts have lost what was written to them.
     pub fn power_up(&mut self) {
         for chip in &mut self.chips {
             chip.registers.reset();
@@ -194,7 +194,7 @@ impl Bench {
         level.clamp(0.0, FULL) * REFERENCE_MV / FULL
     }
 
-    /// The level at a wire of a connection; `None` if nothing drives it.
+    /// The level on a wire of a connection; `None` if nothing drives it.
     pub fn level_at(
         &mut self,
         connection: ConnectionIndex,
@@ -210,7 +210,7 @@ impl Bench {
         (role != Role::Trigger).then(|| line.level(&self.subjects, now_ns))
     }
 
-    /// The next edge at a wire of a connection.
+    /// The next edge on a wire of a connection.
     pub fn next_edge_at(
         &mut self,
         connection: ConnectionIndex,
@@ -221,7 +221,7 @@ impl Bench {
         let (first, second) = wired.line.as_mut()?;
         let line = if role == Role::B { second.as_mut()? } else { first };
         let mut after_ns = after_ns;
-        // What a fault swallows is not seen; the edges go on behind it.
+        // Edges that a fault swallows are skipped; the signal goes on after the fault.
         for _ in 0..100_000 {
             let (at, level) = line.next_edge(&self.subjects, after_ns)?;
             let part = wired.part;
@@ -292,7 +292,7 @@ impl Bench {
     }
 }
 
-/// Putting parts on pins.
+/// Placement of parts on pins.
 impl Bench {
     fn add(&mut self, job: &BoardJob<'_>, index: ConnectionIndex, one: &JobConnection<'_>) {
         for pad in &one.pads {
@@ -332,7 +332,7 @@ impl Bench {
         self.wires.insert(index, wired);
     }
 
-    /// What a part sends on a CAN bus.
+    /// Adds the frames that a part sends on a CAN bus.
     fn stations(&mut self, unit: u8, part: PartIndex, devices: &[&Device]) {
         for of in devices {
             let Some((can, words)) = of.kind.can().zip(Words::of(of)) else { continue };
@@ -410,7 +410,7 @@ impl Bench {
     }
 }
 
-/// The board's sensors with what happens to them.
+/// The board's sensors and their signals.
 fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
     let sensors = job.devices.iter().filter(|one| one.device.direction == Direction::Sensor);
     let subject = sensors.map(|one| {
@@ -421,14 +421,14 @@ fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
     subject.collect()
 }
 
-/// The part that a fault is of, and the units of its wires.
+/// The part that a fault hits, and the units of its wires.
 fn broken(job: &BoardJob<'_>, fault: &Fault) -> (Option<PartIndex>, Vec<String>) {
     let part = fault.device.and_then(|device| job.design.device(device)).map(|device| device.part);
     let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
     (part, of_part.filter_map(|one| one.unit.map(str::to_owned)).collect())
 }
 
-/// The value that a converter gives for a voltage, with the digits behind the point that many samples have.
+/// The value that a converter gives for a voltage, with the fraction that the average of many samples has.
 #[must_use]
 pub fn converted(millivolts: f64) -> f64 {
     (millivolts * FULL / REFERENCE_MV).clamp(0.0, FULL)

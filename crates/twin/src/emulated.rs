@@ -1,7 +1,7 @@
-//! A board's image on the emulated MCU, in the same bench as the board that does its job in this program.
+//! A board's image on the emulated MCU, on the same bench as the board that this program imitates.
 //!
-//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program stands, and what it has done to
-//! pads and ports at each start that the plan does not say.
+//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program is, and, for each start, the
+//! settings of pads and ports that differ from the plan.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -13,23 +13,24 @@ use crate::pads::{PadMismatch, Planned, misled, planned};
 use crate::ports::{self, PlannedPort};
 use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, Mcu, ResetCause, Settings};
 
-/// The crystal where the board's is not known.
+/// The crystal frequency if the board's is not known.
 const CRYSTAL_HZ: u64 = 8_000_000;
 const MS_NS: u64 = 1_000_000;
 const SECOND_NS: u64 = 1_000 * MS_NS;
-/// A watchdog that bites no sooner is none.
+/// A watchdog with a longer timeout than this counts as missing.
 const WATCHDOG_NS: u64 = 10 * SECOND_NS;
-/// When the watchdog is looked at: so long after a start. A link over USB is plugged in before it is started.
+/// The time after a start at which the watchdog is checked. A link over USB is plugged in before the watchdog is
+/// started.
 const WATCHED_NS: u64 = 2_500 * MS_NS;
-/// When pads and ports are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
-/// pads to itself for a moment.
+/// The time after a start at which pads and ports are checked, the number of checks and the time between them. A bus
+/// that is being freed takes its pads over for a moment.
 const LOOK_NS: u64 = 1_000 * MS_NS;
 const LOOKS: u32 = 4;
 const LOOKS_APART_NS: u64 = 7 * MS_NS;
-/// A program that is reset so often without having been told to does nothing but start.
+/// After this many resets that nobody asked for, the program counts as one that only ever starts.
 const RESETS_MAX: u32 = 3;
 
-/// The MCU with what is around it.
+/// The MCU with its surroundings.
 pub struct EmulatedBoard {
     machine: Machine,
     bench: Arc<Mutex<Bench>>,
@@ -40,9 +41,9 @@ pub struct EmulatedBoard {
     is_off: bool,
     look: Option<Look>,
     misled: Vec<PadMismatch>,
-    /// When the watchdog is looked at next.
+    /// The time of the next watchdog check.
     watchdog_at_ns: Option<u64>,
-    /// What is wrong with it.
+    /// The watchdog's fault, if it has one.
     unwatched: Option<String>,
     events: Vec<Event>,
     resets: u32,
@@ -50,7 +51,8 @@ pub struct EmulatedBoard {
     pc: u32,
 }
 
-/// When pads and ports are looked at next, how often still, and what was wrong each time so far.
+/// The time of the next check of pads and ports, the number of checks left, and the mismatches that every check so far
+/// has found.
 struct Look {
     at_ns: u64,
     left: u32,
@@ -111,19 +113,20 @@ impl EmulatedBoard {
         self.machine.now_ns()
     }
 
-    /// How many cycles the core has worked, without those that it waited.
+    /// The number of cycles that the core has worked, without those that it waited.
     #[must_use]
     pub fn cycles_worked(&self) -> u64 {
         self.machine.cycles_worked()
     }
 
-    /// How many instructions the core has executed, without those of a loop of one in which it waited.
+    /// The number of instructions that the core has executed, without those of one-instruction loops in which it
+    /// waited.
     #[must_use]
     pub fn instructions(&self) -> u64 {
         self.machine.instructions()
     }
 
-    /// Goes on to a time, a millisecond after the other: the supply may go in each of them.
+    /// Runs until the given time, in steps of a millisecond: the supply may fail in each of them.
     pub fn run_until(&mut self, until_ns: u64) {
         while self.garbage_ms < until_ns / MS_NS {
             self.garbage_ms += 1;
@@ -140,7 +143,7 @@ impl EmulatedBoard {
         self.follow();
     }
 
-    /// Takes the supply away and gives it back, as the world has it.
+    /// Takes the supply away and gives it back, as the world says.
     fn supply(&mut self, now_ns: u64) {
         let is_off = self.bench().is_off(now_ns);
         if is_off != self.is_off {
@@ -154,7 +157,7 @@ impl EmulatedBoard {
         }
     }
 
-    /// Takes what has happened.
+    /// Handles the machine's new events.
     fn follow(&mut self) {
         for event in self.machine.events() {
             if let Event::Reset { at_ns, cause } = &event {
@@ -176,7 +179,7 @@ impl EmulatedBoard {
         self.pc = self.machine.pc();
     }
 
-    /// Compares pads and ports with the plan, when it is time.
+    /// Compares pads and ports with the plan if it is time.
     fn look(&mut self, now_ns: u64) {
         let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
         let mut now = misled(&self.planned, &self.machine.pads());
@@ -195,7 +198,7 @@ impl EmulatedBoard {
         self.misled.extend(still);
     }
 
-    /// Whether the watchdog runs, when it is time.
+    /// Checks whether the watchdog runs if it is time.
     fn look_at_watchdog(&mut self, now_ns: u64) {
         if self.watchdog_at_ns.is_none_or(|at_ns| now_ns < at_ns) {
             return;
@@ -208,35 +211,36 @@ impl EmulatedBoard {
         };
     }
 
-    /// The pads and ports that are not as planned, since the last call.
+    /// The pads and ports found not to be as planned since the last call.
     pub fn misled(&mut self) -> Vec<PadMismatch> {
         std::mem::take(&mut self.misled)
     }
 
-    /// What is wrong with the watchdog, since the last call.
+    /// The watchdog's fault, if one was found since the last call.
     pub fn unwatched(&mut self) -> Option<String> {
         self.unwatched.take()
     }
 
-    /// What the board puts out.
+    /// The outputs of the board.
     #[must_use]
     pub fn outputs(&self) -> crate::commands::outputs::Outputs {
         self.bench().outputs().clone()
     }
 
-    /// The parts on buses that the board has read without asking who they are.
+    /// The parts on buses that the board has read without asking for their identity.
     #[must_use]
     pub fn unasked(&self) -> Vec<crate::bench::Unasked> {
         self.bench().unasked()
     }
 
-    /// The parts on buses with which the board has done something that their drivers do not say, and what.
+    /// The parts on buses that the board has treated in a way that their drivers do not describe, each with what
+    /// happened.
     #[must_use]
     pub fn odd_transfers(&self) -> Vec<(String, String)> {
         self.bench().odd_transfers()
     }
 
-    /// For how long the core has worked so far.
+    /// The time that the core has worked so far.
     #[must_use]
     pub fn worked_ns(&self) -> u64 {
         let hz = self.machine.core_hz().max(1);
@@ -244,13 +248,13 @@ impl EmulatedBoard {
         whole.saturating_mul(SECOND_NS).saturating_add(rest * SECOND_NS / hz)
     }
 
-    /// What has come out of the MCU, where the bench writes it down.
+    /// The log of everything that has left the MCU, if the bench keeps one.
     #[must_use]
     pub fn take_log(&self) -> Option<String> {
         self.bench().take_log()
     }
 
-    /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
+    /// Period and width, in nanoseconds, of the pulses that the board sends, by timer and channel.
     #[must_use]
     pub fn waves(
         &self,
@@ -265,25 +269,25 @@ impl EmulatedBoard {
         }
     }
 
-    /// The host opens its port, or closes it.
+    /// The host opens or closes its port.
     pub fn link_open(&mut self, is_open: bool) {
         self.machine.link_open(is_open);
     }
 
-    /// What has arrived at the host since the last call.
+    /// The bytes that have arrived at the host since the last call.
     pub fn link_read(&mut self) -> Vec<u8> {
         let mut bytes = std::mem::take(&mut self.garbage);
         bytes.extend(self.machine.link_read().into_iter().map(|(_, byte)| byte));
         bytes
     }
 
-    /// Where and why the program does nothing more.
+    /// The place where the program is stuck, and the reason.
     #[must_use]
     pub fn halt(&self) -> Option<Lockup> {
         self.loops.clone().or_else(|| self.machine.halt())
     }
 
-    /// What has happened since the last call that a user wants to hear of.
+    /// The events since the last call that matter to a user.
     pub fn events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
     }

@@ -1,14 +1,14 @@
 //! A board's twin: firmware runs on an emulated MCU, and a simulated world is on its pins.
 //!
-//! What comes in are bytes: an image, what a host sends. What goes out are events with times. Time is virtual and
-//! counted in nanoseconds since the board got power, so that a run is the same each time, to the byte.
+//! In: bytes, which are an image and what a host sends. Out: events with times. Time is virtual and counted in
+//! nanoseconds since the board got power, so that a run is the same each time, to the byte.
 //!
-//! [`Surroundings`](sensedsl_surroundings::Surroundings) is the seam: an emulated MCU (feature `machine`) asks it what is
-//! on its pads and buses, and the parts here answer.
+//! [`Surroundings`](sensedsl_surroundings::Surroundings) is the interface: an emulated MCU (feature `machine`) asks for
+//! the signals on its pads and buses, and the parts here answer.
 //!
-//! [`world`] says what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's job in
-//! this program, `emulated` does it with an image on the machine, and [`judge`] compares what it reports with the world.
-//! No part of it reads a file or a clock.
+//! [`world`] describes what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's
+//! job in this program, `emulated` does it with an image on the machine, and [`judge`] compares the board's reports
+//! with the world. Nothing in this crate reads a file or a clock.
 
 mod arith;
 pub mod bench;

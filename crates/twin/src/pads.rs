@@ -1,7 +1,7 @@
-//! How pads must be set up, from the wiring alone, and which are not.
+//! How pads must be set up, from the wiring alone, and which of them differ.
 //!
-//! In: a board's job, and how the pads of the emulated MCU are. Out: what differs. Nothing here is shared with the
-//! generators, which decide the same a second time.
+//! In: a board's job, and the state of the pads of the emulated MCU. Out: the differences. Nothing here is shared with
+//! the generators, which decide the same things independently.
 
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_job::{BoardJob, Pad as Wired};
@@ -17,11 +17,11 @@ pub(crate) struct Planned {
     pad: Pad,
     title: String,
     mode: Mode,
-    /// The wire that it is led to.
+    /// The signal that it is switched to.
     wire: Option<Signal>,
-    /// Whether only its low side may be driven; none where it drives nothing.
+    /// Whether it must be open-drain; `None` if it drives nothing.
     open_drain: Option<bool>,
-    /// Any of them will do.
+    /// The pull resistors, any of which will do.
     pulls: &'static [Pull],
 }
 
@@ -32,16 +32,16 @@ pub struct PadMismatch {
     pub title: String,
     /// The pad or the port, as in `PB4` or `USART2`.
     pub place: String,
-    /// How it should be.
+    /// The expected setting.
     pub expected: String,
-    /// How it is.
+    /// The setting found.
     pub found: String,
 }
 
 const FREE: &[Pull] = &[Pull::None];
 const UP: &[Pull] = &[Pull::Up];
 const DOWN: &[Pull] = &[Pull::Down];
-/// The lines of a bus have resistors outside, which its pads may help.
+/// The lines of a bus have external pull-ups, which those of its pads may support.
 const BUS: &[Pull] = &[Pull::None, Pull::Up];
 const ANY: &[Pull] = &[Pull::None, Pull::Up, Pull::Down];
 
@@ -92,7 +92,7 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
     }
 }
 
-/// A pad that a peripheral has.
+/// A pad that belongs to a peripheral.
 fn led(
     title: &str,
     pad: &Wired<'_>,
@@ -110,7 +110,7 @@ fn led(
     })
 }
 
-/// What is not as planned.
+/// The pads that are not as planned.
 pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<PadMismatch> {
     let differs = |one: &Planned| {
         let state = states.iter().find(|state| state.pad == one.pad)?;
@@ -129,7 +129,7 @@ pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<PadMismatc
     planned.iter().filter_map(differs).collect()
 }
 
-/// Whether the number of the pad's alternate function is that of its wire: the MCU's own facts know, whatever number was
+/// Whether the pad's alternate function is the one of its signal. The MCU's own facts tell, whatever number was
 /// planned.
 fn is_led(one: &Planned, state: &PadState) -> bool {
     let Some(wire) = &one.wire else { return true };

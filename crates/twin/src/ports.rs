@@ -1,8 +1,8 @@
-//! How ports must be set up, from the wiring alone, and which are not.
+//! How ports must be set up, from the wiring alone, and which of them differ.
 //!
-//! In: a board's job, and how the ports of the emulated MCU are. Out: what differs. A part that is talked to at another
-//! speed, or with another edge of its clock, understands nothing, and the parts of the simulated world take bytes and
-//! not edges. Nothing here is shared with the generators.
+//! In: a board's job, and the state of the ports of the emulated MCU. Out: the differences. A real part that is
+//! addressed at the wrong speed, or at the wrong edge of its clock, understands nothing, but the parts of the simulated
+//! world take bytes and not edges. Nothing here is shared with the generators.
 
 use std::collections::BTreeMap;
 
@@ -13,20 +13,20 @@ use sensedsl_model::kind::uart::Parity;
 use crate::pads::PadMismatch;
 use sensedsl_machine::{PortState, Setting};
 
-/// A serial port takes characters whose speed is off by up to so many per cent.
+/// The greatest error of a serial port's speed, in per cent, at which it still receives characters.
 const BAUD_PERCENT: u64 = 2;
 
 /// How a port must be set up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct PlannedPort {
     unit: String,
-    /// The devices.
+    /// The titles of its devices.
     title: String,
-    /// Any of them will do: the chips of an SPI bus have each their own.
+    /// The settings, any of which will do: each chip on an SPI bus has its own.
     wanted: Vec<Wanted>,
 }
 
-/// What one device needs of its port.
+/// The settings that one device needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
     Serial { baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8 },
@@ -44,7 +44,7 @@ pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
         let and = if port.title.is_empty() { "" } else { " and " };
         port.title.push_str(&format!("{and}{title}"));
         match (port.wanted.first_mut(), wanted) {
-            // The slowest part says how fast a bus is.
+            // The slowest part determines the speed of a bus.
             (Some(Wanted::I2c { most_hz }), Wanted::I2c { most_hz: other }) => {
                 *most_hz = other.min(*most_hz);
             }
@@ -88,7 +88,7 @@ fn of_kind(kind: &Kind) -> Option<Wanted> {
     }
 }
 
-/// What is not as planned. A port that was not started is told by the silence of its devices.
+/// The ports that are not as planned. A port that was not started shows in the silence of its devices.
 pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<PadMismatch> {
     let differs = |one: &PlannedPort| {
         let state = states.iter().find(|state| state.unit == one.unit)?;
@@ -120,11 +120,11 @@ fn fits(wanted: Wanted, state: Setting) -> bool {
                 && (data_bits, odd_parity, stop_bits) == (found_bits, found_parity, found_stops)
         }
         (Wanted::Spi { most_hz, mode }, Setting::Spi { clock_hz, fastest_hz, mode: found }) => {
-            // Dividers are powers of 2, so that more than half of what is allowed can always be had.
+            // Dividers are powers of 2, so a clock above half of the allowed one is always possible.
             let least_hz = (most_hz / 2).min(fastest_hz);
             mode == found && (least_hz..=most_hz).contains(&clock_hz)
         }
-        // A driver that divides without a remainder may have to stay below what is allowed.
+        // A driver that only divides without a remainder may have to stay below the allowed speed.
         (Wanted::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
             let most_hz = most_hz.min(fastest_hz);
             (most_hz / 2..=most_hz).contains(&clock_hz)
@@ -197,10 +197,10 @@ mod tests {
         for (clock_hz, mode) in [(656_250, 0), (1_312_500, 1), (328_125, 1)] {
             assert!(is_misled(&wanted, found(clock_hz, mode)), "{clock_hz} Hz, {mode}");
         }
-        // What the port cannot do is not asked of it.
+        // The port is not asked for more than it can do.
         let slow = Setting::Spi { clock_hz: 250_000, fastest_hz: 250_000, mode: 1 };
         assert!(!is_misled(&wanted, slow));
-        // Two chips on one bus have each their own.
+        // Each of two chips on one bus has its own setting.
         let both = [wanted[0], Wanted::Spi { most_hz: 10_000_000, mode: 3 }];
         assert!(!is_misled(&both, found(5_250_000, 3)) && is_misled(&both, found(5_250_000, 1)));
     }
@@ -226,7 +226,7 @@ mod tests {
         for clock_hz in [100_000, 410_000] {
             assert!(is_misled(&bus, found(clock_hz)), "{clock_hz}");
         }
-        // A unit that is slower than its part is as fast as it may be, and no faster.
+        // A unit that is slower than its part runs at its own highest speed.
         let bus = [Wanted::I2c { most_hz: 1_000_000 }];
         assert!(!is_misled(&bus, found(400_000)));
         for clock_hz in [100_000, 1_000_000] {

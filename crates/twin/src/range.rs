@@ -1,4 +1,4 @@
-//! Which numbers a device can report at all: what its type holds, and what its hardware can measure.
+//! The range of the numbers that a device can report at all: what its type holds and its hardware can measure.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::digital::Edge;
@@ -10,7 +10,7 @@ use sensedsl_wire::ScalarType;
 use crate::parts::words;
 use crate::truth::Scale;
 
-/// Whether the device counts edges, so that it never becomes less.
+/// Whether the device counts edges, so that its value never decreases.
 #[must_use]
 pub fn is_counter(kind: &Kind, device: &Device) -> bool {
     match kind {
@@ -29,7 +29,7 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
     }
 }
 
-/// The edges a second that a contact's debounce lets through; none where it lets all.
+/// The most edges a second that a contact's debounce lets through; `None` if it lets all through.
 #[must_use]
 pub fn edges_a_second_max(device: &Device) -> Option<f64> {
     let Kind::Digital(digital) = &device.kind else { return None };
@@ -41,7 +41,7 @@ pub fn edges_a_second_max(device: &Device) -> Option<f64> {
     (lasts_us > 0.0).then(|| 1e6 / (lasts_us * levels_an_edge))
 }
 
-/// The least and the greatest raw number; none for real ones without bounds.
+/// The least and the greatest raw number; `None` for real numbers without bounds.
 #[must_use]
 pub fn raw_range(device: &Device) -> Option<(f64, f64)> {
     let whole = device.value.value.scalar.integer_range();
@@ -54,7 +54,7 @@ pub fn raw_range(device: &Device) -> Option<(f64, f64)> {
     }
 }
 
-/// What the hardware can measure.
+/// The range that the hardware can measure.
 fn own_range(device: &Device) -> Option<(f64, f64)> {
     if let Some(output) = device.coding.output {
         return Some(match (device.kind.name(), output) {
@@ -83,7 +83,7 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
     }
 }
 
-/// The same in the device's own unit.
+/// The least and the greatest value in the device's own unit.
 #[must_use]
 pub fn shown_range(device: &Device) -> Option<(f64, f64)> {
     let (least, greatest) = raw_range(device)?;

@@ -1,7 +1,8 @@
-//! What a device ought to report: from the world's value in the device's own unit back to the number on the wire.
+//! The numbers that a device should report: conversion of the world's value, in the device's own unit, back to the
+//! number on the wire.
 //!
-//! A host shows `curve(scale * raw + offset)`. Here the same way is gone backwards, so that the world can be written in
-//! degrees and centimetres, and the parts get what the hardware would have measured.
+//! A host shows `curve(scale * raw + offset)`. This is inverted here, so that a world can be written in degrees and
+//! centimetres, and parts get the numbers that real hardware would have measured.
 
 use sensedsl_model::design::{Device, DeviceIndex, Presentation};
 use sensedsl_wire::{Scalar, ScalarType};
@@ -9,7 +10,7 @@ use sensedsl_wire::{Scalar, ScalarType};
 use crate::arith::{rounded, signed_number};
 use crate::world::Signal;
 
-/// How raw numbers are shown.
+/// The conversion of raw numbers to shown ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     factor: f64,
@@ -18,7 +19,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The one of a device.
+    /// The scale of a device.
     #[must_use]
     pub fn of(shown: &Presentation) -> Self {
         let factor = shown.scale.filter(|factor| *factor != 0.0).unwrap_or(1.0);
@@ -27,21 +28,21 @@ impl Scale {
         Self { factor, offset: shown.offset.unwrap_or(0.0), curve }
     }
 
-    /// What a host shows of a raw number.
+    /// The number that a host shows for a raw number.
     #[must_use]
     pub fn shown(&self, raw: f64) -> f64 {
         let linear = self.factor * raw + self.offset;
         interpolated(&self.curve, linear).unwrap_or(linear)
     }
 
-    /// The raw number that is shown as this one. Beyond the ends of a curve it is that of the nearer end.
+    /// The raw number for a shown one. Beyond the ends of a curve, it is the one for the nearer end.
     #[must_use]
     pub fn raw(&self, shown: f64) -> f64 {
         let linear = self.before_curve(shown);
         (linear - self.offset) / self.factor
     }
 
-    /// Finds the place on the curve by halving the piece that the value is on.
+    /// Finds the place on the curve by bisection of the piece that has the value.
     fn before_curve(&self, shown: f64) -> f64 {
         let (Some(first), Some(last)) = (self.curve.first(), self.curve.last()) else {
             return shown;
@@ -62,7 +63,7 @@ impl Scale {
         if (shown - first.1).abs() <= (shown - last.1).abs() { first.0 } else { last.0 }
     }
 
-    /// By how much the raw number has to change for the shown one to change by one, at most.
+    /// By how much the shown number changes if the raw one changes by one.
     #[must_use]
     pub fn shown_step(&self, raw: f64) -> f64 {
         let (above, below) = (self.shown(raw + 1.0), self.shown(raw - 1.0));
@@ -70,7 +71,7 @@ impl Scale {
     }
 }
 
-/// The least place between two ends from which on the condition does not hold any more, to the precision of a double.
+/// The least place between two ends from which on the condition no longer holds, to the precision of a double.
 pub(crate) fn halved(mut from: f64, mut to: f64, is_before: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..64 {
         let middle = from + (to - from) / 2.0;
@@ -97,25 +98,25 @@ fn interpolated(curve: &[(f64, f64)], at: f64) -> Option<f64> {
     Some(before.1 + (after.1 - before.1) * share)
 }
 
-/// A device and what happens to it.
+/// A device and its signals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
-    /// Which device of the design.
+    /// The device's index in the design.
     pub device: DeviceIndex,
     /// Its name.
     pub name: String,
     /// Its identifier on the link.
     pub id: u8,
-    /// What an element is.
+    /// The type of an element.
     pub scalar: ScalarType,
-    /// How it is shown.
+    /// The conversion to shown numbers.
     pub scale: Scale,
-    /// What each of its elements does.
+    /// The signal of each element.
     pub signals: Vec<Signal>,
 }
 
 impl Subject {
-    /// A device with what happens to it.
+    /// A device with its signals.
     #[must_use]
     pub fn new(index: DeviceIndex, device: &Device, signals: Vec<Signal>) -> Self {
         Self {
@@ -134,7 +135,7 @@ impl Subject {
         self.signals.get(element).map_or(0.0, |signal| signal.at(now_ns))
     }
 
-    /// The raw number of an element, before it is rounded.
+    /// The raw number of an element, before rounding.
     #[must_use]
     pub fn raw(&self, element: usize, now_ns: u64) -> f64 {
         self.scale.raw(self.shown(element, now_ns))
@@ -149,14 +150,14 @@ impl Subject {
         (one.min(other), one.max(other))
     }
 
-    /// The same as a whole number.
+    /// The raw number of an element, rounded.
     #[must_use]
     pub fn whole(&self, element: usize, now_ns: u64) -> i64 {
         rounded(self.raw(element, now_ns))
     }
 }
 
-/// A number in the type that carries it; what does not fit is the nearest that does.
+/// A number in the type that carries it; a number that does not fit becomes the nearest that does.
 #[must_use]
 pub fn scalar(of: ScalarType, raw: f64) -> Scalar {
     #[expect(clippy::cast_possible_truncation, reason = "the type has no more digits")]

@@ -1,14 +1,15 @@
 //! The tool as one function: a request in JSON in, an answer in JSON out.
 //!
-//! The request has `path`, the file that is asked for, and `files`, the texts of it and of all that it
-//! uses, by path; `board` and `target` are those of the command line. The answer has
+//! The request has `path`, the requested file, and `files`, the texts of that file and of all files
+//! that it uses, by path; `board` and `target` are those of the command line. The answer has
 //!
 //! - `diagnostics`, as `sensedsl check --format json` prints them;
-//! - `answer`, as `sensedsl solve --format json` prints it; null where there is none;
-//! - `svg`, the picture of the wiring; null without one;
-//! - `left_out`, the names of the boards and devices in error, without which the rest was wired.
+//! - `answer`, as `sensedsl solve --format json` prints it; null if there is none;
+//! - `svg`, the picture of the wiring; null if there is none;
+//! - `left_out`, the names of the boards and devices in error; everything else was wired.
 //!
-//! A page runs it as WebAssembly (crate `wasm`), in a worker that it can end when it takes too long.
+//! A page runs this as WebAssembly (crate `wasm`), in a worker that it can terminate if it takes
+//! too long.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +22,7 @@ use sensedsl_wiring::Solved;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// What a page asks.
+/// A page's request.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Request {
@@ -31,7 +32,8 @@ struct Request {
     target: Option<String>,
 }
 
-/// Answers a request. One that is not understood has an answer with `error`, which says why.
+/// Answers a request. The answer to a request that is not understood has `error`, which gives the
+/// reason.
 #[must_use]
 pub fn ask(request: &str) -> String {
     match serde_json::from_str::<Request>(request) {
@@ -91,7 +93,8 @@ mod tests {
         assert_eq!((&found["diagnostics"], &found["left_out"]), (&json!([]), &json!([])));
     }
 
-    /// A page says what `generate` will refuse, as `check` does, with the target that is meant where none is named.
+    /// A page reports what `generate` will refuse, as `check` does, with the default target if none
+    /// is named.
     #[test]
     fn what_has_no_firmware_is_foreseen() {
         let text = "board Robot on RASPBERRYPI_PICO { chip Motors { driver = drv8833; \

@@ -1,5 +1,6 @@
-//! Times this crate's decoder for `benches/decode.py`: the same requests as `tests/decoders/main.c`,
-//! of which it answers `rust time`. The schema comes as `tests/decoders/decoders.h` says.
+//! Times this crate's decoder for `benches/decode.py`. It takes the same requests as
+//! `tests/decoders/main.c`, but answers only `rust time`. The schema comes in the form that
+//! `tests/decoders/decoders.h` describes.
 #![expect(clippy::print_stdout, clippy::disallowed_methods, reason = "a program of a benchmark")]
 
 use std::io::{self, BufRead as _, Read as _, Write as _};
@@ -37,7 +38,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// What this program has used of the processor, where Linux says so.
+/// The processor time that this program has used, if Linux reports it.
 fn cpu_ns() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/schedstat").ok()?;
     text.split(' ').next()?.parse().ok()
@@ -62,7 +63,7 @@ fn read_schema(bytes: &[u8]) -> Schema {
     Schema { checksum, stamp: false, items: items.collect() }
 }
 
-/// As much as a user of the values does: looks at the first byte of each.
+/// Does as much as a user of the values: reads the first byte of each.
 fn decode(schema: &Schema, stream: &[u8], piece: usize) -> u64 {
     let mut decoder = Decoder::new(schema, Direction::Sensor);
     let mut sum = 0_u64;

@@ -1,18 +1,18 @@
-//! The checksums of the wire. What they are is in the functions of [`Checksum`] alone: whoever else
-//! needs one asks it.
+//! The checksums of the wire. Only the methods of [`Checksum`] know how they work; all other code
+//! calls them.
 
 use alloc::vec::Vec;
 
 use crate::schema::{Checksum, ID_CHECKSUM};
 
-/// Bytes of a number that holds any checksum.
+/// Bytes of a number that holds any of the checksums.
 const NUMBER_BYTES: usize = size_of::<u32>();
 
 impl Checksum {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 3] = [Self::None, Self::Crc16, Self::Crc32];
 
-    /// The word of the language.
+    /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -22,13 +22,13 @@ impl Checksum {
         }
     }
 
-    /// The one of that name.
+    /// The checksum with that name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|checksum| checksum.name() == name)
     }
 
-    /// Bits of its number.
+    /// Bits of the checksum's number.
     #[must_use]
     pub const fn bits(self) -> usize {
         match self {
@@ -38,19 +38,19 @@ impl Checksum {
         }
     }
 
-    /// Whether there is one.
+    /// Whether there is a checksum.
     #[must_use]
     pub const fn is_some(self) -> bool {
         self.bits() > 0
     }
 
-    /// Bytes it adds to each payload: its identifier and its number.
+    /// Bytes that it adds to each payload: its identifier and its number.
     #[must_use]
     pub const fn size_bytes(self) -> usize {
         if self.is_some() { 1 + self.bits() / 8 } else { 0 }
     }
 
-    /// Its number of a payload.
+    /// The number for a payload.
     #[must_use]
     pub fn of(self, payload: &[u8]) -> u32 {
         match self {
@@ -60,7 +60,7 @@ impl Checksum {
         }
     }
 
-    /// Puts it behind a payload.
+    /// Appends the checksum to a payload.
     pub fn append(self, payload: &mut Vec<u8>) {
         if self.is_some() {
             let number = self.of(payload).to_be_bytes();
@@ -69,13 +69,13 @@ impl Checksum {
         }
     }
 
-    /// Its number as it stands in the bytes behind its identifier; none where some of them are missing.
+    /// The number in the bytes after the checksum's identifier; none if some bytes are missing.
     pub(crate) fn read(self, bytes: &[u8]) -> Option<u32> {
         let number = bytes.get(..self.bits() / 8)?;
         Some(number.iter().fold(0, |number, byte| number << 8 | u32::from(*byte)))
     }
 
-    /// What a register starts with, and which of its bits are inverted at the end.
+    /// The initial value of the register, and the bits that are inverted at the end.
     pub(crate) const fn ends(self) -> (u32, u32) {
         match self {
             Self::None => (0, 0),
@@ -84,7 +84,7 @@ impl Checksum {
         }
     }
 
-    /// The register that multiplies by one.
+    /// The register value that stands for the polynomial 1.
     pub(crate) const fn one(self) -> u32 {
         match self {
             Self::None | Self::Crc16 => 1,
@@ -92,7 +92,7 @@ impl Checksum {
         }
     }
 
-    /// The register behind one more byte.
+    /// The register after one more byte.
     #[inline]
     pub(crate) fn step(self, register: u32, byte: u8) -> u32 {
         match self {
@@ -102,7 +102,7 @@ impl Checksum {
         }
     }
 
-    /// The product of two registers as polynomials over GF(2), modulo the one of the CRC.
+    /// The product of two registers as polynomials over GF(2), modulo the CRC's polynomial.
     pub(crate) fn product(self, left: u32, right: u32) -> u32 {
         match self {
             Self::None => 0,
@@ -112,8 +112,8 @@ impl Checksum {
     }
 }
 
-/// What a byte in the upper half of the register does to a CRC-16/CCITT-FALSE, and the same with
-/// one, two and three zero bytes behind it.
+/// The effect of a byte in the upper half of the register on a CRC-16/CCITT-FALSE; then the same
+/// with one, two and three zero bytes after it.
 const CRC16_TABLES: [[u16; 256]; 4] = crc16_tables();
 
 #[expect(clippy::indexing_slicing, reason = "in a constant, where the compiler sees each index")]
@@ -137,7 +137,7 @@ const fn crc16_tables() -> [[u16; 256]; 4] {
     tables
 }
 
-/// The same of CRC-32, whose bytes come in at the lower end.
+/// The same tables for CRC-32, where bytes enter at the low end.
 const CRC32_TABLES: [[u32; 256]; 4] = crc32_tables();
 
 #[expect(clippy::indexing_slicing, reason = "in a constant, where the compiler sees each index")]
@@ -173,11 +173,11 @@ fn crc16_step(crc: u16, byte: u8) -> u16 {
 
 #[inline]
 fn entry<T: Copy + Default>(table: &[T; 256], byte: u8) -> T {
-    // A byte is always below 256; the compiler sees it and checks nothing.
+    // A byte is always below 256, so the compiler drops the bounds check.
     table.get(usize::from(byte)).copied().unwrap_or_default()
 }
 
-/// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final inversion.
+/// CRC-16/CCITT-FALSE: polynomial 0x1021, initial value 0xFFFF, not reflected, no final inversion.
 #[must_use]
 pub fn crc16_ccitt_false(bytes: &[u8]) -> u16 {
     let [one, two, three, four] = &CRC16_TABLES;
@@ -197,7 +197,7 @@ fn crc16_product(left: u16, right: u16) -> u16 {
     })
 }
 
-/// The highest power stands in the lowest bit.
+/// The product in CRC-32's reflected form, with the highest power in the lowest bit.
 fn crc32_product(left: u32, right: u32) -> u32 {
     (0..32).fold(0, |product: u32, bit| {
         let term = if (right >> bit) & 1 == 0 { 0 } else { left };
@@ -212,8 +212,8 @@ fn crc32_step(crc: u32, byte: u8) -> u32 {
     (crc >> 8) ^ entry(one, low ^ byte)
 }
 
-/// CRC-32/ISO-HDLC (the one of Ethernet and zlib): polynomial 0x04C11DB7, start 0xFFFFFFFF, reflected,
-/// inverted at the end. Of the schema's canonical text it is the schema hash.
+/// CRC-32/ISO-HDLC (as in Ethernet and zlib): polynomial 0x04C11DB7, initial value 0xFFFFFFFF,
+/// reflected, inverted at the end. For the schema's canonical text it is the schema hash.
 #[must_use]
 pub fn crc32_iso_hdlc(bytes: &[u8]) -> u32 {
     let [one, two, three, four] = &CRC32_TABLES;

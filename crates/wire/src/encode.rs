@@ -1,4 +1,4 @@
-//! Values to frames.
+//! From values to frames.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -9,22 +9,22 @@ use crate::health::{HEALTH_REQUEST, Health};
 use crate::scalar::Scalar;
 use crate::schema::{Direction, ID_HELLO, Schema};
 
-/// Why values make no frame.
+/// Why values do not make a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EncodeError {
-    /// No item of that identifier travels in that direction.
+    /// No item with that identifier travels in that direction.
     UnknownId(u8),
-    /// The number of scalars is not the item's.
+    /// The number of scalars differs from the item's.
     WrongCount(u8),
-    /// A scalar is not of the item's type or out of its range.
+    /// A scalar does not have the item's type, or is out of its range.
     WrongValue(u8),
     /// An identifier was given twice.
     Twice(u8),
     /// There is no value to report.
     Empty,
-    /// A stamp where the link has none, or none where each report of the link has one.
+    /// There is a stamp on a link without stamps, or no stamp where each report needs one.
     Stamp,
-    /// Health has not exactly the devices of the schema, in its order.
+    /// Health does not have exactly the schema's devices, in the schema's order.
     Devices,
 }
 
@@ -44,10 +44,11 @@ impl fmt::Display for EncodeError {
 
 impl core::error::Error for EncodeError {}
 
-/// One frame with the given values, in schema order whatever the order of `values`; without a stamp.
+/// A frame with the given values, in schema order whatever the order of `values`; without a stamp.
 ///
 /// # Errors
-/// When a value does not fit the schema, none is given, or reports of the link have a stamp.
+/// Fails if a value does not fit the schema, if there are no values, or if the link's reports have
+/// a stamp.
 pub fn encode_report(
     schema: &Schema,
     direction: Direction,
@@ -56,10 +57,12 @@ pub fn encode_report(
     encode(schema, direction, None, values)
 }
 
-/// The same from a board whose reports have a stamp.
+/// A frame with the given values, from a board whose reports have a stamp; otherwise like
+/// [`encode_report`].
 ///
 /// # Errors
-/// When a value does not fit the schema, none is given, or reports of the link have no stamp.
+/// Fails if a value does not fit the schema, if there are no values, or if the link's reports have
+/// no stamp.
 pub fn encode_stamped_report(
     schema: &Schema,
     stamp: Stamp,
@@ -109,7 +112,7 @@ fn encode(
     Ok(frame(schema, payload))
 }
 
-/// The board's hello: its schema hash.
+/// The board's hello, which is its schema hash.
 #[must_use]
 pub fn encode_hello(schema: &Schema) -> Vec<u8> {
     let mut payload = Vec::from([ID_HELLO]);
@@ -117,10 +120,10 @@ pub fn encode_hello(schema: &Schema) -> Vec<u8> {
     frame(schema, payload)
 }
 
-/// How the board and its devices are.
+/// The state of the board and its devices.
 ///
 /// # Errors
-/// When the devices are not those of the schema, in its order.
+/// Fails if the devices are not those of the schema, in its order.
 pub fn encode_health(schema: &Schema, health: &Health) -> Result<Vec<u8>, EncodeError> {
     let ids = schema.items.iter().map(|item| item.id);
     if !ids.eq(health.devices.iter().map(|device| device.id)) {

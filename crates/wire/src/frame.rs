@@ -1,4 +1,4 @@
-//! What a decoded frame says, read in place: the bytes stay where they were received.
+//! The contents of a decoded frame, read in place: the bytes stay where they were received.
 
 use alloc::vec::Vec;
 
@@ -7,46 +7,46 @@ use crate::health::{Health, HealthFrame};
 use crate::scalar::Scalar;
 use crate::schema::{Item, Schema};
 
-/// When a report was put together, and its number.
+/// When a report was assembled, and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     /// Microseconds since the board started; wraps.
     pub time_us: u32,
-    /// Counts the reports that were put together; wraps. A gap tells of lost ones.
+    /// Counts assembled reports; wraps. A gap means that reports were lost.
     pub counter: u8,
 }
 
-/// What a frame said, with its values as they stand in the stream.
+/// The contents of a frame, with its values in place in the stream.
 #[derive(Clone, Copy, Debug)]
 pub enum Frame<'a> {
     /// Values.
     Report(Report<'a>),
     /// The board's schema hash (board to host).
     Hello(u32),
-    /// How the board and its devices are (board to host).
+    /// The state of the board and its devices (board to host).
     Health(HealthFrame<'a>),
-    /// Health of another version, of which nothing else is known (board to host).
+    /// Health of another version, about which nothing else is known (board to host).
     OtherHealth(u8),
-    /// The host wants a hello (host to board).
+    /// The host requests a hello (host to board).
     HelloRequest,
-    /// The host wants health (host to board).
+    /// The host requests health (host to board).
     HealthRequest,
 }
 
-/// What a frame said, with its values in memory of its own.
+/// The contents of a frame, with its own copy of the values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// Values in the order of the payload, and the stamp where the link has one.
+    /// Values in the order of the payload, and the stamp if the link has one.
     Report(Option<Stamp>, Vec<(u8, Vec<Scalar>)>),
     /// The board's schema hash (board to host).
     Hello(u32),
-    /// How the board and its devices are (board to host).
+    /// The state of the board and its devices (board to host).
     Health(Health),
-    /// Health of another version, of which nothing else is known (board to host).
+    /// Health of another version, about which nothing else is known (board to host).
     OtherHealth(u8),
-    /// The host wants a hello (host to board).
+    /// The host requests a hello (host to board).
     HelloRequest,
-    /// The host wants health (host to board).
+    /// The host requests health (host to board).
     HealthRequest,
 }
 
@@ -66,7 +66,7 @@ impl From<Frame<'_>> for Event {
     }
 }
 
-/// The values of one frame; the decoder has checked all of them.
+/// The values of a frame; the decoder has checked all of them.
 #[derive(Clone, Copy)]
 pub struct Report<'a> {
     pub(crate) schema: &'a Schema,
@@ -82,20 +82,20 @@ impl core::fmt::Debug for Report<'_> {
 }
 
 impl<'a> Report<'a> {
-    /// When the board put it together; there where the link has stamps.
+    /// When the board assembled it; present if the link has stamps.
     #[must_use]
     pub fn stamp(self) -> Option<Stamp> {
         self.stamp
     }
 
-    /// In the order of the payload.
+    /// The values, in the order of the payload.
     #[must_use]
     pub fn values(self) -> Values<'a> {
         Values { report: self }
     }
 }
 
-/// The values of a report one by one.
+/// The values of a report, one by one.
 #[derive(Clone, Debug)]
 pub struct Values<'a> {
     report: Report<'a>,
@@ -114,17 +114,17 @@ impl<'a> Iterator for Values<'a> {
     }
 }
 
-/// One value of a report.
+/// A value of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct Value<'a> {
-    /// What it is a value of.
+    /// The item that it is a value of.
     pub item: &'a Item,
-    /// Its bytes as they came, most significant first.
+    /// Its bytes as received, most significant first.
     pub bytes: &'a [u8],
 }
 
 impl<'a> Value<'a> {
-    /// Its elements; a plain scalar has one.
+    /// Its elements; a plain scalar has one element.
     pub fn scalars(self) -> impl Iterator<Item = Scalar> + use<'a> {
         let scalar = self.item.value.scalar;
         self.bytes.chunks_exact(scalar.size_bytes()).filter_map(move |bytes| scalar.read(bytes))

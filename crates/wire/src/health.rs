@@ -1,45 +1,45 @@
-//! How a board and its devices are: what a host is told when it asks.
+//! The state of a board and its devices, which a host gets on request.
 
 use alloc::vec::Vec;
 
 use crate::schema::{HEALTH_DEVICE_BYTES, HEALTH_HEAD_BYTES, ID_HEALTH, Schema};
 
-/// The version of health that is read and written here.
+/// The version of health that this crate reads and writes.
 pub const HEALTH_VERSION: u8 = 1;
-/// What stands behind the 0 of the request.
+/// The byte after the 0 of a request for health.
 pub(crate) const HEALTH_REQUEST: u8 = 1;
 /// The age of a device that was never read or set.
 pub const NEVER_MS: u32 = u32::MAX;
-/// The load of a processor of which nothing is known.
+/// The load of a processor, if it is unknown.
 pub const UNKNOWN_LOAD: u8 = u8::MAX;
-/// What is left of stacks of which nothing is known.
+/// The rest of a stack, if it is unknown.
 pub const UNKNOWN_STACK: u16 = u16::MAX;
 
 /// Why the board started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetCause {
-    /// Nothing tells.
+    /// There is no information.
     Unknown,
     /// Power on or brown-out.
     Power,
     /// The reset pin.
     Pin,
-    /// The firmware asked for it.
+    /// A request by the firmware.
     Software,
     /// The watchdog.
     Watchdog,
     /// The window watchdog.
     WindowWatchdog,
-    /// A wrong way into or out of a low-power mode.
+    /// Incorrect entry into or exit from a low-power mode.
     LowPower,
-    /// The kernel stopped itself.
+    /// A halt of the kernel.
     Halt,
-    /// None of these: of firmware that knows more.
+    /// A cause that is unknown here, from newer firmware.
     Other(u8),
 }
 
 impl ResetCause {
-    /// The cause of that number.
+    /// The cause with that number.
     #[must_use]
     pub const fn from_code(code: u8) -> Self {
         match code {
@@ -72,25 +72,25 @@ impl ResetCause {
     }
 }
 
-/// How a device is.
+/// The state of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// It was never read.
     NeverRead,
-    /// The last reading is good.
+    /// The last reading was good.
     Good,
     /// There was no value for three cycles.
     Stale,
-    /// The last reading did not come through.
+    /// The last reading failed.
     Failed,
-    /// The last answer was no measurement.
+    /// The last answer was not a measurement.
     Invalid,
-    /// None of these: of firmware that knows more.
+    /// A status that is unknown here, from newer firmware.
     Other(u8),
 }
 
 impl Status {
-    /// The status of that number.
+    /// The status with that number.
     #[must_use]
     pub const fn from_code(code: u8) -> Self {
         match code {
@@ -117,25 +117,25 @@ impl Status {
     }
 }
 
-/// How often a device did not give a value, by cause; each count stops at 65535.
+/// How often a device did not give a value, by cause; each counter stops at 65535.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Causes {
-    /// Nobody acknowledged its address or a byte.
+    /// Its address or a byte was not acknowledged.
     pub not_acknowledged: u16,
-    /// A start or stop out of place, a frame or parity error.
+    /// A misplaced start or stop condition, or a framing or parity error.
     pub bus_error: u16,
-    /// Another master took the bus.
+    /// Another controller took the bus.
     pub arbitration_lost: u16,
-    /// No answer in time.
+    /// The answer did not come in time.
     pub timed_out: u16,
     /// The answer's checksum was wrong.
     pub wrong_checksum: u16,
-    /// The answer was no measurement.
+    /// The answer was not a measurement.
     pub invalid: u16,
 }
 
 impl Causes {
-    /// In the order of the wire.
+    /// The counters, in the order of the wire.
     #[must_use]
     pub const fn counts(self) -> [u16; 6] {
         let Self { not_acknowledged, bus_error, arbitration_lost, timed_out, .. } = self;
@@ -155,39 +155,39 @@ impl From<[u16; 6]> for Causes {
 /// The health of one device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceHealth {
-    /// Its identifier, which the wire leaves out: devices stand in the schema's order.
+    /// Its identifier, which is not on the wire: devices are in the schema's order.
     pub id: u8,
-    /// How it is.
+    /// Its status.
     pub status: Status,
-    /// How long ago it was read or set last; [`NEVER_MS`] for never.
+    /// Time since it was last read or set; [`NEVER_MS`] for never.
     pub age_ms: u32,
-    /// What went wrong so far.
+    /// The failures so far.
     pub causes: Causes,
 }
 
 /// The health of a board and all its devices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Health {
-    /// How long it runs.
+    /// Time since it started.
     pub uptime_ms: u32,
     /// Why it started.
     pub reset_cause: ResetCause,
-    /// After a watchdog's reset the first device of the thread that hung; otherwise 0.
+    /// After a watchdog reset, the first device of the thread that hung; otherwise 0.
     pub reset_device: u8,
     /// Reports that were sent.
     pub reports_sent: u32,
-    /// Reports that the link did not take.
+    /// Reports that the link did not accept.
     pub reports_refused: u32,
-    /// The highest load of the processor so far; [`UNKNOWN_LOAD`] where it is not measured.
+    /// The highest processor load so far; [`UNKNOWN_LOAD`] if it is not measured.
     pub load_percent: u8,
-    /// Bytes never used of the fullest stack; [`UNKNOWN_STACK`] where it is not measured.
+    /// Bytes never used in the fullest stack; [`UNKNOWN_STACK`] if it is not measured.
     pub stack_left_bytes: u16,
-    /// All devices in the schema's order.
+    /// All devices, in the schema's order.
     pub devices: Vec<DeviceHealth>,
 }
 
 impl Health {
-    /// Everything but the checksum.
+    /// The payload, without the checksum.
     pub(crate) fn payload(&self) -> Vec<u8> {
         let bytes = HEALTH_HEAD_BYTES + HEALTH_DEVICE_BYTES * self.devices.len();
         let mut payload = Vec::with_capacity(bytes);
@@ -208,16 +208,16 @@ impl Health {
     }
 }
 
-/// Health read in place.
+/// Health, read in place.
 #[derive(Clone, Copy, Debug)]
 pub struct HealthFrame<'a> {
     pub(crate) schema: &'a Schema,
-    /// What stands behind the version; the decoder has compared the length.
+    /// The bytes after the version; the decoder has checked their number.
     pub(crate) bytes: &'a [u8],
 }
 
 impl HealthFrame<'_> {
-    /// All of it.
+    /// Reads all of it.
     #[must_use]
     pub fn read(self) -> Health {
         let mut rest = self.bytes;
@@ -249,7 +249,7 @@ impl HealthFrame<'_> {
     }
 }
 
-/// The next bytes; zeros where there are none.
+/// The next bytes; zeros if there are none.
 fn take<const COUNT: usize>(rest: &mut &[u8]) -> [u8; COUNT] {
     let Some((bytes, others)) = rest.split_first_chunk() else { return [0; COUNT] };
     *rest = others;

@@ -1,7 +1,7 @@
 //! The wire between the board and its host: scalar types, schema, Netstring codec.
 //!
-//! This is the one place that knows how values become bytes. Every other codec of the project
-//! (C, C++, …) is held to it by the vectors in `tests/vectors`. Needs no operating system.
+//! Only this crate defines how values become bytes. Every other codec of the project (C, C++, …)
+//! must pass the vectors in `tests/vectors`, which hold it to this one. Needs no operating system.
 #![no_std]
 
 extern crate alloc;

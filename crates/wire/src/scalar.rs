@@ -64,7 +64,7 @@ impl ScalarType {
         }
     }
 
-    /// The type of that name.
+    /// The type with that name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|scalar| scalar.name() == name)
@@ -81,7 +81,7 @@ impl ScalarType {
         }
     }
 
-    /// Smallest and largest value of an integer type (bool is 0 to 1); none for floats.
+    /// Least and greatest value of an integer type (0 and 1 for bool); none for floats.
     #[must_use]
     pub const fn integer_range(self) -> Option<(i128, i128)> {
         match self {
@@ -98,7 +98,7 @@ impl ScalarType {
         }
     }
 
-    /// True where every byte pattern of the right length is a value (all but bool).
+    /// Whether every byte pattern of the right length is a value (true for all types but bool).
     #[must_use]
     pub const fn accepts_every_byte(self) -> bool {
         !matches!(self, Self::Bool)
@@ -126,8 +126,8 @@ impl ScalarType {
         })
     }
 
-    /// Appends `value` in network byte order; false, and nothing appended, when the value is not
-    /// of this type or out of its range.
+    /// Appends `value` in network byte order. Returns false, and appends nothing, if the value does
+    /// not have this type or is out of its range.
     #[must_use]
     pub fn write(self, value: Scalar, out: &mut Vec<u8>) -> bool {
         match (self, value) {
@@ -164,18 +164,18 @@ impl fmt::Display for ScalarType {
     }
 }
 
-/// One decoded scalar.
+/// A decoded scalar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scalar {
-    /// Of `bool`.
+    /// A `bool`.
     Bool(bool),
-    /// Of `uint8` to `uint64`.
+    /// A `uint8` to `uint64`.
     Unsigned(u64),
-    /// Of `int8` to `int64`.
+    /// An `int8` to `int64`.
     Signed(i64),
-    /// Of `float32`.
+    /// A `float32`.
     Float32(f32),
-    /// Of `float64`.
+    /// A `float64`.
     Float64(f64),
 }
 
@@ -191,12 +191,12 @@ impl fmt::Display for Scalar {
     }
 }
 
-/// The type after `returns` or `accepts`: a scalar or an array of them.
+/// The type after `returns` or `accepts`: a scalar or an array of scalars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ValueType {
     /// The element type.
     pub scalar: ScalarType,
-    /// Array length; none for a plain scalar (which is not the same type as an array of one).
+    /// Array length; none for a plain scalar (which is a different type from an array of one).
     pub length: Option<u16>,
 }
 
@@ -207,7 +207,7 @@ impl ValueType {
         Self { scalar, length: None }
     }
 
-    /// Number of elements: 1 for a scalar.
+    /// Number of elements; 1 for a scalar.
     #[must_use]
     pub fn count(self) -> usize {
         self.length.map_or(1, usize::from)

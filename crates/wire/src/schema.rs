@@ -1,4 +1,4 @@
-//! Which identifiers there are on one board's link and what each carries.
+//! The identifiers on one board's link, and what each of them carries.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -11,7 +11,8 @@ use crate::scalar::ValueType;
 pub const ID_HELLO: u8 = 0;
 /// Identifier of the optional trailing checksum.
 pub const ID_CHECKSUM: u8 = 255;
-/// Identifier that a health frame begins with; the checksum, which is the same, stands last.
+/// Identifier that a health frame begins with; the checksum, which has the same identifier, comes
+/// last.
 pub const ID_HEALTH: u8 = 255;
 
 /// Bytes of the board's hello: its identifier and the schema hash.
@@ -22,22 +23,22 @@ pub(crate) const HELLO_REQUEST_BYTES: usize = 1;
 pub(crate) const HEALTH_REQUEST_BYTES: usize = 2;
 /// Bytes of a stamp: its identifier, the time and the counter.
 pub const STAMP_BYTES: usize = 6;
-/// Bytes of health before the devices, its identifier included.
+/// Bytes of health before the devices, including its identifier.
 pub(crate) const HEALTH_HEAD_BYTES: usize = 19;
 /// Bytes of one device's health.
 pub(crate) const HEALTH_DEVICE_BYTES: usize = 17;
 
-/// Which way an item travels.
+/// The direction in which an item travels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
-    /// A sensor: board to host.
+    /// From board to host: a sensor.
     Sensor,
-    /// An actuator: host to board.
+    /// From host to board: an actuator.
     Actuator,
 }
 
 impl Direction {
-    /// The keyword of the language.
+    /// The keyword in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -50,48 +51,48 @@ impl Direction {
 /// The `checksum` property of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Checksum {
-    /// No checksum: the frames are the paper's.
+    /// No checksum, as in the paper's frames.
     #[default]
     None,
-    /// CRC-16/CCITT-FALSE behind identifier 255.
+    /// CRC-16/CCITT-FALSE after identifier 255.
     Crc16,
-    /// CRC-32/ISO-HDLC behind identifier 255.
+    /// CRC-32/ISO-HDLC after identifier 255.
     Crc32,
 }
 
-/// One value of a link.
+/// A value on a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// 1 to 254, unique in a schema.
+    /// The identifier, 1 to 254, unique in a schema.
     pub id: u8,
     /// The device's name.
     pub name: String,
-    /// Which way it travels.
+    /// The direction in which it travels.
     pub direction: Direction,
-    /// What it carries.
+    /// The type of the value.
     pub value: ValueType,
 }
 
 /// All values of one board's link, in file order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Schema {
-    /// Whether frames end with a checksum.
+    /// The checksum that frames end with.
     pub checksum: Checksum,
-    /// Whether each report begins with the board's time and a counter.
+    /// Whether each report begins with the board's time stamp and a counter.
     pub stamp: bool,
-    /// In file order, identifiers unique.
+    /// The items in file order, with unique identifiers.
     pub items: Vec<Item>,
 }
 
 impl Schema {
-    /// The item of that identifier that travels in `direction`.
+    /// The item with that identifier that travels in `direction`.
     #[must_use]
     pub fn item(&self, direction: Direction, id: u8) -> Option<&Item> {
         self.items.iter().find(|item| item.id == id && item.direction == direction)
     }
 
-    /// The text whose CRC-32 is the schema hash: the checksum line, a line `stamp` where reports have
-    /// one, then a line a device.
+    /// The text whose CRC-32 is the schema hash: a line for the checksum, a line `stamp` if reports
+    /// have one, then a line for each device.
     #[must_use]
     pub fn canonical_text(&self) -> String {
         let mut text = String::new();
@@ -106,14 +107,14 @@ impl Schema {
         text
     }
 
-    /// The hash by which host and board know that they speak of the same devices.
+    /// The hash by which host and board check that they have the same devices.
     #[must_use]
     pub fn hash(&self) -> u32 {
         crc32_iso_hdlc(self.canonical_text().as_bytes())
     }
 
-    /// Bytes of the longest report in that direction, its stamp included but not the checksum; 0
-    /// where nothing travels that way.
+    /// Bytes of the longest report in that direction, including its stamp but not the checksum; 0
+    /// if nothing travels that way.
     fn report_bytes_max(&self, direction: Direction) -> usize {
         let items = self.items.iter().filter(|item| item.direction == direction);
         let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
@@ -121,8 +122,8 @@ impl Schema {
         values + if is_stamped { STAMP_BYTES } else { 0 }
     }
 
-    /// Bytes of the longest payload but health in that direction, without a checksum. It is taken to
-    /// have at least those of a hello, or of a request for health.
+    /// Bytes of the longest payload except health in that direction, without a checksum; at least
+    /// those of a hello, or of a request for health.
     #[must_use]
     pub fn short_bytes_max(&self, direction: Direction) -> usize {
         let asked = match direction {
@@ -132,7 +133,7 @@ impl Schema {
         self.report_bytes_max(direction).max(asked)
     }
 
-    /// Bytes of health, all devices included but not the checksum.
+    /// Bytes of health, including all devices but not the checksum.
     pub(crate) fn health_bytes(&self) -> usize {
         HEALTH_HEAD_BYTES + HEALTH_DEVICE_BYTES * self.items.len()
     }
@@ -147,7 +148,7 @@ impl Schema {
         self.short_bytes_max(direction).max(health) + self.checksum.size_bytes()
     }
 
-    /// Bytes of the longest valid frame in that direction, `LEN`, `:` and `,` included.
+    /// Bytes of the longest valid frame in that direction, including `LEN`, `:` and `,`.
     #[must_use]
     pub fn frame_bytes_max(&self, direction: Direction) -> usize {
         let payload_bytes = self.payload_bytes_max(direction);

@@ -1,6 +1,6 @@
-//! Seeded designs on boards of different size, with what the solver says of each: one JSON line a
-//! design, which `benches/mixed.py` measures as a whole process and `benches/compare.py` puts to
-//! other solvers.
+//! Seeded designs on boards of different sizes, with the solver's result for each: one JSON line
+//! per design, which `benches/mixed.py` measures as a whole process and `benches/compare.py` gives
+//! to other solvers.
 //!
 //!     cargo run --release -p sensedsl-wiring --features problems --example mixed -- [FAMILY [NUMBER [FIRST]]] > mixed.jsonl
 #![expect(
@@ -27,7 +27,7 @@ use sensedsl_wiring::solver::{Options, Outcome, solve};
 use sensedsl_wiring::{Cancel, Wiring};
 use serde_json::{Value, json};
 
-/// A run ends there: no instance is worth more.
+/// A run ends after this time: no instance is worth more.
 const LIMIT: Duration = Duration::from_secs(20);
 
 fn main() {

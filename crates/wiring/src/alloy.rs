@@ -2,7 +2,7 @@
 //! any wiring, for one as good as ours, and for a better one. A second, wholly different program (a
 //! translation to SAT) then confirms that there is a wiring, and that none is better.
 //!
-//! Atoms are called by numbers, and names stand in comments alone, so no name means anything to Alloy.
+//! Atoms are numbered, and names are only in comments, so no name means anything to Alloy.
 
 mod facts;
 mod objective;
@@ -15,7 +15,7 @@ use sensedsl_solve::problem::{Candidate, Problem};
 
 use sensedsl_certify::Labels;
 
-/// What the solver says of the problem.
+/// The solver's result for the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Known {
     /// The best objective.
@@ -28,18 +28,18 @@ pub(crate) enum Known {
     Nothing,
 }
 
-/// A choice: its atom, and when it excludes others by itself.
+/// A choice: the number of its atom, and its place, by which it excludes others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Choice {
     number: usize,
     device: usize,
     alternative: usize,
-    /// The role that it is a wire of; none for the alternative itself.
+    /// The role that it is a wire of; `None` for the alternative itself.
     role: Option<usize>,
 }
 
 impl Choice {
-    /// Whether both are never taken together, whatever else is.
+    /// Whether the two can never be taken together, whatever else is taken.
     fn excludes(&self, other: &Self) -> bool {
         let same_role = self.role.is_some() && self.role == other.role;
         self.device == other.device && (self.alternative != other.alternative || same_role)
@@ -49,7 +49,7 @@ impl Choice {
 /// All choices of a problem in the order of their numbers.
 struct Choices<'a> {
     problem: &'a Problem,
-    /// For each device its alternatives, for each of those the choice and the wires of its roles.
+    /// For each device, its alternatives, each with its choice and the wires of its roles.
     devices: Vec<Vec<Way<'a>>>,
 }
 
@@ -146,7 +146,7 @@ fn atom(choice: Choice) -> String {
     format!("C{}", choice.number)
 }
 
-/// A set of atoms, some to a line.
+/// A set of atoms, several to a line.
 fn set(atoms: &[String]) -> String {
     if atoms.is_empty() {
         return "none".to_owned();

@@ -1,11 +1,12 @@
-//! The ways to connect one device: which peripheral instances it may take and which pins then.
+//! The ways to connect one device: the peripheral instances that it may take, and the pins for
+//! each.
 
 mod buses;
 mod candidates;
 mod cases;
 pub(crate) mod timers;
 
-// One file a kind.
+// One file for each kind.
 mod analog;
 mod can;
 mod dac;
@@ -30,9 +31,9 @@ use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 use crate::wishes;
 
-/// A connection, or a link, as far as its wires go.
+/// The wires that a connection or a link wants.
 pub(crate) struct Wanted<'a> {
-    /// None for a link.
+    /// The part; `None` for a link.
     pub(crate) part: Option<PartIndex>,
     /// Whether it is one element of an array.
     pub(crate) is_element: bool,
@@ -45,7 +46,7 @@ pub(crate) struct Wanted<'a> {
     pub(crate) side: Option<&'a str>,
     pub(crate) header: Option<&'a str>,
     pub(crate) wishes: &'a [Wish],
-    /// What the device puts on the pins, in millivolts, where it is stated.
+    /// The voltage that the device puts on the pins, in millivolts, if it is stated.
     pub(crate) level_mv: Option<u32>,
 }
 
@@ -67,7 +68,7 @@ impl<'a> Wanted<'a> {
         }
     }
 
-    /// A serial link; `pins` are TX and RX where the board has wired them.
+    /// A serial link; `pins` are TX and RX if the board has wired them.
     pub(crate) fn link(
         board: BoardIndex,
         kind: &'a Kind,
@@ -100,7 +101,7 @@ impl<'a> Wanted<'a> {
     }
 }
 
-/// All ways to connect a device, with what they mean.
+/// All ways to connect a device, with their meanings.
 pub(crate) fn alternatives<'a>(
     builder: &mut Builder<'a>,
     offers: &[Offer<'a>],
@@ -137,24 +138,23 @@ impl Maker<'_, '_> {
     }
 }
 
-/// Which pins can serve a kind: one file a kind implements it.
+/// The pins that can serve a kind; each kind implements this in a file of its own.
 pub(crate) trait Served {
     /// All ways to connect the device to the board in question.
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives>;
 
-    /// What the channels of the board's timers can do for the kind, where its silicon differs from
-    /// most.
+    /// The abilities of the board's timer channels for the kind, if its silicon differs from most.
     fn ability(&self, _board: &Board) -> Option<&'static Ability> {
         None
     }
 
-    /// Whether it needs several channels of one timer.
+    /// Whether the kind needs several channels of one timer.
     fn takes_whole_timer(&self) -> bool {
         false
     }
 }
 
-/// The file that knows which pins can serve a kind.
+/// The implementation that knows which pins can serve a kind.
 pub(crate) fn served(kind: &Kind) -> &dyn Served {
     match kind {
         Kind::Analog(analog) => analog,
@@ -170,7 +170,7 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
     }
 }
 
-/// Whether the instance is neither reserved nor another one than the fixed one.
+/// Whether the instance is not reserved and is the fixed one, if one is fixed.
 fn unit_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, unit: &str) -> bool {
     wanted.unit.is_none_or(|fixed| offer.same_unit(fixed, unit)) && !offer.unit_reserved(unit)
 }

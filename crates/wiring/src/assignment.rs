@@ -9,12 +9,12 @@ use sensedsl_model::kind::Role;
 pub enum Status {
     /// Proved: no other wiring is better.
     Optimal,
-    /// Valid, not compared with all others.
+    /// Valid, but not compared with all others.
     Feasible,
 }
 
 impl Status {
-    /// The word of the JSON output.
+    /// The word in the JSON output.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -27,24 +27,24 @@ impl Status {
 /// A wiring of all devices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assignment {
-    /// What is known of it.
+    /// How good it is known to be.
     pub status: Status,
     /// Wires that differ from the wiring to keep.
     pub moved: u32,
     /// `prefer` and `avoid` rules that are violated.
     pub violated: u32,
-    /// Pins used that something else on the board is on.
+    /// Used pins that something else on the board is on.
     pub shared: u32,
     /// Opportunity cost: usages of all pins used, each pin once.
     pub cost: u32,
-    /// Proved: no wiring is better than this. Where the search was cut off it lies below what was
-    /// found; none where it was not asked for.
+    /// Proved: no wiring is better than this. If the search was cut off, it is below what was
+    /// found. `None` if it was not asked for.
     pub bound: Option<Bound>,
     /// One for each board of the design, in its order.
     pub boards: Vec<BoardAssignment>,
 }
 
-/// What no wiring can be better than, compared in field order.
+/// A bound that no wiring can beat, compared in field order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Bound {
     /// Moved wires.
@@ -57,10 +57,10 @@ pub struct Bound {
     pub cost: u32,
 }
 
-/// What one board carries.
+/// The wiring of one board.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoardAssignment {
-    /// Which board.
+    /// The board.
     pub board: BoardIndex,
     /// Its part of the opportunity cost.
     pub cost: u32,
@@ -77,20 +77,20 @@ pub struct BoardAssignment {
 }
 
 impl BoardAssignment {
-    /// The wiring of one connection, where it is on this board.
+    /// The wiring of one connection, if it is on this board.
     #[must_use]
     pub fn connection(&self, index: ConnectionIndex) -> Option<&ConnectionWiring> {
         let at = self.connections.binary_search_by_key(&index, |one| one.connection).ok()?;
         self.connections.get(at)
     }
 
-    /// The peripheral instance that serves a wire; none for a bare GPIO.
+    /// The peripheral instance that serves a wire; `None` for a bare GPIO.
     #[must_use]
     pub fn unit_of(&self, wire: &Wire) -> Option<&str> {
         self.connection(wire.connection?)?.unit.as_deref()
     }
 
-    /// What else is on the pin of a wire.
+    /// The other thing that is on the pin of a wire, if any.
     #[must_use]
     pub fn shared_with(&self, wire: &Wire) -> Option<&str> {
         let shared = self.shared.iter().find(|shared| shared.pin == wire.pin)?;
@@ -103,16 +103,16 @@ impl BoardAssignment {
 pub struct SharedPin {
     /// Index into the pins of the board's table.
     pub pin: usize,
-    /// What else is on it: `LED LD2`.
+    /// The other thing that is on it: `LED LD2`.
     pub with: String,
 }
 
 /// The wires of one connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConnectionWiring {
-    /// Which connection.
+    /// The connection.
     pub connection: ConnectionIndex,
-    /// The peripheral instance (`ADC1`, `I2C3`, `TIM3`); none for a bare GPIO.
+    /// The peripheral instance (`ADC1`, `I2C3`, `TIM3`); `None` for a bare GPIO.
     pub unit: Option<String>,
     /// Its wires, in the order of the roles.
     pub wires: Vec<Wire>,
@@ -121,12 +121,12 @@ pub struct ConnectionWiring {
 /// The wires of one device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceWiring {
-    /// Which device.
+    /// The device.
     pub device: DeviceIndex,
     /// The peripheral instance of its first connection.
     pub unit: Option<String>,
-    /// Its wires, connection by connection, in the order of the roles. A chip's first device has
-    /// those that no value needs as well.
+    /// Its wires, connection by connection, in the order of the roles. A chip's first device also
+    /// has the wires that no value needs.
     pub wires: Vec<Wire>,
 }
 
@@ -142,18 +142,18 @@ pub struct LinkWiring {
 /// One wire: a role on a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Wire {
-    /// The connection that it is of; none for a wire of a link.
+    /// The connection to which it belongs; `None` for a wire of a link.
     pub connection: Option<ConnectionIndex>,
-    /// What the wire is to the connection.
+    /// The role of the wire in the connection.
     pub role: Role,
     /// Index into the pins of the board's table.
     pub pin: usize,
-    /// Index into the usages of that pin; none for a plain GPIO.
+    /// Index into the usages of that pin; `None` for a plain GPIO.
     pub usage: Option<usize>,
 }
 
 impl Wire {
-    /// What it is called beside the other wires of its device: `in`, `in[3]`, `pwm`.
+    /// Its name among the wires of its device: `in`, `in[3]`, `pwm`.
     #[must_use]
     pub fn name(&self, design: &Design) -> String {
         let connection = self.connection.and_then(|index| design.connection(index));
@@ -215,7 +215,7 @@ impl Assignment {
         self.boards.iter().find_map(|board| Some((board.board, board.connection(index)?)))
     }
 
-    /// The boards that carry a device, with their boards of the design.
+    /// The boards that carry a device, each with its board in the design.
     pub fn used<'a>(
         &'a self,
         design: &'a Design,

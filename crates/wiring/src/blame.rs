@@ -1,9 +1,9 @@
-//! Which rules a conflict needs: what the file fixes or reserves, what the board has soldered on,
-//! what the operating system's drivers cannot do.
+//! The rules that a conflict needs: what the file fixes or reserves, what the board has soldered
+//! on, what the operating system's drivers cannot do.
 //!
-//! The devices of a conflict are minimal with all rules in force. Rules are then taken away one by
-//! one; each whose absence leaves the devices unwirable stays away. What is left is minimal too:
-//! without any one of the devices, or of the rules, there is a wiring.
+//! The devices of a conflict are minimal with all rules in force. Rules are then lifted one by one;
+//! a rule stays lifted if the devices cannot be wired without it either. What is left is minimal
+//! too: without any one of the devices, or of the rules, there is a wiring.
 
 use std::collections::BTreeSet;
 
@@ -15,10 +15,10 @@ use sensedsl_model::kind::{Kind, Role};
 
 use crate::{Cancel, Solved, Wiring};
 
-/// A rule that can be taken away.
+/// A rule that can be lifted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// What the drivers of the board's operating system can do.
+    /// The limits of the drivers of the board's operating system.
     Target(BoardIndex),
     /// An on-board part and its pins.
     Part(BoardIndex, String),
@@ -34,14 +34,14 @@ pub enum Rule {
     Unit(PartIndex, Span),
     /// A fixed pin of a device.
     Pin(PartIndex, Role, Span),
-    /// What the elements of an array must have in common, or their order.
+    /// A property that the elements of an array must have in common, or their order.
     Tie(PartIndex, Span),
-    /// The board that a device stands in, where there are others.
+    /// The board in whose block a device is, if there are others.
     Board(PartIndex),
 }
 
 impl Rule {
-    /// Where the file says so; none for a rule that is not in the file.
+    /// Its place in the file; `None` for a rule that is not in the file.
     #[must_use]
     pub const fn span(&self) -> Option<Span> {
         match self {
@@ -132,12 +132,12 @@ impl Rule {
     }
 }
 
-/// So many rules are tried; each costs a search. Robots have a few dozen.
+/// The most rules that are tried; each costs a search. Robots have a few dozen.
 const TRIED_MAX: usize = 256;
 
-/// The rules without which the devices could be wired; empty where nothing but the hardware stands
-/// in the way, or time ran out. Minimal where there are at most [`TRIED_MAX`]; of more, the rest is
-/// named untried.
+/// The rules without which the devices could be wired; empty if only the hardware stands in the
+/// way, or if time ran out. Minimal if there are at most [`TRIED_MAX`]; if there are more, the rest
+/// are named without having been tried.
 pub(crate) fn rules(design: &Design, parts: &[PartIndex], cancel: Cancel<'_>) -> Vec<Rule> {
     let mut left = design.clone();
     left.retain_parts(|index, _| parts.contains(&index));
@@ -190,8 +190,8 @@ fn is_hopeless(design: &Design, cancel: Cancel<'_>) -> bool {
     wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_))
 }
 
-/// All rules of a design, in the order in which they are dropped from the blame: what is not in the file before what it
-/// says.
+/// All rules of a design, in the order in which they are dropped from the blame: rules that are not
+/// in the file come before those that are.
 fn in_force(design: &Design) -> Vec<Rule> {
     let mut rules = Vec::new();
     for (index, board) in design.boards.iter().enumerate() {
@@ -233,7 +233,7 @@ fn in_force(design: &Design) -> Vec<Rule> {
         let ties = placement.together.iter().map(|one| one.span).chain(placement.sequence);
         let ties = ties.map(|span| Rule::Tie(index, span));
         for rule in side.chain(header).chain(unit).chain(pins).chain(ties) {
-            // The wires of one part have some of them in common.
+            // The wires of one part share some of them.
             if rule.span().is_none_or(|span| told.insert(span)) {
                 rules.push(rule);
             }

@@ -1,7 +1,7 @@
-//! What can still be added to a wiring, and what blocks the next device.
+//! Capacity: what can still be added to a wiring, and what blocks the next device.
 //!
-//! The devices that are there keep their wires (or may be rearranged, when asked); further devices
-//! of one kind alone are added until there is no wiring.
+//! The existing devices keep their wires (or may be rearranged, if asked for); further devices of
+//! only one kind are added until there is no wiring.
 
 use sensedsl_diagnostics::Span;
 use sensedsl_model::bounds::Bounds;
@@ -17,25 +17,25 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::assignment::Assignment;
 use crate::{Cancel, Found, Solved, Wiring};
 
-/// Identifiers there are for devices.
+/// The number of identifiers for devices.
 const DEVICES_MAX: usize = 254;
 /// 7-bit addresses that the I2C specification leaves to devices.
 const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x77;
 
-/// How many devices of one kind still fit on one board.
+/// The number of devices of one kind that still fit on one board.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Capacity {
     /// The board.
     pub board: BoardIndex,
     /// The kind.
     pub kind: KindName,
-    /// Further devices of that kind, with none of other kinds.
+    /// How many further devices of that kind fit, with none of other kinds.
     pub more: usize,
     /// Pins and resources that the next one lacks.
     pub blocked_by: Vec<String>,
 }
 
-/// The capacities of every board for every kind, in order; the first of them where time runs out.
+/// The capacities of every board for every kind, in order; only the first of them if time runs out.
 #[must_use]
 pub fn capacity(
     design: &Design,
@@ -51,7 +51,7 @@ pub fn capacity(
     for board in (0..design.boards.len()).map(BoardIndex) {
         for kind in KindName::ALL {
             let one = of_kind(&base, board, kind, cancel);
-            // What time ran out on may be too little.
+            // The number on which time ran out may be too low.
             if cancel.is_over() {
                 return Found { all, complete: false };
             }
@@ -81,7 +81,7 @@ fn fix(design: &mut Design, wiring: &Assignment) {
                     Some((wire.role, Spanned { value, span }))
                 })
                 .collect();
-            // The converter is chosen after the wiring and may change with company.
+            // The converter is chosen after the wiring and may change when devices are added.
             if !matches!(wires.kind, Kind::Analog(_)) {
                 wires.placement.unit = one.unit.clone().map(|value| Spanned { value, span });
             }
@@ -153,7 +153,7 @@ fn with(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Desig
     design
 }
 
-/// Adds a device with nothing but its kind.
+/// Adds a device with only its kind.
 fn add(
     design: &mut Design,
     board: BoardIndex,

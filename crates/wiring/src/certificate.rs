@@ -9,7 +9,7 @@ use crate::Wiring;
 use crate::labels::labels;
 
 impl Wiring<'_> {
-    /// The certificate of what the solver found; none where it failed.
+    /// The certificate of what the solver found; `None` if it failed.
     pub(crate) fn certificate(
         &self,
         outcome: &Result<Outcome, Fault>,

@@ -1,5 +1,5 @@
-//! What can be said before and after solving: fixed pins that cannot serve, instances that do not
-//! exist, on-board parts that are touched.
+//! Checks before and after solving: fixed pins that cannot serve, instances that do not exist,
+//! on-board parts that are touched.
 
 mod arrays;
 mod nowhere;
@@ -32,7 +32,7 @@ use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
-    // The elements of an array have one reason.
+    // All elements of an array have the same reason.
     let mut told = BTreeSet::new();
     for (wires, meanings) in design.connections.iter().zip(&formulation.meanings) {
         if meanings.is_empty() && told.insert((wires.part, wires.name.as_deref())) {
@@ -154,7 +154,7 @@ fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> 
     ))
 }
 
-/// The report for a device whose level no pin stands that it could have.
+/// The report for a device whose level none of its possible pins tolerates.
 fn too_much_voltage(
     design: &Design,
     offers: &[&Offer<'_>],
@@ -191,7 +191,7 @@ fn too_much_voltage(
     e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
 }
 
-/// The report for two fixed pins that could be each other's.
+/// The report for two fixed pins that would be right if exchanged.
 fn swapped(
     design: &Design,
     offers: &[&Offer<'_>],
@@ -229,7 +229,7 @@ fn cannot_serve(
     e0314_pin_cannot_serve::pin_cannot_serve(pin.span, &pin.value.shown(), &needs, row, &pins)
 }
 
-/// What a device needs of a pin, and the pins that have it, as reports say them.
+/// What a device needs from a pin, and the pins that have it, in the words of reports.
 fn needs_and_pins(
     design: &Design,
     offers: &[&Offer<'_>],
@@ -240,7 +240,7 @@ fn needs_and_pins(
     (needs, pins_of(design, offers, wires, role).join(", "))
 }
 
-/// The report for a fixed pin that an on-board part has left to the devices of its bus, where the
+/// The report for a fixed pin that an on-board part has left to the devices of its bus, if the
 /// device could have the pin without the part.
 fn bus_only(
     design: &Design,
@@ -337,7 +337,7 @@ fn pins_of(design: &Design, offers: &[&Offer<'_>], wires: &Connection, role: Rol
         let Some(board) = design.board(meaning.board) else { continue };
         let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
         let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
-        // With what is printed on the board, which is what people look for.
+        // With what is printed on the board, as this is what people look for.
         pins.extend(names.map(|pin| match &pin.label {
             Some(label) => format!("{} ({})", pin.name, visible(label)),
             None => pin.name.to_string(),
@@ -390,7 +390,7 @@ fn names_part(name: &str, part: &str) -> bool {
     is(part) || part.split_whitespace().any(is)
 }
 
-/// Devices of one address that are on two buses although the file asks for no bus.
+/// Devices of one address that are on two buses although the file does not ask for a bus.
 fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
     let mut first: BTreeMap<u8, (&Connection, &str)> = BTreeMap::new();
     let mut diagnostics = Vec::new();
@@ -417,7 +417,7 @@ fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Rules that cannot do anything.
+/// Rules that cannot have any effect.
 pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for (index, board) in design.boards.iter().enumerate() {
@@ -440,7 +440,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
     }
     let mut told = BTreeSet::new();
     for wires in &design.connections {
-        // The connections of a part have their rules in common.
+        // The connections of a part share their rules.
         if !told.insert(wires.part) {
             continue;
         }
@@ -467,11 +467,11 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Releases that give nothing free: nothing has the pin, or the link keeps it.
+/// Releases that free nothing: nothing has the pin, or the link keeps it.
 fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
     let offer = Offer::new(index, board);
     let roles = roles(board);
-    // By what names a pin that is taken: whether the link keeps any of them.
+    // By the name of a pin that is taken, or of the part on it: whether the link keeps such a pin.
     let (mut names, mut parts) = (BTreeMap::<&str, bool>::new(), BTreeMap::<String, bool>::new());
     for (at, pin) in board.table.pins.iter().enumerate() {
         let linked = offer.why_withheld(at) == Some(&Withheld::Link);

@@ -1,4 +1,4 @@
-//! Why there is no wiring, in names, with repairs that were tried.
+//! The reason why there is no wiring, in names, with repairs that were tried.
 
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
@@ -12,43 +12,44 @@ use crate::names::list;
 use crate::repairs::{self, Repair, Repaired};
 use crate::{Solved, Wiring};
 
-/// Repairs in one message; all are in the JSON output.
+/// The most repairs in one message; all are in the JSON output.
 const REPAIRS_NAMED_MAX: usize = 4;
 
 /// A minimal set of devices that cannot be connected together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoWiring {
-    /// Without any one of them the others can be connected. In file order; empty when the serial
-    /// links of the boards alone have no wires.
+    /// The parts, in file order. Without any one of them the others can be connected. Empty if the
+    /// serial links of the boards alone cannot be wired.
     pub parts: Vec<PartIndex>,
     /// Boards whose serial link is part of the conflict.
     pub links: Vec<BoardIndex>,
-    /// Pins and other resources that they fight for.
+    /// Pins and other resources that they compete for.
     pub resources: Vec<Contested>,
-    /// The rules without which the devices could be wired. Minimal like the devices where at most
-    /// 256 are in force for them; of more, the others are in the list without having been tried.
+    /// The rules without which the devices could be wired. Minimal, like the devices, if at most
+    /// 256 rules are in force for them; if there are more, the others are in the list without
+    /// having been tried.
     pub rules: Vec<Rule>,
-    /// What would help; each was checked by solving. Of more than 256 changes the first are tried, and
-    /// those that are too hard are left out.
+    /// The changes that would help; each was checked by solving. If there are more than 256
+    /// changes, only the first are tried, and those that are too hard are left out.
     pub repairs: Vec<Repaired>,
-    /// Whether it is known that no wiring is left whichever of the parts is left out.
+    /// Whether it is known that there is still no wiring whichever of the parts is left out.
     pub others_remain: bool,
-    /// False when time ran out before it was known that each of the devices is needed for the
-    /// conflict; nothing is known of rules and repairs then.
+    /// False if time ran out before it was known that each of the devices is needed for the
+    /// conflict; then nothing is known about rules and repairs.
     pub minimal: bool,
-    /// False when time ran out before everything was known that would help: there may be more
-    /// repairs, and no rules are named.
+    /// False if time ran out before it was known what would help: there may be more repairs, and no
+    /// rules are named.
     pub explained: bool,
 }
 
-/// Something that is fought for.
+/// Something that devices compete for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contested {
-    /// The pin, unit, signal, interrupt line or DMA stream; with its board where there are several.
+    /// The pin, unit, signal, interrupt line or DMA stream; with its board if there are several.
     pub name: String,
     /// The board it is on.
     pub board: BoardIndex,
-    /// The pins that offer it, as indices into the board's table; none for what no pin shows.
+    /// The pins that offer it, as indices into the board's table; empty if no pin shows it.
     pub pins: Vec<usize>,
 }
 
@@ -80,8 +81,8 @@ fn has_several(design: &Design, part: PartIndex) -> bool {
     design.connections_of(part).nth(1).is_some()
 }
 
-/// Leaves the parts that are needed for the conflict. Of a part with several sets of wires the solver
-/// has named some; with all of them, another part may not be needed.
+/// Keeps only the parts that are needed for the conflict. Of a part with several sets of wires, the
+/// solver has named only some; with all of them, another part may not be needed.
 fn needed(design: &Design, parts: &mut Vec<PartIndex>, cancel: Cancel<'_>) {
     let mut at = 0;
     while at < parts.len() && parts.len() > 1 {
@@ -202,7 +203,7 @@ impl NoWiring {
         diagnostic.help(self.help(design))
     }
 
-    /// How many pins there are for how many wires, where that is the whole conflict.
+    /// How many pins there are for how many wires, if that is the whole conflict.
     fn counts(&self, design: &Design) -> String {
         let connections = || self.parts.iter().flat_map(|part| design.connections_of(*part));
         let one_wire = connections().all(|one| one.kind.roles(one.direction).len() == 1);
@@ -220,7 +221,7 @@ impl NoWiring {
         format!(": {pins} pins, {asked} asked")
     }
 
-    /// What they fight for, with the lines of a table that the user can look at.
+    /// The things that they compete for, with the lines of a table that the user can look at.
     fn contested(&self, design: &Design) -> String {
         let words = self.resources.iter().map(|contested| {
             let board = design.board(contested.board).filter(|board| !board.built_in);

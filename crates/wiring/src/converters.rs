@@ -1,9 +1,9 @@
-//! Which converter samples which analog input.
+//! The choice of the converter that samples each analog input.
 //!
 //! Devices of one class (cycle time and priority) share one conversion group, so they want one
-//! unit: the lowest that serves all of them; where none does, the unit that serves most of those
-//! that are left, again and again. Where the units found so find no DMA streams beside the other
-//! peripherals, fewer units are tried.
+//! unit: the lowest that serves all of them. If none does, the unit that serves most of those that
+//! are left is taken, again and again. If there are not enough DMA streams for these units beside
+//! the other peripherals, fewer units are tried.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,8 +21,8 @@ use crate::formulate::Converters;
 type Input = (ConnectionIndex, BTreeSet<u8>);
 
 /// The converter of each analog input on the board, such that `streams_suffice` for the choice;
-/// none where no choice will do. Wishes for converters are given up when the problem has counted
-/// them so.
+/// `None` if no choice will do. Wishes for converters are given up if the problem has already
+/// counted them.
 pub(crate) fn choose(
     design: &Design,
     board: &Board,
@@ -37,7 +37,7 @@ pub(crate) fn choose(
 fn best(classes: &Classes, streams_suffice: impl Fn(&Choice) -> bool) -> Option<Choice> {
     let inputs = || classes.values().flatten();
     let all: BTreeSet<u8> = inputs().flat_map(|(_, units)| units).copied().collect();
-    // At most five converters in any MCU: all subsets, the whole first.
+    // No MCU has more than five converters: try all subsets, the whole set first.
     subsets(&all).find_map(|allowed| {
         let serves = |(_, units): &Input| units.is_empty() || !units.is_disjoint(&allowed);
         let choice = inputs().all(serves).then(|| choice(classes, &allowed))?;
@@ -51,7 +51,7 @@ pub(crate) type Choice = BTreeMap<ConnectionIndex, String>;
 /// Analog devices by cycle time and priority.
 type Classes = BTreeMap<(u32, i8), Vec<Input>>;
 
-/// `wishes` leaves only the converters that meet most of them.
+/// The classes; with `wishes`, only the converters that meet most wishes are left.
 fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes: bool) -> Classes {
     let mut classes = Classes::new();
     for wiring in wirings {
@@ -75,7 +75,8 @@ fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes:
     classes
 }
 
-/// Leaves the elements of an array that are wanted on one converter those that serve all of them.
+/// Leaves the elements of an array that are wanted on one converter only converters that serve all
+/// of them.
 fn keep_together(design: &Design, board: &Board, class: &mut [Input]) {
     let tied = |connection: &ConnectionIndex| -> Option<PartIndex> {
         let connection: &Connection = design.connection(*connection)?;
@@ -92,14 +93,14 @@ fn keep_together(design: &Design, board: &Board, class: &mut [Input]) {
     }
     for (connection, units) in class {
         let common = tied(connection).and_then(|part| common.get(&part));
-        // A wish that is not kept leaves none.
+        // A wish that cannot be kept leaves none.
         if let Some(common) = common.filter(|common| !common.is_empty()) {
             units.clone_from(common);
         }
     }
 }
 
-/// For each class as few of the allowed units as will do.
+/// For each class, as few of the allowed units as will do.
 fn choice(classes: &Classes, allowed: &BTreeSet<u8>) -> Choice {
     let mut chosen = Choice::new();
     for class in classes.values() {
@@ -115,7 +116,7 @@ fn choice(classes: &Classes, allowed: &BTreeSet<u8>) -> Choice {
     chosen
 }
 
-/// The set, then its subsets from the larger to the smaller, in the order of what is kept.
+/// The set, then its subsets from the larger to the smaller, in the order of what they keep.
 fn subsets(all: &BTreeSet<u8>) -> impl Iterator<Item = BTreeSet<u8>> {
     let members: Vec<u8> = all.iter().copied().collect();
     let mut masks: Vec<u32> = (0..1_u32 << members.len().min(SUBSET_MAX)).collect();
@@ -135,7 +136,7 @@ fn units(board: &Board, wiring: &ConnectionWiring, fixed: Option<&str>) -> BTree
     usage.map(|usage| sampling(board, usage, fixed)).unwrap_or_default()
 }
 
-/// The converters that can sample what a usage stands for.
+/// The converters that can sample the signal of a usage.
 fn sampling(board: &Board, usage: &Usage, fixed: Option<&str>) -> BTreeSet<u8> {
     let Function::Adc { units, channel } = usage.signal.function() else {
         return BTreeSet::new();
@@ -178,7 +179,7 @@ fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
     units.into_iter().filter(|unit| met(*unit) == most).collect()
 }
 
-/// The unit that serves most of the devices, the lowest of those.
+/// The unit that serves most of the devices; of several, the lowest.
 fn best_unit(devices: &[Input]) -> Option<u8> {
     let all: BTreeSet<u8> = devices.iter().flat_map(|(_, units)| units).copied().collect();
     let served = |unit: u8| devices.iter().filter(|(_, units)| units.contains(&unit)).count();

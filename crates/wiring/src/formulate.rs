@@ -24,7 +24,7 @@ use crate::wishes;
 /// Name of a wire that needs no signal.
 pub(crate) const GPIO: &str = "GPIO";
 
-/// Who asks for wires.
+/// Something that asks for wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Asker {
     Connection(ConnectionIndex),
@@ -32,61 +32,63 @@ pub(crate) enum Asker {
     Link(BoardIndex),
 }
 
-/// What a solver's candidate stands for.
+/// The meaning of a candidate of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Chosen {
     pub(crate) pin: usize,
     pub(crate) usage: Option<usize>,
 }
 
-/// What a solver's alternative stands for.
+/// The meaning of an alternative of the solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Meaning {
     pub(crate) board: BoardIndex,
-    /// The peripheral instance, where the alternative decides it.
+    /// The peripheral instance, if the alternative decides it.
     pub(crate) unit: Option<String>,
     pub(crate) roles: Vec<Vec<Chosen>>,
 }
 
-/// The problem and what its numbers stand for.
+/// The problem and the meaning of its numbers.
 pub(crate) struct Formulation<'a> {
     pub(crate) problem: Problem,
     pub(crate) offers: Vec<Offer<'a>>,
-    /// For each device of the problem who it is.
+    /// For each device of the problem, what asks for its wires.
     pub(crate) askers: Vec<Asker>,
-    /// For each device of the problem what its alternatives mean.
+    /// For each device of the problem, the meanings of its alternatives.
     pub(crate) meanings: Vec<Vec<Meaning>>,
     pub(crate) resources: Vec<Resource>,
     pub(crate) groups: Vec<Group>,
-    /// For each DMA stream its board and spelling.
+    /// For each DMA stream, its board and spelling.
     pub(crate) streams: Vec<(BoardIndex, String)>,
-    /// For each pin of the problem its board and index in the table.
+    /// For each pin of the problem, its board and index in the table.
     pub(crate) pins: Vec<(BoardIndex, usize)>,
     /// When converters are chosen.
     pub(crate) converters: Converters,
-    /// False when time ran out before all of it was put; it means nothing then.
+    /// False if time ran out before the problem was complete; it is meaningless then.
     pub(crate) complete: bool,
 }
 
-/// In which form the problem is put.
+/// The form in which the problem is put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Asked {
     pub(crate) converters: Converters,
-    /// Whether arrays that violate a wish for their elements are told from those that keep it: each
-    /// wiring that keeps it is found a second time as one that need not.
+    /// Whether arrays that violate a wish for their elements are distinguished from those that keep
+    /// it: each wiring that keeps it is then found a second time, as one that need not.
     pub(crate) wishes: bool,
 }
 
-/// When the converter of an analog device is chosen, where there are several.
+/// When the converter of an analog device is chosen, if there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Converters {
-    /// After the wiring: it is not a wire, and a wiring is one answer whichever converters sample it.
+    /// After the wiring: it is not a wire, and a wiring is one answer whichever converters sample
+    /// it.
     Later,
-    /// With the wiring: where streams are so scarce that not every wiring leaves them any.
+    /// With the wiring: if streams are so scarce that not every wiring leaves any for the
+    /// converters.
     Now,
 }
 
-/// What making alternatives needs beside the device.
+/// Everything besides the device that is needed to make alternatives.
 pub(crate) struct Builder<'a> {
     pub(crate) names: Names,
     /// First pin of each board in the problem.
@@ -99,11 +101,11 @@ pub(crate) struct Builder<'a> {
     streams: Vec<(BoardIndex, String)>,
     /// The number of soft rules.
     rules: u32,
-    /// Those of each part.
+    /// The soft rules of each part.
     rules_of: BTreeMap<PartIndex, Vec<wishes::Rule<'a>>>,
     pub(crate) design: &'a Design,
     pub(crate) converters: Converters,
-    /// Asked for each board of each device, and for each alternative that is tied.
+    /// Checked for each board of each device, and for each alternative that is tied.
     pub(crate) cancel: Cancel<'a>,
 }
 
@@ -142,7 +144,7 @@ impl<'a> Builder<'a> {
         RuleId(self.rules - 1)
     }
 
-    /// The soft rules of a part, where they are numbered.
+    /// The soft rules of a part, if they have been numbered.
     pub(crate) fn rules_of(&self, part: PartIndex) -> Vec<wishes::Rule<'a>> {
         self.rules_of.get(&part).cloned().unwrap_or_default()
     }
@@ -152,7 +154,7 @@ impl<'a> Builder<'a> {
         self.rules_of.entry(part).or_insert_with(|| rules.to_vec());
     }
 
-    /// The DMA user of a peripheral instance; none where its driver takes no streams.
+    /// The DMA user of a peripheral instance; empty if its driver takes no streams.
     pub(crate) fn dma(&mut self, board: BoardIndex, unit: &str) -> Vec<DmaUserId> {
         let key = (board, unit.to_owned());
         if let Some(id) = self.dma_ids.get(&key) {
@@ -328,7 +330,7 @@ pub(crate) fn wanted<'a>(design: &'a Design, connection: &'a Connection) -> Want
     Wanted::connection(connection, boards)
 }
 
-/// All pins of all boards in tie-break order, and where each board begins.
+/// All pins of all boards in tie-break order, and the position at which each board begins.
 fn pins(design: &Design) -> (Vec<(BoardIndex, usize)>, Vec<u32>) {
     let mut pins = Vec::new();
     let mut first = Vec::new();

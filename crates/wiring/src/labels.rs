@@ -44,7 +44,7 @@ struct Namer<'a> {
 }
 
 impl Namer<'_> {
-    /// With the board in front where there are several.
+    /// The name, with the board in front if there are several.
     fn on(&self, board: BoardIndex, name: &str) -> String {
         let board = self.design.board(board).filter(|_| self.design.boards.len() > 1);
         board.map_or(name.to_owned(), |board| format!("{}.{name}", board.name.value))
@@ -68,7 +68,7 @@ impl Namer<'_> {
     fn resource(&self, resource: &Resource) -> String {
         let name = match resource {
             Resource::BusWire(_, unit, role) => format!("{} of {unit}", role.name()),
-            // Several devices of a bus would claim the bus by that name otherwise.
+            // Otherwise several devices of a bus would claim the bus by that name.
             Resource::Signal(_, signal) => format!("signal {signal}"),
             Resource::Remap(_, unit, one, other) => format!("remap of {unit}, {one} or {other}"),
             Resource::Unit(..)
@@ -140,12 +140,13 @@ impl Namer<'_> {
         names
     }
 
-    /// In the order in which the rules were numbered: for each device its own, then its boards'.
+    /// The names of the rules in the order of their numbers: for each device its own, then its
+    /// boards'.
     fn rules(&self, count: usize) -> Vec<String> {
         let mut names = Vec::new();
         let mut last = None;
         for asker in &self.formulation.askers {
-            // The connections of a part have their rules in common.
+            // The connections of a part share their rules.
             let part = match asker {
                 Asker::Connection(index) => self.design.connection(*index).map(|one| one.part),
                 Asker::Link(_) => None,

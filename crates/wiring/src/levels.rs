@@ -5,14 +5,14 @@ use sensedsl_board::table::Pin;
 use sensedsl_model::design::Board;
 use sensedsl_model::kind::Kind;
 
-/// Up to this every pin of an MCU that nothing is known of stands a level, in millivolts.
+/// The level, in millivolts, that every pin of an unknown MCU tolerates.
 const UNKNOWN_MAX_MV: u32 = 3_600;
 
 /// Whether a pin tolerates a voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Tolerates {
     Yes,
-    /// It tolerates only so many millivolts.
+    /// It tolerates only this many millivolts.
     No(u32),
     Unknown,
 }
@@ -36,7 +36,7 @@ pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Tolerate
     }
 }
 
-/// The supply of the board's MCU in millivolts, where it is known.
+/// The supply of the board's MCU in millivolts, if it is known.
 pub(crate) fn supply_mv(board: &Board) -> Option<u32> {
     volts(board).map(|volts| volts.supply_mv)
 }
@@ -45,7 +45,7 @@ fn volts(board: &Board) -> Option<&'static Volts> {
     silicon::volts(board.mcu.as_deref()?)
 }
 
-/// What the table says of the pin: volts, or the letters of ST's data sheets.
+/// The level that the table gives for the pin: volts, or the letters of ST's data sheets.
 fn stated_mv(pin: &Pin) -> Option<u32> {
     let said = pin.voltage.as_deref()?.trim();
     if said.starts_with("FT") {

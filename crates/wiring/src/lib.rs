@@ -1,4 +1,4 @@
-//! From a design to a wiring: the pin problem is put to the solver, and its answer read back.
+//! From a design to a wiring: puts the pin problem to the solver, and reads its answer back.
 
 mod alloy;
 mod alternatives;
@@ -46,19 +46,19 @@ pub use sensedsl_solve as solver;
 pub use sensedsl_solve::Cancel;
 pub use why::Alternative;
 
-/// What kind of search is wanted.
+/// The kind of search that is wanted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Search {
-    /// Any wiring will do.
+    /// True if any wiring will do.
     pub any: bool,
 }
 
-/// What was found of several things, and whether time ran out before all of them were.
+/// The things that were found, and whether time ran out before all of them were.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found<T> {
-    /// What was found.
+    /// The things that were found.
     pub all: Vec<T>,
-    /// False when there may be more.
+    /// False if there may be more.
     pub complete: bool,
 }
 
@@ -72,21 +72,21 @@ pub struct Wiring<'a> {
     cancel: Cancel<'a>,
 }
 
-/// What became of a question.
+/// The result of a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Solved {
     /// A wiring.
     Wired(Box<Assignment>),
-    /// There is none.
+    /// There is no wiring.
     Infeasible(NoWiring),
-    /// The solver failed its own check; to be reported as it stands.
+    /// The solver failed its own check; to be reported as it is.
     Failed(Box<Diagnostic>),
 }
 
-/// What an outcome of the solver means for the design.
+/// The meaning of an outcome of the solver for the design.
 enum Meant {
     Solved(Solved),
-    /// A wiring of the pins whose converters find no DMA stream.
+    /// A wiring of the pins that leaves the converters no DMA stream.
     NoStreams,
     Infeasible(Conflict),
 }
@@ -96,21 +96,21 @@ enum Meant {
 pub struct Proved {
     /// The answer.
     pub solved: Solved,
-    /// The text of its certificate, or the report that none was found; none where there is no
-    /// answer to be proved.
+    /// The text of its certificate, or the report that none was found; `None` if there is no answer
+    /// to prove.
     pub certificate: Option<Result<String, Box<Diagnostic>>>,
 }
 
 impl<'a> Wiring<'a> {
-    /// Puts the problem of a design, to be solved with as few moved wires as possible where an
-    /// earlier wiring is given.
+    /// Puts the problem of a design; if an earlier wiring is given, as few wires as possible are to
+    /// be moved.
     #[must_use]
     pub fn new(design: &'a Design, keep: Option<&Keep>) -> Self {
         Self::within(design, keep, Cancel::NEVER)
     }
 
-    /// As [`Self::new`]; all that is asked of it ends with what is known by then once it is
-    /// cancelled.
+    /// Like [`Self::new`], but once it is cancelled, all questions to it end with what is known by
+    /// then.
     #[must_use]
     pub fn within(design: &'a Design, keep: Option<&Keep>, cancel: Cancel<'a>) -> Self {
         let asked = Asked { converters: Converters::Later, wishes: true };
@@ -122,22 +122,22 @@ impl<'a> Wiring<'a> {
         Self { design, keep: keep.cloned(), formulation, wishes: asked.wishes, cancel }
     }
 
-    /// The same problem with the converters in it, for when the best wiring leaves them no DMA
-    /// streams; none where they are in it already.
+    /// The same problem with the converters in it, in case the best wiring leaves them no DMA
+    /// streams; `None` if they are already in it.
     fn with_converters(&self) -> Option<Self> {
         let later = self.formulation.converters == Converters::Later;
         let asked = Asked { converters: Converters::Now, wishes: true };
         later.then(|| Self::put(self.design, self.keep.as_ref(), asked, self.cancel))
     }
 
-    /// The problem as the solver is asked it.
+    /// The problem as it is put to the solver.
     #[must_use]
     pub fn problem(&self) -> &solver::Problem {
         &self.formulation.problem
     }
 
-    /// What is wrong with the placement of single devices, and rules that do nothing. When there is
-    /// an error among them there is no wiring, and a conflict would say less.
+    /// Reports what is wrong with the placement of single devices, and rules that have no effect.
+    /// If there is an error among the reports, there is no wiring, and a conflict would say less.
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
         if !self.formulation.complete {
@@ -171,13 +171,14 @@ impl<'a> Wiring<'a> {
         conflict::read(self.design, &self.formulation, conflict, self.cancel)
     }
 
-    /// Whether there is certainly no wiring; why is not asked, which saves most of the time.
+    /// Whether there is certainly no wiring; the reason is not looked for, which saves most of the
+    /// time.
     fn is_impossible(&self) -> bool {
         self.formulation.complete
             && solver::feasible(&self.formulation.problem, self.cancel) == Ok(Some(false))
     }
 
-    /// As [`Self::solve`], without looking for repairs.
+    /// Like [`Self::solve`], but without looking for repairs.
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
         match self.named(self.search(&Search { any })) {
@@ -192,8 +193,8 @@ impl<'a> Wiring<'a> {
         }
     }
 
-    /// One of the best wirings, which tells what the best costs; nothing where there is none. Neither
-    /// the reason for that is looked for nor which of the best comes first.
+    /// One of the best wirings, which shows what the best costs; `None` if there is none. It looks
+    /// neither for the reason for that nor for the one of the best that is first in order.
     #[must_use]
     pub fn one_of_the_best(&self) -> Option<Solved> {
         let cancelled = Ok(Some(Outcome::Stopped { answer: None, bound: Objective::default() }));
@@ -212,8 +213,8 @@ impl<'a> Wiring<'a> {
         }
     }
 
-    /// As [`Self::solve`], with the certificate that proves the answer; its absence has its reason.
-    /// `of` is what the design was made of.
+    /// Like [`Self::solve`], with the certificate that proves the answer, or the reason why there
+    /// is none. `of` is what the design was made of.
     #[must_use]
     pub fn solve_with_proof(&self, of: &Subject) -> Proved {
         let (outcome, learned) = match self.search_and_learn(&Search { any: false }) {
@@ -229,7 +230,7 @@ impl<'a> Wiring<'a> {
             },
             Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         };
-        // A wiring that cannot be built is not one, whatever was proved of its pins.
+        // A wiring that cannot be built is not a wiring, whatever was proved about its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
         Proved { solved, certificate: certificate.filter(|_| buildable) }
     }
@@ -261,13 +262,14 @@ impl<'a> Wiring<'a> {
         }
     }
 
-    /// For each pin that could serve connections of a device or a chip what the best wiring with it would cost.
+    /// For each pin that could serve connections of a device or a chip, the cost of the best wiring
+    /// with it.
     #[must_use]
     pub fn why(&self, wiring: &Assignment, of: &[ConnectionIndex]) -> Found<Alternative> {
         why::why(self.design, &self.formulation, (wiring, of), self.cancel)
     }
 
-    /// All wirings, best first, but for those that leave the converters no streams.
+    /// All wirings, best first, except those that leave the converters no streams.
     pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
         let answers: Answers<'_> = solver::enumerate(&self.formulation.problem, self.cancel);
         let mut seen = BTreeSet::new();
@@ -294,7 +296,8 @@ impl<'a> Wiring<'a> {
             .map_err(|fault| Box::new(self.fault(&fault)))
     }
 
-    /// Whether a wiring that keeps a wish for an array is found again as one that need not.
+    /// Whether a wiring that keeps a wish for an array is found a second time, as one that need
+    /// not.
     fn finds_twice(&self) -> bool {
         let is_of_array =
             |wish: &Wish| matches!(wish.what, WishFor::Together(_) | WishFor::Sequence);
@@ -312,7 +315,7 @@ impl<'a> Wiring<'a> {
         prolog::program(self.design, &self.formulation)
     }
 
-    /// The problem as a model for the Alloy Analyzer, which confirms what the solver says of it: that
+    /// The problem as a model for the Alloy Analyzer, which confirms the solver's result: that
     /// there is a wiring, and that none is better.
     ///
     /// # Errors

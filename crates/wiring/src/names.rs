@@ -1,4 +1,4 @@
-//! The solver's numbers and what they stand for.
+//! The solver's numbers and their meanings.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use sensedsl_solve::problem::{Claim, Holder, ResourceId};
 
 use crate::ties::Tied;
 
-/// A resource beside the pins.
+/// A resource other than a pin.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Resource {
     /// A signal, used at most once.
@@ -26,12 +26,12 @@ pub(crate) enum Resource {
     Exti(BoardIndex, u8),
     /// A contact that several pins share.
     Pad(BoardIndex, String),
-    /// That a peripheral's signals are in the first remap blocks, or in the second: no block is in
-    /// both.
+    /// The choice between two sets of remap blocks for a peripheral's signals: no block is in both.
     Remap(BoardIndex, String, Blocks, Blocks),
-    /// That a part is on one board.
+    /// The one board that a part is on.
     Part(PartIndex),
-    /// What the elements of an array have in common; the number is that of the wish for it.
+    /// Something that the elements of an array have in common; the number is that of the wish for
+    /// it.
     Tie(PartIndex, Option<u32>, Tied),
 }
 
@@ -63,7 +63,7 @@ impl Resource {
         }
     }
 
-    /// Whether the pin's row is where the table speaks of the resource.
+    /// Whether the pin's row in the table mentions the resource.
     #[must_use]
     pub(crate) fn is_shown_by(&self, pin: &Pin) -> bool {
         let of_unit = |unit: &str| {
@@ -83,7 +83,7 @@ impl Resource {
         }
     }
 
-    /// The board it is on; none of what ties a part.
+    /// The board it is on; `None` for a resource that ties a part.
     #[must_use]
     pub(crate) fn board(&self) -> Option<BoardIndex> {
         match self {
@@ -99,7 +99,7 @@ impl Resource {
     }
 }
 
-/// The unit of a bus signal: what devices fight for is the bus, whichever of its wires shows it.
+/// The unit of a bus signal: devices compete for the bus, whichever of its wires shows it.
 fn bus(signal: &str) -> Option<String> {
     let (signal, _) = Signal::parse(signal);
     let unit = match signal.function() {
@@ -114,7 +114,7 @@ fn bus(signal: &str) -> Option<String> {
     Some(unit.to_string())
 }
 
-/// `a`, `a and b`, `a, b and c`; the last word is given.
+/// `a`, `a and b`, `a, b and c`; the word before the last name is given.
 pub(crate) fn list(names: &[&str], and: &str) -> String {
     match names {
         [] => "nothing".into(),
@@ -123,11 +123,11 @@ pub(crate) fn list(names: &[&str], and: &str) -> String {
     }
 }
 
-/// On whose behalf several devices hold something together; pins and usages by their places in the
-/// board's table.
+/// A group on whose behalf several devices hold something together; pins and usages are given by
+/// their index in the board's table.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Group {
-    /// The devices of a bus that agree on a setting (0 where there is none to agree on).
+    /// The devices of a bus that agree on a setting (0 if there is none to agree on).
     Bus(BoardIndex, String, u32),
     /// The outputs of a timer that run at one frequency.
     Frequency(BoardIndex, String, u32),
@@ -137,7 +137,7 @@ pub(crate) enum Group {
     Pad(BoardIndex, usize),
     /// The devices whose signals of a peripheral are in these remap blocks.
     Blocks(BoardIndex, String, Blocks),
-    /// The connections of a part that have that in common.
+    /// The connections of a part that have this in common.
     Tie(BoardIndex, String),
 }
 
@@ -169,7 +169,7 @@ impl Names {
         Claim { resource: self.resource(resource), holder: Holder::Own }
     }
 
-    /// A claim together with others.
+    /// A claim shared with a group.
     pub(crate) fn shared(&mut self, resource: Resource, group: Group) -> Claim {
         Claim { resource: self.resource(resource), holder: self.group(group) }
     }

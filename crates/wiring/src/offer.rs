@@ -1,4 +1,5 @@
-//! Which pins of a board devices may have at all, and why the others may not.
+//! The pins of a board that devices may use at all, and the reasons why they may not use the
+//! others.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,13 +11,13 @@ use sensedsl_board::table::{Occupation, Pin, Role, Usage, release_name};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
 
-/// What may be on the pins of an oscillator.
+/// The part that may be on the pins of an oscillator.
 const CRYSTAL: &str = "the oscillator's crystal";
 
-/// Why a pin is not offered.
+/// The reason why a pin is not offered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Withheld {
-    /// By a `reserve` rule.
+    /// A `reserve` rule names it.
     Reserved(Span),
     /// An on-board part has it.
     Onboard(String),
@@ -26,14 +27,15 @@ pub(crate) enum Withheld {
     Needed(PinRole),
 }
 
-/// The `reserve` and `release` rules of a board by what they name, so that each pin is looked up.
+/// The `reserve` and `release` rules of a board, indexed by what they name, so that each pin is
+/// looked up.
 struct Rules<'a> {
     /// The first rule that reserves the pin.
     reserved: BTreeMap<String, Span>,
-    /// What is reserved, as it is spelled: a peripheral has one spelling.
+    /// The names that are reserved, as they are spelled: a peripheral has only one spelling.
     reserved_units: BTreeSet<&'a str>,
     released: BTreeSet<String>,
-    /// What is released, in capitals: on-board parts are.
+    /// The names that are released, in capitals, as on-board parts are compared in capitals.
     released_parts: BTreeSet<String>,
 }
 
@@ -56,7 +58,7 @@ impl<'a> Rules<'a> {
         }
     }
 
-    /// Whether a rule gives the pin free from its on-board part.
+    /// Whether a rule frees the pin from its on-board part.
     fn release(&self, pin: &Pin) -> bool {
         let by_part = |part: &str| self.released_parts.contains(&release_name(part).to_uppercase());
         self.released.contains(pin.name.as_str())
@@ -72,13 +74,13 @@ pub(crate) struct Offer<'a> {
     /// Pins that are inputs of a converter and nothing else.
     analog_only: BTreeSet<PinName>,
     rules: Rules<'a>,
-    /// For each pin of the table why it is withheld.
+    /// For each pin of the table, why it is withheld.
     withheld: Vec<Option<Withheld>>,
-    /// For each pin of the table what else is on it, where devices may use it all the same.
+    /// For each pin of the table, what else is on it, if devices may use it all the same.
     shared: Vec<Option<String>>,
-    /// For each pin of the table the contact that it shares with others.
+    /// For each pin of the table, the contact that it shares with others.
     pads: Vec<Option<String>>,
-    /// For each peripheral that remaps its signals the sets of blocks they are in.
+    /// For each peripheral that remaps its signals, the sets of blocks they are in.
     remaps: BTreeMap<String, Remaps>,
 }
 
@@ -87,7 +89,7 @@ impl<'a> Offer<'a> {
         Self::by_rules(index, board, Rules::of(board))
     }
 
-    /// The same board as it would be with one more `release`.
+    /// The same board with one more `release`.
     pub(crate) fn with_released(&self, pin: &PinName) -> Self {
         let mut rules = Rules::of(self.board);
         rules.released.insert(pin.as_str().to_owned());
@@ -104,7 +106,7 @@ impl<'a> Offer<'a> {
         let shared = pins.iter().map(|pin| shared(board, &rules, &roles, pin)).collect();
         let silicon = board.silicon();
         let mut analog_only = board.mcu.as_deref().map(silicon::analog_only).unwrap_or_default();
-        // `PC3_C` is the converter's side of a switch. Where `PC3` is there as well, that is the port's.
+        // `PC3_C` is the converter's side of a switch. If `PC3` is there too, that is the port's.
         let is_beside = |pin: &&Pin| {
             let of_port = pin.name.as_str().strip_suffix("_C").and_then(PinName::parse);
             of_port.is_some_and(|name| board.table.pin(&name).is_some())
@@ -115,17 +117,17 @@ impl<'a> Offer<'a> {
         Self { index, board, silicon, analog_only, rules, withheld, shared, pads, remaps }
     }
 
-    /// What else is on a pin that devices may use all the same.
+    /// The other thing that is on a pin that devices may use all the same.
     pub(crate) fn shared_with(&self, pin: usize) -> Option<&str> {
         self.shared.get(pin)?.as_deref()
     }
 
-    /// The contact of a pin where other pins are on it as well.
+    /// The contact of a pin, if other pins are on it too.
     pub(crate) fn shared_pad(&self, pin: usize) -> Option<&str> {
         self.pads.get(pin)?.as_deref()
     }
 
-    /// The peripheral and the remap blocks of a usage, where its place depends on them.
+    /// The peripheral and the remap blocks of a usage, if its place depends on them.
     pub(crate) fn blocks(&self, usage: &Usage) -> Option<(String, Blocks)> {
         let unit = unit(usage)?;
         let blocks = usage.blocks?;
@@ -149,29 +151,29 @@ impl<'a> Offer<'a> {
         pins.filter(|(index, _)| self.why_withheld(*index).is_none())
     }
 
-    /// True when an on-board part leaves the pin to further devices of its bus only.
+    /// True if an on-board part leaves the pin only to further devices of its bus.
     pub(crate) fn bus_only(&self, pin: &Pin) -> bool {
         let on_bus = pin.onboard.as_ref().is_some_and(|part| part.how == Occupation::Bus);
         on_bus && !self.rules.release(pin)
     }
 
-    /// True for a pin that no digital signal can be at.
+    /// True for a pin that cannot carry a digital signal.
     pub(crate) fn is_analog_only(&self, pin: &Pin) -> bool {
         self.analog_only.contains(&pin.name)
     }
 
-    /// Whether a name in a file means that peripheral instance of the board.
+    /// Whether a name in a file means this peripheral instance of the board.
     pub(crate) fn same_unit(&self, written: &str, unit: &str) -> bool {
         written == unit || self.silicon.is_some_and(|silicon| silicon.same_unit(written, unit))
     }
 
-    /// True when a rule keeps the peripheral instance free, or it cannot work beside the link.
+    /// True if a rule reserves the peripheral instance, or if it cannot work beside the link.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
         self.rules.reserved_units.iter().any(|rule| self.same_unit(rule, unit))
             || self.excluded_by_link(unit)
     }
 
-    /// True when the MCU's USB device is the link and lets the peripheral instance not work.
+    /// True if the MCU's USB device is the link and keeps the peripheral instance from working.
     pub(crate) fn excluded_by_link(&self, unit: &str) -> bool {
         let profile = self.board.profile();
         let usb = profile.filter(|_| self.board.link.transport == Transport::Usb);
@@ -181,8 +183,8 @@ impl<'a> Offer<'a> {
     }
 }
 
-/// The place of each pin where it is not the only one there. A place is a position of the package,
-/// or of a connector.
+/// The place of each pin that is not the only one there. A place is a position on the package or on
+/// a connector.
 fn shared_pads(pins: &[Pin]) -> Vec<Option<String>> {
     let place = |pin: &Pin| {
         let position = pin.position.as_deref()?;
@@ -205,8 +207,8 @@ fn shared_pads(pins: &[Pin]) -> Vec<Option<String>> {
 struct Remaps {
     /// Each set once, ascending.
     sets: Vec<Blocks>,
-    /// Whether devices need only agree two by two. They do on all MCUs there are; where a table
-    /// says otherwise, each signal is offered only in its lowest block.
+    /// Whether it is enough if devices agree in pairs. It is on all MCUs there are; if a table says
+    /// otherwise, each signal is offered only in its lowest block.
     by_pairs: bool,
 }
 
@@ -234,7 +236,8 @@ fn remaps(pins: &[Pin]) -> BTreeMap<String, Remaps> {
     sets.into_iter().map(|(unit, sets)| (unit, remaps(sets))).collect()
 }
 
-/// What withholds a pin withholds all others on its contact, but those that a rule releases.
+/// Whatever withholds a pin also withholds all others on its contact, except those that a rule
+/// releases.
 fn keep_pads_free(
     pins: &[Pin],
     rules: &Rules<'_>,
@@ -279,8 +282,8 @@ fn withheld(
     role.map(Withheld::Needed)
 }
 
-/// What else is on the pin, whatever withholds it. The board's table tells whether a crystal is
-/// fitted; a table that has no column for it is a bare part.
+/// The other thing that is on the pin, whether or not the pin is withheld. The board's table states
+/// whether a crystal is fitted; a table without a column for it is of a bare part.
 fn shared(
     board: &Board,
     rules: &Rules<'_>,
@@ -306,7 +309,7 @@ pub(crate) fn roles(board: &Board) -> BTreeMap<PinName, PinRole> {
     roles
 }
 
-/// Whether the link to the host takes the pin: no rule can give it away.
+/// Whether the link to the host takes the pin: no rule can release it.
 fn is_of_usb_link(board: &Board, profile: &TargetProfile, pin: &Pin) -> bool {
     if board.link.transport != Transport::Usb {
         return false;

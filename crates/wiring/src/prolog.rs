@@ -129,7 +129,7 @@ fn device_name(design: &Design, asker: Asker) -> String {
     }
 }
 
-/// Text as a quoted atom; what cannot be seen is an escape of Prolog (`\x202e\`).
+/// Text as a quoted atom; invisible characters become escapes of Prolog (`\x202e\`).
 fn atom(text: &str) -> String {
     let mut atom = String::from("'");
     for character in text.chars() {

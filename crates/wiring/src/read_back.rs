@@ -15,7 +15,7 @@ use crate::converters::{self, Choice};
 use crate::formulate::{Asker, Converters, Formulation};
 use crate::streams;
 
-/// The answer in names. None when a board's DMA requests, those of its converters included, cannot
+/// The answer in names. `None` if a board's DMA requests, including those of its converters, cannot
 /// all be served; the solver has made sure of all others.
 pub(crate) fn read_back(
     design: &Design,
@@ -49,7 +49,7 @@ pub(crate) fn read_back(
         match asker {
             Asker::Connection(connection) => {
                 let connection = *connection;
-                // Which converter it is in the end is up to `converters`.
+                // The converter is finally chosen by `converters`.
                 let unit = meaning.unit.clone().filter(|_| !is_analog(design, connection));
                 board.connections.push(ConnectionWiring { connection, unit, wires });
             }
@@ -88,7 +88,7 @@ pub(crate) fn read_back(
     })
 }
 
-/// The roles of whoever asks, in order.
+/// The roles of an asker, in order.
 pub(crate) fn roles(design: &Design, asker: Asker) -> Vec<Role> {
     match asker {
         Asker::Connection(connection) => design
@@ -110,7 +110,7 @@ fn name_channels(design: &Design, board: &Board, wirings: &mut [ConnectionWiring
     }
 }
 
-/// Fills in the converters, and deals out the streams of all that is in use. None where no choice
+/// Fills in the converters, and assigns streams to everything that is in use. `None` if no choice
 /// of converters leaves each its stream.
 fn name_converters(
     design: &Design,
@@ -145,7 +145,7 @@ fn devices(design: &Design, connections: &[ConnectionWiring]) -> Vec<DeviceWirin
         let at = connections.binary_search_by_key(&index, |one| one.connection).ok()?;
         connections.get(at)
     };
-    // Those that no value goes over are shown with the first device of their part.
+    // Connections that no value goes over are shown with the first device of their part.
     let used: BTreeSet<ConnectionIndex> =
         design.devices.iter().flat_map(|device| device.connections.iter().copied()).collect();
     let mut unused: BTreeMap<DeviceIndex, Vec<&Wire>> = BTreeMap::new();

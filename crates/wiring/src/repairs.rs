@@ -1,4 +1,4 @@
-//! What would help where there is no wiring: changes that were each tried by solving.
+//! Repairs for a design that has no wiring: changes that were each tried by solving.
 
 mod alike;
 mod budget;
@@ -15,34 +15,34 @@ use self::proposals::{is_exclusive, proposals};
 use crate::Cancel;
 use crate::formulate::Formulation;
 
-/// A repair with a wiring after it.
+/// A repair that gives a wiring.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repaired {
     /// The change.
     pub repair: Repair,
     /// The opportunity cost of that wiring.
     pub cost: u32,
-    /// Whether that is known to be the least there is after the change.
+    /// Whether that is known to be the least possible after the change.
     pub is_best: bool,
 }
 
-/// What is known of changes that could help.
+/// The results of trying changes that could help.
 #[derive(Debug)]
 pub(crate) struct Repairs {
-    /// Those that do, the gentlest first.
+    /// The changes that help, the gentlest first.
     pub found: Vec<Repaired>,
-    /// Whether it is known that no wiring is left whichever of the devices is left out.
+    /// Whether it is known that there is still no wiring whichever of the devices is left out.
     pub others_remain: bool,
 }
 
-/// So many changes are tried; each costs a search for the best wiring. Of a conflict in a robot
-/// there are a few dozen.
+/// The most changes that are tried; each costs a search for the best wiring. For a conflict in a
+/// robot there are a few dozen.
 const TRIED_MAX: usize = 256;
 
-/// The repairs that work, the gentlest first: another link where the file asks for none, then
-/// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a
-/// device out; within each the cheapest wiring first. At most [`TRIED_MAX`] are tried: before all
-/// others what concerns a link or one device alone, of which there are three each. Each has its share
+/// The repairs that work, the gentlest first: another link if the file asks for none, then freeing
+/// what was fixed, then sharing, then moving, then doing without something, then leaving a device
+/// out; within each, the cheapest wiring first. At most [`TRIED_MAX`] are tried, beginning with
+/// those that concern only a link or one device, of which there are three each. Each has its share
 /// of the steps, so that hard ones are left out.
 pub(crate) fn find(
     design: &Design,
@@ -57,19 +57,19 @@ pub(crate) fn find(
     let is_cut = proposals.iter().skip(TRIED_MAX).any(is_drop);
     proposals.truncate(TRIED_MAX);
     let mut found = Vec::new();
-    // What has no wiring without any of the devices has none whatever is done to them.
+    // If there is no wiring without any of the devices, there is none whatever is done to them.
     let others = retained(design, |part| !parts.contains(&part));
     if budget.is_impossible(&others) {
         proposals.retain(|repair| !repair.is_of_devices());
     }
-    // They are few, so most that is no help is soon known by them alone.
+    // They are few, so most changes that do not help are quickly found out with them alone.
     let devices = retained(design, |part| parts.contains(&part));
     proposals.retain(|repair| {
         // The conflict is minimal.
         is_drop(repair) || !budget.is_impossible(&repair.renumbered(parts).applied(&devices))
     });
     let mut alike = Alike::new(formulation);
-    // What is quickly known of each first: a hard one does not cost the others their turn.
+    // First comes what is quickly known about each: a hard one does not cost the others their turn.
     for share in SHARES {
         alike.begin_round();
         proposals.retain(|repair| {
@@ -94,14 +94,14 @@ pub(crate) fn find(
     Repairs { found, others_remain }
 }
 
-/// The design with these of its parts alone, which get new numbers.
+/// The design with only these of its parts, which get new numbers.
 fn retained(design: &Design, holds: impl Fn(PartIndex) -> bool) -> Design {
     let mut some = design.clone();
     some.retain_parts(|part, _| holds(part));
     some
 }
 
-/// The first two devices, or else all, that would help by sharing a bus.
+/// The first two devices, or else all, for which it would help to share a bus.
 fn sharing(design: &Design, parts: &[PartIndex], budget: &mut Budget<'_>) -> Option<Repaired> {
     let exclusive = |index: &&PartIndex| is_exclusive(design, **index);
     let exclusive: Vec<PartIndex> = parts.iter().filter(exclusive).copied().collect();

@@ -14,8 +14,8 @@ struct Request {
     streams: Vec<String>,
 }
 
-/// A stream of its own for each request of the units in use, the first of its list wherever that
-/// leaves one for all others; none when there are not enough.
+/// A stream of its own for each request of the units in use: the first of its list that leaves one
+/// for all others. `None` if there are not enough.
 pub(crate) fn serve(board: &Board, mut units: Vec<&str>) -> Option<Vec<DmaAssignment>> {
     let Some(profile) = board.profile() else { return Some(Vec::new()) };
     units.sort_by(|a, b| natural(a, b));
@@ -42,7 +42,7 @@ pub(crate) fn serve(board: &Board, mut units: Vec<&str>) -> Option<Vec<DmaAssign
     )
 }
 
-/// For each request the first stream of its list that leaves one for all later ones.
+/// For each request, the first stream of its list that leaves one for all later ones.
 fn place(requests: &[Request]) -> Option<Vec<String>> {
     let mut chosen: Vec<String> = Vec::new();
     for (at, request) in requests.iter().enumerate() {
@@ -65,7 +65,7 @@ fn all_served(requests: &[Request], taken: &BTreeSet<&str>) -> bool {
         .all(|request| serve_one(requests, request, taken, &mut owners, &mut BTreeSet::new()))
 }
 
-/// Finds a stream for a request; one that has an owner already is had when the owner finds another.
+/// Finds a stream for a request; a stream with an owner can be taken if the owner finds another.
 fn serve_one<'r>(
     requests: &'r [Request],
     request: usize,

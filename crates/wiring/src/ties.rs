@@ -1,16 +1,17 @@
-//! What holds the connections of one part together: a chip is on one board, the elements of an
-//! array may be wanted on one unit, one header, one side, or one after the other along a header.
+//! Ties between the connections of one part: a chip is on one board, the elements of an array may
+//! be wanted on one unit, one header, one side, or one after the other along a header.
 //!
-//! All of it is said with claims: of a resource that stands for what is to be the same, each
-//! connection takes hold as one of those who chose the same. An order is a claim on each place
-//! of the header: an element takes all places up to its own for those before, the next element
-//! all from its own on for those behind, so that no place is taken for both.
+//! All ties are expressed by claims. A resource stands for what must be the same, and each
+//! connection claims it as one of the group that chose the same. An order is a claim on each place
+//! of the header: an element claims all places up to its own as one of those before, the next
+//! element claims all from its own on as one of those behind, so that no place is claimed by both.
 //!
-//! The header or side is claimed by a whole alternative: claims keep devices apart, not the wires of
-//! one, and what many devices choose in common the solver decides before it looks at single pins.
+//! The header or side is claimed by a whole alternative: claims keep devices apart, not the wires
+//! of one, and the solver decides what many devices choose in common before it looks at single
+//! pins.
 //!
 //! A wish doubles the alternatives: those that keep it, and loose ones that violate it. The loose
-//! ones take hold as the loose, so all elements of an array are one or the other.
+//! ones make a claim as loose ones, so all elements of an array are one or the other.
 
 mod common_unit;
 mod room;
@@ -27,14 +28,14 @@ use crate::formulate::{Builder, Chosen, Meaning};
 use crate::names::{Group, Resource};
 use crate::wishes;
 
-/// What is the same for all connections of a part, or in order.
+/// A property that all connections of a part share, or their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Tie {
     Together(Together),
     Sequence,
 }
 
-/// What a resource of a tie stands for.
+/// The meaning of a resource of a tie.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Tied {
     /// Whether a wish is kept.
@@ -45,7 +46,8 @@ pub(crate) enum Tied {
     Units(String, String),
     /// The units that serve all elements up to this one.
     Common(u16),
-    /// A place of a header: whether this element is at most there, or the next one at least.
+    /// A place of a header: claimed by this element if it is there or after, or by the next one if
+    /// it is there or before.
     Place(u16, BoardIndex, String, usize),
 }
 
@@ -55,7 +57,7 @@ pub(crate) struct Elements<'e> {
     pub(crate) meanings: &'e mut [Vec<Meaning>],
 }
 
-/// Ties the connections of a part. Unless `wished`, only as they must be.
+/// Ties the connections of a part. Unless `wished`, only hard ties are made.
 pub(crate) fn tie(
     builder: &mut Builder<'_>,
     part: PartIndex,
@@ -104,7 +106,7 @@ fn on_one_board(builder: &mut Builder<'_>, part: PartIndex, elements: &mut Eleme
 /// Units by their names.
 type Units = BTreeSet<String>;
 
-/// What an alternative becomes.
+/// The alternatives that an alternative becomes.
 type Tight = Vec<(Alternative, Meaning)>;
 
 /// Makes the claims of one tie.
@@ -152,7 +154,7 @@ impl<'d> Tier<'d> {
         tier
     }
 
-    /// What is offered keeps the tie.
+    /// Offers only what keeps the tie.
     fn hard(&self, builder: &mut Builder<'_>, elements: &mut Elements<'_>) {
         let each = elements.devices.iter_mut().zip(elements.meanings.iter_mut());
         for ((device, meanings), number) in each.zip(0..) {
@@ -170,7 +172,7 @@ impl<'d> Tier<'d> {
         }
     }
 
-    /// What is offered keeps the tie, or violates the rule as a whole.
+    /// Offers what keeps the tie, and what violates the rule as a whole.
     fn soft(
         &self,
         builder: &mut Builder<'_>,
@@ -213,8 +215,8 @@ impl<'d> Tier<'d> {
         alternative
     }
 
-    /// The alternative with the claims of the tie, without the candidates that cannot keep it; none
-    /// where a role has none left, several where it can be kept in several ways.
+    /// The alternative with the claims of the tie, without the candidates that cannot keep it;
+    /// empty if a role has none left, several if it can be kept in several ways.
     fn tight(
         &self,
         builder: &mut Builder<'_>,
@@ -276,7 +278,7 @@ impl<'d> Tier<'d> {
         there.collect()
     }
 
-    /// What a candidate takes; none where it cannot keep the tie.
+    /// The claims of a candidate; `None` if it cannot keep the tie.
     fn claims(
         &self,
         builder: &mut Builder<'_>,
@@ -304,7 +306,7 @@ impl<'d> Tier<'d> {
         builder.names.shared(resource, group)
     }
 
-    /// One of the units of each candidate is among those of all others: no two sets are apart.
+    /// Claims by which each candidate shares a unit with all others: no two sets are disjoint.
     fn units(
         &self,
         builder: &mut Builder<'_>,
@@ -366,8 +368,8 @@ impl<'d> Tier<'d> {
     }
 }
 
-/// The alternative with what its candidates claim beside; without those that get nothing, and none
-/// where a role has none left.
+/// The alternative with the further claims of its candidates, without the candidates that get
+/// `None`; `None` if a role has no candidates left.
 fn only(
     mut alternative: Alternative,
     mut meaning: Meaning,

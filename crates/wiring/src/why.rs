@@ -10,7 +10,7 @@ use crate::assignment::Assignment;
 use crate::formulate::{Asker, Formulation};
 use crate::read_back::roles;
 
-/// What one pin would cost for one wire of a device.
+/// The cost of one pin for one wire of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Alternative {
     /// The wire: `in`, `in[3]`, `pwm`.
@@ -21,17 +21,17 @@ pub struct Alternative {
     pub pin: String,
     /// The signal as the table spells it.
     pub signal: String,
-    /// Usages of the pin.
+    /// Number of usages of the pin.
     pub usages: u32,
-    /// What else is on it.
+    /// The other thing that is on it, if any.
     pub shared_with: Option<String>,
-    /// The best that is possible with this wire; none when nothing is.
+    /// The best that is possible with this wire; `None` if nothing is.
     pub best: Option<Objective>,
     /// True for the pin of the wiring.
     pub chosen: bool,
 }
 
-/// All pins that could serve the connections, by role, with what the best wiring with each would cost.
+/// All pins that could serve the connections, by role, with the cost of the best wiring with each.
 pub(crate) fn why(
     design: &Design,
     formulation: &Formulation<'_>,
@@ -47,7 +47,7 @@ pub(crate) fn why(
     Found { all, complete: formulation.complete }
 }
 
-/// Adds what there is for one connection; false when time ran out.
+/// Adds the alternatives of one connection; false if time ran out.
 fn of_connection(
     design: &Design,
     formulation: &Formulation<'_>,

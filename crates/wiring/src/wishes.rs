@@ -1,7 +1,7 @@
 //! Soft rules: which candidates violate which `prefer` or `avoid`.
 //!
-//! A rule counts once for each device it is violated by; a board's rule is read as if it stood in
-//! each device on that board.
+//! A rule counts once for each device that violates it; a board's rule is read as if it were
+//! written in each device on that board.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use crate::alternatives::Wanted;
 use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 
-/// A soft rule, with the board that it is bound to where it stands in one.
+/// A soft rule, with the board that it is bound to if it is written in one.
 pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Wish);
 
 /// The soft rules for one device.
@@ -28,7 +28,7 @@ pub(crate) struct Rules<'a> {
 
 /// Collects the rules for a device: its own, and those of the boards it may go to.
 pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules<'a> {
-    // The connections of a part have them in common: each counts once, however many violate it.
+    // The connections of a part share them: each counts once, however many violate it.
     let known = wanted.part.map(|part| builder.rules_of(part)).unwrap_or_default();
     let rules = if known.is_empty() { number(builder, wanted) } else { known };
     if let Some(part) = wanted.part {
@@ -56,8 +56,8 @@ fn number<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Vec<Rule<'a>> {
     rules
 }
 
-/// Of a chip with several connections a `prefer unit` speaks of those that could have the unit on the
-/// board in question; where none could, of all.
+/// For a chip with several connections, a `prefer unit` applies to those that could have the unit
+/// on the board in question; if none could, it applies to all.
 pub(crate) fn leave_out_others(
     builder: &Builder<'_>,
     part: PartIndex,
@@ -86,7 +86,7 @@ pub(crate) fn leave_out_others(
     }
 }
 
-/// Whether the unit could serve a connection that is connected so.
+/// Whether the unit could serve a connection that is connected in this way.
 fn has_unit(design: &Design, meaning: &Meaning, wanted: &str) -> bool {
     let Some(board) = design.board(meaning.board) else { return false };
     if let Some(unit) = &meaning.unit {
@@ -107,7 +107,7 @@ impl Rules<'_> {
         rules.map(|(id, _, wish)| (*id, *wish))
     }
 
-    /// The rules that one wire on that pin violates.
+    /// The rules that one wire on this pin violates.
     pub(crate) fn violated_by(
         &self,
         offer: &Offer<'_>,
@@ -133,7 +133,7 @@ impl Rules<'_> {
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
 
-    /// The rules that taking that peripheral instance violates.
+    /// The rules that taking this peripheral instance violates.
     pub(crate) fn violated_by_unit(&self, offer: &Offer<'_>, unit: Option<&str>) -> Vec<RuleId> {
         let Some(unit) = unit else { return Vec::new() };
         let violated = |wish: &Wish| match &wish.what {
@@ -147,9 +147,9 @@ impl Rules<'_> {
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
 
-    /// Converters and single channels are not chosen as instances, so the wire itself tells: it
-    /// violates a `prefer` when that instance cannot have it, an `avoid` when no other can. Of the
-    /// instances that can have it a fixed one alone counts.
+    /// Converters and single channels are not chosen as instances, so the wire itself decides: it
+    /// violates a `prefer` if that instance cannot have it, and an `avoid` if no other can. If an
+    /// instance is fixed, only that one of those that can have it counts.
     fn wire_violates(
         &self,
         offer: &Offer<'_>,
@@ -179,7 +179,7 @@ impl Rules<'_> {
 /// How a device takes the channels of a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Channels {
-    /// One by one: the wire alone tells which timer it is.
+    /// One by one: only the wire tells which timer it is.
     Single,
     /// With the whole timer, which the alternative names.
     OfWholeTimer,

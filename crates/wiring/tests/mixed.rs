@@ -1,4 +1,4 @@
-//! Boards of different size: the search stays small, and a question ends when it is cancelled.
+//! Boards of different sizes: the search stays small, and a question ends when it is cancelled.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "only tests")]
@@ -22,8 +22,8 @@ fn family(name: &str, number: u64) -> Vec<Text> {
     (0..number.min(family.number)).map(family.make).collect()
 }
 
-/// How often a search asks whether it is over, which it does at each node and every few steps of a
-/// linear program.
+/// How often a search checks whether it is over, which it does at each node and every few steps of
+/// a linear program; and whether there is a wiring.
 fn asked(text: &Text) -> (u64, bool) {
     let design = text.design();
     let wiring = Wiring::new(&design, None);
@@ -55,8 +55,9 @@ fn the_search_on_unequal_boards_stays_small() {
     assert!(asked.iter().filter(|one| one.1).count() > 60, "too few have a wiring");
 }
 
-/// What is refused on one of eight equal boards is refused on all that are still empty, and a tie is
-/// settled by one question for all pins that would come earlier; before, the third took 5 694.
+/// What is refused on one of eight equal boards is refused on all that are still empty, and a tie
+/// is settled by one question for all pins that would come earlier; previously, the third took
+/// 5 694.
 #[test]
 fn many_equal_boards_have_no_slow_seed() {
     for text in family("eight equal F407", 3) {
@@ -65,8 +66,8 @@ fn many_equal_boards_have_no_slow_seed() {
     }
 }
 
-/// Equal chips change places as a whole, so what is refused for one is refused for all of them; before,
-/// this took 21 446.
+/// Equal chips change places as a whole, so what is refused for one is refused for all of them;
+/// previously, this took 21 446.
 #[test]
 fn equal_chips_are_not_told_apart() {
     for text in family("four equal chips", 1) {
@@ -75,9 +76,10 @@ fn equal_chips_are_not_told_apart() {
     }
 }
 
-/// Chips and arrays have a board or a unit in common beside the timer that they share with others: before
-/// channels were counted for them all the same, the first took 6 080 and the second 39 867. The arrays of
-/// the third have five elements, and no timer has five channels; nothing was found in 49 371.
+/// Chips and arrays have a board or a unit in common in addition to the timer that they share with
+/// others: before their channels were counted all the same, the first took 6 080 and the second
+/// 39 867. The arrays of the third have five elements, and no timer has five channels; nothing was
+/// found in 49 371.
 #[test]
 fn drawn_robots_have_no_slow_seed() {
     let robots = FAMILIES.iter().find(|one| one.name == "robots").unwrap();
@@ -87,8 +89,9 @@ fn drawn_robots_have_no_slow_seed() {
     }
 }
 
-/// Which of equally good wirings comes first is worth a bounded effort: before, nearly all of the time
-/// of the first went there. In the second, what stands in order comes before a pin that was given up.
+/// Only a bounded effort goes into which of equally good wirings comes first: previously, this took
+/// nearly all of the time of the first. In the second, putting the answer in order would change a
+/// pin that was given up.
 #[test]
 fn a_tie_is_worth_a_bounded_effort() {
     let robots = FAMILIES.iter().find(|one| one.name == "robots of 40 devices").unwrap();
@@ -98,7 +101,7 @@ fn a_tie_is_worth_a_bounded_effort() {
     }
 }
 
-/// Before, it was looked at for each device alone, and not at all while arrays were tied.
+/// Previously, it was checked only for each device, and not at all while arrays were tied.
 #[test]
 fn the_end_of_a_command_is_looked_at_for_each_board() {
     let mut sense = String::new();
@@ -113,7 +116,7 @@ fn the_end_of_a_command_is_looked_at_for_each_board() {
         false
     };
     let _ = Wiring::within(&design, None, Cancel::when(&over));
-    // For each board: once when it is read, and for each element when its pins are looked at and when
+    // For each board: once when it is read, and for each element when its pins are checked and when
     // they are tied.
     assert!(asked.into_inner() > 200 * 5);
 }
@@ -135,7 +138,7 @@ fn alike_devices_are_not_asked_about_one_by_one() {
     }
 }
 
-/// What is asked of a wiring, each in its own way.
+/// Whether all questions to a wiring are answered with E0404, each in its own way.
 fn questions(wiring: &Wiring<'_>) -> bool {
     matches!(wiring.solve(&Search::default()), Solved::Failed(why) if why.code.name() == "E0404")
         && matches!(wiring.solve_with_proof(&Subject::default()).solved, Solved::Failed(why) if why.code.name() == "E0404")
@@ -161,8 +164,8 @@ fn what_is_over_before_it_begins_answers_nothing() {
     }
 }
 
-/// Whenever the search is stopped, what it says is true: a wiring is valid and its bound is none
-/// too high, and a conflict that is not known to be minimal says so.
+/// Whenever the search is stopped, its result is true: a wiring is valid and its bound is not too
+/// high, and a conflict that is not known to be minimal says so.
 #[test]
 fn what_is_known_when_time_runs_out_is_marked() {
     for text in family("mixed boards", 25) {
@@ -193,7 +196,7 @@ fn what_is_known_when_time_runs_out_is_marked() {
 
 #[test]
 fn another_thread_can_cancel() {
-    // Counting these would take longer than anybody waits.
+    // Counting these would take longer than anyone would wait.
     let text = family("eight equal F407", 1).remove(0);
     let design = text.design();
     let flag = AtomicBool::new(false);

@@ -1,4 +1,5 @@
-//! Arrays, chips and what ties their wires: all that is asked of a wiring, against every way there is.
+//! Arrays, chips and the ties between their wires: every question to a wiring, compared with a
+//! search that tries every way there is.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
 #![allow(
@@ -25,10 +26,10 @@ use sensedsl_wiring::{Keep, NoWiring, Proved, Repair, Search, Solved, Wiring};
 use support::meaning::{Found, all, combinations};
 use support::tied::{Case, Kind, Text, case, sound};
 
-/// Cases that are tried.
+/// Number of cases that are tried.
 const CASES: u64 = 300;
 
-/// Combinations that one case may have.
+/// The most combinations that one case may have.
 const MOST: f64 = 40_000.0;
 
 /// Board, pin and signal of each wire.
@@ -143,7 +144,7 @@ fn has_best(
     kept(case, found, design, what);
 }
 
-/// The converter of an array that is wanted on one is one, and can sample all of it.
+/// Checks that an array that is wanted on one converter is on one.
 fn sampled_together(case: &Case, design: &Design, best: &Assignment, what: &dyn Fn() -> String) {
     for (index, part) in case.parts.iter().enumerate() {
         let is_analog = part.connections.iter().all(|(kind, _)| *kind == Kind::Analog);
@@ -157,7 +158,7 @@ fn sampled_together(case: &Case, design: &Design, best: &Assignment, what: &dyn 
     }
 }
 
-/// As few wires are moved as possible.
+/// Checks that as few wires are moved as possible.
 fn kept(case: &Case, found: &[Found], design: &Design, what: &dyn Fn() -> String) {
     let Some(last) = found.last() else { return };
     let mut keep = Keep::default();
@@ -179,7 +180,7 @@ fn kept(case: &Case, found: &[Found], design: &Design, what: &dyn Fn() -> String
     assert_eq!(pins(wires(design, &best)), pins(before), "{}", what());
 }
 
-/// Without any one of them the others can be wired.
+/// Checks that without any one of the parts the others can be wired.
 fn minimal(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) {
     assert!(conflict.minimal && conflict.explained, "{}", what());
     let mut chosen = vec![false; case.parts.len()];
@@ -193,7 +194,8 @@ fn minimal(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) {
     }
 }
 
-/// What is said to help helps, at the cost that is said, and nothing that helps is left out.
+/// Checks that every reported repair helps, at the reported cost, and that no repair that helps is
+/// left out.
 fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> usize {
     let everything = vec![true; case.parts.len()];
     let said = |wanted: &Repair| {
@@ -223,7 +225,7 @@ fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> 
             }
             own.board = Some(board);
             let to = sensedsl_model::design::BoardIndex(board);
-            // The order of the parts is of no matter to the cost.
+            // The order of the parts does not matter to the cost.
             let cost = cost(&moved, &everything);
             assert_eq!(said(&Repair::Move(*part, to)), cost, "move {part:?}\n{}", what());
         }
@@ -231,7 +233,8 @@ fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> 
     conflict.repairs.len()
 }
 
-/// The certificate proves the best, or that there is none; false where it is said that none was found.
+/// Checks that the certificate proves the best wiring, or that there is none; false if the report
+/// is that no certificate was found.
 fn proved(wiring: &Wiring<'_>, best: Option<&Found>, what: &dyn Fn() -> String) -> bool {
     let Proved { certificate, .. } = wiring.solve_with_proof(&Subject::default());
     let certificate = certificate.unwrap_or_else(|| panic!("no certificate\n{}", what()));

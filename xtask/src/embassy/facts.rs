@@ -1,16 +1,16 @@
-//! What is kept by hand: `facts.toml`.
+//! The facts that are kept by hand: `facts.toml`.
 
 use std::collections::BTreeMap;
 
 use anyhow::Result;
 use serde::Deserialize;
 
-/// The file.
+/// The contents of the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Facts {
     pub(crate) target: String,
-    /// How the names of parts begin that have no profile.
+    /// The prefixes of the names of parts that have no profile.
     pub(crate) without: Vec<String>,
     pub(crate) kernel: Vec<String>,
     pub(crate) blocks: BTreeMap<String, Block>,
@@ -18,7 +18,7 @@ pub(crate) struct Facts {
     pub(crate) clock: Vec<Clock>,
 }
 
-/// What timers of a block can do.
+/// The abilities of the timers of a block.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Block {
@@ -30,7 +30,7 @@ pub(crate) struct Block {
     pub(crate) encoder: bool,
 }
 
-/// What the HAL makes of a family.
+/// The names and values that the HAL uses for a family.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Family {
@@ -45,11 +45,11 @@ pub(crate) struct Family {
     #[serde(default)]
     pub(crate) excludes: Vec<String>,
     pub(crate) converter: Option<Converter>,
-    /// What the clock of the CAN controllers is called, where it is not the one that their metadata names.
+    /// The name of the CAN controllers' clock, if it is not the one in their metadata.
     pub(crate) can: Option<String>,
 }
 
-/// How the converters of a family are clocked.
+/// The clocks of a family's converters.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Converter {
@@ -58,15 +58,15 @@ pub(crate) struct Converter {
     pub(crate) cycles: u32,
 }
 
-/// What the firmware makes of the clocks of some parts.
+/// The clocks that the firmware sets up for some parts.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Clock {
     pub(crate) parts: Vec<String>,
-    /// Members of the HAL's clocks and their values.
+    /// Fields of the HAL's clock configuration and their values.
     #[serde(default)]
     pub(crate) set: Vec<String>,
-    /// What can drive them, best first.
+    /// The possible sources of the clocks, the best one first.
     pub(crate) ways: Vec<toml::Table>,
     pub(crate) hz: BTreeMap<String, u32>,
 }
@@ -76,7 +76,7 @@ impl Facts {
         Ok(toml::from_str(include_str!("facts.toml"))?)
     }
 
-    /// The clocks that the firmware makes of a part.
+    /// The clocks that the firmware sets up for a part.
     pub(crate) fn clock(&self, name: &str) -> Option<&Clock> {
         let longest = |clock: &&Clock| {
             let own = clock.parts.iter().filter(|part| name.starts_with(part.as_str()));

@@ -1,4 +1,4 @@
-//! From the chips of a family to the lines of its profile: chips with the same facts are one line.
+//! From the chips of a family to the lines of its profile: chips with the same facts form a line.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,29 +18,29 @@ pub(crate) struct Lines {
 pub(crate) struct Line {
     pub(crate) name: String,
     pub(crate) parts: Vec<String>,
-    /// Features of the HAL; one whose flash is one bank or two has a mark.
+    /// Features of the HAL; one for a chip whose flash can be one bank or two is marked.
     pub(crate) chips: Vec<String>,
     pub(crate) facts: LineFacts,
-    /// The number of the clock in the hand-kept facts.
+    /// The index of the clock in the hand-kept facts.
     pub(crate) clock: Option<usize>,
 }
 
-/// What tells one line from another. The facts of a unit are what stands in its entry behind the name.
+/// The facts that distinguish one line from another. The facts of a unit are the text after the name in its entry.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct LineFacts {
     pub(crate) ports: String,
-    /// By group and name.
+    /// The facts of the units, by group and name.
     pub(crate) units: BTreeMap<(Group, String), String>,
     pub(crate) left_out: BTreeSet<String>,
     /// The streams behind each multiplexer.
     pub(crate) multiplexers: BTreeMap<String, Vec<String>>,
-    /// Interrupts of what firmware binds, as an entry.
+    /// The interrupts that firmware binds, as entries.
     pub(crate) interrupts: BTreeMap<String, String>,
-    /// What the HAL calls units that are called otherwise here.
+    /// The HAL's names for units that have other names here.
     pub(crate) peripherals: BTreeMap<String, String>,
-    /// How the HAL is told to which pins a unit is moved: a `number` or a `switch`.
+    /// How the HAL selects the pins to which a unit is remapped: a `number` or a `switch`.
     pub(crate) remaps: BTreeMap<String, String>,
-    /// Interrupts that nothing takes.
+    /// The interrupts that nothing uses.
     pub(crate) spare: Vec<String>,
 }
 
@@ -57,10 +57,10 @@ pub(crate) enum Group {
     Usbs,
 }
 
-/// Interrupts of units that no firmware of ours turns on: levels of priority run in them.
+/// Interrupts of units that our firmware never turns on: they can run priority levels.
 const SPARE: [&str; 8] = ["FLASH", "RCC", "PVD", "PVD_AVD", "PVD_PVM", "WWDG", "RNG", "HASH_RNG"];
 
-/// The lines of a family, by the first of their parts.
+/// The lines of a family, ordered by their first parts.
 pub(crate) fn of(facts: &Facts, family: &str, chips: &[Chip]) -> Lines {
     let mut alike: BTreeMap<(LineFacts, Option<usize>), Vec<&Chip>> = BTreeMap::new();
     for chip in chips {
@@ -85,7 +85,7 @@ pub(crate) fn of(facts: &Facts, family: &str, chips: &[Chip]) -> Lines {
     Lines { kernel: kernel(facts, chips), lines }
 }
 
-/// The shortest starts of names that no other chip of the family has.
+/// The shortest prefixes of these names that no other chip of the family has.
 fn prefixes(names: &BTreeSet<&str>, all: &[Chip]) -> Vec<String> {
     let mut found = BTreeSet::new();
     for name in names {
@@ -99,8 +99,8 @@ fn prefixes(names: &BTreeSet<&str>, all: &[Chip]) -> Vec<String> {
     found.into_iter().collect()
 }
 
-/// Timers whose interrupts no other unit has on any chip. Of other timers only captures interrupt: nothing is made for
-/// their brakes and triggers.
+/// The timers whose interrupts belong to no other unit on any chip. Of other timers, only capture interrupts count: no
+/// code is generated for their brakes and triggers.
 fn kernel(facts: &Facts, chips: &[Chip]) -> Vec<String> {
     let is_alone = |name: &&String| {
         chips.iter().all(|chip| {
@@ -167,7 +167,7 @@ fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {
         let lines = exti.interrupts.iter().filter(|(signal, _)| signal.starts_with("EXTI"));
         own.interrupts
             .extend(lines.map(|(line, one)| (line.clone(), format!("GLOBAL = \"{one}\""))));
-        // The metadata have no line for an interrupt that something else has as well: `EXTI2_TSC` of F3.
+        // The metadata have no line for an interrupt that is shared with something else: `EXTI2_TSC` of F3.
         for line in (0..16).map(|number| format!("EXTI{number}")) {
             let shared = body.interrupts.iter().find(|name| name.starts_with(&format!("{line}_")));
             if let (None, Some(one)) = (exti.interrupts.get(&line), shared) {
@@ -208,12 +208,12 @@ fn place(family: &str, name: &str, unit: &Unit) -> Option<(Group, String)> {
     Some((group, name.to_owned()))
 }
 
-/// The line that a full-speed device has on every part.
+/// The data line that a full-speed device has on every part.
 fn dm() -> (String, String) {
     ("DM".to_owned(), "PA11".to_owned())
 }
 
-/// `1,0` of `DMA1_CH0`; none of a controller that no driver here is given.
+/// The stream of a channel: `1,0` for `DMA1_CH0`; `None` for a controller that no driver here uses.
 pub(crate) fn stream(channel: &str) -> Option<String> {
     let rest = channel.strip_prefix("GP").unwrap_or(channel).strip_prefix("DMA")?;
     let (controller, number) = rest.split_once("_CH")?;
@@ -244,7 +244,7 @@ fn timer(facts: &Facts, unit: &Unit) -> Option<String> {
 
 fn adc(facts: &Facts, family: &str, unit: &Unit) -> Option<String> {
     let wanted = &facts.family.get(family)?.adc;
-    // Two versions of F3's converters are one driver's.
+    // One driver serves two versions of F3's converters.
     let is_driven = unit.version == *wanted
         || (wanted == "v1" && family == "STM32L1" && unit.version == "f3v2");
     is_driven.then(String::new)
@@ -255,16 +255,16 @@ fn clock(unit: &Unit) -> String {
     format!("clock = \"{clock}\"")
 }
 
-/// Where a controller's clock is chosen, the hand-kept facts say what comes of the choice.
+/// The clock of a CAN controller. If it can be selected, the hand-kept facts give the selected one.
 fn can(facts: &Facts, family: &str, unit: &Unit) -> String {
     let own = facts.family.get(family).and_then(|own| own.can.as_ref());
     own.map_or_else(|| clock(unit), |name| format!("clock = \"{name}\""))
 }
 
-/// A bus moves its bytes by DMA in both directions.
+/// The facts of a bus that moves its bytes by DMA in both directions.
 fn bus(unit: &Unit, multiplexers: &BTreeMap<String, Vec<String>>) -> Option<String> {
     let of = |signal: &str| match unit.dma.get(signal)? {
-        // A multiplexer of controllers that no driver here is given has no streams.
+        // A multiplexer for controllers that no driver here uses has no streams.
         Requests::Behind(name) => multiplexers.contains_key(name).then(|| format!("\"{name}\"")),
         Requests::Channels(list) => {
             let mut streams: Vec<String> = list.iter().filter_map(|one| stream(one)).collect();

@@ -1,6 +1,6 @@
-//! The crate `stm32-metapac`: what its generated sources say of a chip's peripherals, DMA channels and interrupts.
+//! The crate `stm32-metapac`: a chip's peripherals, DMA channels and interrupts from its generated sources.
 //!
-//! The sources are scanned as text, as for the table of parts: compiling them would take a build for each chip.
+//! The sources are scanned as text, as for the table of parts: to compile them would take a build for each chip.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,18 +13,18 @@ use crate::parts::sources::{entries, text};
 /// A chip.
 #[derive(Clone, Debug)]
 pub(crate) struct Chip {
-    /// `STM32F407VG`.
+    /// The chip's name: `STM32F407VG`.
     pub(crate) name: String,
-    /// `STM32F4`.
+    /// The chip's family: `STM32F4`.
     pub(crate) family: String,
-    /// The feature of the HAL: `stm32f407vg`, `stm32h745zi-cm7`.
+    /// The HAL's feature for it: `stm32f407vg`, `stm32h745zi-cm7`.
     pub(crate) feature: String,
-    /// Its flash is one bank or two, and the HAL must be told which.
+    /// Whether its flash can be one bank or two, so that the HAL must be told which.
     pub(crate) banks: bool,
     pub(crate) body: Body,
 }
 
-/// What chips of one die share.
+/// The facts that chips with the same die share.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Body {
     pub(crate) units: BTreeMap<String, Unit>,
@@ -41,29 +41,29 @@ pub(crate) struct Unit {
     pub(crate) block: String,
     pub(crate) bus_clock: String,
     pub(crate) kernel_clock: String,
-    /// Signal and pin.
+    /// Signals and pins.
     pub(crate) pins: BTreeSet<(String, String)>,
-    /// The DMA channels of a signal.
+    /// The DMA channels of each signal.
     pub(crate) dma: BTreeMap<String, Requests>,
-    /// The interrupt of a signal.
+    /// The interrupt of each signal.
     pub(crate) interrupts: BTreeMap<String, String>,
-    /// The field that moves the unit to other pins.
+    /// The field that remaps the unit to other pins.
     pub(crate) remap: Option<String>,
 }
 
-/// Where a DMA request can go.
+/// The possible destinations of a DMA request.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Requests {
-    /// To these channels.
+    /// These channels.
     Channels(Vec<String>),
-    /// To all behind a multiplexer or in a controller.
+    /// All channels behind a multiplexer or in a controller.
     Behind(String),
 }
 
 /// A DMA channel.
 #[derive(Clone, Debug)]
 pub(crate) struct Channel {
-    /// `DMA1_CH0`.
+    /// The channel's name: `DMA1_CH0`.
     pub(crate) name: String,
     /// Its controller.
     pub(crate) controller: String,
@@ -71,7 +71,7 @@ pub(crate) struct Channel {
     pub(crate) multiplexer: Option<String>,
 }
 
-/// All chips by feature; of a chip with several cores, the first, which runs the firmware.
+/// All chips by feature; for a chip with several cores, only the first one, which runs the firmware.
 pub(crate) fn read(folder: &Path) -> Result<Vec<Chip>> {
     let mut bodies: BTreeMap<String, Body> = BTreeMap::new();
     let mut chips: Vec<Chip> = Vec::new();
@@ -123,7 +123,7 @@ fn body(source: &str) -> Result<Body> {
     Ok(body)
 }
 
-/// What stands in `Some("…")`.
+/// The text in `Some("…")`.
 fn quoted(text: &str) -> Option<String> {
     between(text, "Some(\"", "\"").map(str::to_owned)
 }
@@ -157,7 +157,7 @@ fn unit(source: &str) -> Unit {
                 list.push(channel);
             }
         } else if let Some(all) = part("dmamux: ").or_else(|| part("dma: ")) {
-            // The first is the one that all of the family's units have.
+            // The first one is common to all units of the family.
             unit.dma.entry(signal.to_owned()).or_insert(Requests::Behind(all));
         }
     }
@@ -168,7 +168,7 @@ fn unit(source: &str) -> Unit {
     unit
 }
 
-/// The sampling times of a converter's version, in half cycles, ascending.
+/// The sampling times of a converter version, in half cycles, ascending.
 pub(crate) fn sampling(folder: &Path, version: &str) -> Result<Vec<u32>> {
     let source = text(&folder.join(format!("../registers/adc_{version}.rs")))?;
     let list = source.split_once("name: \"SampleTime\"").map_or("", |(_, rest)| rest);
@@ -187,7 +187,7 @@ pub(crate) fn sampling(folder: &Path, version: &str) -> Result<Vec<u32>> {
     Ok(times)
 }
 
-/// The fields of one bit that move units to other pins.
+/// The one-bit fields that remap units to other pins.
 pub(crate) fn switches(folder: &Path) -> Result<BTreeSet<String>> {
     let mut found = BTreeSet::new();
     for path in entries(&folder.join("../registers"))? {

@@ -1,7 +1,7 @@
 //! `cargo xtask profiles embassy [--check]`: writes the target profiles for Embassy, or compares them.
 //!
-//! In: the metadata of the crate `stm32-metapac`, which `embassy-stm32` itself is made from, and `facts.toml`, which has
-//! what is kept by hand. Out: a file for each family in `targets/embassy-0.6/`.
+//! In: the metadata of the crate `stm32-metapac`, from which `embassy-stm32` itself is also made, and `facts.toml`,
+//! which has the facts that are kept by hand. Out: a file for each family in `targets/embassy-0.6/`.
 
 mod facts;
 mod lines;
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         if facts.without.iter().any(|start| chip.name.starts_with(start)) {
             continue;
         }
-        // Variants of one name differ in what no part number tells.
+        // Variants with the same name differ in ways that no part number tells.
         if facts.family.contains_key(&chip.family) && !chip.name.contains('-') {
             families.entry(chip.family.clone()).or_default().push(chip);
         }

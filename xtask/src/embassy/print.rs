@@ -105,7 +105,7 @@ fn line(text: &mut String, facts: &Facts, own: &Family, line: &Line) -> Result<(
     Ok(())
 }
 
-/// Words in rows.
+/// Words, wrapped into lines.
 fn wrapped(words: &[&str]) -> String {
     let mut text = String::new();
     let mut width = 0;
@@ -226,7 +226,7 @@ fn adcs(
     Ok(())
 }
 
-/// The entries of a group: one for each unit and what is said of it.
+/// The entries of a group: each unit, with its facts.
 fn units(lines: &Lines, group: Group) -> String {
     let said = |line: &Line| {
         let own = line.facts.units.iter().filter(move |((of, _), _)| *of == group);
@@ -235,7 +235,7 @@ fn units(lines: &Lines, group: Group) -> String {
     format!("units = [\n{}]\n", entries(lines, said))
 }
 
-/// Entries by name and what is said; those that are not said of all lines name theirs.
+/// Entries by name and facts; those that do not apply to all lines give their lines.
 fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> String {
     let mut all: BTreeMap<String, BTreeMap<String, Vec<&String>>> = BTreeMap::new();
     for line in &lines.lines {
@@ -252,7 +252,8 @@ fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> Stri
         let owners: Vec<&String> =
             lines.lines.iter().filter(has_unit).map(|line| &line.name).collect();
         for (entry, members) in variants {
-            // Nothing may be said of a line that has the unit and another name for it, or none.
+            // An entry without lines must not also apply to a line that has the unit with other
+            // facts.
             let is_one = all.get(name).is_some_and(|variants| variants.len() == 1);
             let of = if is_one && owners.iter().all(|line| members.contains(line)) {
                 String::new()
@@ -266,14 +267,14 @@ fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> Stri
     text
 }
 
-/// Groups that a family may lack.
+/// The groups that a family may lack.
 fn rest(text: &mut String, lines: &Lines) -> Result<()> {
     let has =
         |group| lines.lines.iter().any(|line| line.facts.units.keys().any(|(of, _)| *of == group));
     if has(Group::Cans) {
         let is_fd = |one: &&String| one.starts_with("FDCAN");
         let mut names = lines.lines.iter().flat_map(|line| line.facts.units.keys());
-        // The HAL cuts the greatest divider of the registers, 512, to nine bits.
+        // The HAL cuts the greatest divider in the registers, 512, to nine bits.
         let (greatest, file) = match names.find_map(|(_, name)| Some(name).filter(is_fd)) {
             Some(_) => (511, "fd/config.rs"),
             None => (1_024, "util.rs"),
@@ -302,7 +303,7 @@ fn rest(text: &mut String, lines: &Lines) -> Result<()> {
     Ok(())
 }
 
-/// What only the generator for Embassy reads.
+/// The facts that only the generator for Embassy reads.
 fn system(
     text: &mut String,
     facts: &Facts,

@@ -1,4 +1,4 @@
-//! One build: files in, sizes and the compiler's warnings about our own files out.
+//! One build. In: files. Out: sizes, and the compiler's warnings about our own files.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,12 @@ use std::process::Command;
 use anyhow::{Context as _, Result, bail};
 use sensedsl_files::FileSet;
 
-/// What our files are compiled with; the tree's own warnings are not looked at.
+/// The warnings for our files; those about the tree are ignored.
 const WARNINGS: &str = "-Wall -Wextra -Wundef -Wstrict-prototypes -Wconversion";
-/// As in the generated Makefile, without what debuggers need, and without link-time optimisation, which would take
-/// most of the time: programs are about a tenth larger than a user's.
+/// The options of the generated Makefile, without debug information, and without link-time optimisation, which would
+/// take most of the time: programs are about a tenth larger than a user's.
 const OPTIONS: &str = "-Os -fomit-frame-pointer";
-/// The folders of our files, as the compiler names them.
+/// The folders of our files, in the compiler's spelling.
 const OURS: [&str; 4] = ["generated/", "cfg/", "user/", "uproxy/"];
 
 /// A program that was built.
@@ -20,18 +20,18 @@ const OURS: [&str; 4] = ["generated/", "cfg/", "user/", "uproxy/"];
 pub(super) struct Built {
     pub(super) text: u64,
     pub(super) data: u64,
-    /// Without the heap, which is whatever is left.
+    /// The size without the heap, which takes all memory that is left.
     pub(super) bss: u64,
-    /// Of our files, each once.
+    /// Warnings about our files, each once.
     pub(super) warnings: BTreeSet<String>,
-    /// Without the shell, because with it the program is larger than the MCU's memory.
+    /// Whether it is without the shell, because with the shell it is larger than the MCU's memory.
     pub(super) is_production: bool,
 }
 
-/// What building came to.
+/// The result of a build.
 pub(super) enum Came {
     Built(Built),
-    /// Larger than the MCU's memory in both modes; what the linker says of the smaller one.
+    /// It is larger than the MCU's memory in both modes; the text is the linker's message about the smaller one.
     TooLarge(String),
 }
 
@@ -44,7 +44,7 @@ impl Built {
         format!("{text}/{data}/{bss}{mode}{count}")
     }
 
-    /// The reverse, for a program without warnings.
+    /// The inverse of `sizes`, for a program without warnings.
     pub(super) fn from_sizes(sizes: &str) -> Option<Self> {
         let (numbers, is_production) = match sizes.strip_suffix(" P") {
             Some(numbers) => (numbers, true),
@@ -56,8 +56,8 @@ impl Built {
     }
 }
 
-/// Writes and builds the firmware of one board. What an earlier build in the folder left is used
-/// again where nothing that it is made of has changed: the kernel, mostly.
+/// Writes and builds the firmware of one board. Results of an earlier build in the folder are reused if their sources
+/// have not changed: mostly the kernel.
 pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Came> {
     let board = write(files, folder)?;
     let mut too_large = String::new();
@@ -81,8 +81,8 @@ pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Came>
     Ok(Came::TooLarge(too_large))
 }
 
-/// What the linker says of a program that is larger than the memory. Where the tree's linker file fills the
-/// rest with the heap, it is asked to go back instead.
+/// The linker's message about a program that is larger than the memory. If the tree's linker file fills the rest with
+/// the heap, the message is about a location counter that would have to move backwards.
 fn overflow(line: &str) -> Option<String> {
     if let Some((_, back)) = line.split_once("cannot move location counter backwards (from ") {
         let (from, to) = back.trim_end_matches(')').split_once(" to ")?;
@@ -95,7 +95,7 @@ fn overflow(line: &str) -> Option<String> {
     Some(format!("{region} overflowed by {bytes}"))
 }
 
-/// Makes the folder hold these files and what was built, and nothing else; gives that of the Makefile.
+/// Makes the folder hold these files and earlier build results, and nothing else; returns the folder of the Makefile.
 fn write(files: &FileSet, folder: &Path) -> Result<PathBuf> {
     let mut board = None;
     for (path, entry) in files.iter() {
@@ -117,7 +117,7 @@ fn write(files: &FileSet, folder: &Path) -> Result<PathBuf> {
     Ok(board)
 }
 
-/// Removes the sources of an earlier design.
+/// Removes the source files of an earlier design.
 fn remove_others(folder: &Path, wanted: &BTreeSet<PathBuf>) -> Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
@@ -130,8 +130,8 @@ fn remove_others(folder: &Path, wanted: &BTreeSet<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Leaves out the sources of the tree that would compile to nothing. The tree can do so by itself where
-/// it can read the switches; it does not follow the includes of ours, so the preprocessor reads them.
+/// Leaves out sources of the tree that would compile to nothing. The tree can do that itself if it can read the
+/// switches, but it does not follow our includes, so the preprocessor reads them here.
 fn modules(board: &Path, tree: &Path, mode: &str) -> Result<Vec<String>> {
     let shell = if mode == "production" { "FALSE" } else { "TRUE" };
     let makefile = std::fs::read_to_string(board.join("Makefile"))?;
@@ -164,7 +164,7 @@ fn make(board: &Path, tree: &Path, mode: &str) -> Result<Command> {
     make.current_dir(board).arg("--silent").arg(format!("CHIBIOS={}", tree.display()));
     make.arg(format!("CWARN={WARNINGS}")).arg(format!("USE_OPT={OPTIONS}"));
     make.arg("USE_LTO=no");
-    // Without the linker's map and the compiler's listings, which nobody reads.
+    // This leaves out the linker's map and the compiler's listings, which nobody reads.
     make.arg(format!("UP_MODE={mode}")).arg(format!("./build/{mode}/sense.elf"));
     make.args(modules(board, tree, mode)?);
     if which("ccache") {
@@ -181,7 +181,7 @@ fn which(tool: &str) -> bool {
     candidates.any(|path| path.is_file())
 }
 
-/// Text, data and bss by section.
+/// The sizes of text, data and bss, by section.
 fn sizes(program: &Path) -> Result<Built> {
     let output = Command::new("arm-none-eabi-size").arg("-B").arg(program).output()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -201,7 +201,7 @@ fn sizes(program: &Path) -> Result<Built> {
     })
 }
 
-/// Warnings whose place is in our files.
+/// The warnings that are about our files.
 fn ours(said: &str) -> BTreeSet<String> {
     let of_ours = |line: &&str| {
         let place = line.strip_prefix("./").unwrap_or(line);

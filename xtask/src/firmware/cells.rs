@@ -1,4 +1,4 @@
-//! What is built: a board and a kind in, the files of its firmware out.
+//! The cells to build. In: a board and a kind. Out: the files of its firmware.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,11 +15,11 @@ use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wiring::{Repair, Solved};
 
-/// Where the designs are, one a kind.
+/// The folder of the designs, with one for each kind.
 const DESIGNS: &str = "tests/firmware/kinds";
-/// All kinds in one design.
+/// The name of the design with all kinds.
 pub(super) const ALL: &str = "all";
-/// The paper's example, and the paper's car.
+/// The paper's example, and its car.
 const EXAMPLES: [(&str, &str); 2] =
     [("fig2", "examples/fig2.sense"), ("car", "examples/miniature_car.sense")];
 
@@ -27,7 +27,7 @@ const EXAMPLES: [(&str, &str); 2] =
 pub(super) const KINDS: [&str; 10] =
     ["analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can"];
 
-/// A board and what it is built for.
+/// A board, and the kind that is built for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Cell {
     pub(super) board: String,
@@ -37,17 +37,17 @@ pub(super) struct Cell {
     mcu: &'static str,
 }
 
-/// What became of a cell before anything is built.
+/// The result for a cell before anything is built.
 pub(super) enum Made {
     NotOffered,
-    /// Why, and the rules of a board that would help.
+    /// The reason, and the rules for a board that would help.
     NoWiring(String, Vec<String>),
     Refused(String),
     /// The firmware of one board.
     Files(FileSet, Notes),
 }
 
-/// What a cell says beside its sizes.
+/// The notes on a cell beside its sizes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Notes {
     /// The kinds of a design with several.
@@ -56,16 +56,16 @@ pub(super) struct Notes {
     pub(super) left_out: Vec<&'static str>,
     /// The kinds that the target has no code for, and why.
     pub(super) refused: Vec<(&'static str, String)>,
-    /// What was said of the board, because no pins were free as it comes.
+    /// The rules that were added because the board's free pins were not enough.
     pub(super) rules: Vec<String>,
 }
 
-/// More rules than these are not tried.
+/// The most rules that are tried.
 const RULES_MAX: usize = 2;
-/// What helps on MCUs whose USB excludes another unit.
+/// A rule that helps on MCUs whose USB excludes another unit.
 const SERIAL_LINK: &str = "link { transport = uart; }";
 
-/// The boards that a profile covers and the tree knows, with all kinds.
+/// The boards that a profile covers and the tree knows, each with all kinds.
 pub(super) fn all(
     boards: Option<&BTreeSet<String>>,
     kinds: Option<&BTreeSet<String>>,
@@ -117,7 +117,7 @@ pub(super) fn make(cell: &Cell) -> Made {
     alone(&board, &cell.kind)
 }
 
-/// All kinds that a board's MCU has under another target, as far as they fit together; none where the target does not
+/// All kinds that a board's MCU has under another target, as far as they fit together; `None` if the target does not
 /// cover the MCU.
 pub(super) fn all_on(board: &str, mcu: &str, target: &str) -> Option<Made> {
     let profile = profile_of(Some(target), mcu)?;
@@ -129,7 +129,7 @@ pub(super) fn all_on(board: &str, mcu: &str, target: &str) -> Option<Made> {
     Some(if is_refused { serial() } else { made })
 }
 
-/// One kind; where the pins that it needs are taken, with what the tool says would help.
+/// A design with one kind; if the pins that it needs are taken, with the rules that the tool suggests.
 fn alone(board: &str, kind: &str) -> Made {
     let mut rules = Vec::new();
     let mut first = None;
@@ -153,7 +153,7 @@ fn alone(board: &str, kind: &str) -> Made {
     }
 }
 
-/// As many kinds as have a wiring together, the first ones first; those that the target has no code for are left out
+/// As many kinds as have a wiring together, the first ones first; kinds for which the target has no code are left out,
 /// with the reason.
 fn together<'a>(
     board: &str,
@@ -170,7 +170,7 @@ fn together<'a>(
             Err(error) => return Made::Refused(format!("{error:#}")),
         };
         match firmware(&text, On { board: None, target }) {
-            // Last, because what was there before still fits.
+            // The kind that was added last is dropped, because the others still fit.
             Made::NoWiring(..) => {
                 let _ = notes.taken.pop();
                 notes.left_out.push(kind);
@@ -205,7 +205,7 @@ fn has(profile: &TargetProfile, kind: &str) -> bool {
     }
 }
 
-/// One design of several kinds.
+/// A design with several kinds.
 fn design(board: &str, kinds: &[&str], rules: &[String]) -> Result<String> {
     let mut devices: String = rules.iter().map(|rule| format!("    {rule}\n")).collect();
     for kind in kinds {
@@ -221,7 +221,7 @@ fn read(path: &str) -> Result<String> {
     std::fs::read_to_string(root.join(path)).with_context(|| path.to_owned())
 }
 
-/// No design names another file.
+/// The files of a design, which names no others.
 struct Alone;
 
 impl Files for Alone {
@@ -230,7 +230,7 @@ impl Files for Alone {
     }
 }
 
-/// Solves and generates.
+/// Solves a design and generates its firmware.
 fn firmware(text: &str, on: On<'_>) -> Made {
     const NAME: &str = "cell.sense";
     let mut workspace = Workspace::default();
@@ -246,7 +246,7 @@ fn firmware(text: &str, on: On<'_>) -> Made {
     }
 }
 
-/// The repairs of the board that leave it a link, the gentlest first.
+/// The repairs of the board that keep its link, the gentlest first.
 fn helps(solved: Option<&Solved>) -> Vec<String> {
     let Some(Solved::Infeasible(why)) = solved else { return Vec::new() };
     let rule = |repair: &Repair| match repair {
@@ -263,7 +263,7 @@ fn helps(solved: Option<&Solved>) -> Vec<String> {
     why.repairs.iter().filter_map(|one| rule(&one.repair)).collect()
 }
 
-/// The first error: what the others come from.
+/// The first error, from which the others result.
 fn first(diagnostics: &[Diagnostic]) -> String {
     let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
     let first = diagnostics.iter().find(is_error);

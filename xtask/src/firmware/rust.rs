@@ -1,8 +1,8 @@
-//! `cargo xtask firmware --embassy`: the whole firmware of a design with all kinds, for every built-in board that the
-//! target covers, judged by the Rust compiler on this computer.
+//! `cargo xtask firmware --embassy`: the complete firmware of a design with all kinds, for every built-in board that
+//! the target covers, checked by the Rust compiler on this computer.
 //!
-//! That is everything but code generation and linking, which are the same for all chips of a core and are tested for one
-//! chip each.
+//! That covers everything except code generation and linking, which are the same for all chips with the same core and
+//! are tested for one chip each.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -31,7 +31,7 @@ the clock of USB. `cargo xtask firmware --embassy --write` writes this page. Wha
 anything is written.
 ";
 
-/// What is asked for.
+/// The options of a call.
 #[derive(Default)]
 struct Options {
     boards: Option<BTreeSet<String>>,
@@ -39,12 +39,12 @@ struct Options {
     write: bool,
 }
 
-/// A board with what came of it.
+/// A board and its result.
 struct Done {
     board: &'static str,
     mcu: &'static str,
     notes: Notes,
-    /// What the compiler or the generator says; none where all is well.
+    /// The message of the compiler or the generator; `None` if there is no error.
     refused: Option<String>,
 }
 
@@ -110,7 +110,7 @@ fn read(arguments: &[String]) -> Result<Options> {
     Ok(options)
 }
 
-/// The triple of this computer.
+/// The target triple of this computer.
 fn host() -> Result<String> {
     let output = Command::new("rustc").arg("-vV").output().context("rustc")?;
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -118,12 +118,12 @@ fn host() -> Result<String> {
     Ok(host.context("rustc -vV names no host")?.to_owned())
 }
 
-/// What the compiler is told for an MCU: the HAL of RP2350 names registers that the core's crate has for ARMv8-M alone.
+/// The compiler flags for an MCU: the HAL of RP2350 uses registers that the core's crate has only for ARMv8-M.
 fn flags(mcu: &str) -> Option<&'static str> {
     mcu.starts_with("RP235").then_some("--cfg armv8m --cfg armv8m_main")
 }
 
-/// The first thing that the compiler does not take, or warns of in our files.
+/// The first error of the compiler, or its first warning about our files.
 fn check(
     files: &FileSet,
     scratch: &Path,
@@ -159,7 +159,7 @@ fn check(
     })
 }
 
-/// The manifest of the only board.
+/// The manifest of the project's only board.
 fn find(project: &Path) -> Option<PathBuf> {
     let mut folders = std::fs::read_dir(project).ok()?;
     let manifest = folders.find_map(|entry| Some(entry.ok()?.path().join("Cargo.toml")));

@@ -65,7 +65,7 @@ fn mark(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// What the table cannot say.
+/// The facts that the table cannot show.
 fn summary(done: &[Done], boards: &[&Done]) -> String {
     let count = |mark: fn(&Outcome) -> bool| done.iter().filter(|one| mark(&one.outcome)).count();
     let built = count(|outcome| matches!(outcome, Outcome::Built(..)));
@@ -119,7 +119,7 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
     text
 }
 
-/// An item of a list, in lines as long as prose may be.
+/// A list item, wrapped to the width of prose.
 pub(super) fn wrapped(item: &str) -> String {
     const LETTERS: usize = 120;
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! The compiled fuzzer: how it is built, called and listened to.
+//! The compiled fuzzer: how it is built and called, and how its output is read.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -9,33 +9,34 @@ use anyhow::{Context as _, Result, bail};
 
 use super::output_of;
 
-/// Calls that tell the fuzzer what values are compared with.
+/// The option for calls that report the operands of comparisons to the fuzzer.
 const COMPARES: &str = "-Cllvm-args=-sanitizer-coverage-trace-compares";
-/// Coverage as LLVM has it, by flags that a stable compiler takes.
+/// LLVM's coverage, enabled by flags that a stable compiler accepts.
 const COVERAGE: &[&str] = &[
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",
     "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
     "-Cllvm-args=-sanitizer-coverage-pc-table",
-    // Each function is counted once.
+    // With one unit, each function is counted once.
     "-Ccodegen-units=1",
     "--cfg",
     "fuzzing",
     "-Clinker=clang",
 ];
 
-/// How a target is built.
+/// The build of a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Build {
     package: &'static str,
-    /// Whether the fuzzer is told what values are compared with.
+    /// Whether the operands of comparisons are reported to the fuzzer.
     compares: bool,
 }
 
 impl Build {
-    /// Where bytes are choices, from which a design, a certificate or a stream is made, what the
-    /// program compares with is not in them, and telling it would take more than half of the time.
-    /// A brief run does without a build of its own for that.
+    /// The build for a target. If the bytes are choices from which a design, a certificate or a
+    /// stream is made, they do not contain the values that the program compares with, and reporting
+    /// comparisons would take more than half of the time. A brief run does without a separate build
+    /// for that.
     fn of(target: &str, is_brief: bool) -> Self {
         match target {
             "decoders" => Self { package: "sensedsl-fuzz-decoders", compares: false },
@@ -44,23 +45,23 @@ impl Build {
         }
     }
 
-    /// Where it is built, in the folder `target`.
+    /// The folder in which it is built, within `target`.
     fn folder(self, target: &Path) -> PathBuf {
         if self.compares { target.to_owned() } else { target.join("choices") }
     }
 }
 
-/// Programs that have been built.
+/// The programs that have been built.
 #[derive(Debug)]
 pub(super) struct Engine {
     target: PathBuf,
-    /// Below the folder of a build.
+    /// The path below the folder of a build.
     programs: PathBuf,
     is_brief: bool,
     logs: PathBuf,
 }
 
-/// What a program has said.
+/// The output of a program.
 #[derive(Debug)]
 pub(super) struct Log {
     pub(super) path: PathBuf,
@@ -69,7 +70,8 @@ pub(super) struct Log {
 }
 
 impl Engine {
-    /// Builds the programs of these targets, quickly or to run quickly.
+    /// Builds the programs of these targets: in a short time for a brief run, otherwise to run
+    /// fast.
     pub(super) fn build<'t>(
         fuzz: &Path,
         targets: impl Iterator<Item = &'t str>,
@@ -89,7 +91,7 @@ impl Engine {
             let flags: Vec<&str> = COVERAGE.iter().copied().chain(more).collect();
             let mut cargo = Command::new(env!("CARGO"));
             cargo.current_dir(fuzz).args(["build", "--quiet", "--locked"]);
-            // A target that is named keeps the flags away from build scripts and macros.
+            // An explicit target keeps the flags away from build scripts and macros.
             cargo.args(["--package", build.package, "--profile", profile, "--target", host]);
             cargo.arg("--target-dir").arg(build.folder(&target));
             cargo.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
@@ -116,7 +118,7 @@ impl Engine {
         command
     }
 
-    /// Runs a program to its end; what it says goes to a file.
+    /// Runs a program to its end, with its output in a file.
     pub(super) fn logged(&self, mut command: Command, name: &str) -> Result<Log> {
         let path = self.logs.join(format!("{name}.log"));
         let file = File::create(&path)?;

@@ -1,4 +1,4 @@
-//! The words behind `cargo xtask fuzz`.
+//! The arguments of `cargo xtask fuzz`.
 
 use std::time::Duration;
 
@@ -6,24 +6,24 @@ use anyhow::{Context as _, Result, bail};
 
 use super::divided;
 
-/// How the task is called.
+/// The usage of the task.
 const USAGE: &str = "fuzz [TARGET…] [--hours N | --runs N | --ci] [--minimise]";
-/// Without a word on it.
+/// The time of a run for which none is given.
 const TIME_DEFAULT: Duration = Duration::from_secs(600);
 
-/// How much is done.
+/// The amount of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Effort {
-    /// So many inputs for each target.
+    /// This many inputs for each target.
     Runs(u64),
-    /// So long for all targets together.
+    /// This much time for all targets together.
     Time(Duration),
-    /// The corpora and a few seconds more for each target, with the same choices each time.
+    /// The corpora and a few more seconds for each target, with the same choices each time.
     Brief,
 }
 
 impl Effort {
-    /// What each of several targets gets.
+    /// The share of each of several targets.
     pub(super) fn share(self, targets: u32) -> Self {
         match self {
             Self::Time(time) => Self::Time(divided(time, targets)),
@@ -32,10 +32,10 @@ impl Effort {
     }
 }
 
-/// What is asked for.
+/// The options of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Options {
-    /// None for all.
+    /// The names of the targets; empty for all.
     pub(super) targets: Vec<String>,
     pub(super) effort: Effort,
     pub(super) minimise: bool,

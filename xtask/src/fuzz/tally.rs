@@ -1,4 +1,4 @@
-//! What libFuzzer says in, one line for people out.
+//! The summary of a run. In: libFuzzer's output. Out: one line for people.
 
 use std::path::PathBuf;
 
@@ -7,11 +7,11 @@ use std::path::PathBuf;
 pub(super) struct Tally {
     executions: u64,
     per_second: u64,
-    /// Edges that were reached, and that there are.
+    /// The number of edges reached, and of all edges.
     edges: (u64, u64),
     features: u64,
     inputs: u64,
-    /// How far inputs came, in the target's words.
+    /// How far the inputs got, in the target's words.
     stages: Option<String>,
     pub(super) findings: Vec<PathBuf>,
 }
@@ -40,7 +40,7 @@ impl Tally {
         tally
     }
 
-    /// `#12 NEW cov: 345 ft: 678 corp: 9/10b …`
+    /// Reads a progress line: `#12 NEW cov: 345 ft: 678 corp: 9/10b …`.
     fn progress(&mut self, line: &str) {
         let words: Vec<&str> = line.split_whitespace().collect();
         for pair in words.windows(2) {

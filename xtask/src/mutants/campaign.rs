@@ -1,5 +1,5 @@
-//! The mistakes of a campaign, one after the other in several threads: each takes the next one whose design no other
-//! thread has in its hands.
+//! The mistakes of a campaign, one after another in several threads: each thread takes the next mistake whose design no
+//! other thread is using.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::io::Write as _;
@@ -14,14 +14,14 @@ use super::draw::Chance;
 use super::subject::{Subject, target};
 use crate::say;
 
-/// A design for a target: not looked at yet, unfit, or ready.
+/// A design for a target: not examined yet, unsuitable, or ready.
 enum Slot<'a> {
     New,
     LeftOut,
     Ready(Box<Subject<'a>>),
 }
 
-/// What all threads share.
+/// The state that all threads share.
 struct Campaign<'a> {
     options: &'a Options,
     pairs: Vec<(&'a Path, bool)>,
@@ -59,7 +59,7 @@ pub(super) fn run(options: &Options) -> Result<()> {
     })
 }
 
-/// The numbers of the mistakes that are in the file; those that are to be done again are taken out of it.
+/// The numbers of the mistakes in the file; those that must be done again are removed from it.
 fn done(options: &Options) -> Result<BTreeSet<usize>> {
     let Ok(text) = std::fs::read_to_string(&options.into) else { return Ok(BTreeSet::new()) };
     let is_kept = |line: &&str| options.only.as_ref().is_none_or(|word| !line.contains(word));
@@ -92,7 +92,7 @@ impl<'a> Campaign<'a> {
         Ok(())
     }
 
-    /// The next mistake, with its design; none where there are no more.
+    /// The next mistake, with its design; `None` if there are no more.
     fn next(&self) -> Option<(usize, MutexGuard<'_, Slot<'a>>)> {
         loop {
             {
@@ -113,7 +113,7 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// One mistake, whatever was done before it.
+    /// One mistake, independent of those done before it.
     fn one(&self, number: usize, subject: &Subject<'_>, folder: &Path) -> Result<()> {
         let mut chance = Chance::of(self.options.seed, number);
         let [generated, runtime] = &subject.groups;
@@ -132,7 +132,7 @@ impl<'a> Campaign<'a> {
     }
 }
 
-/// Where a thread builds projects in Rust. What all of them use is taken from the first one's.
+/// The folder in which a thread builds Rust projects. Everything they share is copied from the first thread's.
 fn embassy_folder(job: usize) -> Result<PathBuf> {
     let first = PathBuf::from("target/embassy-build");
     if job == 0 {

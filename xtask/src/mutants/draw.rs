@@ -1,18 +1,19 @@
-//! Places in generated code and in the runtime where one thing can be another, and the drawing of them.
+//! The places in generated code and in the runtime at which one thing can be replaced by another, and a random choice
+//! of them.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
-/// What is put in place of what.
+/// A replacement at a place.
 #[derive(Clone, Debug)]
 pub(super) struct Site {
     pub(super) file: PathBuf,
-    /// From 1.
+    /// The line, counted from 1.
     pub(super) line: usize,
     range: std::ops::Range<usize>,
     with: String,
-    /// For the table: `number`, `operator`, `row`, `line`.
+    /// The sort of mistake, for the table: `number`, `operator`, `row`, `line`.
     pub(super) sort: &'static str,
 }
 
@@ -36,7 +37,7 @@ const OPERATORS: [(&str, &str); 17] = [
     ("false", "true"),
 ];
 
-/// Beginnings of lines that say what there is and do nothing.
+/// The starts of lines that only declare something.
 const SAYING: [&str; 12] = [
     "static", "const", "extern", "typedef", "struct", "return", "uint", "int", "bool", "use ",
     "pub ", "let ",
@@ -49,7 +50,7 @@ impl Site {
         format!("{before}{}{}", self.with, rest.get(self.range.len()..).unwrap_or_default())
     }
 
-    /// For people: what was there, and what is.
+    /// The old and the new text, for people.
     pub(super) fn told(&self, text: &str) -> String {
         let was = text.get(self.range.clone()).unwrap_or_default();
         let [was, with] = [was, &self.with].map(|one| {
@@ -60,7 +61,7 @@ impl Site {
     }
 }
 
-/// All places of a file.
+/// All sites in a file.
 pub(super) fn sites(file: &Path, text: &str) -> Vec<Site> {
     let mut all = Vec::new();
     let mut start = 0;
@@ -113,7 +114,7 @@ fn of_line(line: &str, add: &mut impl FnMut(std::ops::Range<usize>, String, &'st
     }
 }
 
-/// Each number becomes another one: one more, none, or twice as much.
+/// Replaces each number by another one: one more, zero, or twice as much.
 fn numbers(line: &str, add: &mut impl FnMut(std::ops::Range<usize>, String, &'static str)) {
     let code = line.find("/*").filter(|at| !line.trim_start().starts_with("/*") && *at > 0);
     let code = line.get(..code.unwrap_or(line.len())).unwrap_or(line);
@@ -141,7 +142,7 @@ fn numbers(line: &str, add: &mut impl FnMut(std::ops::Range<usize>, String, &'st
     }
 }
 
-/// Two rows of a table in the other order, or the values of two fields exchanged.
+/// Exchanges two rows of a table, or the values of two fields.
 fn swapped(above: &str, below: &str) -> Option<String> {
     let [first, second] = [above, below].map(str::trim);
     if first == second || !first.ends_with(',') || !second.ends_with(',') {
@@ -160,18 +161,18 @@ fn swapped(above: &str, below: &str) -> Option<String> {
         .then(|| format!("    .{one} = {its}\n    .{other} = {value}\n"))
 }
 
-/// Chance, the same for the same seed.
+/// Random numbers that are the same for the same seed.
 pub(super) struct Chance(pub(super) u64);
 
 impl Chance {
-    /// That of the mistake with a number, whatever was drawn before it.
+    /// The random numbers for the mistake with that number, whatever was drawn before it.
     pub(super) fn of(seed: u64, number: usize) -> Self {
         let mut chance = Self(seed ^ u64::try_from(number).unwrap_or(0).rotate_right(16));
         let _ = chance.below(2);
         chance
     }
 
-    /// One of so many.
+    /// A number below `count`.
     pub(super) fn below(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut state = self.0;
@@ -182,7 +183,7 @@ impl Chance {
     }
 }
 
-/// The sites of all files below a folder whose names end so.
+/// The sites of all files below a folder whose names have that ending.
 pub(super) fn below(folder: &Path, ends: &str) -> Result<Vec<Site>> {
     let mut all = Vec::new();
     let mut entries: Vec<PathBuf> = Vec::new();

@@ -1,12 +1,13 @@
-//! `cargo xtask mutants`: mistakes drawn by chance, put one at a time into generated firmware and its runtime, built, and
-//! run as a user does it: `sensedsl simulate FILE --firmware IMAGE --judge`. Who notices?
+//! `cargo xtask mutants`: mistakes are drawn at random and put into generated firmware and its runtime, one at a time.
+//! The firmware is built and run as a user would: `sensedsl simulate FILE --firmware IMAGE --judge`. Which mistakes are
+//! noticed?
 //!
-//! A number becomes another one, an operator its opposite, two rows of a table change places, a line is left out. Each
-//! is one object that is compiled again and a program that is linked again. Images are kept in the scratch folder, so that
-//! another judge needs no compiler; `--build` makes nothing but images. Each mistake is a line of a file that grows
-//! (`--into`), of which `--page` makes Markdown; what is in it already is not done again, so that a campaign that was
-//! stopped goes on with the same call. `--only WORD` takes the lines away that have the word, and does them again.
-//! `--least PERCENT` fails where fewer of the mistakes that change anything are noticed.
+//! A number is replaced by another one, an operator by its opposite, two rows of a table are exchanged, a line is left
+//! out. Each mistake takes one object to compile and a program to link. Images are kept in the scratch folder, so that
+//! another judge needs no compiler; `--build` only makes images. Each mistake is a line in a file that grows
+//! (`--into`), from which `--page` makes Markdown. A mistake that is already in the file is not done again, so a
+//! campaign that was stopped continues with the same call. `--only WORD` removes the lines with that word, and does
+//! them again. `--least PERCENT` fails if fewer of the mistakes that change anything are noticed.
 
 mod campaign;
 mod draw;
@@ -35,19 +36,19 @@ const EXAMPLES: [&str; 8] = [
     "rover",
 ];
 
-/// What is asked for.
+/// The options of a call.
 struct Options {
     settings: Settings,
     designs: Vec<PathBuf>,
-    /// Whether it is Rust; none for both.
+    /// Whether the firmware is in Rust; `None` for both.
     is_rust: Option<bool>,
     count: usize,
     seed: u64,
     into: PathBuf,
     jobs: usize,
-    /// What of the file is done again.
+    /// The word of the lines in the file that are done again.
     only: Option<String>,
-    /// How many per cent must be noticed.
+    /// The least percentage that must be noticed.
     least: usize,
 }
 

@@ -1,8 +1,8 @@
-//! What came of the mistakes that were drawn, as Markdown.
+//! The results for the mistakes that were drawn, as Markdown.
 
 use std::collections::BTreeMap;
 
-/// The classes in the order of the table: as they are written down, and as people read them.
+/// The classes in the order of the table: as they are in the file, and as people read them.
 const CLASSES: [(&str, &str); 6] = [
     ("compiler", "refused by the compiler"),
     ("same program", "the same program, byte for byte"),
@@ -12,7 +12,8 @@ const CLASSES: [(&str, &str); 6] = [
     ("late", "not run to the end"),
 ];
 
-/// How many mistakes the command has noticed, and how many that change what comes out it has not.
+/// The number of mistakes that the command has noticed, and of those that it has not noticed
+/// although they change the output.
 fn noticed(lines: &str) -> [usize; 2] {
     ["command", "nobody"].map(|class| {
         let is_of = |line: &&str| line.split('\t').nth(6) == Some(class);
@@ -20,13 +21,13 @@ fn noticed(lines: &str) -> [usize; 2] {
     })
 }
 
-/// How many per cent of those that change what comes out are noticed.
+/// The percentage noticed of those that change the output.
 pub(super) fn share(lines: &str) -> usize {
     let [noticed, escaped] = noticed(lines);
     (100 * noticed).checked_div(noticed + escaped).unwrap_or(100)
 }
 
-/// A table of counts, and one of those that nobody noticed.
+/// A table of counts, and one of the mistakes that nobody noticed.
 pub(super) fn page(lines: &str) -> String {
     let rows: Vec<Vec<&str>> = lines.lines().map(|line| line.split('\t').collect()).collect();
     let cell = |row: &[&str], at: usize| row.get(at).copied().unwrap_or_default().to_owned();

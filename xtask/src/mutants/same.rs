@@ -1,9 +1,9 @@
 //! Whether two runs of a design's programs show the same to hosts and parts, though not at the same nanosecond.
 //!
-//! A mistake that changes how long a start takes, or where a table lies, moves everything by some microseconds, and no
-//! behaviour. So what comes out of the MCU has to be the same on each pad and bus, in the same order and at nearly the
-//! same times; and what the host is told, value after value of each device, has to be the same but for what a
-//! measurement that is moved by so little can differ in.
+//! A mistake that changes how long a start takes, or where a table is, shifts everything by some microseconds, but
+//! changes no behaviour. So the output of the MCU must be the same on each pad and bus, in the same order and at nearly
+//! the same times. The values that the host receives from each device must be the same, one after another, except for
+//! the difference that so small a shift of a measurement can cause.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,19 +14,19 @@ use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wire::{Decoder, DeviceHealth, Direction, Event, Scalar, Schema};
 
-/// How far the same thing may be apart in two runs.
+/// The greatest time between the same events in two runs.
 const APART_NS: u64 = 200_000;
-/// What a value may differ in, as a share of the largest: it was measured at another moment.
+/// The greatest difference of a value, as a fraction of the largest one: it was measured at another moment.
 const SHARE: f64 = 0.001;
 
-/// What came of a run: the bytes of the link, and what came out of the MCU with its times.
+/// The results of a run: the bytes on the link, and the output of the MCU with its times.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Seen {
     pub(super) frames: Vec<u8>,
     pub(super) wires: String,
 }
 
-/// What a host understands of the bytes.
+/// The host's view of the bytes.
 #[derive(Default)]
 struct Heard {
     values: BTreeMap<u8, Vec<Vec<f64>>>,
@@ -34,7 +34,7 @@ struct Heard {
     hellos: usize,
 }
 
-/// What a design's first board has on its link.
+/// The schema of the link of a design's first board.
 pub(super) fn schema(design: &Path, target: &str) -> Result<Schema> {
     let text = std::fs::read_to_string(design)?;
     let mut workspace = Workspace::default();
@@ -46,7 +46,7 @@ pub(super) fn schema(design: &Path, target: &str) -> Result<Schema> {
     Ok(jobs(design, wiring).next().context("the design has no board")?.schema)
 }
 
-/// What is first another thing; none where a host and parts see the same.
+/// The first difference; `None` if host and parts see the same.
 pub(super) fn differ(schema: &Schema, one: &Seen, other: &Seen) -> Option<String> {
     if one == other {
         return None;
@@ -57,7 +57,7 @@ pub(super) fn differ(schema: &Schema, one: &Seen, other: &Seen) -> Option<String
     })
 }
 
-/// The lines of each place: a time and what happens then.
+/// The events at each place, with their times.
 fn places(text: &str) -> BTreeMap<&str, Vec<(u64, &str)>> {
     let mut places: BTreeMap<&str, Vec<(u64, &str)>> = BTreeMap::new();
     for line in text.lines() {
@@ -146,7 +146,7 @@ fn heard_differ(schema: &Schema, one: &Heard, other: &Heard) -> Option<String> {
     })
 }
 
-/// One report more or less is what the end of a run makes.
+/// A difference of one report comes from the end of the run.
 fn values_differ(one: &[Vec<f64>], other: &[Vec<f64>]) -> Option<String> {
     if one.len().abs_diff(other.len()) > 1 {
         return Some(format!("{} values, and {}", one.len(), other.len()));
@@ -182,7 +182,7 @@ mod tests {
             assert!(wires_differ(RIGHT, &other).is_some(), "{other}");
             assert!(wires_differ(&other, RIGHT).is_some(), "{other}");
         }
-        // The run ends in between.
+        // The run ended between the two.
         assert_eq!(wires_differ(RIGHT, &format!("{RIGHT}900100000,PA1,low\n")), None);
     }
 

@@ -1,4 +1,4 @@
-//! A design for a target: its generated folder, how it is built, and what the program without a mistake does.
+//! A design for a target: its generated folder, its build, and the behaviour of the program without a mistake.
 
 use std::hash::{Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
@@ -11,45 +11,45 @@ use sensedsl_wire::Schema;
 use super::draw::{self, Site};
 use super::same::{self, Seen};
 
-/// A run that takes more seconds counts for nothing.
+/// The time in seconds after which a run is stopped and does not count.
 const PATIENCE_S: &str = "240";
-/// The status of what ends it.
+/// The exit status of a run that was stopped.
 const OUT_OF_TIME: i32 = 124;
 /// The board whose MCU is emulated.
 const EMULATED: &str = "STM32F407G_DISC1";
-/// The class of what is to be run.
+/// The class of an image that has to be run.
 const IMAGE: &str = "image";
 const TRIPLE: &str = "thumbv7em-none-eabihf";
 
-/// What all of them have in common.
+/// The settings that all subjects share.
 pub(super) struct Settings {
-    /// The `sensedsl` with an emulated MCU.
+    /// The `sensedsl` program with an emulated MCU.
     pub(super) program: PathBuf,
     pub(super) seconds: String,
     pub(super) scratch: PathBuf,
-    /// Images are built and kept, and nothing is run.
+    /// Whether images are only built and kept, but not run.
     pub(super) is_building: bool,
 }
 
 /// One design for one target.
 pub(super) struct Subject<'a> {
     settings: &'a Settings,
-    /// For the table.
+    /// The name in the table.
     pub(super) name: String,
     design: PathBuf,
-    /// A world with faults, for what changes nothing where all is well.
+    /// A world with faults, for mistakes that change nothing in one without.
     world: Option<PathBuf>,
     pub(super) is_rust: bool,
     pub(super) board: PathBuf,
-    /// Generated files, and the runtime.
+    /// The sites in generated files, and those in the runtime.
     pub(super) groups: [Vec<Site>; 2],
     schema: Schema,
     right: Vec<u8>,
-    /// What it does in the usual world, and in its own.
+    /// The output in the usual world, and in the design's own.
     seen: Vec<Seen>,
 }
 
-/// What the command says, and what came out of the MCU.
+/// The message of the command, and the output of the MCU.
 struct Run {
     said: Option<String>,
     is_out_of_time: bool,
@@ -57,7 +57,7 @@ struct Run {
 }
 
 impl<'a> Subject<'a> {
-    /// Generates, builds and runs it.
+    /// Generates, builds and runs the program without a mistake.
     pub(super) fn new(
         settings: &'a Settings,
         file: &Path,
@@ -109,7 +109,7 @@ impl<'a> Subject<'a> {
         [None].into_iter().chain(own).collect()
     }
 
-    /// The generated folder of the design's first board.
+    /// Generates the firmware, and returns the folder of the design's first board.
     fn generate(&self, folder: &Path) -> Result<PathBuf> {
         let folder = folder.join("out");
         let mut generate = Command::new(&self.settings.program);
@@ -129,14 +129,14 @@ impl<'a> Subject<'a> {
             make.args(["-j2", "UP_MODE=production", "USE_LTO=no"]).arg(format!("CHIBIOS={tree}"));
             return Ok(make.current_dir(&self.board).output()?);
         }
-        // All projects have one name: cargo would take another's program for this one's.
+        // All projects have the same name: cargo would take another project's program for this one's.
         let main = std::fs::File::options().append(true).open(self.board.join("src/main.rs"))?;
         main.set_modified(std::time::SystemTime::now())?;
         let mut cargo = Command::new("cargo");
         cargo.args(["build", "--release", "-Zbuild-std=core", "--locked"]);
         cargo.arg("--target-dir").arg(embassy);
         let linker = format!("target.{TRIPLE}.linker=\"arm-none-eabi-ld\"");
-        // As the tests build it: what is optimised at link time takes long and does the same.
+        // As in the tests: link-time optimisation takes long and changes no behaviour.
         for setting in [&linker, "profile.release.lto=false", "profile.release.codegen-units=16"] {
             cargo.args(["--config", setting]);
         }
@@ -158,7 +158,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// What is written to the flash.
+    /// The contents of the flash.
     fn flash(&self) -> Result<Vec<u8>> {
         let to = self.design.with_extension("bin");
         let mut copy = Command::new("arm-none-eabi-objcopy");
@@ -167,7 +167,7 @@ impl<'a> Subject<'a> {
         Ok(std::fs::read(to)?)
     }
 
-    /// The command in a world; it says nothing where all is well.
+    /// Runs the command in a world; it prints nothing if all is well.
     fn run(&self, world: Option<&Path>, image: &Path) -> Result<Run> {
         let [wires, frames] = ["wires", "frames"].map(|name| self.design.with_extension(name));
         let mut simulate = Command::new("timeout");
@@ -193,7 +193,7 @@ impl<'a> Subject<'a> {
         Ok(Run { said: (!output.status.success()).then_some(said), is_out_of_time, seen })
     }
 
-    /// All places: those of generated files, and those of the runtime.
+    /// All sites: those in generated files, and those in the runtime.
     fn sites(&self) -> Result<[Vec<Site>; 2]> {
         let board = &self.board;
         if !self.is_rust {
@@ -207,7 +207,7 @@ impl<'a> Subject<'a> {
         Ok([own, runtime.into_iter().chain(shared).collect()])
     }
 
-    /// What comes of a mistake: a class and what was said.
+    /// The result for a mistake: a class, and the command's message.
     pub(super) fn outcome(&self, site: &Site, embassy: &Path) -> Result<(String, String)> {
         let kept = self.kept(site)?;
         let class = kept.with_extension("class");
@@ -226,7 +226,8 @@ impl<'a> Subject<'a> {
         Ok((class.to_owned(), said))
     }
 
-    /// Where the image with a mistake is kept: what judges changes more often than what is judged.
+    /// The path at which the image with a mistake is kept: the judge changes more often than the firmware that it
+    /// judges.
     fn kept(&self, site: &Site) -> Result<PathBuf> {
         let mut hasher = std::hash::DefaultHasher::new();
         std::fs::read_to_string(&site.file)?.hash(&mut hasher);
@@ -237,7 +238,7 @@ impl<'a> Subject<'a> {
         Ok(folder.join(name))
     }
 
-    /// Builds what has a mistake in it, and keeps the image. Gives what came of it.
+    /// Builds a program with a mistake, and keeps the image. Returns the class.
     fn made(&self, kept: &Path, embassy: &Path) -> Result<&'static str> {
         let built = self.build(embassy)?;
         let said = String::from_utf8_lossy(&built.stderr).into_owned();
@@ -251,7 +252,7 @@ impl<'a> Subject<'a> {
         Ok(IMAGE)
     }
 
-    /// What the command says in the usual world; of what it says nothing, whether it is another behaviour at all.
+    /// The command's message in the usual world; if there is none, whether the behaviour differs at all.
     fn tried(&self, image: &Path) -> Result<(&'static str, String)> {
         let mut what = None;
         for (world, right) in self.worlds().into_iter().zip(&self.seen) {
@@ -273,14 +274,14 @@ pub(super) const fn target(is_rust: bool) -> &'static str {
     if is_rust { "embassy" } else { "chibios" }
 }
 
-/// A design on the board whose MCU is emulated.
+/// The design, on the board whose MCU is emulated.
 fn on_emulated(text: &str) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {
         let moved = line.split_once(" on ").filter(|_| line.starts_with("board "));
         match moved {
             Some((board, _)) => lines.push(format!("{board} on {EMULATED} {{")),
-            // Its link is USB, which has no pace.
+            // Its link is USB, which has no baud rate.
             None if line.trim_start().starts_with("link { baud") => {}
             None => lines.push(line.to_owned()),
         }

@@ -1,4 +1,4 @@
-//! The ATDF files of the crate `avr-device`: the AVRs of the Arduino boards out.
+//! The ATDF files of the crate `avr-device`, from which the AVRs of the Arduino boards are read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,15 +13,15 @@ use super::sources::text;
 pub(crate) struct Avr {
     pub(crate) base: String,
     pub(crate) pins: Pins,
-    /// `AVR8`.
+    /// The core: `AVR8`.
     pub(crate) core: String,
     pub(crate) flash_bytes: usize,
     pub(crate) ram_bytes: usize,
-    /// By order code: the package, and positions with pads.
+    /// The package, and the positions with their pads, by order code.
     pub(crate) variants: BTreeMap<String, (String, Vec<(String, String)>)>,
 }
 
-/// The parts that Arduino boards and their like have.
+/// The parts on Arduino boards and similar ones.
 const PARTS: [&str; 7] = [
     "atmega168",
     "atmega328p",
@@ -32,7 +32,7 @@ const PARTS: [&str; 7] = [
     "atmega2560",
 ];
 
-/// Reads the files of the parts that are wanted.
+/// Reads the files of these parts.
 pub(crate) fn read(folder: &Path) -> Result<Vec<Avr>> {
     PARTS.iter().map(|name| one(folder, name)).collect()
 }
@@ -96,8 +96,7 @@ fn one(folder: &Path, name: &str) -> Result<Avr> {
     })
 }
 
-/// Bytes of the memory of a type that is in the part. Segments for a boot loader are part of the
-/// flash.
+/// The size in bytes of the internal memory of a type. Segments for a boot loader are part of the flash.
 fn memory(document: &Document<'_>, of: &str) -> Result<usize> {
     let segments = document.descendants().filter(|node| {
         node.has_tag_name("memory-segment")
@@ -114,8 +113,8 @@ fn memory(document: &Document<'_>, of: &str) -> Result<usize> {
     Ok(sum)
 }
 
-/// The usage as the data sheets have it, with the unit in front where the signal alone does not tell
-/// it (`TWI_SCL`). None for the port itself, and for the programmer's lines.
+/// The usage as in the data sheets, with the unit in front if the signal alone is ambiguous (`TWI_SCL`); `None` for the
+/// port itself, and for the programmer's lines.
 fn usage(unit: &str, group: &str, index: &str) -> Option<String> {
     let number = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
     let usage = match (unit.strip_suffix(number).unwrap_or(unit), group) {

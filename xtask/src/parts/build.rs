@@ -1,4 +1,4 @@
-//! What the sources say, joined and numbered.
+//! The facts from all sources, joined and numbered.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,29 +11,29 @@ use super::avr::Avr;
 use super::metapac::{Chip, Pins};
 use super::modm::Device;
 
-/// Parts for which the source has the pinout of their variant with a voltage converter (`Q`), and
-/// parts with the same pins in the same package, as the data sheets DS12737 and DS12736 have them.
+/// The parts for which the source has the pinout of their variant with a voltage converter (`Q`), each with a part that
+/// has the same pins in the same package according to the data sheets DS12737 and DS12736.
 const REPLACED: [(&str, &str); 3] = [
     ("STM32L552QEI", "STM32L562QEI6"),
     ("STM32L552VET", "STM32L562VET6"),
     ("STM32L552ZET", "STM32L562ZET6"),
 ];
 
-/// Parts of which the smaller of both sums of RAM counts, as the data sheets have it. `STM32F303xB`:
-/// `modm-devices` has the RAM of the larger parts. STM32F413 and F423: it has a piece a second time where
-/// other parts have a RAM of its own for the core. STM32H7R and H7S: `stm32-metapac` has a piece also in
-/// the memories of the core that it can be lent to.
+/// The parts for which the smaller of the two sums of RAM counts, according to the data sheets. `STM32F303xB`:
+/// `modm-devices` has the RAM of the larger parts. STM32F413 and F423: it lists a block a second time, at the place
+/// where other parts have core-coupled RAM. STM32H7R and H7S: `stm32-metapac` also counts a block in the memories of
+/// the core, to which it can be assigned.
 const SMALLER_RAM: [&str; 7] =
     ["STM32F303CB", "STM32F303RB", "STM32F303VB", "STM32F413", "STM32F423", "STM32H7R", "STM32H7S"];
 
-/// Bytes of RAM of chips without a device file of which `stm32-metapac` has more or less than the data
-/// sheets DS14606 and DS13543.
+/// The RAM in bytes of chips without a device file for which `stm32-metapac` differs from the data sheets DS14606 and
+/// DS13543.
 const RAM_BYTES: [(&str, usize); 2] = [("STM32WBA50KG", 64 << 10), ("STM32U5A5QI", 2512 << 10)];
 
-/// Cores of families of which no device file is there, as their data sheets have them.
+/// The cores of families without device files, from their data sheets.
 const CORES: [(&str, &str); 2] = [("STM32N6", "Cortex-M55"), ("STM32WBA", "Cortex-M33")];
 
-/// A part by names.
+/// A part, with names instead of numbers.
 #[derive(Clone, Debug)]
 struct Part<'a> {
     base: &'a str,
@@ -45,7 +45,7 @@ struct Part<'a> {
     ram_bytes: usize,
 }
 
-/// The table, and figures for whoever made it.
+/// The table, and figures for the person who makes it.
 pub(crate) fn build(
     chips: &BTreeMap<String, Chip>,
     devices: &[Device],
@@ -102,20 +102,20 @@ fn stm32<'a>(
     let mut used = BTreeSet::new();
     let mut left_out = BTreeSet::new();
     for ((base, _, variant), group) in grouped {
-        // Dies of another revision have chips of their own: STM32L151CB-A.
+        // Dies of another revision are separate chips: STM32L151CB-A.
         let names = [format!("{base}-{variant}"), base.to_owned()];
         let Some((name, chip)) = names.iter().find_map(|name| chips.get_key_value(name)) else {
             left_out.insert(base.get(..9).unwrap_or(base).to_owned());
             continue;
         };
         used.insert(name.as_str());
-        // Grades of one part may differ in a pin: NRST and PF2 of some G0.
+        // Grades of a part may differ in a pin: NRST and PF2 of some G0.
         let mut layouts: BTreeMap<&[(String, String)], Vec<&Device>> = BTreeMap::new();
         for device in group {
             layouts.entry(places(device)).or_default().push(device);
         }
         for (places, mut devices) in layouts {
-            // The plainest grade first: 6, then the others.
+            // The plainest grade, 6, comes first, then the others.
             devices.sort_by_key(|device| (device.grade != "6", &device.grade));
             let Some(first) = devices.first() else { continue };
             let code = |d: &&Device| format!("{}{}{}", d.package_code, d.grade, d.variant);
@@ -145,7 +145,7 @@ fn stm32<'a>(
     Ok((parts, left_out.into_iter().collect()))
 }
 
-/// Both sources leave RAM out on some parts, so that the larger sum counts.
+/// The size of the RAM. Both sources leave RAM out on some parts, so the larger sum counts.
 fn ram_bytes(chip: &Chip, device: &Device) -> usize {
     let sums = [chip.ram_bytes, device.ram_bytes];
     let of_both = if SMALLER_RAM.iter().any(|start| device.base.starts_with(start)) {
@@ -156,7 +156,7 @@ fn ram_bytes(chip: &Chip, device: &Device) -> usize {
     of_both.unwrap_or_default()
 }
 
-/// The core of a chip without a device file: the one of all devices of its line.
+/// The core of a chip without a device file: the one that all devices of its line have.
 fn core_of<'a>(chip: &str, devices: &'a [Device]) -> Result<&'a str> {
     if let Some((_, core)) = CORES.iter().find(|(family, _)| chip.starts_with(family)) {
         return Ok(core);
@@ -168,15 +168,16 @@ fn core_of<'a>(chip: &str, devices: &'a [Device]) -> Result<&'a str> {
     cores.first().copied().context("no core")
 }
 
-/// On STM32H7 a pad such as `PC2_C` is connected with `PC2` by an analog switch. Where the package
-/// has no `PC2` of its own, the switch is closed after reset and the pad carries the signals of both.
+/// Adds the signals behind closed switches. On STM32H7, a pad such as `PC2_C` is connected to `PC2` by an analog
+/// switch. If the package has no `PC2` of its own, the switch is closed after reset and the pad carries the signals of
+/// both.
 fn with_switches<'a>(pins: &'a Pins, places: &[(String, String)]) -> Cow<'a, Pins> {
     let has = |name: &str| places.iter().any(|(_, pin)| pin == name);
     let mut made = Cow::Borrowed(pins);
     for pad in places.iter().map(|(_, pin)| pin) {
         let Some(pin) = pad.strip_suffix("_C").filter(|pin| !has(pin)) else { continue };
         let usages = pins.get(pin).into_iter().flatten();
-        // An input of the converter is that of one pad or of the other.
+        // An input of the converter belongs to one pad or to the other.
         let digital = usages.filter(|(_, alternate)| alternate.is_some()).cloned();
         made.to_mut().entry(pad.clone()).or_default().extend(digital);
     }

@@ -1,6 +1,6 @@
-//! The crate `stm32-metapac`: its generated sources in, pins, usages and memory of each chip out.
+//! The crate `stm32-metapac`. In: its generated sources. Out: pins, usages and memory of each chip.
 //!
-//! The sources are scanned as text: compiling them would take a build for each chip.
+//! The sources are scanned as text: to compile them would take a build for each chip.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -9,7 +9,7 @@ use anyhow::{Context as _, Result, ensure};
 
 use super::sources::{entries, text};
 
-/// The usages of each pin; an ADC input is one usage of all its units.
+/// The usages of each pin; an ADC input is one usage for all its units.
 pub(crate) type Pins = BTreeMap<String, BTreeSet<(String, Option<u8>)>>;
 
 /// A chip.
@@ -46,8 +46,8 @@ pub(crate) fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a s
     Some(text.split_once(start)?.1.split_once(end)?.0)
 }
 
-/// Bytes of flash and of RAM. A chip whose flash is one bank or two, as its option bytes have it, has
-/// a list of regions for each: both have the same sum.
+/// The bytes of flash and of RAM. A chip whose flash is one bank or two, depending on its option bytes, has a list of
+/// regions for each case: both have the same sum.
 fn memory(head: &str) -> Result<(usize, usize)> {
     let lists = between(head, "memory: ", "peripherals: ").context("no memory")?;
     let mut sums = BTreeSet::new();
@@ -70,16 +70,16 @@ fn memory(head: &str) -> Result<(usize, usize)> {
     sums.first().copied().context("no regions")
 }
 
-/// RAM that is counted: not what stands at a second address for the sake of instructions, not what a
-/// battery keeps, and not what an external bus could address.
+/// Whether RAM is counted: not if it is a second address for instruction fetches, if a battery keeps it, or if it is on
+/// an external bus.
 fn is_counted(name: &str, address: u32) -> bool {
     !name.ends_with("_ICODE") && name != "BKPSRAM" && address < EXTERNAL
 }
 
 /// The first address of external memory on a Cortex-M.
 const EXTERNAL: u32 = 0x6000_0000;
-/// A part of RAM that is not the user's, such as the first bytes on STM32WB0, is less than that, and
-/// counted: data sheets do so.
+/// A reserved part of RAM, such as the first bytes on STM32WB0, is smaller than this. It is counted, as in the data
+/// sheets.
 pub(crate) const RESERVED: usize = 512;
 
 fn pins(source: &str) -> Result<Pins> {
@@ -107,8 +107,8 @@ fn pins(source: &str) -> Result<Pins> {
             pins.entry(pin).or_default().insert((usage(unit, line) + &blocks, alternate));
         }
     }
-    // On families whose data sheets name an input without its sign (`IN2`), an inverted input
-    // (`INN1`) is no signal of a pin but another use of `IN2`.
+    // On families whose data sheets name an input without its sign (`IN2`), an inverted input (`INN1`) is not a signal
+    // of a pin but another use of `IN2`.
     let signed = converters.keys().any(|(_, line)| line.starts_with("INP"));
     converters.retain(|(_, line), _| signed || !line.starts_with("INN"));
     for ((pin, line), units) in converters {
@@ -118,8 +118,8 @@ fn pins(source: &str) -> Result<Pins> {
     Ok(pins)
 }
 
-/// The remap blocks in which a peripheral has signals on a pin, as a table writes them: `#0|2`. On
-/// other families than F1 there are none.
+/// The remap blocks in which a peripheral has signals on a pin, as a table writes them: `#0|2`. Only the F1 family has
+/// any.
 fn remap_blocks(peripheral: &str, pin: &str) -> Option<String> {
     let (_, blocks) = peripheral.split_once("afio: Some(PeripheralAfio {")?;
     let quoted = format!("\"{pin}\"");
@@ -131,7 +131,7 @@ fn remap_blocks(peripheral: &str, pin: &str) -> Option<String> {
     (!numbers.is_empty()).then(|| format!("#{}", numbers.join("|")))
 }
 
-/// I2S is part of a SPI unit there, and some break inputs are cut short.
+/// The usage of a pin: in this source, I2S is part of an SPI unit, and some break inputs have shortened names.
 fn usage(unit: &str, line: &str) -> String {
     match (unit.strip_prefix("SPI"), line.strip_prefix("I2S_")) {
         (Some(number), Some(line)) => format!("I2S{number}_{line}"),

@@ -1,9 +1,9 @@
 //! `cargo xtask parts`: makes the parts table of `crates/parts` from packages of public registries.
 //!
-//! Cargo and pip fetch the packages in the versions given here into `parts-sources` in the target
-//! folder; what comes out is `crates/parts/data/parts.bin`. `--check` compares instead of writing:
-//! where the packages cannot be fetched it says `SKIPPED`, unless `SENSEDSL_REQUIRE_TOOLS=1`.
-//! `--compare FOLDER` compares what the table says with ST's open pin data.
+//! Cargo and pip fetch the packages, in the versions given here, into `parts-sources` in the target
+//! folder; the result is `crates/parts/data/parts.bin`. `--check` compares instead of writing: if
+//! the packages cannot be fetched it prints `SKIPPED`, unless `SENSEDSL_REQUIRE_TOOLS=1`.
+//! `--compare FOLDER` compares the table with ST's open pin data.
 
 mod avr;
 mod build;

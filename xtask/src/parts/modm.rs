@@ -1,5 +1,5 @@
-//! The Python package `modm-devices`: its STM32 device files in, part numbers with packages and
-//! positions out.
+//! The Python package `modm-devices`. In: its STM32 device files. Out: part numbers with packages
+//! and positions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -14,16 +14,16 @@ use super::sources::{entries, text};
 /// A part number.
 #[derive(Clone, Debug)]
 pub(crate) struct Device {
-    /// `STM32F407VG`.
+    /// The base of the part number: `STM32F407VG`.
     pub(crate) base: String,
-    /// What follows: package, grade, variant.
+    /// The rest of the part number: package, grade, variant.
     pub(crate) package_code: String,
     pub(crate) grade: String,
     pub(crate) variant: String,
     pub(crate) package: String,
-    /// Position and pin.
+    /// Positions and pins.
     pub(crate) places: Vec<(String, String)>,
-    /// `Cortex-M7 + Cortex-M4`.
+    /// The cores: `Cortex-M7 + Cortex-M4`.
     pub(crate) core: String,
     pub(crate) ram_bytes: usize,
 }
@@ -70,7 +70,7 @@ fn children<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Ite
 }
 
 /// The devices of a file: all combinations of the values that it lists for the fields of its
-/// schema, without those it calls invalid and, where it calls any valid, only those.
+/// schema, without those that it marks as invalid; if it marks any as valid, only those.
 fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
     let fields = schema.split('{').filter_map(|part| Some(part.split_once('}')?.0));
     let mut all = vec![Identity::new()];
@@ -108,7 +108,7 @@ fn spell(schema: &str, identity: &Identity) -> String {
     schema.split('{').map(value).collect()
 }
 
-/// Whether a node's `device-…` attributes let the device have it.
+/// Whether a node's `device-…` attributes apply to the device.
 fn applies(node: Node<'_, '_>, identity: &Identity) -> bool {
     node.attributes().all(|attribute| match attribute.name().strip_prefix("device-") {
         Some(field) => {
@@ -118,7 +118,7 @@ fn applies(node: Node<'_, '_>, identity: &Identity) -> bool {
     })
 }
 
-/// The device, where it has a package.
+/// The device, if it has a package.
 fn device(root: Node<'_, '_>, cores: &[Identity]) -> Result<Option<Device>> {
     let identity = cores.first().context("a device without a name")?;
     let field = |name: &str| identity.get(name).cloned().unwrap_or_default().to_uppercase();
@@ -172,8 +172,8 @@ fn core(root: Node<'_, '_>, cores: &[Identity]) -> Result<String> {
     Ok(names.join(" + "))
 }
 
-/// Bytes of RAM that any core reaches: without memory at a second address, and without what a
-/// battery keeps.
+/// The bytes of RAM that any core reaches, without memory at a second address, and without memory
+/// that a battery keeps.
 fn ram(root: Node<'_, '_>, cores: &[Identity]) -> Result<usize> {
     let (mut names, mut starts, mut sum) = (BTreeSet::new(), BTreeSet::new(), 0);
     for identity in cores {

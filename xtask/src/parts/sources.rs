@@ -19,12 +19,12 @@ pub(crate) struct Sources {
     pub(crate) modm: PathBuf,
 }
 
-/// Whether it is a failure that something cannot be had.
+/// Whether a missing tool or package is a failure.
 pub(crate) fn required() -> bool {
     std::env::var_os("SENSEDSL_REQUIRE_TOOLS").is_some_and(|value| value == "1")
 }
 
-/// Fetches what is not there yet into the target folder.
+/// Fetches the packages that are missing into the target folder.
 pub(crate) fn fetch(root: &Path) -> Result<Sources> {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
@@ -65,12 +65,12 @@ fn call(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// A file's bytes.
+/// The bytes of a file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     std::fs::read(path).with_context(|| path.display().to_string())
 }
 
-/// A file's text.
+/// The text of a file.
 pub(crate) fn text(path: &Path) -> Result<String> {
     std::fs::read_to_string(path).with_context(|| path.display().to_string())
 }

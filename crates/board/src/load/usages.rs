@@ -1,4 +1,4 @@
-//! What a pin can be: the cells of usages, of alternate functions, and of what is on the board.
+//! What a pin can be: cells with usages, alternate functions, and on-board parts.
 
 use sensedsl_diagnostics::nearest;
 use sensedsl_limits::{DIAGNOSTICS_MAX, PIN_USAGES_MAX, USAGES_MAX};
@@ -81,11 +81,11 @@ impl Loader<'_> {
         let nearest = nearest(word, words).map(str::to_owned);
         let kind = FindingKind::BadOccupation { spelled: word.to_owned(), nearest };
         self.report(kind, &range, Some(&column.header));
-        // To be careful: what is not understood is not offered.
+        // To be safe, a part that is not understood takes its pin.
         Some(Onboard { part, how: Occupation::Taken })
     }
 
-    /// Reads an `AF` cell: `SIGNAL=n` each, or one number for each usage that has one.
+    /// Reads an `AF` cell: `SIGNAL=n` for each signal, or one number for each usage that has one.
     pub(super) fn alternates(
         &mut self,
         cell: &Cell,
@@ -123,7 +123,7 @@ impl Loader<'_> {
             return self.set_alternate(number, word, column, usage);
         }
         let usages = pin.usages.iter().map(|usage| usage.spelled.as_str());
-        // What is not listed needs no suggestion.
+        // A finding that is not listed needs no suggestion.
         let listed = self.findings.len() < DIAGNOSTICS_MAX;
         let nearest = if listed { nearest(spelled, usages) } else { None }.map(str::to_owned);
         let kind = FindingKind::UnknownAlternate { signal: spelled.to_owned(), nearest };
@@ -146,7 +146,7 @@ impl Loader<'_> {
     }
 }
 
-/// The alternate functions of all multiplexers known are numbered 0 to 15, with or without `AF`.
+/// Known multiplexers number their alternate functions from 0 to 15, with or without `AF`.
 fn alternate_number(text: &str) -> Option<u8> {
     let digits = text.strip_prefix("AF").unwrap_or(text);
     let plain = digits.bytes().all(|b| b.is_ascii_digit());

@@ -1,6 +1,6 @@
 //! The groups of a profile file and the units in them.
 //!
-//! What a unit states itself comes before the rule of its group.
+//! A unit's own statement overrides the rule of its group.
 
 use serde::Deserialize;
 
@@ -11,13 +11,14 @@ use super::types::{
 };
 use crate::pin::PinName;
 
-/// An entry of a file: it has a name, and is for all lines with a unit of that name or for some.
+/// A named entry of a file. It applies to all lines that have a unit with that name, or only to
+/// some.
 pub(crate) trait Entry {
     fn name(&self) -> &str;
     fn lines(&self) -> &[String];
-    /// The streams that can serve its requests.
+    /// The streams that can serve the entry's requests.
     fn streams(&self) -> Vec<&Streams>;
-    /// The multiplexers through which it has its streams.
+    /// The multiplexers that connect it to its streams.
     fn multiplexers(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for streams in self.streams() {
@@ -33,9 +34,9 @@ pub(crate) trait Entry {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Streams {
-    /// All of a multiplexer.
+    /// All streams behind a multiplexer.
     Behind(String),
-    /// These, best first.
+    /// These streams, best first.
     Each(Vec<Stream>),
 }
 
@@ -95,7 +96,7 @@ pub(crate) struct AdcGroup {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdcRules {
-    /// First and last input that can be a pin.
+    /// The first and the last input that can be a pin.
     inputs: [u8; 2],
 }
 
@@ -120,7 +121,7 @@ impl AdcEntry {
     }
 }
 
-/// A request, where a unit has streams.
+/// A request, if the unit has streams.
 fn request(
     name: String,
     streams: Option<Streams>,
@@ -201,7 +202,7 @@ pub(crate) struct DacGroup {
     pub(crate) units: Vec<DacEntry>,
 }
 
-/// A converter with the number of its outputs.
+/// A converter, with the number of its outputs.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DacEntry {
@@ -256,7 +257,7 @@ impl UsbEntry {
     }
 }
 
-/// What a sampling time is written as: `1.5` or `3`.
+/// A sampling time as it is written: `1.5` or `3`.
 impl<'de> Deserialize<'de> for Cycles {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]

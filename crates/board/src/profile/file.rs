@@ -1,8 +1,8 @@
 //! The file form of a target profile: TOML in, the facts of one line out.
 //!
-//! A file holds a family. What repeats stands once in it: a line lists the units it has, a group
-//! has the rules by which a unit's driver, switch and options are named, a multiplexer stands for
-//! all the streams behind it. Here they are put together to the types of [`crate::profile`].
+//! A file describes a family and states repeated facts only once: a line lists the units it has, a
+//! group has the rules for a unit's driver, switch and options, and a multiplexer stands for all
+//! the streams behind it. This module combines them into the types of [`crate::profile`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
 pub(crate) struct File {
     target: String,
     family: String,
-    /// Units that the registry names and no line takes.
+    /// Units that the registry names but no line uses.
     #[serde(default)]
     left_out: String,
     line: Vec<Line>,
@@ -39,7 +39,7 @@ pub(crate) struct File {
     cans: Option<BusGroup>,
     dacs: Option<DacGroup>,
     usbs: Option<UsbGroup>,
-    /// What only the system's own generator reads.
+    /// Facts that only the system's own generator reads.
     #[serde(default)]
     system: toml::Table,
 }
@@ -49,31 +49,31 @@ pub(crate) struct File {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Line {
     pub(crate) name: String,
-    /// The starts of part numbers; `?` stands for any character.
+    /// Part-number prefixes; `?` stands for any character.
     pub(crate) parts: Vec<String>,
-    /// Letters of the GPIO ports.
+    /// The letters of the GPIO ports.
     pub(crate) gpio_ports: String,
-    /// Names of the units, with white space between.
+    /// The names of the units, separated by white space.
     pub(crate) units: String,
-    /// Units that the registry names and the line does not take.
+    /// Units that the registry names but the line does not use.
     #[serde(default)]
     pub(crate) left_out: String,
-    /// Clocks in hertz that the system makes by itself, whatever the board says.
+    /// Clocks, in hertz, that the system sets itself, whatever the board.
     #[serde(default)]
     pub(crate) clocks_hz: BTreeMap<String, u32>,
-    /// What only the system's own generator reads.
+    /// Facts that only the system's own generator reads.
     #[serde(default)]
     pub(crate) system: toml::Table,
     pub(crate) source: String,
 }
 
 impl Line {
-    /// The units the line has.
+    /// Whether the line has a unit.
     pub(crate) fn has(&self, unit: &str) -> bool {
         self.units.split_whitespace().any(|name| name == unit)
     }
 
-    /// True when an entry is for the line.
+    /// Whether an entry applies to the line.
     fn wants(&self, entry: &(impl Entry + ?Sized)) -> bool {
         self.has(entry.name()) && self.fits(entry.lines())
     }
@@ -83,7 +83,7 @@ impl Line {
     }
 }
 
-/// A multiplexer through which any request reaches any of its streams.
+/// A multiplexer that connects any request to any of its streams.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Multiplexer {
@@ -94,13 +94,13 @@ struct Multiplexer {
     source: String,
 }
 
-/// True when a name starts like a pattern, in which `?` stands for any character.
+/// Whether a name starts with a pattern, in which `?` stands for any character.
 pub(crate) fn starts(name: &str, pattern: &str) -> bool {
     let alike = |(a, b): (u8, u8)| a == b || b == b'?';
     name.len() >= pattern.len() && name.bytes().zip(pattern.bytes()).all(alike)
 }
 
-/// The entries of a group that are for the line.
+/// The entries of a group that apply to the line.
 fn of_line<E: Entry>(units: Vec<E>, line: &Line) -> impl Iterator<Item = E> {
     units.into_iter().filter(|unit| line.wants(unit))
 }
@@ -116,7 +116,7 @@ impl File {
         self.line.iter().find(|line| line.parts.iter().any(|part| starts(mcu, part)))
     }
 
-    /// The units that the registry names for a line and the profile leaves out on purpose.
+    /// The units that the registry names for a line but the profile deliberately leaves out.
     pub(crate) fn left_out<'a>(&'a self, line: &'a Line) -> impl Iterator<Item = &'a str> {
         self.left_out.split_whitespace().chain(line.left_out.split_whitespace())
     }
@@ -126,7 +126,7 @@ impl File {
         &self.line
     }
 
-    /// What of the file is for one line.
+    /// The profile of one line.
     pub(crate) fn into_profile(self, line: &Line) -> TargetProfile {
         let streams = |streams: Streams| match streams {
             Streams::Each(list) => list,
@@ -190,7 +190,7 @@ impl File {
         }
     }
 
-    /// What is wrong with the data; empty when all is well.
+    /// The mistakes in the data; empty if there are none.
     pub(crate) fn problems(&self) -> Vec<String> {
         let mut problems = Vec::new();
         let known: BTreeSet<&str> = self.line.iter().map(|line| line.name.as_str()).collect();
@@ -237,7 +237,7 @@ impl File {
         problems
     }
 
-    /// The units that have their streams through a multiplexer, with its name.
+    /// The units that reach their streams through a multiplexer, with its name.
     fn multiplexers(&self) -> impl Iterator<Item = (&dyn Entry, &str)> {
         let adcs = self.adcs.units.iter().map(|unit| unit as &dyn Entry);
         let buses = self.i2cs.units.iter().chain(&self.spis.units);

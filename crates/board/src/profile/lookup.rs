@@ -1,4 +1,4 @@
-//! Questions to a target profile: a unit, a signal or a pin in, its facts out.
+//! Queries of a target profile: a unit, a signal or a pin in, its facts out.
 
 use super::types::{
     Adc, Dac, DacOutput, DmaRequest, ExtiRule, TargetProfile, Timer, Transport, Unit, Usb,
@@ -19,19 +19,20 @@ impl TargetProfile {
         self.name.rsplit_once('-').map_or("", |(_, version)| version)
     }
 
-    /// A timer by its name.
+    /// The timer with a name.
     #[must_use]
     pub fn timer(&self, name: &str) -> Option<&Timer> {
         self.timers.iter().find(|timer| timer.name == name)
     }
 
-    /// A converter by its number.
+    /// The converter with a number.
     #[must_use]
     pub fn adc(&self, number: u8) -> Option<&Adc> {
         self.adcs.iter().find(|adc| adc.number() == Some(number))
     }
 
-    /// An I²C, SPI, serial or CAN unit by its name (`CAN` is the only one, `CAN1`; so is `SPI`).
+    /// The I²C, SPI, serial or CAN unit with a name. `CAN`, the name of an only unit, means `CAN1`,
+    /// and `SPI` means `SPI1`.
     #[must_use]
     pub fn unit(&self, name: &str) -> Option<&Unit> {
         let name = match name {
@@ -51,21 +52,21 @@ impl TargetProfile {
         dac.outputs.iter().find(|output| output.channel == channel)
     }
 
-    /// A USB device by its name; without a name the first.
+    /// The USB device with a name; the first one if there is no name.
     #[must_use]
     pub fn usb(&self, name: Option<&str>) -> Option<&Usb> {
         self.usbs.iter().find(|usb| name.is_none_or(|name| usb.name.eq_ignore_ascii_case(name)))
     }
 
-    /// The DMA streams that the driver of a unit takes: none for one that takes no stream.
+    /// The DMA streams that the driver of a unit takes; empty if it takes none.
     #[must_use]
     pub fn dma(&self, unit: &str) -> &[DmaRequest] {
         let adc = self.adcs.iter().find(|adc| adc.name == unit).map(|adc| adc.dma.as_slice());
         adc.or_else(|| self.unit(unit).map(|unit| unit.dma.as_slice())).unwrap_or_default()
     }
 
-    /// The interrupt line of a pin; pins of one line exclude each other. `None` where pins have
-    /// lines of their own.
+    /// The interrupt line of a pin; pins on the same line exclude each other. `None` if each pin
+    /// has its own line.
     #[must_use]
     pub fn exti_group(&self, pin: &PinName) -> Option<u8> {
         match self.exti.rule {
@@ -74,8 +75,8 @@ impl TargetProfile {
         }
     }
 
-    /// The pins a link takes whatever the board: those of a USB device. A serial link's pins are
-    /// chosen like those of any device.
+    /// The pins that a link takes on any board, which are those of a USB device. The pins of a
+    /// serial link are chosen like those of any device.
     #[must_use]
     pub fn link_pins(&self, transport: Transport, unit: Option<&str>) -> &[PinName] {
         match transport {
@@ -84,7 +85,7 @@ impl TargetProfile {
         }
     }
 
-    /// The usual alternate function of a signal at a pin; a number in the table comes first.
+    /// The usual alternate function of a signal on a pin; a number in the table takes precedence.
     #[must_use]
     pub fn alternate(&self, signal: &Signal, pin: &PinName) -> Option<u8> {
         let unit = |unit: &Unit| {
@@ -104,7 +105,7 @@ impl TargetProfile {
         }
     }
 
-    /// True when the driver of some unit of the system can serve the function.
+    /// Whether the driver of some unit of the system can serve the function.
     #[must_use]
     pub fn serves(&self, function: &Function) -> bool {
         match function {

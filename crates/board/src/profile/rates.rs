@@ -1,34 +1,35 @@
-//! Facts of time in a target profile: sampling times, how clocks are divided, what the runtime costs.
+//! Timing facts in a target profile: sampling times, clock dividers, the cost of the runtime.
 
 use std::fmt;
 
 use serde::Deserialize;
 
-/// A sampling time in cycles of the converter's clock: whole, or and a half.
+/// A sampling time in cycles of the converter's clock: a whole number, or a whole number and a
+/// half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cycles {
     halves: u32,
 }
 
 impl Cycles {
-    /// So many cycles.
+    /// A whole number of cycles.
     #[must_use]
     pub const fn new(cycles: u32) -> Self {
         Self { halves: cycles.saturating_mul(2) }
     }
 
-    /// So many cycles and a half.
+    /// A whole number of cycles and a half.
     pub(crate) const fn and_a_half(cycles: u32) -> Self {
         Self { halves: cycles.saturating_mul(2).saturating_add(1) }
     }
 
-    /// Twice the cycles, which is whole.
+    /// Twice the number of cycles, which is always whole.
     #[must_use]
     pub const fn halves(self) -> u32 {
         self.halves
     }
 
-    /// The whole cycles.
+    /// The number of cycles, rounded down.
     #[must_use]
     pub const fn whole(self) -> u32 {
         self.halves / 2
@@ -42,8 +43,8 @@ impl fmt::Display for Cycles {
     }
 }
 
-/// The timing register of an I²C unit (`TIMINGR`): the unit's clock, divided by the prescaler, is counted for the low
-/// and the high part of a bus clock.
+/// The timing register of an I²C unit (`TIMINGR`): the unit's clock, divided by the prescaler, is
+/// counted for the low and the high phase of a bus clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct I2cTiming {
@@ -51,68 +52,69 @@ pub struct I2cTiming {
     pub prescaler_max: u32,
 }
 
-/// How a unit's clock is divided to the one on its wires.
+/// How a unit's clock is divided down to the clock on its wires.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dividers {
     /// The least and the greatest divider.
     pub range: [u32; 2],
-    /// Only the powers of two among them.
+    /// True if only powers of two in this range are possible.
     #[serde(default)]
     pub powers_of_two: bool,
-    /// The least and the greatest number of steps that a bit is made of beside the divider; 1 where
-    /// the divider alone makes it.
+    /// The least and the greatest number of steps per bit, besides the divider; 1 if there is only
+    /// the divider.
     #[serde(default = "one_step")]
     pub steps: [u32; 2],
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
-/// What the runtime costs the processor, in instructions.
+/// The cost of the runtime, in processor instructions per event.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Costs {
-    /// The macro of the core's clock.
+    /// The macro for the core's clock.
     pub clock: String,
-    /// Clock cycles of a hundred instructions.
+    /// Clock cycles per hundred instructions.
     pub cycles_per_hundred: u32,
-    /// A thread wakes for its cycle and sleeps again.
+    /// Waking a thread for its cycle, and putting it to sleep.
     pub wake: u32,
-    /// A conversion is started, and its end is noticed.
+    /// Starting a conversion, and handling its end.
     pub convert: u32,
-    /// An analog value is stored.
+    /// Storing an analog value.
     pub convert_value: u32,
-    /// A sample is added to a mean.
+    /// Adding a sample to a mean.
     pub convert_sample: u32,
-    /// A device on a bus is looked at.
+    /// Checking a device on a bus.
     pub bus_device: u32,
-    /// A transfer on a bus is started, and its end is noticed.
+    /// Starting a transfer on a bus, and handling its end.
     pub bus_transfer: u32,
-    /// An address on a bus with its interrupts: a transfer that writes and then reads has two.
+    /// Sending an address on a bus, with its interrupts; a transfer that writes and then reads
+    /// sends two.
     pub bus_phase: u32,
-    /// An element of a value is put together.
+    /// Assembling an element of a value.
     pub bus_element: u32,
-    /// A byte of it.
+    /// Handling a byte of an element.
     pub bus_byte: u32,
-    /// A line gets a pulse.
+    /// Sending a pulse on a line.
     pub pulse: u32,
-    /// An interrupt of a capture.
+    /// Handling an interrupt of a capture.
     pub capture: u32,
-    /// A capture is looked at by the reporter.
+    /// Checking a capture in the reporter.
     pub capture_look: u32,
-    /// The reporter wakes, looks whether anything is due, and sleeps again.
+    /// Waking the reporter, checking whether anything is due, and putting it to sleep.
     pub report: u32,
-    /// A report is begun and ended.
+    /// Beginning and ending a report.
     pub report_frame: u32,
-    /// A value goes into a report.
+    /// Adding a value to a report.
     pub report_value: u32,
-    /// A byte of a report is encoded.
+    /// Encoding a byte of a report.
     pub report_byte: u32,
-    /// A report goes out of a serial port.
+    /// Sending a report on a serial port.
     pub serial_frame: u32,
-    /// A byte of it.
+    /// Sending a byte of a report.
     pub serial_byte: u32,
-    /// How it was counted.
+    /// How the instructions were counted.
     pub source: String,
 }
 

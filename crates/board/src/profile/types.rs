@@ -18,13 +18,13 @@ pub struct TargetProfile {
     pub family: String,
     /// The line of the family.
     pub line: String,
-    /// The starts of the part numbers of the line.
+    /// The prefixes of the line's part numbers.
     pub parts: Vec<String>,
-    /// Letters of the GPIO ports.
+    /// The letters of the GPIO ports.
     pub gpio_ports: Vec<char>,
-    /// What the kernel takes.
+    /// The clock that the kernel takes.
     pub kernel: Kernel,
-    /// What the runtime costs the processor, where it was counted.
+    /// The cost of the runtime, if it was counted.
     pub costs: Option<Costs>,
     /// Pin interrupts.
     pub exti: Exti,
@@ -32,49 +32,50 @@ pub struct TargetProfile {
     pub debug: Debug,
     /// Timers.
     pub timers: Vec<Timer>,
-    /// What all converters have in common.
+    /// What all analog-digital converters share.
     pub adc: Adcs,
     /// Analog-digital converters.
     pub adcs: Vec<Adc>,
-    /// What all I²C units have in common.
+    /// What all I²C units share.
     pub i2c: I2cs,
     /// I²C units.
     pub i2cs: Vec<Unit>,
     /// SPI units.
     pub spis: Vec<Unit>,
-    /// How an SPI unit divides its clock, where it is known.
+    /// How an SPI unit divides its clock, if known.
     pub spi_dividers: Option<Dividers>,
     /// U(S)ARTs with a serial driver.
     pub serials: Vec<Unit>,
-    /// How a serial port divides its clock, where it is known.
+    /// How a serial port divides its clock, if known.
     pub serial_dividers: Option<Dividers>,
     /// CAN controllers.
     pub cans: Vec<Unit>,
-    /// How a CAN controller divides its clock, where it is known.
+    /// How a CAN controller divides its clock, if known.
     pub can_dividers: Option<Dividers>,
-    /// What all digital-analog converters have in common, where there are any.
+    /// What all digital-analog converters share, if there are any.
     pub dac: Option<Dacs>,
     /// Digital-analog converters.
     pub dacs: Vec<Dac>,
     /// USB devices.
     pub usbs: Vec<Usb>,
-    /// Clocks in hertz that the system makes by itself, by name; empty where a board's facts have them.
+    /// Clocks, in hertz, that the system sets itself, by name; empty if the board's facts have
+    /// them.
     pub clocks_hz: BTreeMap<String, u32>,
-    /// What only the system's own generator reads.
+    /// Facts that only the system's own generator reads.
     pub own: Own,
 }
 
-/// What only a system's own generator reads, as the file states it: how the system spells things. Its form
-/// is the generator's.
+/// Facts that only a system's own generator reads, as the file states them: how the system spells
+/// things. The generator defines their format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Own {
-    /// `[system]` of the file.
+    /// The table `[system]` of the file.
     pub file: toml::Table,
-    /// `system` of the line.
+    /// The table `system` of the line.
     pub line: toml::Table,
 }
 
-/// What carries frames between board and host.
+/// The medium that carries frames between board and host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transport {
@@ -88,15 +89,16 @@ pub enum Transport {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kernel {
-    /// Timers it can take, best first; the first that no device has is taken.
+    /// Timers that the kernel can take, best first; it takes the first one that no device uses.
     pub timers: Vec<String>,
-    /// What it takes when they are all gone; without one the last timer is not offered.
+    /// What it takes if devices use them all; without a fallback, the last timer is not offered to
+    /// devices.
     pub fallback: Option<Fallback>,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
-/// A clock of the kernel that is no timer.
+/// A kernel clock that is not a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fallback {
@@ -108,21 +110,21 @@ pub enum Fallback {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exti {
-    /// Number of lines.
+    /// The number of lines.
     pub lines: u8,
-    /// Which pins exclude each other.
+    /// The rule for which pins exclude each other.
     pub rule: ExtiRule,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
-/// Which pins exclude each other as interrupt lines.
+/// A rule for which pins exclude each other as interrupt lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub enum ExtiRule {
-    /// Pins of the same number, whatever their port: PA0 and PB0.
+    /// Pins with the same number, on any port: PA0 and PB0.
     #[serde(rename = "one port per number")]
     OnePortPerNumber,
-    /// None: every pin has a line of its own.
+    /// No pins: each has its own line.
     #[serde(rename = "one line per pin")]
     OneLinePerPin,
 }
@@ -131,78 +133,78 @@ pub enum ExtiRule {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Debug {
-    /// Pins without which the MCU cannot be programmed; they are not offered.
+    /// Pins needed to program the MCU; they are not offered.
     #[serde(deserialize_with = "pins")]
     pub pins: Vec<PinName>,
     /// Pins of trace output; they are offered.
     #[serde(default, deserialize_with = "pins")]
     pub trace: Vec<PinName>,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
 /// A timer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timer {
-    /// `TIM3`.
+    /// The name: `TIM3`.
     pub name: String,
     /// Width of the counter.
     pub bits: u8,
-    /// The name of the clock that drives it, among those of the board's facts.
+    /// The name of its clock, among those of the board's facts.
     pub clock: String,
     /// The usual alternate function of its pins.
     pub alternate: Option<u8>,
-    /// What input capture can use; `None` where it cannot measure.
+    /// What input capture can use; `None` if it cannot measure.
     pub icu: Option<TimerUse>,
-    /// What pulses can use.
+    /// What PWM can use.
     pub pwm: Option<TimerUse>,
-    /// The hardware can count quadrature on channels 1 and 2.
+    /// True if the hardware can count quadrature on channels 1 and 2.
     pub encoder: bool,
 }
 
-/// What a driver can use of a timer.
+/// The channels of a timer that a driver can use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TimerUse {
-    /// The channels it can use.
+    /// The usable channels.
     pub channels: Vec<u8>,
-    /// The channels whose inverted output it can use.
+    /// The channels with a usable inverted output.
     pub complementary: Vec<u8>,
 }
 
-/// What all converters have in common.
+/// What all analog-digital converters share.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adcs {
-    /// Sampling times there are, ascending.
+    /// The available sampling times, in ascending order.
     pub sample_cycles: Vec<Cycles>,
-    /// The one that is taken when nothing is said.
+    /// The default sampling time.
     pub sample_cycles_default: Cycles,
-    /// How many different sampling times the inputs of one group can have, where it is not one each. The last one
-    /// serves whoever asks for that or less.
+    /// How many different sampling times the inputs of a group can have, if not one each. The last
+    /// one also serves inputs that need less.
     pub sampling_times: Option<u8>,
     /// Bits of a result.
     pub resolution_bits: u8,
     /// Inputs in one conversion group.
     pub channels_max: u8,
-    /// The name of the clock that drives the converters, where it is known.
+    /// The name of the converters' clock, if known.
     pub clock: Option<String>,
-    /// What that clock is divided by.
+    /// The divider of that clock.
     #[serde(default = "one")]
     pub clock_divider: u32,
-    /// Cycles of a conversion behind those of sampling, where they are known.
+    /// Cycles of a conversion after sampling, if known.
     pub conversion_cycles: Option<Cycles>,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
 /// An analog-digital converter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adc {
-    /// `ADC1`.
+    /// The name: `ADC1`.
     pub name: String,
     /// Inputs that can be pins.
     pub inputs: Vec<u8>,
-    /// DMA requests of the driver.
+    /// The driver's DMA requests.
     pub dma: Vec<DmaRequest>,
 }
 
@@ -214,25 +216,25 @@ impl Adc {
     }
 }
 
-/// What all I²C units have in common.
+/// What all I²C units share.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct I2cs {
-    /// The fastest bus the driver accepts.
+    /// The fastest bus that the driver accepts, in hertz.
     pub speed_max_hz: u32,
-    /// The shortest read the driver accepts.
+    /// The shortest read that the driver accepts, in bytes.
     pub read_bytes_min: u8,
-    /// How the driver makes the bus clock; empty where it is told register values.
+    /// How the driver sets the bus clock; empty if it takes register values.
     #[serde(default)]
     pub modes: Vec<I2cMode>,
-    /// How register values make the bus clock, where the driver is told them.
+    /// How register values set the bus clock, if the driver takes them.
     pub timing: Option<I2cTiming>,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
-/// One way in which an I²C driver makes the bus clock: the unit's clock, divided by `clocks` times
-/// a whole number, with nothing left over.
+/// One way in which an I²C driver sets the bus clock: the unit's clock is divided, without
+/// remainder, by `clocks` times a whole number.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct I2cMode {
@@ -249,43 +251,43 @@ pub struct I2cMode {
 /// A unit with one driver: I²C, SPI, serial, CAN.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// `I2C1`.
+    /// The name: `I2C1`.
     pub name: String,
-    /// The name of the clock that drives it, where the generated code must know.
+    /// The name of its clock, if the generated code needs it.
     pub clock: Option<String>,
     /// The usual alternate function of its pins.
     pub alternate: Option<u8>,
     /// Pins with another alternate function.
     pub exceptions: Vec<Exception>,
-    /// DMA requests of the driver.
+    /// The driver's DMA requests.
     pub dma: Vec<DmaRequest>,
 }
 
-/// A pin whose alternate function is not the usual one of the unit.
+/// A pin whose alternate function differs from the usual one of the unit.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exception {
     /// The pin.
     #[serde(deserialize_with = "pin")]
     pub pin: PinName,
-    /// The number.
+    /// The number of its alternate function.
     pub alternate: u8,
 }
 
-/// What all digital-analog converters have in common.
+/// What all digital-analog converters share.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dacs {
     /// Bits of a value.
     pub resolution_bits: u8,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
 /// A digital-analog converter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dac {
-    /// `DAC1`.
+    /// The name: `DAC1`.
     pub name: String,
     /// Its outputs.
     pub outputs: Vec<DacOutput>,
@@ -301,26 +303,26 @@ pub struct DacOutput {
 /// A USB device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usb {
-    /// `OTG1`.
+    /// The name: `OTG1`.
     pub name: String,
     /// The alternate function of its pins.
     pub alternate: Option<u8>,
     /// The data lines: minus, plus.
     pub pins: Vec<PinName>,
-    /// The pin by which it is told that a host is there.
+    /// The pin that shows whether a host is there.
     pub vbus: Option<PinName>,
-    /// Units that cannot work beside it.
+    /// Units that cannot work at the same time.
     pub excludes: Vec<String>,
-    /// Endpoints beside the control endpoint.
+    /// The number of endpoints besides the control endpoint.
     pub endpoints: u8,
-    /// Where in the system's source the facts were read.
+    /// The place in the system's source that the facts come from.
     pub source: String,
 }
 
-/// A request of a driver for a DMA stream of its own.
+/// A driver's request for a DMA stream of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmaRequest {
-    /// `I2C1_RX`.
+    /// The name: `I2C1_RX`.
     pub name: String,
     /// Streams that can serve it, best first.
     pub streams: Vec<Stream>,
@@ -351,13 +353,13 @@ impl<'de> Deserialize<'de> for Stream {
     }
 }
 
-/// Reads a pin name of a data file.
+/// Reads a pin name from a data file.
 pub(crate) fn pin<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PinName, D::Error> {
     let text = String::deserialize(deserializer)?;
     PinName::parse(&text).ok_or_else(|| D::Error::custom(format!("`{text}` is no pin")))
 }
 
-/// Reads the pin names of a data file.
+/// Reads the pin names from a data file.
 pub(crate) fn pins<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<PinName>, D::Error> {
     let texts = Vec::<String>::deserialize(deserializer)?;
     let read = |text: &String| {

@@ -18,7 +18,7 @@ pub(super) fn normalise(spelled: &str) -> String {
         .collect()
 }
 
-/// The one name of a function that has several spellings.
+/// The canonical name of a function that has several spellings.
 pub(super) fn canonical(function: &Function) -> Option<String> {
     match function {
         Function::Adc { units, channel } => {
@@ -47,7 +47,7 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
     }
 }
 
-/// What a normalised name was read as.
+/// The result of reading a normalised name.
 pub(super) enum Reading {
     Function(Function),
     /// Free text, or a line that no device kind uses (`USART1_CTS`).
@@ -55,8 +55,8 @@ pub(super) enum Reading {
     Malformed,
 }
 
-/// The peripheral families and the lines of each that no device kind uses (a trailing `*` stands
-/// for anything).
+/// The peripheral families, and for each family the lines that no device kind uses (a trailing `*`
+/// stands for anything).
 const FAMILIES: [(&str, &[&str]); 11] = [
     ("LPUART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("USART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
@@ -71,7 +71,7 @@ const FAMILIES: [(&str, &[&str]); 11] = [
     ("DAC", &["EXTI*"]),
 ];
 
-/// Peripherals with a name one letter from a family's, which are something else.
+/// Other peripherals with a name one letter away from a family's.
 const NEIGHBOURS: [&str; 9] = ["I2S", "I3C", "SAI", "QSPI", "OSPI", "HSPI", "XSPI", "FSPI", "VSPI"];
 
 pub(super) fn read(name: &str) -> Reading {
@@ -93,7 +93,7 @@ pub(super) fn read(name: &str) -> Reading {
         None => line == *pattern,
     };
     let numbered = number.parse::<u32>().is_ok();
-    // Inputs of the second bank of the converter of an STM32L1, which has to be switched to.
+    // An input of the second bank of an STM32L1's converter, which has to be switched to.
     let second = line.strip_prefix("IN").and_then(|line| line.strip_suffix('B'));
     let second = *family == "ADC" && second.and_then(small).is_some();
     if numbered && (second || unused.iter().any(fits)) {
@@ -103,21 +103,23 @@ pub(super) fn read(name: &str) -> Reading {
     }
 }
 
-/// `TIM3_CH1` to (`TIM`, `3`, `CH1`). A stem ends in a letter; `I2C` holds a digit of its own.
+/// Splits `TIM3_CH1` into (`TIM`, `3`, `CH1`). A stem ends in a letter; `I2C` itself contains a
+/// digit.
 fn split(name: &str) -> Option<(&str, &str, &str)> {
     let (unit, line) = name.split_once('_')?;
     let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
     Some((stem, unit.strip_prefix(stem)?, line))
 }
 
-/// A family's name and a digit, with no separator behind: `ADC12IN8`, `TIM3`.
+/// Whether a family's name is followed by a digit, with no separator after it: `ADC12IN8`, `TIM3`.
 fn misses_separator(name: &str) -> bool {
     FAMILIES.iter().any(|(family, _)| {
         name.strip_prefix(family).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     })
 }
 
-/// An unknown stem one slip from a family's, before a line of just that family: `USRAT1_TX`.
+/// Whether this is an unknown stem, one typing mistake away from a family's, before a line of that
+/// family: `USRAT1_TX`.
 fn misspelt_family(stem: &str, line: &str) -> bool {
     if stem.len() < 2 || NEIGHBOURS.contains(&stem) || stem.starts_with("LP") {
         return false;
@@ -126,7 +128,7 @@ fn misspelt_family(stem: &str, line: &str) -> bool {
     nearest(stem, families.filter(|family| function(family, "1", line).is_some())).is_some()
 }
 
-/// The function of a family's line, when that is what it is.
+/// The function of a family's line, if it is one.
 fn function(family: &str, number: &str, line: &str) -> Option<Function> {
     // A number has no sign and no leading zero; `ADC_IN5` and `DAC_OUT1` stand for the only unit.
     let unit = || small(number);
@@ -184,7 +186,7 @@ fn spi_line(line: &str) -> Option<SpiLine> {
     }
 }
 
-/// `CH2`, `CH2N`, and `CH1_ETR` where the channel shares its pin with the trigger input.
+/// `CH2`, `CH2N`, and `CH1_ETR` if the channel shares its pin with the trigger input.
 fn timer(unit: UnitName, line: &str) -> Option<Function> {
     let channel = line.strip_prefix("CH")?;
     let channel = channel.strip_suffix("_ETR").unwrap_or(channel);
@@ -207,8 +209,8 @@ fn pwm_slice(name: &str) -> Option<Function> {
     Some(Function::Timer { unit, channel, line: TimerLine::Both })
 }
 
-/// `SPI0_RX`, `SPI0_TX`, `SPI0_CSn` of RP2040, and `SPI_SS` of AVR. No misspelling is mended to one
-/// of these: too many other peripherals have such lines.
+/// `SPI0_RX`, `SPI0_TX`, `SPI0_CSn` of RP2040, and `SPI_SS` of AVR. No misspelling is corrected to
+/// one of these: too many other peripherals have such lines.
 fn spi_by_direction(name: &str) -> Option<Function> {
     let (unit, line) = name.split_once('_')?;
     let number = unit.strip_prefix("SPI")?;
@@ -224,7 +226,8 @@ fn spi_by_direction(name: &str) -> Option<Function> {
     Some(Function::Spi { unit: UnitName(unit.to_owned()), line })
 }
 
-/// `OC1A`, `OC4AN` and `ICP1`: what AVRs call the outputs and the capture input of a timer/counter.
+/// `OC1A`, `OC4AN` and `ICP1`: AVR's names for the outputs and the capture input of a
+/// timer/counter.
 fn avr_timer(name: &str) -> Option<Function> {
     let (number, channel, line) = if let Some(number) = name.strip_prefix("ICP") {
         (number, 1, TimerLine::Input)
@@ -246,7 +249,7 @@ fn avr_timer(name: &str) -> Option<Function> {
     Some(Function::Timer { unit: UnitName(format!("TC{number}")), channel, line })
 }
 
-/// One digit a unit, ascending; `ADC_IN5` is the only unit's.
+/// One digit per unit, in ascending order; `ADC_IN5` belongs to the only unit.
 fn adc_units(digits: &str) -> Option<Vec<u8>> {
     if digits.is_empty() {
         return Some(vec![1]);
@@ -275,7 +278,7 @@ pub(super) fn mend(name: &str) -> Option<String> {
         let family = nearest(stem, FAMILIES.iter().map(|(family, _)| *family))?;
         (family, name.strip_prefix(stem)?)
     };
-    // A unit that is not given is the first one, as nothing says which was meant.
+    // If no unit is given, this is the first one, because nothing shows which was meant.
     let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
     let (number, line) = rest.split_at_checked(end)?;
     let unit = if number.is_empty() && family != "CAN" { "1" } else { number };

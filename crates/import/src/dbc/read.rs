@@ -1,4 +1,5 @@
-//! The lines of a DBC file: nodes, messages, signals, types, value tables and the cycle times of messages.
+//! The lines of a DBC file: nodes, messages, signals, types, value tables and the cycle times of
+//! messages.
 
 use std::collections::BTreeMap;
 
@@ -8,15 +9,15 @@ use sensedsl_limits::DBC_PARTS_MAX;
 
 use crate::log::Log;
 
-/// An identifier has 29 bits where this one is set.
+/// The bit of an identifier that marks it as having 29 bits.
 const EXTENDED: u32 = 1 << 31;
 
-/// What a file says.
+/// The contents of a file.
 #[derive(Debug, Default)]
 pub(super) struct Network {
     pub(super) nodes: Vec<String>,
     pub(super) messages: Vec<Message>,
-    /// Bits per second, where the file says it.
+    /// Bits per second, if the file states them.
     pub(super) bitrate_hz: Option<u32>,
 }
 
@@ -47,7 +48,7 @@ pub(super) struct Signal {
     pub(super) most: f64,
     pub(super) unit: String,
     pub(super) receivers: Vec<String>,
-    /// What its values mean.
+    /// The meanings of its values.
     pub(super) words: Vec<(i64, String)>,
 }
 
@@ -59,32 +60,32 @@ pub(super) enum Number {
     Double,
 }
 
-/// In which contents of its message a signal is.
+/// Which contents of its message a signal is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mux {
     Always,
-    /// It says which content there is.
+    /// The signal selects the contents.
     Selector,
     Only(u64),
-    /// Selected, and selects further ones.
+    /// The signal is selected, and selects further signals.
     Nested,
-    /// Selected by a value that is not said.
+    /// The signal is selected by an unstated value.
     Open,
 }
 
 struct Reader<'l> {
     network: Network,
-    /// Where each message is.
+    /// The index of each message.
     places: BTreeMap<u32, usize>,
-    /// Where each signal is in its message, by the message's identifier.
+    /// The index of each signal in its message, by the message's identifier.
     signals: BTreeMap<(u32, String), usize>,
     current: Option<u32>,
-    /// How many parts there are so far, of [`DBC_PARTS_MAX`].
+    /// The number of parts so far, out of [`DBC_PARTS_MAX`].
     parts: usize,
     log: &'l mut Log,
 }
 
-/// Reads a file; each line that is wrong is told.
+/// Reads a file; each wrong line is reported.
 pub(super) fn read(file: FileId, name: &str, text: &str, log: &mut Log) -> Network {
     let (network, places, signals) = (Network::default(), BTreeMap::new(), BTreeMap::new());
     let mut reader = Reader { network, places, signals, current: None, parts: 0, log };
@@ -93,7 +94,8 @@ pub(super) fn read(file: FileId, name: &str, text: &str, log: &mut Log) -> Netwo
     for line in text.split_inclusive('\n') {
         let (from, to) = (begin, begin + line.trim_end().len());
         begin += line.len();
-        // A text goes on in the next line until its quote ends; its first line says what it is of.
+        // A text continues on the next line until its quote ends; its first line states what it
+        // belongs to.
         let is_inside = open;
         open ^= line.matches('"').count() % 2 == 1;
         if is_inside {
@@ -151,7 +153,8 @@ impl Reader<'_> {
         let raw: u32 = whole(id, "an identifier")?;
         let own = raw & !EXTENDED;
         if own > 0x1FFF_FFFF {
-            // Tools keep what is on no bus under such numbers: VECTOR__INDEPENDENT_SIG_MSG holds signals of no message.
+            // Tools store items that are on no bus under such numbers: VECTOR__INDEPENDENT_SIG_MSG
+            // holds signals without a message.
             let what = format!("{name} is left out: {raw} is not an identifier of 11 or 29 bits");
             self.log.dropped(span, "", &what);
             return Ok(());
@@ -236,8 +239,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `ID SIGNAL SELECTOR FROM-TO;`, which may only repeat the `m3` of the signal; the list of words at the start of
-    /// a file says nothing.
+    /// `ID SIGNAL SELECTOR FROM-TO;`, which may only repeat the signal's `m3`. In the list of words
+    /// at the start of a file it means nothing.
     fn says_the_same(&mut self, rest: &str) -> bool {
         let mut words = rest.trim_end_matches(';').split_whitespace();
         let (Some(id), Some(name), Some(_)) = (words.next(), words.next(), words.next()) else {
@@ -282,7 +285,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `ID SIGNAL : 1;` for 32 and 2 for 64 bits.
+    /// `ID SIGNAL : 1;` for 32 bits, and 2 for 64 bits.
     fn real(&mut self, rest: &str) -> Result<(), String> {
         let words: Vec<&str> =
             rest.split([' ', ':', ';', '\t']).filter(|one| !one.is_empty()).collect();

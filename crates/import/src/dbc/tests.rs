@@ -92,7 +92,8 @@ fn what_is_wrong_has_its_line() {
     assert_eq!(said, ["W0804 3 S is left out: its bits are not in the 2 bytes of its message"]);
 }
 
-/// Tools keep signals of no message, and messages of other buses, under identifiers that no frame has.
+/// Tools store signals without a message, and messages of other buses, under identifiers that no
+/// frame can have.
 #[test]
 fn a_message_that_no_frame_can_be_is_left_out() {
     let (text, said) = imported(
@@ -111,7 +112,7 @@ fn a_message_that_no_frame_can_be_is_left_out() {
     assert!(text.contains("sensor S returns uint8") && !text.contains("one"), "{text}");
 }
 
-/// Many files of the field forget bit 31, which says that an identifier has 29 bits.
+/// Many real files omit bit 31, which marks a 29-bit identifier.
 #[test]
 fn a_great_identifier_has_29_bits() {
     let (text, said) = imported(
@@ -126,7 +127,7 @@ fn a_great_identifier_has_29_bits() {
     assert_eq!(said, [format!("W0805 2 {why}"), format!("W0804 4 {orphans}")]);
 }
 
-/// `SG_MUL_VAL_` is a range, a repetition of what `m3` says, or a word of the list at the start.
+/// `SG_MUL_VAL_` is a range, a repetition of `m3`, or a word in the list at the start.
 #[test]
 fn only_ranges_of_selecting_values_are_left_out() {
     let (text, said) = imported(
@@ -141,7 +142,8 @@ fn only_ranges_of_selecting_values_are_left_out() {
     assert_eq!(said, [open, range]);
 }
 
-/// A file of a whole car has thousands of signals: what is beyond is one warning, with the way out.
+/// A file for a whole car has thousands of signals: those beyond the limit give one warning, with a
+/// way out.
 #[test]
 fn signals_beyond_the_identifiers_are_counted() {
     let signal = |at: usize| format!(" SG_ S{at} : 0|8@1+ (1,0) [0|0] \"\" B\n");

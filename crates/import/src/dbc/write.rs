@@ -1,4 +1,4 @@
-//! From the messages of a bus to devices as text.
+//! From the messages of a bus to devices, as text.
 
 use std::collections::BTreeSet;
 
@@ -14,14 +14,14 @@ struct Writer<'a> {
     text: String,
     bitrate_hz: Option<u32>,
     node: Option<&'a str>,
-    /// Names that are taken, without case and underscores.
+    /// Names in use, without case and underscores.
     names: BTreeSet<String>,
     count: usize,
-    /// The first signal beyond the most devices that there may be, and how many there are.
+    /// The first signal beyond the limit on devices, and the number of such signals.
     beyond: Option<(&'a Signal, usize)>,
 }
 
-/// The devices of a node; none when it neither sends nor receives anything.
+/// The devices of a node; none if it neither sends nor receives anything.
 pub(super) fn program<'a>(
     network: &'a Network,
     name: &str,
@@ -88,7 +88,7 @@ impl<'a> Writer<'a> {
         }
         self.text.push_str(&format!("\n// {}\n", one_line(&message.name)));
         let mut selected_by = None;
-        // The selector first: the others name it.
+        // The selector comes first, because the others name it.
         wanted.sort_by_key(|signal| signal.mux != Mux::Selector);
         for signal in wanted {
             let name = self.signal(message, signal, is_sent, selected_by.as_deref(), log);
@@ -98,7 +98,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes a signal; gives the name of its device.
+    /// Writes a signal; returns the name of its device.
     fn signal(
         &mut self,
         message: &Message,
@@ -164,7 +164,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Properties of the device of a signal, or why it cannot be one.
+/// The properties of a signal's device, or why it cannot be one.
 fn lines(
     message: &Message,
     signal: &Signal,
@@ -226,7 +226,7 @@ fn shown(signal: &Signal) -> Vec<String> {
     if !unit.is_empty() {
         lines.push(format!("quantity = \"{unit}\";"));
     }
-    // What the bits cannot reach anyway says nothing.
+    // A bound that the bits cannot reach anyway is left out.
     let (least, most) = reach(signal);
     let is_bool = value(signal) == "bool" && !is_scaled;
     if signal.least < signal.most && !is_bool {
@@ -241,7 +241,7 @@ fn shown(signal: &Signal) -> Vec<String> {
     lines
 }
 
-/// What the bits of a signal can show: from, to.
+/// The range of values that the bits of a signal can show.
 fn reach(signal: &Signal) -> (f64, f64) {
     let full = |bits: u32| 2_f64.powi(i32::try_from(bits).unwrap_or(64));
     let (from, to) = match signal.kind {
@@ -254,7 +254,7 @@ fn reach(signal: &Signal) -> (f64, f64) {
     (ends[0].min(ends[1]), ends[0].max(ends[1]))
 }
 
-/// The type of its device: the smallest that holds its bits.
+/// The type of its device, which is the smallest that holds its bits.
 fn value(signal: &Signal) -> &'static str {
     match (signal.kind, signal.bits) {
         (Number::Float, _) => "float32",
@@ -271,7 +271,7 @@ fn value(signal: &Signal) -> &'static str {
     }
 }
 
-/// A number as the language has it.
+/// A number in the syntax of the language.
 fn number(number: f64) -> String {
     format!("{number}")
 }

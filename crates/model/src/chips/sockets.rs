@@ -1,4 +1,4 @@
-//! The connections of a chip: what its driver names, with what the chip says of each.
+//! The connections of a chip: those that its driver names, with what the chip adds to each.
 
 use sensedsl_diagnostics::codes::{
     e0204_duplicate_name, e0209_wrong_value, e0229_wrong_driver, e0230_unknown_reading,
@@ -19,20 +19,20 @@ use crate::placement;
 
 /// A connection that a driver has.
 pub(super) struct Socket {
-    /// None where the driver is for one kind.
+    /// Its name; none where the driver is for one kind.
     pub(super) name: Option<String>,
     pub(super) kind: KindName,
     pub(super) direction: Direction,
     /// The first device whose value goes over it.
     pub(super) device: DeviceIndex,
-    /// Whether a device of the chip needs it, or every chip of the driver does.
+    /// Whether a device of the chip, or every chip with this driver, needs it.
     pub(super) is_used: bool,
     /// Whether a reading or command of the driver goes over it.
     pub(super) is_of_a_value: bool,
     value: ValueType,
-    /// What the driver says of it.
+    /// The driver's block for it.
     node: Option<ast::Connection>,
-    /// What the chip says of it.
+    /// The chip's block for it.
     block: Option<ast::Connection>,
 }
 
@@ -67,7 +67,7 @@ pub(super) fn describe(
     }
 }
 
-/// The connections that a driver names; one without a name where it is for one kind.
+/// The connections that a driver names, or one without a name if the driver is for one kind.
 pub(super) fn of_driver(driver: &Driver, diagnostics: &mut Vec<Diagnostic>) -> Option<Vec<Socket>> {
     let mut sockets: Vec<Socket> = Vec::new();
     if let Some(kind) = driver.kind {
@@ -100,7 +100,7 @@ impl Socket {
         Self {
             name,
             kind,
-            // What no value goes over is held at a level.
+            // A connection that carries no value is held at a level.
             direction: kind.spec().directions.last().copied().unwrap_or(Direction::Actuator),
             device: DeviceIndex(0),
             is_used: false,
@@ -111,7 +111,7 @@ impl Socket {
         }
     }
 
-    /// Notes that the value of a device goes over it.
+    /// Records that a device's value goes over it.
     pub(super) fn take(&mut self, device: DeviceIndex, given: &Given) {
         if !self.is_used {
             self.device = device;
@@ -123,17 +123,17 @@ impl Socket {
         self.is_of_a_value = true;
     }
 
-    /// What the chip's block for it says.
+    /// The properties in the chip's block for it.
     pub(super) fn block_properties(&self) -> impl Iterator<Item = Property> {
         self.block.iter().flat_map(|node| node.properties().collect::<Vec<_>>())
     }
 
-    /// What the driver's block for it says.
+    /// The properties in the driver's block for it.
     pub(super) fn driver_properties(&self) -> impl Iterator<Item = Property> {
         self.node.iter().flat_map(|node| node.properties().collect::<Vec<_>>())
     }
 
-    /// What it is, and what is fixed of its wires.
+    /// Its kind, and the fixed placement of its wires.
     pub(super) fn read(
         &self,
         whole: &ChipReader<'_>,
@@ -194,7 +194,7 @@ impl Socket {
     }
 }
 
-/// One set of wires, whatever the value.
+/// A single number: one set of wires, whatever the value.
 fn whole_value() -> ValueType {
     ValueType::scalar(ScalarType::Uint16)
 }

@@ -1,4 +1,4 @@
-//! The values of a chip: what its driver gives and takes, and which of them the chip's devices are.
+//! The values of a chip: those that its driver names, and which of them the chip's devices are.
 
 use sensedsl_diagnostics::codes::{
     e0220_impossible_type, e0229_wrong_driver, e0230_unknown_reading,
@@ -18,18 +18,18 @@ use crate::fields::{Fields, span};
 use crate::names::folded;
 use crate::types;
 
-/// A reading or a command of a driver.
+/// A reading or command of a driver.
 #[derive(Clone, Debug)]
 pub(super) struct Given {
     pub(crate) name: String,
     pub(crate) direction: Direction,
     pub(crate) value: ValueType,
     pub(crate) properties: Vec<Property>,
-    /// The connections that it goes over, by their number.
+    /// Indices of the connections that it goes over.
     pub(crate) via: Vec<usize>,
 }
 
-/// A device of a chip and which of the driver's values it is.
+/// A device of a chip, and the driver's value that it is.
 pub(super) struct Asked {
     pub(super) name: Spanned<String>,
     pub(super) block: Span,
@@ -38,7 +38,8 @@ pub(super) struct Asked {
     pub(super) given: Given,
 }
 
-/// What a driver says for all its values: neither of the part itself nor of its start.
+/// The properties that a driver gives for all its values, without those of the part itself and of
+/// its start.
 pub(super) fn shared(driver: &Driver) -> impl Iterator<Item = Property> {
     let own = |one: &Property| {
         one.name().is_some_and(|name| {
@@ -48,12 +49,13 @@ pub(super) fn shared(driver: &Driver) -> impl Iterator<Item = Property> {
     driver.node.properties().filter(own)
 }
 
-/// Whether the chip's formula makes the value of its bytes: of a sensor that says nothing else.
+/// Whether the chip's formula computes the value from its bytes: true of a sensor that states
+/// nothing else.
 pub(super) fn is_computed(given: &Given) -> bool {
     given.direction == Direction::Sensor
 }
 
-/// The readings and commands of a driver; of one without any, what its devices have in common.
+/// The readings and commands of a driver. If it has none, the one value that all its devices have.
 pub(super) fn given(
     driver: &Driver,
     sockets: &[Option<&str>],
@@ -92,7 +94,8 @@ pub(super) fn given(
     all
 }
 
-/// The connections that a reading or command goes over: those it names, or the only one.
+/// The connections that a reading or command goes over: those that it names, or the only one there
+/// is.
 fn via(
     (file, at): (FileId, Span),
     properties: &[Property],
@@ -155,7 +158,7 @@ pub(super) fn all(whole: &ChipReader<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     asked.collect()
 }
 
-/// The value of the driver that a device is.
+/// The driver's value that a device is.
 pub(super) fn stated(
     whole: &ChipReader<'_>,
     node: &ast::Device,

@@ -1,4 +1,4 @@
-//! What the file says of where wires are to be: what must be, and what is wished for.
+//! Where the file wants wires to be: what must hold, and what is wished for.
 
 use sensedsl_diagnostics::Span;
 
@@ -6,24 +6,24 @@ use super::Spanned;
 use crate::kind::Role;
 use crate::pins::PinRef;
 
-/// What the user fixed of a device's wiring.
+/// The fixed parts of a device's wiring.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Placement {
-    /// Fixed pins by role.
+    /// Fixed pins, by role.
     pub pins: Vec<(Role, Spanned<PinRef>)>,
-    /// Fixed peripheral instance, upper case (`ADC1`).
+    /// The fixed peripheral instance, in upper case (`ADC1`).
     pub unit: Option<Spanned<String>>,
-    /// Only pins on that side.
+    /// The side that the pins must be on.
     pub side: Option<Spanned<String>>,
-    /// Only pins on that header.
+    /// The header that the pins must be on.
     pub header: Option<Spanned<String>>,
-    /// What the elements of an array have in common.
+    /// What the elements of an array must have in common.
     pub together: Vec<Spanned<Together>>,
-    /// The elements of an array come one after the other along a header.
+    /// Where the file states that the elements of an array are consecutive on a header.
     pub sequence: Option<Span>,
 }
 
-/// What the elements of an array can have in common.
+/// Something that the elements of an array can have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Together {
     /// The peripheral instance.
@@ -35,10 +35,10 @@ pub enum Together {
 }
 
 impl Together {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 3] = [Self::Unit, Self::Header, Self::Side];
 
-    /// The word of the language.
+    /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -54,13 +54,13 @@ impl Together {
 pub struct Wish {
     /// True for `prefer`, false for `avoid`.
     pub prefer: bool,
-    /// Of what.
+    /// The thing preferred or avoided.
     pub what: WishFor,
-    /// Where the rule stands.
+    /// The place of the rule.
     pub span: Span,
 }
 
-/// What a soft rule speaks of.
+/// The thing that a soft rule is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WishFor {
     /// A pin, of one role or of any.
@@ -71,8 +71,8 @@ pub enum WishFor {
     Side(String),
     /// A header of the board.
     Header(String),
-    /// The elements of an array have something in common.
+    /// Something that the elements of an array have in common.
     Together(Together),
-    /// The elements of an array come one after the other along a header.
+    /// Consecutive elements of an array on a header.
     Sequence,
 }

@@ -1,27 +1,29 @@
-//! A part in a design: what is known of it in, a few lines that use it the natural way out.
+//! An example of a part: what is known about it in, a few lines that use it in a typical way out.
 
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::{PartFacts, ValueFacts, head_of_device};
 use crate::kind::{Kind, KindName, Sharing};
 
-/// The board of examples: one that many have.
+/// The board of most examples, because many people have it.
 pub const EXAMPLE_BOARD: &str = "NUCLEO_F446RE";
-/// The same for a part with inverted wires, which the serial ports of the other cannot have.
+/// The board for a part with inverted wires, which the serial ports of the other board do not
+/// support.
 const INVERTING_BOARD: &str = "NUCLEO_F303RE";
-/// Most lines of an example.
+/// Most lines in an example.
 const LINES_MAX: usize = 10;
-/// Cycle time of the sensors in examples, and of those that take longer to measure.
+/// Cycle times of the sensors in examples; the longer ones are for sensors that take longer to
+/// measure.
 const DELAYS_MS: [u32; 3] = [100, 200, 1_000];
 
-/// A board with the part, in the canonical layout and at most ten lines: a chip with its first values, or a
-/// device where there is one.
+/// A board with the part, in the canonical layout and at most ten lines: a chip with its first
+/// values, or a device if there is only one.
 #[must_use]
 pub fn example(part: &PartFacts) -> String {
     example_on(part, example_board(part))
 }
 
-/// The board of a part's example.
+/// The board for a part's example.
 #[must_use]
 pub fn example_board(part: &PartFacts) -> &'static str {
     let is_inverted = |one: &ValueFacts| one.kind.uart().is_some_and(|uart| uart.is_inverted);
@@ -29,7 +31,7 @@ pub fn example_board(part: &PartFacts) -> &'static str {
     if inverts { INVERTING_BOARD } else { EXAMPLE_BOARD }
 }
 
-/// As [`example`], on another board.
+/// Like [`example`], on another board.
 #[must_use]
 pub fn example_on(part: &PartFacts, board: &str) -> String {
     let mut lines = vec![format!("board Robot on {board} {{")];
@@ -59,7 +61,8 @@ pub fn example_on(part: &PartFacts, board: &str) -> String {
     lines.join("\n")
 }
 
-/// The first values, without those that are part of another one, and at least one of each direction.
+/// The first values, without those that are part of another one, and with at least one in each
+/// direction.
 fn shown(values: &[ValueFacts], room: usize) -> Vec<&ValueFacts> {
     let mut shown: Vec<&ValueFacts> = Vec::new();
     for value in values {
@@ -76,7 +79,7 @@ fn shown(values: &[ValueFacts], room: usize) -> Vec<&ValueFacts> {
     shown
 }
 
-/// Whether the registers of a value are among those of another, longer one.
+/// Whether the registers of a value are among those of another, longer value.
 fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
     let place = |one: &ValueFacts| {
         let i2c = one.kind.i2c()?;
@@ -89,7 +92,7 @@ fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
     same_way && longer && outer.0 <= inner.0 && inner.1 <= outer.1
 }
 
-/// The cycle time that suits the part; none where it sends by itself, or is sent to.
+/// A cycle time that suits the part; none if the part sends on its own, or is sent to.
 fn delay_ms(part: &PartFacts) -> Option<u32> {
     let asked = |one: &&ValueFacts| {
         one.direction == Direction::Sensor && !matches!(one.kind, Kind::Uart(_))
@@ -98,20 +101,21 @@ fn delay_ms(part: &PartFacts) -> Option<u32> {
     if asked.iter().any(|one| measures_itself(&one.kind)) {
         return None;
     }
-    // All values on one bus are measured one after the other.
+    // All values on a bus are measured one after the other.
     let times = || asked.iter().map(|one| one.kind.measuring_us().div_ceil(1_000));
     let is_bus = asked.first()?.kind.name().spec().sharing != Sharing::Own;
     let takes: u32 = if is_bus { times().sum() } else { times().max().unwrap_or(0) };
     DELAYS_MS.into_iter().find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
 }
 
-/// Whether the cycle time says nothing about it: the hardware measures whenever there is something.
+/// Whether the cycle time does not apply, because the hardware measures whenever there is something
+/// to measure.
 fn measures_itself(kind: &Kind) -> bool {
     let is_asked = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
     kind.name().spec().triggers_itself && !is_asked
 }
 
-/// `magnetic_field` as `MagneticField`.
+/// `magnetic_field` becomes `MagneticField`.
 fn camel(name: &str) -> String {
     let words = name.split('_').map(|word| {
         let mut letters = word.chars();
@@ -121,7 +125,7 @@ fn camel(name: &str) -> String {
     words.collect()
 }
 
-/// The type that suits the only value of a part: of so many bytes where they are counted.
+/// The type that suits a part's only value; where bytes are counted, it has that many.
 pub(super) fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {
     let scalar = match kind {
         KindName::Digital => ScalarType::Bool,

@@ -1,4 +1,4 @@
-//! What a value is when it is no quantity: numbers without a unit, names, texts, bytes.
+//! Values that are not quantities: numbers without a unit, names, texts, bytes.
 
 use crate::value::{Measure, Value};
 
@@ -40,7 +40,7 @@ pub(super) fn byte_list(value: &Value) -> Option<Vec<i128>> {
     }
 }
 
-/// What a value is, for messages.
+/// What sort of value it is, for messages.
 pub(super) fn describe(value: &Value) -> &'static str {
     match value {
         Value::Number(number) if number.measure == Measure::Raw => "a code",

@@ -41,7 +41,7 @@ impl Fields<'_> {
         self.whole(&field, hz, range, "Hz")
     }
 
-    /// A pace given as a frequency or as the time of one tick.
+    /// A rate, given as a frequency or as the time of one tick.
     pub(crate) fn rate_hz(
         &mut self,
         name: &str,
@@ -138,7 +138,8 @@ impl Fields<'_> {
         let least = f64::from(*range.start());
         let most = f64::from(*range.end());
         let rounded = value.round();
-        // Relative to the value: 0.1 s is 100,000.00000000001 us in binary, and 0.7 ms is not 1 ms.
+        // The tolerance is relative: 0.1 s is 100,000.00000000001 us in binary, and 0.7 ms is not 1
+        // ms.
         let whole = (value - rounded).abs() <= 1e-6 * rounded.abs();
         if !(rounded >= least && rounded <= most && whole) {
             let text = format!("a whole number of {unit} from {least} to {most}");
@@ -163,7 +164,7 @@ impl Fields<'_> {
     }
 }
 
-/// A number without a unit is one of that unit.
+/// Gives a number without a unit that unit.
 fn with_unit(number: &Number, bare: Unit) -> Number {
     match number.measure {
         Measure::Bare => Number { measure: Measure::Unit(bare), ..*number },
@@ -171,8 +172,8 @@ fn with_unit(number: &Number, bare: Unit) -> Number {
     }
 }
 
-/// What a quantity is of, the factor of its base unit to microseconds, hertz, millivolts or ohms, and
-/// the units it is written in.
+/// A quantity's dimension, the factor from its base unit to microseconds, hertz, millivolts or
+/// ohms, and the units that it can be written in.
 struct Quantity {
     dimension: Dimension,
     per_base: f64,

@@ -1,8 +1,7 @@
-//! Values as they are shown: what a person gives for a device in, the code that goes over the wire
-//! out.
+//! Shown values: what a person gives for a device in, the code that goes over the wire out.
 //!
-//! A bare number is in the unit that the device shows, `raw 307` is the code, and a number with a unit
-//! is converted where the units fit.
+//! A bare number is in the unit that the device shows, `raw 307` is a code, and a number with a
+//! unit is converted if the units fit.
 
 use sensedsl_diagnostics::Span;
 use sensedsl_diagnostics::codes::{e0234_value_does_not_fit as misfit, h0707_of_ten_thousand};
@@ -14,32 +13,33 @@ use crate::design::{Presentation, Spanned};
 use crate::reach::rounded;
 use crate::value::{Dimension, Measure, Number, Value, power_of_ten, shifted};
 
-/// Codes of a hundredth of a pwm output's range.
+/// Codes per percent of a pwm output's range.
 const CODES_OF_PERCENT: f64 = 100.0;
-/// Codes of all of it.
+/// Codes of the whole range.
 const CODES: f64 = 10_000.0;
 
-/// What a value can be as a code.
+/// The codes that a value can have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Codes {
-    /// The least and the greatest that the type holds and the part takes; none where that is not known.
+    /// The least and the greatest code that the type holds and the part takes; none if that is not
+    /// known.
     pub(crate) range: Option<(f64, f64)>,
-    /// Whether only whole numbers are codes.
+    /// Whether codes are whole numbers.
     pub(crate) is_whole: bool,
-    /// The pulses of the least and the greatest, in microseconds, of a pwm output by itself.
+    /// The pulses of the least and the greatest code, in microseconds, of a pwm output on its own.
     pub(crate) pulses_us: Option<(f64, f64)>,
 }
 
-/// A number without a unit that was given for a device whose shown value is another one than the code.
+/// A number without a unit, given for a device whose shown value is not the code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bare {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The number.
     pub number: f64,
-    /// The code that it is now.
+    /// The code that it stands for now.
     pub code: f64,
-    /// The same with its unit, where the language has it.
+    /// The number with its unit, if the language has that unit.
     pub with_unit: Option<String>,
 }
 
@@ -52,8 +52,8 @@ impl Fields<'_> {
         self.bare.take()
     }
 
-    /// Whether a number for the block is its code in any case: nothing is shown otherwise, and nothing
-    /// of it has a unit or bounds.
+    /// Whether a number for the block is always its code, because the block has no conversion, unit
+    /// or bounds.
     pub(crate) fn shows_the_code(&self) -> bool {
         ["quantity", "scale", "offset", "curve", "min", "max"].iter().all(|name| !self.has(name))
     }
@@ -65,7 +65,7 @@ impl Fields<'_> {
         plain_number(&field.value).or_else(|| raw.map(|number| number.value))
     }
 
-    /// How the block shows its value, by looking.
+    /// How the block shows its value, without taking the properties.
     fn peek_shown(&self, is_pwm: bool) -> Presentation {
         let number = |name: &str| plain_number(&self.field(name)?.value);
         let curve = self.field("curve").and_then(|field| coding::points(&field.value));
@@ -76,7 +76,7 @@ impl Fields<'_> {
             curve: curve.unwrap_or_default(),
             ..Presentation::default()
         };
-        // Of a pwm output they are pulses.
+        // For a pwm output they are pulses.
         let bound = |name: &str| {
             let number = self.field(name).filter(|_| !is_pwm)?.value.number();
             number.and_then(|number| in_quantity(number, &shown).ok())
@@ -85,7 +85,7 @@ impl Fields<'_> {
         Presentation { min, max, ..shown }
     }
 
-    /// Takes a bound of the value that is shown.
+    /// Takes a bound of the shown value.
     pub(crate) fn bound(&mut self, name: &str) -> Option<Spanned<f64>> {
         let field = self.take(name)?;
         let number = field.value.number().filter(|number| number.measure != Measure::Raw);
@@ -103,7 +103,7 @@ impl Fields<'_> {
         }
     }
 
-    /// Takes a value that a person gives for the device, as its code.
+    /// Takes a value that a person gives for the device, and returns its code.
     pub(crate) fn code(&mut self, name: &str, codes: Codes) -> Option<Spanned<f64>> {
         let field = self.take(name)?;
         let Value::Number(number) = &field.value else {
@@ -152,7 +152,7 @@ impl Presentation {
         is_one && is_zero && self.curve.is_empty()
     }
 
-    /// The raw value, with a fraction, that is shown so; none where no value is.
+    /// The raw value, with a fraction, that is shown like this; none if there is none.
     #[must_use]
     pub fn raw_of(&self, shown: f64) -> Option<f64> {
         let pairs = self.curve.iter().zip(self.curve.iter().skip(1));
@@ -171,7 +171,7 @@ impl Presentation {
     }
 }
 
-/// The unit of the language that a device's quantity is.
+/// The language's unit for a device's quantity.
 pub(crate) fn unit_of(quantity: &str) -> Option<Unit> {
     match quantity {
         "percent" => Some(Unit::Percent),
@@ -204,7 +204,7 @@ fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, M
     within(code, codes, shown, &with(value, unit.as_deref()))
 }
 
-/// Percents and pulses of a pwm output that shows nothing else.
+/// The code of a percentage or pulse of a pwm output that shows nothing else.
 pub(crate) fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
     let (least, most) = codes.pulses_us.unwrap_or((0.0, CODES));
     let help = format!("write 0 to 10000, 0 % to 100 %, or a pulse of {least} us to {most} us");
@@ -233,7 +233,7 @@ fn shifted_us(number: &Number) -> f64 {
     }
 }
 
-/// The number in the unit that is shown.
+/// The number in the unit that the device shows.
 pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, Misfit> {
     let given = match number.measure {
         Measure::Bare => return Ok(number.value),
@@ -259,7 +259,7 @@ pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, 
     }
 }
 
-/// Refuses what is beyond `min` and `max`.
+/// Refuses a value outside `min` and `max`.
 fn bounded(value: f64, shown: &Presentation) -> Result<(), Misfit> {
     let unit = shown.quantity.as_deref();
     let is_below = shown.min.is_some_and(|min| value < min);
@@ -281,7 +281,7 @@ fn bounded(value: f64, shown: &Presentation) -> Result<(), Misfit> {
     Err(Misfit(message, help))
 }
 
-/// A code that is written as one.
+/// Checks a code that is written as one.
 fn held(
     code: f64,
     value: f64,

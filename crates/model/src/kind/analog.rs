@@ -5,7 +5,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "analog",
     article: "an",
@@ -20,17 +20,17 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'A',
 };
 
-/// Samples per value where the file says nothing: what the car's firmware took.
+/// Samples per value if the file gives none: the number in the car's firmware.
 const SAMPLES_DEFAULT: u16 = 32;
 
 /// An analog input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Analog {
-    /// The value is the mean of that many conversions.
+    /// The number of conversions whose mean is the value.
     pub samples: u16,
     /// Sampling time in ADC clock cycles; none for the target's default.
     pub sampling_cycles: Option<u16>,
-    /// Where it is given.
+    /// Where the sampling time is given.
     pub sampling_span: Option<sensedsl_diagnostics::Span>,
 }
 

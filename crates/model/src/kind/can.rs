@@ -11,7 +11,7 @@ use sensedsl_wire::{Direction, ValueType};
 
 pub use place::{BitField, FRAME_BYTES};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "can",
     article: "a",
@@ -29,49 +29,50 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'N',
 };
 
-/// Bits per second where the file says nothing.
+/// Bits per second if the file gives none.
 const BITRATE_DEFAULT_HZ: u32 = 500_000;
-/// The greatest identifier of eleven bits; a greater one has 29.
+/// The greatest 11-bit identifier; greater ones have 29 bits.
 pub const STANDARD_MAX: u32 = 0x7FF;
-/// The greatest identifier of 29 bits.
+/// The greatest 29-bit identifier.
 const EXTENDED_MAX: i64 = 0x1FFF_FFFF;
 /// The longest time from one repetition of a frame to the next.
 const RESEND_MAX_MS: u32 = 60_000;
 
-/// A value on a bus.
+/// A value on a CAN bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Can {
-    /// Bits per second; all devices of one bus agree.
+    /// Bits per second; all devices on one bus must agree.
     pub bitrate_hz: u32,
-    /// Where it is given.
+    /// Where the bit rate is given.
     pub bitrate_span: Option<sensedsl_diagnostics::Span>,
-    /// Identifier of the frame, up to 29 bits.
+    /// The identifier of the frame, up to 29 bits.
     pub frame_id: u32,
-    /// Whether it has 29 bits.
+    /// Whether the identifier has 29 bits.
     pub is_extended: bool,
-    /// First byte of the value in the frame.
+    /// The first byte of the value in the frame.
     pub byte: u8,
-    /// Where in the word that begins there the value stands; none for whole bytes.
+    /// The value's bits in the word that begins there; none for whole bytes.
     pub field: Option<BitField>,
     /// Order of the bytes of each number.
     pub order: ByteOrder,
-    /// Bytes of the frame; none for as many as its values take.
+    /// Bytes of the frame; none if it is as long as its values need.
     pub length: Option<u8>,
-    /// A frame that was commanded is sent again after so long; 0: never.
+    /// The time after which a commanded frame is sent again; 0 for never.
     pub resend_ms: u32,
-    /// The value is in the frame only where another value of it is so much.
+    /// The value that another value of the frame must have for this one to be in it.
     pub mux: Option<Mux>,
 }
 
-/// In which of the frames of an identifier a value is.
+/// Which of an identifier's frames holds a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mux {
-    /// The value of the same frame that tells: its device, or its reading of the same part.
+    /// The value of the same frame that tells them apart: its device, or its reading of the same
+    /// part.
     pub selector: Spanned<String>,
-    /// What it is there.
+    /// The selector's value in that frame.
     pub value: Spanned<u64>,
-    /// The bits of the frame that tell, and what is in them: byte 0 of the frame is the lowest. Both 0 until the
-    /// selector is known.
+    /// The selector's bits in the frame, and their contents: byte 0 of the frame is the lowest.
+    /// Both are 0 until the selector is resolved.
     pub bits: (u64, u64),
 }
 
@@ -118,7 +119,7 @@ impl Can {
         }
     }
 
-    /// Bytes of the frame at most.
+    /// The most bytes that the frame can have.
     #[must_use]
     pub const fn room(&self) -> u8 {
         match self.length {
@@ -128,7 +129,7 @@ impl Can {
     }
 }
 
-/// The identifier with the number of the node, and whether it has 29 bits.
+/// The identifier, including the number of the node, and whether it has 29 bits.
 fn identifier(fields: &mut Fields<'_>) -> (u32, bool) {
     let node = fields.integer("node", 0..=255).map_or(0, |n| n.value);
     let extended = fields.boolean("extended");
@@ -151,13 +152,13 @@ fn identifier(fields: &mut Fields<'_>) -> (u32, bool) {
     (u32::try_from(whole.min(most)).unwrap_or(0), is_extended || is_long)
 }
 
-/// What is sent once is repeated.
+/// Reads the time after which a frame is repeated.
 fn resend(fields: &mut Fields<'_>, direction: Direction) -> u32 {
     let Some(resend) = fields.time_ms("resend", 1..=RESEND_MAX_MS) else { return 0 };
     if direction == Direction::Actuator {
         return resend.value;
     }
-    // What is said of a chip is said of its commands.
+    // What a chip states applies to its commands.
     if !fields.is_of_reading() {
         fields.needs_direction(resend.span, "resend", Direction::Actuator);
     }

@@ -5,7 +5,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::{Codes, Fields};
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "dac",
     article: "a",
@@ -20,13 +20,13 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'D',
 };
 
-/// The code of the reference voltage.
+/// The code for the reference voltage.
 const CODE_MAX: f64 = 4_095.0;
 
 /// A DAC output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dac {
-    /// The value taken when the host falls silent; none to keep the last one.
+    /// The value taken when the host goes silent; none to keep the last one.
     pub failsafe: Option<f64>,
 }
 

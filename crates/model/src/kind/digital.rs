@@ -5,7 +5,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "digital",
     article: "a",
@@ -23,23 +23,23 @@ pub const SPEC: KindSpec = KindSpec {
 /// The resistor inside the MCU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pull {
-    /// None.
+    /// No resistor.
     #[default]
     None,
-    /// To the supply.
+    /// A resistor to the supply.
     Up,
-    /// To ground.
+    /// A resistor to ground.
     Down,
 }
 
-/// Changes that raise an interrupt.
+/// The changes that raise an interrupt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
-    /// Low to high.
+    /// From low to high.
     Rising,
-    /// High to low.
+    /// From high to low.
     Falling,
-    /// Each change.
+    /// Every change.
     Both,
 }
 
@@ -48,13 +48,14 @@ pub enum Edge {
 pub struct Digital {
     /// The resistor inside the MCU.
     pub pull: Pull,
-    /// With it the device takes the interrupt line of its pin's number.
+    /// The change that raises an interrupt; with one, the device takes the interrupt line with its
+    /// pin's number.
     pub edge: Option<Edge>,
-    /// The level that means "on" is low.
+    /// True if low means "on".
     pub active_low: bool,
-    /// A change counts when it has lasted that long.
+    /// How long a change must last to count.
     pub debounce_us: u32,
-    /// An actuator is on from the start.
+    /// True if an actuator is on from the start.
     pub initial: bool,
 }
 

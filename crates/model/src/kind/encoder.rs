@@ -5,7 +5,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "encoder",
     article: "an",
@@ -23,7 +23,7 @@ pub const SPEC: KindSpec = KindSpec {
 /// A quadrature encoder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Encoder {
-    /// Counts per turn, for the host; none where it is not given.
+    /// Counts per turn, for the host; none if not given.
     pub counts: Option<u32>,
 }
 

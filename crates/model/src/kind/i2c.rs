@@ -10,7 +10,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::design::Spanned;
 use crate::fields::Fields;
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "i2c",
     article: "an",
@@ -36,46 +36,46 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'I',
 };
 
-/// The properties that make a protocol; a device without any of them has none of its own.
+/// The properties of a protocol; a device without any of them has no protocol of its own.
 pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"];
 
-/// Bus clock where the file says nothing: the standard mode.
+/// Bus clock if the file gives none: standard mode.
 const SPEED_DEFAULT_HZ: u32 = 100_000;
 
-/// 7-bit addresses that devices have: the specification reserves 0x78 to 0x7F as well, and
-/// Devantech rangers use them all the same.
+/// 7-bit addresses that devices have. The specification also reserves 0x78 to 0x7F, but Devantech
+/// rangers use them.
 const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x7F;
 
-/// Order of the bytes of one number.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ByteOrder {
-    /// Most significant first.
+    /// Most significant byte first.
     #[default]
     Big,
-    /// Least significant first.
+    /// Least significant byte first.
     Little,
 }
 
-/// A device on a bus.
+/// A device on an I2C bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct I2c {
-    /// 7-bit form.
+    /// Its address, in 7-bit form.
     pub address: u8,
-    /// Where the address stands.
+    /// Where the address is given.
     pub address_span: Option<sensedsl_diagnostics::Span>,
-    /// Clock of the bus while it is talked to.
+    /// Clock of the bus while the board talks to the device.
     pub speed_hz: u32,
     /// Where the clock is given.
     pub speed_span: Option<sensedsl_diagnostics::Span>,
-    /// No other device on the same bus.
+    /// True if no other device may be on the same bus.
     pub exclusive: bool,
     /// Bytes written to start a measurement; may be empty.
     pub trigger: Vec<u8>,
-    /// From the trigger until the measurement can be read.
+    /// Time from the trigger until the measurement can be read.
     pub wait_us: u32,
     /// Where the waiting time is given.
     pub wait_span: Option<sensedsl_diagnostics::Span>,
-    /// Register written before reading; none to read at once.
+    /// Register written before reading; none to read directly.
     pub register: Option<u16>,
     /// Bytes read (sensor) or written after the register (actuator).
     pub length_bytes: u16,
@@ -123,15 +123,15 @@ impl Properties for I2c {
     }
 }
 
-/// The register of a value: one byte, or as many as the driver's registers have.
+/// The register of a value. Its number has one byte, or as many as the driver states.
 pub(super) fn register(fields: &mut Fields<'_>) -> Option<u16> {
     let greatest = (1_i64 << (8 * fields.register_bytes())) - 1;
     let register = fields.integer("register", 0..=greatest)?;
     u16::try_from(register.value).ok()
 }
 
-/// The order of the bytes of a number. Of a number of one byte that says nothing, which is told where the
-/// device itself says it.
+/// The order of the bytes of a number. For a number of one byte the order means nothing, which is
+/// reported if the device itself gives one.
 pub(super) fn order(fields: &mut Fields<'_>, is_one_byte: bool) -> ByteOrder {
     let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
     if let Some(at) = fields.own_span("order").filter(|_| is_one_byte && !fields.has("of")) {
@@ -143,7 +143,7 @@ pub(super) fn order(fields: &mut Fields<'_>, is_one_byte: bool) -> ByteOrder {
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
-    // A driver knows its part: some have an address that the specification reserves.
+    // The driver knows its part: some have an address that the specification reserves.
     let is_own = fields.own_span("address").is_some();
     let of_part = fields.addresses().to_vec();
     let example = format!("address = 0x{:02X};", of_part.first().unwrap_or(&0x73));
@@ -169,7 +169,7 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
 }
 
 impl I2c {
-    /// A device of one byte without a protocol.
+    /// A device with one byte and no protocol.
     #[must_use]
     pub fn at(address: u8) -> Self {
         Self {

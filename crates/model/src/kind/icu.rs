@@ -1,4 +1,5 @@
-//! `icu`: edges on an input-capture channel; the hardware measures, callbacks collect.
+//! `icu`: edges on an input-capture channel; the hardware measures and callbacks collect the
+//! results.
 
 use sensedsl_syntax::Unit;
 use sensedsl_wire::{Direction, ValueType};
@@ -7,7 +8,7 @@ use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "icu",
     article: "an",
@@ -22,26 +23,26 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'C',
 };
 
-/// What is made of the edges.
+/// What is computed from the edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Number of edges seen since the start; wraps around.
+    /// Number of edges since the start; wraps around.
     #[default]
     Count,
-    /// Length of the active pulse in ticks of the resolution.
+    /// Length of the active pulse, in ticks of the resolution.
     Width,
-    /// From one active edge to the next, in ticks of the resolution.
+    /// Time from one active edge to the next, in ticks of the resolution.
     Period,
     /// Active edges per second.
     Frequency,
-    /// Active part of a period in ten-thousandths.
+    /// Active part of a period, in ten-thousandths.
     Duty,
-    /// The channels of a model receiver, one after the other on one wire, in microseconds.
+    /// The channels of a radio-control receiver, one after the other on one wire, in microseconds.
     Ppm,
 }
 
 impl Mode {
-    /// The word of the language.
+    /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -58,21 +59,21 @@ impl Mode {
 /// Which edge begins a pulse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Edge {
-    /// Low to high.
+    /// From low to high.
     #[default]
     Rising,
-    /// High to low.
+    /// From high to low.
     Falling,
-    /// Each change; only for counting.
+    /// Every change; only for counting.
     Both,
 }
 
 /// An input-capture channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Icu {
-    /// What is made of the edges.
+    /// What is computed from the edges.
     pub mode: Mode,
-    /// Which edges.
+    /// The edge that begins a pulse.
     pub edge: Edge,
     /// Ticks per second of the measuring timer.
     pub tick_hz: u32,
@@ -80,12 +81,12 @@ pub struct Icu {
     pub tick_span: Option<sensedsl_diagnostics::Span>,
     /// Length of the pulse on the role `trigger` that makes the device measure.
     pub pulse_us: Option<u32>,
-    /// How long the device measures after that pulse.
+    /// The duration of the measurement after that pulse.
     pub wait_us: u32,
 }
 
-/// Ticks per second where the file says nothing: counting needs none, so what the car's firmware
-/// had; measuring gets microseconds.
+/// Ticks per second if the file gives none. Counting does not need a particular value, so it gets
+/// that of the car's firmware; measuring gets microseconds.
 const fn tick_default_hz(mode: Mode) -> u32 {
     match mode {
         Mode::Count => 10_000,
@@ -137,7 +138,7 @@ fn mode(fields: &mut Fields<'_>) -> Mode {
     let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty, Mode::Ppm];
     let modes = modes.map(|mode| (mode.name(), mode));
     let Some(mode) = fields.word("mode", &modes) else { return Mode::default() };
-    // Its value has many numbers on one wire, which only a reading of a driver says.
+    // Its value is several numbers on one wire, which only a driver's reading can declare.
     if mode.value == Mode::Ppm && !fields.is_of_reading() {
         let why = "`mode = ppm` is for a driver that says how many channels there are: \
                    `driver = ppm;`";

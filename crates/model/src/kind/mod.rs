@@ -1,8 +1,8 @@
 //! The kinds of devices: one file each, and one line each in the registry below.
 //!
-//! A kind's file has its `SPEC`, which is the same for all its devices, and a struct with the
-//! properties of one device, which tells the wires it needs. Which pins can be those wires says a
-//! file of the same name in crate `wiring`.
+//! A kind's file has its `SPEC`, which all its devices share, and a struct with the properties of
+//! one device, which knows the wires that the device needs. A file with the same name in crate
+//! `wiring` knows which pins can be those wires.
 
 use std::fmt;
 
@@ -30,10 +30,10 @@ pub use spec::{KindSpec, Sharing, Values};
 
 use spec::Properties;
 
-/// Makes the types and everything that goes through all kinds of the registry below.
+/// Generates the types, and everything that covers all kinds, from the registry below.
 macro_rules! kinds {
     ($($(#[$doc:meta])* $Kind:ident in $module:ident;)*) => {
-        /// What a device is connected to, with the properties of that kind.
+        /// The kind of a device, with the properties of that kind.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Kind {
             $($(#[$doc])* $Kind($module::$Kind),)*
@@ -46,10 +46,10 @@ macro_rules! kinds {
         }
 
         impl KindName {
-            /// All kinds in the order of the language page.
+            /// All kinds, in the order of the language page.
             pub const ALL: [Self; [$(Self::$Kind),*].len()] = [$(Self::$Kind),*];
 
-            /// What is the same for all devices of the kind.
+            /// The properties that all devices of the kind share.
             #[must_use]
             pub const fn spec(self) -> &'static KindSpec {
                 match self { $(Self::$Kind => &$module::SPEC,)* }
@@ -66,13 +66,13 @@ macro_rules! kinds {
         }
 
         impl Kind {
-            /// Its name.
+            /// The name of the kind.
             #[must_use]
             pub const fn name(&self) -> KindName {
                 match self { $(Self::$Kind(_) => KindName::$Kind,)* }
             }
 
-            /// The wires a device of this kind needs, in the order of the tie-break.
+            /// The wires that a device of this kind needs, in the order of the tie-break.
             #[must_use]
             pub fn roles(&self, direction: Direction) -> Vec<Role> {
                 match self { $(Self::$Kind(properties) => properties.roles(direction),)* }
@@ -84,7 +84,7 @@ macro_rules! kinds {
                 match self { $(Self::$Kind(properties) => properties.measuring_us(),)* }
             }
 
-            /// A device of that kind without any property given; on a bus at `address` (7-bit).
+            /// A device of that kind with no properties given; on a bus at `address` (7-bit).
             #[must_use]
             pub fn plain(kind: KindName, address: u8) -> Self {
                 match kind { $(KindName::$Kind => Self::$Kind(Properties::plain(address)),)* }
@@ -125,25 +125,25 @@ kinds! {
 }
 
 impl KindName {
-    /// The word of the language.
+    /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.spec().name
     }
 
-    /// With its article, for messages.
+    /// The name with its article, for messages.
     #[must_use]
     pub fn with_article(self) -> String {
         format!("{} {} device", self.spec().article, self.name())
     }
 
-    /// The kind of that name.
+    /// The kind with that name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// All names for a message.
+    /// All names, for a message.
     #[must_use]
     pub fn list() -> String {
         Self::ALL.map(Self::name).join(", ")

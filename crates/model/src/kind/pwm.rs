@@ -1,11 +1,12 @@
-//! `pwm`: a pulse width on a timer output; the value goes from 0 to 10,000 between `min` and `max`.
+//! `pwm`: a pulse width on a timer output; values from 0 to 10,000 map to pulses from `min` to
+//! `max`.
 
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::{Codes, Fields};
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "pwm",
     article: "a",
@@ -20,21 +21,21 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'P',
 };
 
-/// Pulses per second where the file says nothing: that of a model servo.
+/// Pulses per second if the file gives none: the frequency of a model servo.
 const FREQUENCY_DEFAULT_HZ: u32 = 50;
-/// The value of the pulse `max`.
+/// The value for the pulse `max`.
 const VALUE_MAX: f64 = 10_000.0;
 
 /// A timer output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pwm {
-    /// Pulses per second; outputs of one timer share it.
+    /// Pulses per second; the outputs of a timer share it.
     pub frequency_hz: u32,
-    /// Pulse of the least value; none for 0.
+    /// Pulse for the least value; none for 0.
     pub min_us: Option<u32>,
-    /// Pulse of the greatest value; none for the whole period.
+    /// Pulse for the greatest value; none for the whole period.
     pub max_us: Option<u32>,
-    /// The value taken when the host falls silent; none to keep the last one.
+    /// The value taken when the host goes silent; none to keep the last one.
     pub failsafe: Option<f64>,
 }
 
@@ -52,7 +53,7 @@ impl Properties for Pwm {
         }
         let (min_us, max_us) = (min.map(|time| time.value), max.map(|time| time.value));
         let pulses_us = (min_us.unwrap_or(0).into(), max_us.unwrap_or(period_us).into());
-        // Of a bridge the sign is the direction.
+        // For a bridge, the sign is the direction.
         let least = if fields.is_of_reading() { -VALUE_MAX } else { 0.0 };
         let codes = Codes {
             range: Some((least, VALUE_MAX)),

@@ -1,24 +1,24 @@
-//! How a value of a part on a register bus is had, whichever bus it is.
+//! How the value of a part on a register bus is accessed, whichever bus it is.
 
 use super::Kind;
 
-/// What is sent and waited for before bytes come, and how many they are.
+/// What is sent and waited for before the bytes come, and the number of bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RegisterAccess<'a> {
-    /// Bytes that start a measurement; none where the part measures by itself.
+    /// Bytes that start a measurement; empty if the part measures on its own.
     pub trigger: &'a [u8],
-    /// From the trigger to the value, in microseconds.
+    /// Time from the trigger to the value, in microseconds.
     pub wait_us: u32,
-    /// The register that is read or written; none where the part has one, or none.
+    /// The register that is read or written; none if the part has only one, or none.
     pub register: Option<u16>,
-    /// Bytes that are sent in place of a register's number; of SPI alone.
+    /// Bytes sent in place of a register's number; only on SPI.
     pub read: &'a [u8],
     /// Bytes of the value.
     pub length_bytes: u16,
 }
 
 impl Kind {
-    /// How a value on I2C or SPI is had; none for what is on no register bus.
+    /// The access to a value on I2C or SPI; none if it is not on a register bus.
     #[must_use]
     pub fn register_access(&self) -> Option<RegisterAccess<'_>> {
         match self {

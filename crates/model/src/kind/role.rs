@@ -1,8 +1,8 @@
-//! The wires of devices, in the order of the tie-break: one line each.
+//! The wires of devices, in the order of the tie-break; one line each.
 
 use std::fmt;
 
-/// Makes the type and what all wires have of the table below.
+/// Generates the type, and what all wires have, from the table below.
 macro_rules! roles {
     ($($(#[$doc:meta])* $Role:ident($name:literal, pin: $property:literal, driven by $by:ident);)*) => {
         /// A wire of a device, in the order of the tie-break.
@@ -15,7 +15,8 @@ macro_rules! roles {
             /// All roles, in the order of the tie-break.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$Role),*];
 
-            /// The word in JSON output and, but for `in` and `out`, the property that fixes the pin.
+            /// The word in JSON output and, except for `in` and `out`, the property that fixes the
+            /// pin.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$Role => $name,)* }
@@ -36,7 +37,7 @@ macro_rules! roles {
     };
 }
 
-/// Which end drives a wire.
+/// The end that drives a wire.
 enum Driver {
     Device,
     Mcu,
@@ -47,19 +48,19 @@ roles! {
     In("in", pin: "pin", driven by Device);
     /// The only wire of an actuator.
     Out("out", pin: "pin", driven by Mcu);
-    /// I2C clock; a device may hold it.
+    /// I2C clock; a device may stretch it.
     Scl("scl", pin: "scl", driven by Device);
     /// I2C data.
     Sda("sda", pin: "sda", driven by Device);
-    /// Transmitted by the board.
+    /// Transmission by the board.
     Tx("tx", pin: "tx", driven by Mcu);
-    /// Received by the board.
+    /// Reception by the board.
     Rx("rx", pin: "rx", driven by Device);
     /// SPI clock.
     Sck("sck", pin: "sck", driven by Mcu);
-    /// SPI, from the device.
+    /// SPI data from the device.
     Miso("miso", pin: "miso", driven by Device);
-    /// SPI, to the device.
+    /// SPI data to the device.
     Mosi("mosi", pin: "mosi", driven by Mcu);
     /// SPI chip select.
     Cs("cs", pin: "cs", driven by Mcu);
@@ -72,7 +73,8 @@ roles! {
 }
 
 impl Role {
-    /// The role whose pin that property fixes; none for `pin`, which stands for any only wire.
+    /// The role whose pin that property fixes; none for `pin`, which stands for the only wire of
+    /// any device.
     #[must_use]
     pub fn from_property(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.property() == name && name != Self::In.property())

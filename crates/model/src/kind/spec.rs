@@ -1,4 +1,4 @@
-//! What is the same for all devices of a kind, and what each kind must be able to tell.
+//! What all devices of a kind share, and what each kind must provide.
 
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -12,31 +12,31 @@ pub struct KindSpec {
     pub name: &'static str,
     /// `a` or `an`, for messages.
     pub article: &'static str,
-    /// Which way devices may go.
+    /// The directions that devices may have.
     pub directions: &'static [Direction],
     /// The types that a value may have.
     pub values: Values,
-    /// The properties beside those of every device.
+    /// The properties besides those that every device has.
     pub properties: &'static [&'static str],
     /// Whether devices share wires.
     pub sharing: Sharing,
-    /// Whether the hardware takes the measurement itself, whatever the cycle time.
+    /// Whether the hardware measures on its own, regardless of the cycle time.
     pub triggers_itself: bool,
     /// The wires, for the language page.
     pub wires: &'static str,
-    /// What a device needs beside `id` and `type`: for examples and tests.
+    /// The properties that a device needs besides `id` and `type`, for examples and tests.
     pub example: &'static str,
-    /// Its colour in pictures, `#RRGGBB`: from a palette that people with colour blindness can tell
-    /// apart (Okabe and Ito, 2008), and shades of it.
+    /// Its colour in pictures, `#RRGGBB`, from a palette that people with colour blindness can
+    /// distinguish (Okabe and Ito, 2008), and shades of it.
     pub colour: &'static str,
-    /// Its sign in pictures, for those who cannot tell the colours.
+    /// Its letter in pictures, for people who cannot distinguish the colours.
     pub letter: char,
 }
 
 /// The types that a value of a kind may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
-    /// A whole number or one with a fraction.
+    /// A whole number, or one with a fraction.
     OneNumber,
     /// A whole number or a truth value.
     WholeNumber,
@@ -45,7 +45,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// Whether a value may have that type.
+    /// Checks that a value may have that type.
     ///
     /// # Errors
     /// The types that it may have, in words.
@@ -63,8 +63,8 @@ impl Values {
         if fits { Ok(()) } else { Err(can) }
     }
 
-    /// How many sets of wires a value takes: an array of numbers that have a wire each as many as it
-    /// has elements.
+    /// How many sets of wires a value takes: for an array of numbers with a wire each, as many as
+    /// it has elements.
     #[must_use]
     pub const fn wires(self, value: ValueType) -> Option<u16> {
         match self {
@@ -73,7 +73,7 @@ impl Values {
         }
     }
 
-    /// For the language page.
+    /// The text for the language page.
     #[must_use]
     pub const fn shown(self) -> &'static str {
         match self {
@@ -87,20 +87,20 @@ impl Values {
 /// Whether devices share wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Each has its own.
+    /// Each device has its own wires.
     Own,
-    /// Any number of devices is on the same wires.
+    /// Any number of devices share the same wires.
     Bus,
-    /// Any number of devices is on the same wires, each with a wire of its own beside them.
+    /// Any number of devices share the same wires, and each also has a wire of its own.
     BusAndSelect,
 }
 
-/// What a kind's properties must be able to tell. A new kind implements it in its file.
+/// What a kind's properties must provide. A new kind implements it in its file.
 pub(crate) trait Properties: Sized {
-    /// Takes the properties of a device of that direction with a value of that type.
+    /// Reads the properties of a device with that direction and value type.
     fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self;
 
-    /// Those of a device without any property given; `address` (7-bit) is free on every bus.
+    /// The properties of a device with none given; `address` (7-bit) is free on every bus.
     fn plain(address: u8) -> Self;
 
     /// The wires, in the order of the tie-break.

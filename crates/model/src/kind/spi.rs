@@ -1,4 +1,4 @@
-//! `spi`: a device on an SPI bus, with a chip select of its own.
+//! `spi`: a device on an SPI bus, with its own chip select.
 
 use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
@@ -6,7 +6,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "spi",
     article: "an",
@@ -24,23 +24,23 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'S',
 };
 
-/// Clock where the file says nothing.
+/// Clock if the file gives none.
 const CLOCK_DEFAULT_HZ: u32 = 1_000_000;
 
-/// A device on a bus.
+/// A device on an SPI bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spi {
-    /// Highest clock the device takes.
+    /// The highest clock that the device takes.
     pub clock_hz: u32,
-    /// Where it is given.
+    /// Where the clock is given.
     pub clock_span: Option<sensedsl_diagnostics::Span>,
-    /// 0 to 3: clock polarity and phase.
+    /// Clock polarity and phase, 0 to 3.
     pub mode: u8,
     /// Bytes sent to start a measurement; may be empty.
     pub trigger: Vec<u8>,
-    /// From the trigger until the measurement can be read.
+    /// Time from the trigger until the measurement can be read.
     pub wait_us: u32,
-    /// Register sent before the value is read or written; none where there is none.
+    /// Register sent before the value is read or written; none if there is none.
     pub register: Option<u16>,
     /// Bytes sent before the value is read; may be empty.
     pub read: Vec<u8>,

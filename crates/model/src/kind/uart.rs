@@ -7,7 +7,7 @@ use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-/// What is the same for all devices of this kind.
+/// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
     name: "uart",
     article: "a",
@@ -34,7 +34,7 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'U',
 };
 
-/// Bits per second where the file says nothing.
+/// Bits per second if the file gives none.
 pub const BAUD_DEFAULT: u32 = 9_600;
 
 /// Parity of a character.
@@ -49,21 +49,21 @@ pub enum Parity {
     Odd,
 }
 
-/// What a message ends with, so that a damaged one is known.
+/// The checksum that a message ends with, so that a damaged one is recognised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MessageChecksum {
-    /// Nothing.
+    /// No checksum.
     #[default]
     None,
     /// The low byte of the sum.
     Sum8,
-    /// All bytes, exclusive or.
+    /// The exclusive or of all bytes.
     Xor8,
     /// 0xFFFF minus the sum of all bytes; two bytes, the low one first.
     Ibus,
-    /// A CRC-8: polynomial 0xD5, start 0.
+    /// A CRC-8 with polynomial 0xD5 and initial value 0.
     Crc8DvbS2,
-    /// `*` and two hexadecimal digits: the bytes between start and `*`, exclusive or.
+    /// `*` and two hexadecimal digits: the exclusive or of the bytes between the start and `*`.
     Nmea,
 }
 
@@ -72,31 +72,31 @@ pub enum MessageChecksum {
 pub struct Uart {
     /// Bits per second.
     pub baud: u32,
-    /// Where they are given.
+    /// Where the baud rate is given.
     pub baud_span: Option<sensedsl_diagnostics::Span>,
     /// Data bits per character: 7 or 8.
     pub data_bits: u8,
-    /// Parity.
+    /// Parity of each character.
     pub parity: Parity,
-    /// 1 or 2.
+    /// Stop bits: 1 or 2.
     pub stop_bits: u8,
-    /// Its wires are at rest low.
+    /// True if its wires idle low.
     pub is_inverted: bool,
-    /// Bytes a message begins with; may be empty.
+    /// Bytes that a message begins with; may be empty.
     pub start: Vec<u8>,
-    /// Bytes a message ends with; may be empty.
+    /// Bytes that a message ends with; may be empty.
     pub end: Vec<u8>,
     /// Bytes of a message between the delimiters.
     pub length_bytes: u16,
-    /// The file gives that length, not the size of the value.
+    /// True if the file gives that length; otherwise it is the size of the value.
     pub is_length_given: bool,
-    /// What a message ends with.
+    /// The checksum that a message ends with.
     pub checksum: MessageChecksum,
-    /// The first byte that the checksum is of, counted from the first byte of the message.
+    /// The first byte that the checksum covers, counted from the first byte of the message.
     pub checksum_from: u8,
     /// Order of the bytes of each number.
     pub order: ByteOrder,
-    /// Nothing is sent: the device needs only RX.
+    /// True if nothing is sent and the device needs only RX.
     pub receive_only: bool,
 }
 
@@ -150,7 +150,7 @@ impl Properties for Uart {
     }
 }
 
-/// What a message ends with, and from where it counts.
+/// The checksum of a message, and the byte that it starts from.
 fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8) {
     let checksums = [
         ("none", MessageChecksum::None),
@@ -161,7 +161,7 @@ fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8
         ("nmea", MessageChecksum::Nmea),
     ];
     let checksum = fields.word("checksum", &checksums).map(|word| word.value).unwrap_or_default();
-    // What it is of begins in the start, or right behind it.
+    // The bytes that it covers begin within the start bytes, or right after them.
     let most = i64::try_from(start_bytes).unwrap_or(0);
     let from = fields.integer("checksum_from", 0..=most);
     if let Some(from) = from
@@ -174,7 +174,7 @@ fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8
 }
 
 impl Uart {
-    /// Whether nothing tells where a message ends.
+    /// Whether nothing marks the end of a message.
     #[must_use]
     pub fn is_endless(&self) -> bool {
         !self.is_length_given && self.end.is_empty()

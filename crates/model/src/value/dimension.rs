@@ -1,9 +1,10 @@
-//! What units are units of: a unit in, its powers of seconds, volts, metres and so on, and its power of ten out.
+//! The dimensions of units: a unit in, its powers of seconds, volts, metres and so on, and its
+//! power of ten out.
 
 use sensedsl_syntax::Unit;
 
-/// The powers of what units are of. That a number is a code is one of them: it cannot be added to one
-/// that is shown.
+/// The powers of the base units. Being a code is one of them, so that a code cannot be added to a
+/// shown value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Dimension {
     pub(super) seconds: i8,
@@ -105,7 +106,7 @@ pub(crate) fn power_of_ten(unit: Unit) -> i32 {
     }
 }
 
-/// A number times a power of ten, rounded once: powers below one are not exact in binary.
+/// A number times a power of ten, rounded once: negative powers of ten are not exact in binary.
 pub(crate) fn shifted(number: f64, power: i32) -> f64 {
     if power < 0 { number / 10_f64.powi(-power) } else { number * 10_f64.powi(power) }
 }

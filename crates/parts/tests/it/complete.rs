@@ -1,4 +1,4 @@
-//! Tables without usages: what they get from their MCU, and what is said where they get none.
+//! Tables without usages: what they get from their MCU, and what is reported if they get none.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::{catalog, table};
@@ -49,7 +49,7 @@ fn usages_come_from_the_part() {
         assert!(pin.usages.iter().all(|usage| usage.range == pin.range));
     }
     assert_eq!(found.pins[0].position.as_deref(), Some("12"));
-    // What is printed is a table that says the same.
+    // The printed table has the same content.
     let printed = table::load(&found.to_csv());
     assert_eq!(printed.findings, []);
     let usages = |table: &table::Table| -> Vec<_> {
@@ -87,7 +87,7 @@ fn what_is_not_known_is_told() {
     assert_eq!(codes("# mcu = STM32F407VGT6\nPin\nPC4\nPZ9\n"), ["W0608"]);
     assert_eq!(codes("# mcu = PIC16F84\nPin\nRA1\n")[0], "W0608");
     assert_eq!(codes("Pin\nPC4\n")[0], "W0608");
-    // The whole part number is missing, and packages differ.
+    // The part number is not complete, and packages differ.
     assert!(codes("# mcu = STM32WBA65\nPin\nPA1\n").contains(&"W0608"));
 }
 

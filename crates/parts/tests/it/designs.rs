@@ -1,9 +1,9 @@
-//! What several tests share: designs written down in a line, and the file that stands beside them.
+//! Code that several tests share: designs written in one line, and the file beside them.
 
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
 
-/// What every other file reads as; none where there are no other files.
+/// The content of every other file; `None` if there are no other files.
 struct OneFile(Option<&'static str>);
 
 impl Files for OneFile {
@@ -12,7 +12,7 @@ impl Files for OneFile {
     }
 }
 
-/// What a text means where every file that it names reads as `beside`.
+/// The meaning of a text if every file that it names reads as `beside`.
 pub(crate) fn resolved(text: &str, target: Option<&str>, beside: Option<&'static str>) -> Resolved {
     let request = Request { path: "x.sense", text, board: None, target };
     resolve(&request, &OneFile(beside))
@@ -25,7 +25,7 @@ pub(crate) fn of_text(text: &str, target: Option<&str>) -> Design {
 }
 
 /// Devices on a part: `KIND PROPERTIES`, with `;` between the devices and `,` between properties.
-/// What a kind cannot do without is added. `opening` stands before the devices.
+/// Properties that a kind requires are added. `opening` comes before the devices.
 pub(crate) fn of_devices(part: &str, target: &str, opening: &str, devices: &str) -> Design {
     let mut text = format!("board X on {part} {{\n{opening}");
     for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {

@@ -1,5 +1,5 @@
-//! Requests on parts of all families that there are ChibiOS profiles for: what their drivers can do
-//! and what they cannot.
+//! Requests on parts of all families with ChibiOS profiles: what their drivers can do and what they
+//! cannot.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use sensedsl_wiring::{Solved, Wiring};
 
 use super::designs;
 
-/// The units that the best wiring of devices takes, by device; none where there is no wiring.
+/// The units that the best wiring of devices takes, by device; `None` if there is no wiring.
 fn wired(part: &str, link: &str, devices: &str) -> Option<Vec<String>> {
     let link = format!("link {{ {link} }}\n");
     let design = designs::of_devices(part, "chibios", &link, devices);
@@ -33,7 +33,7 @@ const USB: &str = "transport = usb;";
 #[test]
 fn requests_of_f0_f1_and_f3() {
     // F0: one bus of I2C on the smallest; TIM14 to 17 do not capture.
-    // On 32 pins CAN has no other place than USB's.
+    // On 32 pins, CAN has no place other than USB's.
     assert!(feasible("STM32F042K6", USB, "analog; i2c; icu"));
     assert!(feasible("STM32F042K6", SERIAL, "analog; i2c; icu; can"));
     assert!(!feasible("STM32F042K6", USB, "can"));
@@ -48,7 +48,7 @@ fn requests_of_f0_f1_and_f3() {
     assert!(!feasible("STM32F103RB", USB, "i2c unit = I2C2; spi unit = SPI2"));
     assert!(feasible("STM32F103RB", USB, "i2c unit = I2C1; spi unit = SPI2"));
     assert!(feasible("STM32F105RB", USB, "can unit = CAN1; can unit = CAN2"));
-    // F3: fixed streams again; TIM8 is on the larger lines alone.
+    // F3: fixed streams again; TIM8 is only on the larger lines.
     assert!(feasible("STM32F303VC", USB, "analog; i2c; icu; can; dac; encoder"));
     assert!(!feasible("STM32F303VC", USB, "i2c unit = I2C1; i2c unit = I2C3"));
     assert!(!feasible("STM32F303K8", SERIAL, "icu unit = TIM8"));
@@ -56,7 +56,7 @@ fn requests_of_f0_f1_and_f3() {
 
 #[test]
 fn requests_of_f4_and_f7() {
-    // F4 beside F407: no DAC on F411, no TIM2 on F410.
+    // F4 other than F407: no DAC on F411, no TIM2 on F410.
     assert!(!feasible("STM32F411CE", USB, "dac"));
     assert!(feasible("STM32F446RE", USB, "analog; i2c; icu; dac"));
     assert!(!feasible("STM32F410RB", SERIAL, "icu unit = TIM2"));
@@ -67,10 +67,10 @@ fn requests_of_f4_and_f7() {
 
 #[test]
 fn requests_of_g0_g4_h7_and_l4() {
-    // G0: no DAC on G031, and on its eight contacts there is no room for much.
+    // G0: no DAC on G031, and its eight contacts do not leave room for much.
     assert!(!feasible("STM32G031K8", SERIAL, "dac"));
     assert!(feasible("STM32G071RB", SERIAL, "dac; analog; i2c; icu"));
-    // G4: any request has any stream, FDCAN serves CAN.
+    // G4: any request can have any stream, FDCAN serves CAN.
     let found = wired("STM32G474RE", USB, "can; analog; i2c; i2c unit = I2C4").unwrap();
     assert!(found.iter().any(|unit| unit.starts_with("FDCAN")), "{found:?}");
     assert!(!feasible("STM32G431RB", USB, "i2c unit = I2C4"));
@@ -78,16 +78,16 @@ fn requests_of_g0_g4_h7_and_l4() {
     assert!(feasible("STM32H743ZI", USB, "analog unit = ADC1; analog unit = ADC3; i2c; can; icu"));
     assert!(!feasible("STM32H743ZI", USB, "analog unit = ADC2"));
     assert!(!feasible("STM32H723ZG", SERIAL, "icu unit = TIM23"));
-    // L4: I2C3's streams are those of ADC2 and ADC3 where nothing else is free.
+    // L4: I2C3's streams are those of ADC2 and ADC3 if nothing else is free.
     assert!(feasible("STM32L476RG", USB, "analog; i2c; i2c unit = I2C3; can; dac"));
     assert!(!feasible("STM32L476RG", USB, "i2c unit = I2C4"));
     assert!(feasible("STM32L4R5ZI", USB, "i2c unit = I2C4; spi; can; dac"));
 }
 
-/// A multiplexer has as many streams as it has, and then no more.
+/// A multiplexer has only a certain number of streams.
 #[test]
 fn streams_behind_a_multiplexer_run_out() {
-    // G031 has five channels: two buses of I2C, a converter and one SPI, which wants two.
+    // G031 has five channels: two buses of I2C, a converter and one SPI, which needs two.
     let devices = "i2c unit = I2C1; i2c unit = I2C2; spi; analog";
     assert!(wired("STM32G031K8", SERIAL, devices).is_some());
     let spis = "spi unit = SPI1; spi unit = SPI2";
@@ -96,7 +96,7 @@ fn streams_behind_a_multiplexer_run_out() {
     assert_eq!(wired("STM32G031K8", SERIAL, &format!("{spis}; {devices}")), None);
 }
 
-/// Every part of the families has a profile, but for those that the tree does not know.
+/// Every part of the families has a profile, except those that the tree does not know.
 #[test]
 fn parts_have_profiles() {
     let mut without: BTreeMap<String, usize> = BTreeMap::new();

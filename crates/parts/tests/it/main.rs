@@ -1,4 +1,4 @@
-//! The parts that are known, from outside: their table, and requests on them.
+//! The known parts, from outside: their table, and requests on them.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

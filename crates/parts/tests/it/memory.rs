@@ -1,4 +1,4 @@
-//! Cores, flash and RAM of the parts, and what ST's open pin data say of them where
+//! Cores, flash and RAM of the parts, and what ST's open pin data say of them if
 //! `SENSEDSL_ST_PIN_DATA` names the folder.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,7 +23,7 @@ fn memory_is_that_of_the_data_sheets() {
     for (name, core, flash, ram) in [
         ("STM32F030F4P6", "Cortex-M0", 16.0, 4.0),
         ("STM32F103C8T6", "Cortex-M3", 64.0, 20.0),
-        // With memory that the core alone reaches.
+        // With memory that only the core reaches.
         ("STM32F303VCT6", "Cortex-M4", 256.0, 48.0),
         ("STM32F407VGT6", "Cortex-M4", 1024.0, 192.0),
         // Two banks of flash, or one: the sum is the same.
@@ -103,8 +103,8 @@ fn of_st(path: &Path) -> Vec<(String, Facts)> {
     names.into_iter().enumerate().map(|(at, name)| (name, facts(at))).collect()
 }
 
-/// Where ST's data have other RAM: parts, how many KB more they have, for how many part numbers, and
-/// why. The data sheets agree with the table.
+/// Differences in RAM between ST's data and the table: parts, how many KB more ST's data have, for
+/// how many part numbers, and why. The data sheets agree with the table.
 const DIFFERENCES: [(&str, f64, usize, &str); 13] = [
     ("F303 F358", -8.0, 10, "the RAM of the core (CCM) is left out"),
     ("F303 F398", -16.0, 10, "the RAM of the core (CCM) is left out"),

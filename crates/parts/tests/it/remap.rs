@@ -1,4 +1,4 @@
-//! Remap blocks of STM32F1: all signals of one peripheral that are in use are in one of them.
+//! Remap blocks of STM32F1: all signals of one peripheral that are in use must be in one of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,8 +52,8 @@ fn the_table_has_the_blocks() {
     }
 }
 
-/// On every F1, signals that can be together two by two can be so all together; no other family
-/// has blocks.
+/// On every F1, signals that can be together in pairs can all be together; no other family has
+/// blocks.
 #[test]
 fn pairs_decide_on_all_parts() {
     let mut sets = 0;
@@ -93,7 +93,7 @@ fn a_device_has_all_its_wires_in_one_block() {
 fn devices_on_one_peripheral_agree_on_its_block() {
     for target in ["none", "chibios"] {
         let on = |devices: &str| feasible("STM32F103C8", target, devices);
-        // CH1 at PB4 is in the partial remap alone, in which CH3 stays where it is.
+        // CH1 at PB4 is only in the partial remap, in which CH3 stays where it is.
         assert!(on("pwm unit = TIM3, pin = PB4; pwm unit = TIM3, pin = PB0"));
         assert!(!on("pwm unit = TIM3, pin = PA6; pwm unit = TIM3, pin = PB5"));
         // TIM2 in block 3, in block 2, and in none.
@@ -101,13 +101,13 @@ fn devices_on_one_peripheral_agree_on_its_block() {
         assert!(on("pwm unit = TIM2, pin = PA0; pwm unit = TIM2, pin = PB11"));
         assert!(!on("pwm unit = TIM2, pin = PA15; pwm unit = TIM2, pin = PA1"));
         assert!(!on("pwm unit = TIM2, pin = PA2; pwm unit = TIM2, pin = PB11"));
-        // I2C2 is on PB10 and PB11, and so is all that 48 pins bring out of USART3.
+        // I2C2 is on PB10 and PB11, and so is everything that 48 pins bring out of USART3.
         assert!(!on("i2c unit = I2C2; uart unit = USART3"));
         assert!(feasible("STM32F103R8", target, "i2c unit = I2C2; uart unit = USART3"));
     }
 }
 
-/// A signal that is in several blocks is one wiring, not one for each.
+/// A signal that is in several blocks counts as one wiring, not one for each.
 #[test]
 fn wirings_are_counted_once() {
     assert_eq!(count("STM32F103C8", "pwm pin = PA8"), count("STM32F407VG", "pwm pin = PD12"));
@@ -116,8 +116,7 @@ fn wirings_are_counted_once() {
     assert!(two.contains("12"), "{two}");
 }
 
-/// Every two outputs of one timer: there is a wiring where they have a block in common, and only
-/// there.
+/// Every two outputs of one timer: there is a wiring if they have a block in common, and only then.
 #[test]
 fn all_pairs_of_a_timer_s_outputs() {
     let table = table("STM32F103VBT6");

@@ -1,6 +1,6 @@
-//! Requests on bare parts, pins alone: the solver's cost is that of a search written apart from it,
-//! over the table of the part. One contact carries one pin, a pin one signal, a bus has one unit, a
-//! peripheral of an STM32F1 one remap block.
+//! Requests on bare parts, with only pins: the solver's cost equals that of a separately written
+//! search over the table of the part. One contact carries one pin, a pin one signal, a bus has one
+//! unit, a peripheral of an STM32F1 one remap block.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,16 +11,16 @@ use sensedsl_wiring::{Solved, Wiring};
 
 use super::designs;
 
-/// Part, devices (a kind with what is fixed), and whether there is a wiring.
+/// Part, devices (a kind with its fixed properties), and whether there is a wiring.
 const REQUESTS: [(&str, &str, bool); 40] = [
-    // I2C2 is on PB10 and PB11, and on 48 pins USART3 is nowhere else.
+    // I2C2 is on PB10 and PB11, and with 48 pins USART3 is nowhere else.
     ("STM32F103C8", "i2c unit=I2C2; uart unit=USART3", false),
     ("STM32F103C8", "i2c unit=I2C2; uart unit=USART1", true),
     ("STM32F103R8", "i2c unit=I2C2; uart unit=USART3; encoder", true),
-    // TIM3_CH1 is on PB4 in another remap block than TIM3_CH2 on PC7.
+    // TIM3_CH1 on PB4 is in another remap block than TIM3_CH2 on PC7.
     ("STM32F103R8", "encoder a=PB4 b=PC7", false),
     ("STM32F103R8", "encoder a=PC6 b=PC7", true),
-    // The CAN controller of the 36-pin part is on the USB pins alone.
+    // The CAN controller of the 36-pin part is only on the USB pins.
     ("STM32F103T8", "digital pin=PA11; digital pin=PA12; can", false),
     ("STM32F103T8", "can; analog", true),
     ("STM32F103C8", "digital pin=PA11; digital pin=PA12; can; analog; analog", true),
@@ -28,7 +28,7 @@ const REQUESTS: [(&str, &str, bool); 40] = [
     ("STM32G031J6", "digital pin=PB7; digital pin=PB8", false),
     ("STM32G031K6", "digital pin=PB7; digital pin=PB8", true),
     ("STM32G031J6", "i2c scl=PB8 sda=PB9", false),
-    // Six contacts beside the supply carry six wires and not seven.
+    // Six contacts beside the supply carry six wires, not seven.
     ("STM32G031J6", "digital; digital; digital; digital; digital; digital", true),
     ("STM32G031J6", "digital; digital; digital; digital; digital; digital; digital", false),
     ("STM32G031J6", "spi", true),
@@ -90,7 +90,7 @@ fn what_counts_as_a_usage_decides_the_cost() {
 
 /// The solver's cost of the best wiring of devices on the pins of a part.
 fn cost(part: &str, devices: &str) -> Option<u32> {
-    // The search knows of pins alone, not of what they are needed for.
+    // The search knows only pins, not what they are needed for.
     let sheet = find(part).unwrap().sheet;
     let held = pin_roles(part).into_keys().filter(|pin| sheet.pin(pin).is_some());
     let released: String = held.map(|pin| format!("    release {pin};\n")).collect();
@@ -262,7 +262,7 @@ impl Search {
             (None, Some((at, ..))) => self.pins[*at].cost,
             _ => 0,
         };
-        // What the other wires cost at least; a bus may be there already.
+        // The least that the other wires cost; a bus may be there already.
         let sure = |way: &Vec<Wire>| way.iter().map(least).sum::<u32>();
         let more: u32 = way.iter().map(least).sum::<u32>()
             + rest.iter().map(|ways| ways.iter().map(sure).min().unwrap_or(0)).sum::<u32>();

@@ -1,4 +1,4 @@
-//! The shipped table: what is in it, and what names lead to.
+//! The shipped table: its content, and what names lead to.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ fn the_table_is_small_and_large() {
     assert_eq!(families, expected.iter().map(String::as_str).collect());
 }
 
-/// A part's number leads to itself, and its table reads as its pins without a warning.
+/// A part's number leads to that part, and its table reads as its pins without a warning.
 #[test]
 fn every_part_is_a_table() {
     for part in all() {

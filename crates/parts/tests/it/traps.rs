@@ -1,5 +1,5 @@
-//! Pins that an MCU needs for itself are never given to a device, whatever the part or the board, and
-//! pins that something else is on only where no others are left.
+//! Pins that an MCU needs for itself are never given to a device, whatever the part or the board,
+//! and pins that something else is on are used only if no others are left.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,8 +12,8 @@ use sensedsl_wiring::{Solved, Wiring};
 
 use super::designs;
 
-/// The pins of five digital outputs on a part or a board, or none where it has not so many; and the
-/// pins that nothing else is on.
+/// The pins of five digital outputs on a part or a board, or `None` if it does not have so many;
+/// and the pins that nothing else is on.
 fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, BTreeSet<PinName>) {
     let mut text = format!("board X on {on} {{\n");
     for id in 1..=5 {
@@ -23,7 +23,7 @@ fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, B
     let design = designs::of_text(&text, target);
     let table = &design.boards[0].table;
     let mcu = design.boards[0].mcu.as_deref().unwrap_or_default();
-    // A board's table tells where crystals are.
+    // A board's table shows where crystals are.
     let tells = table.columns.iter().any(|column| column.role == Role::Onboard);
     let held = if tells { needed(mcu) } else { pin_roles(mcu).into_keys().collect() };
     let clean = table.pins.iter();
@@ -47,7 +47,7 @@ fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, B
 
 #[test]
 fn outputs_are_on_pins_that_the_mcu_does_not_need() {
-    // One part of each die and number of contacts.
+    // One part for each die and number of contacts.
     let parts: BTreeMap<&str, String> =
         sensedsl_parts::all().map(|part| (part.base(), part.name().replace('-', "_"))).collect();
     let (mut wired, mut short) = (0, Vec::new());

@@ -1,6 +1,6 @@
-//! `sensedsl-verify PROOF [--for FILE…]`: exit status 0 when the certificate proves what it claims,
-//! and that of those files; 1 when not; 2 when there is something that cannot be read. `-` is the
-//! standard input.
+//! `sensedsl-verify PROOF [--for FILE…]`: exits with status 0 if the certificate proves what it
+//! claims and is of those files, 1 if not, and 2 if something cannot be read. `-` is the standard
+//! input.
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -21,7 +21,7 @@ use std::process::ExitCode;
 fn bytes(path: &OsStr) -> Result<Vec<u8>, String> {
     let refused = |error: std::io::Error| error.to_string();
     let mut bytes = Vec::new();
-    // One byte more, so that it is seen to be too large.
+    // One byte more than allowed, to see whether it is too large.
     let most = BYTES_MAX as u64 + 1;
     let length = if path == "-" {
         std::io::stdin().lock().take(most).read_to_end(&mut bytes)
@@ -43,7 +43,7 @@ fn certificate(path: &OsStr) -> Result<Certificate, String> {
     read(&text).map_err(|error| error.to_string())
 }
 
-/// The certificate's path, and the files that it is to be of.
+/// The certificate's path, and the files that it should be of.
 fn arguments() -> Option<(OsString, Option<Vec<OsString>>)> {
     let mut arguments = std::env::args_os().skip(1);
     let proof = arguments.next().filter(|first| first != "--for" && first != "--help")?;
@@ -56,7 +56,7 @@ fn arguments() -> Option<(OsString, Option<Vec<OsString>>)> {
     }
 }
 
-/// What was found, in words.
+/// The result in words.
 fn judge(certificate: &Certificate, files: Option<&[(String, String)]>) -> Result<String, Refuted> {
     let proved = verify(certificate)?;
     let subject = &certificate.subject;

@@ -1,4 +1,4 @@
-//! What a record says beside its steps, and whether it is so: facilities, covers and swaps.
+//! Checks what a record says besides its steps: facilities, covers and swaps.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::Asked;
@@ -8,13 +8,13 @@ use crate::format::{self, Row};
 use crate::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A number below another.
+/// Checks that a number is below another one.
 pub(crate) fn below(number: u64, most: usize, kind: &str) -> Result<usize, Refuted> {
     let place = usize::try_from(number).ok().filter(|place| *place < most);
     place.ok_or_else(|| Refuted(format!("the search has no {kind} {number}")))
 }
 
-/// The groups of so many numbers in a row.
+/// The groups of `N` numbers in a row.
 pub(crate) fn groups<const N: usize>(row: &Row) -> Result<Vec<[u64; N]>, Refuted> {
     let chunks = row.chunks_exact(N);
     ensure(chunks.remainder().is_empty(), || "a row of the search has an odd end".into())?;
@@ -31,18 +31,18 @@ pub(crate) fn way_of(statement: &Statement, device: u64, place: u64) -> Result<u
     Ok(ways.start + below(place, ways.len(), "alternative")?)
 }
 
-/// A facility that was checked.
+/// A checked facility.
 #[derive(Debug, Default)]
 pub(crate) struct Facility {
     pub(crate) members: Vec<usize>,
     pub(crate) resource: Option<usize>,
-    /// For each wire the role of every member.
+    /// For each wire, the role of every member.
     pub(crate) wires: Vec<Vec<usize>>,
     pub(crate) users: Vec<usize>,
     slots: BTreeSet<usize>,
 }
 
-/// So many of these are open in every wiring.
+/// Facilities of which at least `need` are open in every wiring.
 #[derive(Debug)]
 pub(crate) struct Cover {
     pub(crate) great: Vec<usize>,
@@ -53,14 +53,14 @@ pub(crate) struct Cover {
 #[derive(Debug, Default)]
 pub(crate) struct Facilities {
     pub(crate) all: Vec<Facility>,
-    /// Those of each alternative.
+    /// The facilities of each alternative.
     pub(crate) of_way: Vec<Vec<usize>>,
-    /// Places on wires of facilities where every wire counts as moved.
+    /// For each place on a wire of a facility, whether every wire there counts as moved.
     pub(crate) moved: BTreeMap<(usize, usize, usize), bool>,
-    /// For each user of DMA whether every use excludes all others.
+    /// For each user of DMA, whether every use excludes all others.
     pub(crate) private: Vec<bool>,
-    /// For each user of DMA the resource by which its facilities exclude each other: who has it for
-    /// itself pays for the streams himself.
+    /// For each user of DMA, the resource by which its facilities exclude each other: a device that
+    /// has it for itself pays for the streams itself.
     pub(crate) direct: Vec<Option<usize>>,
     pub(crate) covers: Vec<Cover>,
 }
@@ -93,7 +93,8 @@ impl Facilities {
         Ok(facilities)
     }
 
-    /// A place is on one wire of one facility, and not on a wire that a device has for itself.
+    /// Checks that a place is on one wire of one facility, and not on a wire that a device has for
+    /// itself.
     fn check_places(&mut self, statement: &Statement) -> Result<(), Refuted> {
         let mut owners = BTreeMap::new();
         for (number, facility) in self.all.iter().enumerate() {
@@ -113,7 +114,7 @@ impl Facilities {
         Ok(())
     }
 
-    /// Only one facility at a time pays for the streams of a user.
+    /// Checks that only one facility at a time pays for the streams of a user.
     fn check_users(&mut self, statement: &Statement) -> Result<(), Refuted> {
         for user in 0..statement.users.len() {
             let payers: Vec<&Facility> =
@@ -202,7 +203,7 @@ impl Facility {
         one.ok_or_else(|| Refuted("a facility is not held as one group".into()))
     }
 
-    /// How many of these devices it can serve at most.
+    /// The most of these devices that it can serve.
     fn room(&self, statement: &Statement, devices: &BTreeSet<usize>) -> usize {
         let members =
             self.members.iter().filter(|way| devices.contains(&statement.ways[**way].device));
@@ -220,7 +221,7 @@ impl Facility {
         };
         let different: BTreeSet<usize> =
             members.iter().map(|way| statement.ways[*way].device).collect();
-        // Whoever may be here without a slot counts for himself.
+        // A device that may be here without a slot counts by itself.
         let loose = members.iter().filter(|way| !slotted(way));
         let loose: BTreeSet<usize> = loose.map(|way| statement.ways[*way].device).collect();
         let slots = self.slots.len() + loose.len();
@@ -230,7 +231,7 @@ impl Facility {
     }
 }
 
-/// How many pins there are for a role that each of these has for itself.
+/// The number of pins for a role, if each of these alternatives has the role for itself.
 fn pins_at(statement: &Statement, members: &[usize], place: usize) -> Option<usize> {
     let mut pins = BTreeSet::new();
     for way in members {
@@ -243,8 +244,8 @@ fn pins_at(statement: &Statement, members: &[usize], place: usize) -> Option<usi
     Some(pins.len())
 }
 
-/// For each user of DMA whether only one device can use it, or all who do take one resource for
-/// themselves.
+/// For each user of DMA, whether only one device can use it, or all devices that do take one
+/// resource for themselves.
 fn private(statement: &Statement) -> Vec<bool> {
     let mut users: Vec<Option<(usize, bool, BTreeSet<usize>)>> = vec![None; statement.users.len()];
     for way in &statement.ways {
@@ -259,7 +260,7 @@ fn private(statement: &Statement) -> Vec<bool> {
     users.into_iter().map(|user| user.is_some_and(|(_, one, own)| one || !own.is_empty())).collect()
 }
 
-/// A way to change places that maps the statement to itself. It is its own inverse.
+/// An exchange of places that maps the statement to itself. It is its own inverse.
 #[derive(Debug)]
 pub(crate) struct Swap {
     maps: Maps,
@@ -268,7 +269,7 @@ pub(crate) struct Swap {
     wires: BTreeMap<usize, usize>,
 }
 
-/// The numbers from 0, of which some change places in pairs.
+/// The numbers from 0, some of which change places in pairs.
 fn paired(row: &Row, most: usize, kind: &str) -> Result<Vec<usize>, Refuted> {
     let mut map: Vec<usize> = (0..most).collect();
     for [one, other] in groups::<2>(row)? {
@@ -280,7 +281,7 @@ fn paired(row: &Row, most: usize, kind: &str) -> Result<Vec<usize>, Refuted> {
     Ok(map)
 }
 
-/// What a swap does to numbers.
+/// The effect of a swap on numbers.
 #[derive(Debug)]
 struct Maps {
     boards: Vec<usize>,
@@ -326,7 +327,7 @@ impl Swap {
         Ok(Self { maps, ways, wires })
     }
 
-    /// How much it moves, a measure of the time.
+    /// How much it moves, a measure of the time it takes.
     pub(crate) fn size(&self) -> usize {
         1 + self.ways.len() + self.wires.len() + self.maps.boards.len() + self.maps.rules.len()
     }
@@ -335,7 +336,7 @@ impl Swap {
         self.ways.get(&way).copied().unwrap_or(way)
     }
 
-    /// What becomes of a question.
+    /// The questions into which a swap turns a question.
     pub(crate) fn images(&self, asked: Asked, facilities: &Facilities) -> Vec<Asked> {
         vec![match asked {
             Asked::Way(way) => Asked::Way(self.way(way)),
@@ -350,12 +351,12 @@ impl Swap {
         }]
     }
 
-    /// Whether a case stays as it is.
+    /// Whether the swap leaves a case as it is.
     pub(crate) fn keeps(&self, state: &State, facilities: &Facilities) -> bool {
         let boards = self.maps.boards.iter().enumerate();
         let rules = self.maps.rules.iter().enumerate();
         let is_open = |number: &usize| state.open[*number];
-        // Whoever uses this one becomes one who uses an open one.
+        // A device that uses this facility becomes one that uses an open facility.
         let stays =
             |number: usize| {
                 let members = &facilities.all[number].members;
@@ -408,7 +409,7 @@ impl Maps {
         rules.iter().map(|rule| self.rules[*rule]).collect()
     }
 
-    /// Whether nothing changes that an alternative names.
+    /// Whether everything that an alternative names stays the same.
     fn leaves(&self, statement: &Statement, way: usize) -> bool {
         let of = &statement.ways[way];
         let claims = |claims: &[Claim]| {
@@ -432,7 +433,7 @@ impl Maps {
             })
     }
 
-    /// Whether an alternative becomes another one; notes what its candidates become.
+    /// Whether one alternative becomes the other; records what its candidates become.
     fn way(
         &self,
         statement: &Statement,
@@ -473,8 +474,8 @@ impl Maps {
     }
 }
 
-/// The devices that violate a rule, each with the places where it does: 0, or the role and 1. What all candidates of a
-/// role violate is also violated at 0.
+/// The devices that violate a rule, each with the places where it does: 0, or the role plus 1. A
+/// rule that all candidates of a role violate is also violated at 0.
 pub(crate) fn violators(statement: &Statement, rule: usize) -> BTreeSet<(usize, usize)> {
     let places = |part: &Part| match part {
         Part::Way(way) => vec![(statement.ways[*way].device, 0)],

@@ -1,16 +1,16 @@
-//! Whether the record of a search proves what it claims.
+//! Checks that the record of a search proves what it claims.
 //!
-//! The record says how the search split the problem, and by which multipliers it narrowed or closed
-//! each case; this walks through it and computes every step anew, in integers:
+//! The record states how the search split the problem, and by which multipliers it narrowed or
+//! closed each case; this module walks through it and recomputes every step in integers:
 //! 1. `statement` numbers the problem;
-//! 2. `claims` checks what the record says beside its steps: facilities, covers, swaps of boards;
-//! 3. `state` keeps what is left in a case, and removes what excludes each other;
-//! 4. `price` computes from multipliers what all that is left weighs at least.
+//! 2. `claims` checks what the record says besides its steps: facilities, covers, swaps of boards;
+//! 3. `state` keeps what is left in a case, and removes choices that exclude each other;
+//! 4. `price` computes from multipliers the least weight of everything that is left.
 //!
-//! Two things are kept of each case: what was *decided* on the way to it, and what is *left* after
-//! everything that cannot be in a wiring below the limit was removed as well. Where either stays as
-//! it is when devices or boards change places, then from any wiring of the case below the limit we
-//! get another one by changing them, and so by several such changes in turn. So if there is none
+//! Two things are kept for each case: what was *decided* on the way to it, and what is *left* after
+//! everything that cannot be in a wiring below the limit was removed as well. If either stays as it
+//! is when devices or boards change places, then from any wiring of the case below the limit we get
+//! another one by this exchange, and so by several such exchanges in turn. So if there is none
 //! where one of them takes a choice, there is none where the other one does, and the choice is
 //! refused to both.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
@@ -37,11 +37,11 @@ enum Asked {
     Kept(usize),
     Unused(usize),
     Open(usize),
-    /// An alternative that is refused alone: the image of one of a facility.
+    /// An alternative that is refused alone: the image of a member of a facility.
     Member(usize),
 }
 
-/// What a look at a choice costs that may be removed, in looks at one that may not.
+/// The cost of examining a choice that may be removed, in units of examining one that may not.
 const NARROWING: usize = 8;
 
 /// A case that waits for its question to be refused.
@@ -54,9 +54,9 @@ struct Waiting {
 struct Walk<'s> {
     market: Market<'s>,
     swaps: Vec<Swap>,
-    /// What was decided.
+    /// The choices decided on the way to the case.
     decided: State,
-    /// What is left.
+    /// The choices left in the case.
     left: State,
     waiting: Vec<Waiting>,
 }
@@ -96,7 +96,7 @@ pub(crate) fn check(
     Err(Refuted("the search leaves out cases".into()))
 }
 
-/// The time it takes at most to check what a record says beside its steps.
+/// The most time that it can take to check what a record says besides its steps.
 fn cost(problem: &Problem, search: &Search) -> usize {
     let ways: usize = problem.devices.values().map(|device| device.len()).sum();
     let facility = |one: &Facility| one.members.len() * (1 + one.users.len() + one.wires.len());
@@ -108,7 +108,7 @@ fn cost(problem: &Problem, search: &Search) -> usize {
     all.saturating_add(users).saturating_add(covers).saturating_add(each)
 }
 
-/// The weights with the limit. A lower objective has to weigh less.
+/// The weights with the limit. A lower objective must weigh less.
 fn weights(
     statement: &Statement,
     weights: [u64; 5],
@@ -134,7 +134,7 @@ fn weights(
         costs.into_iter().take(wires).map(i128::from).sum(),
         spares as i128,
     ];
-    // What the later parts can be lower than claimed, or higher, together.
+    // The most by which the later parts together can be lower than claimed, or higher.
     let mut later = 0;
     for (weight, (most, claimed)) in weights.into_iter().zip(most.into_iter().zip(claimed)).rev() {
         ensure(weight > later, || "a weight is not larger than all later ones".into())?;
@@ -146,7 +146,7 @@ fn weights(
 }
 
 impl Walk<'_> {
-    /// One step; whether it ends a case.
+    /// Checks one step. Returns whether it ends a case.
     fn step(&mut self, at: usize, step: &Step, budget: &mut Budget) -> Result<bool, Refuted> {
         let statement = self.market.statement;
         self.left.propagate(statement);
@@ -165,7 +165,7 @@ impl Walk<'_> {
                 Ok(true)
             }
             Step::Narrowed(by) => {
-                // All is looked at once for the prices, and again for what is too dear.
+                // Everything is examined once for the prices, and again for what is too expensive.
                 budget.work(NARROWING * self.market.narrow(&mut self.left, by)?)?;
                 Ok(false)
             }
@@ -182,7 +182,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Goes back to the last case that waits, where its question is refused; false if there is none.
+    /// Goes back to the last case that waits and refuses its question; false if there is none.
     fn refuse(&mut self) -> bool {
         let Some(Waiting { decided, left, refused }) = self.waiting.pop() else { return false };
         let Market { statement, facilities, .. } = self.market;
@@ -225,7 +225,8 @@ impl Walk<'_> {
         })
     }
 
-    /// What is refused together: the question, and all that swaps that keep the case make of it.
+    /// Everything that is refused together: the question, and all questions into which swaps that
+    /// keep the case turn it.
     fn images(
         &self,
         at: usize,

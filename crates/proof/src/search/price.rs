@@ -1,17 +1,18 @@
-//! What everything left in a case weighs at least, from multipliers.
+//! The least weight of everything left in a case, from multipliers.
 //!
-//! Everybody chooses for himself, without regard for the others, what is cheapest for him:
+//! Every device and every facility makes the choice that is cheapest for itself, without regard for
+//! the others:
 //! - a device pays for pins, resources and streams that it has for itself, for the rules that it
 //!   violates, and to the facilities that it uses;
-//! - a facility that somebody uses pays for what its members hold together: its resource, the
-//!   pins of its wires, its streams. From that is taken what its members pay to it. It is open if
-//!   somebody uses it for sure, or where that saves something.
+//! - a facility that is used pays for what its members hold together: its resource, the pins of its
+//!   wires, its streams. What its members pay to it is subtracted. It is open if a device certainly
+//!   uses it, or if that saves something.
 //!
-//! In a wiring a pin, a resource or a stream is paid for by one of them at most, so beyond its
-//! weight it takes in no more than its multiplier, which is given back once. What devices pay to a
-//! facility or for a rule is given back there. So no wiring weighs less than the sum, whatever the
-//! multipliers are. Of a facility with a cover each opening saves something, and the saving is
-//! added as often as the cover says at least.
+//! In a wiring, at most one of them pays for a pin, a resource or a stream, so beyond its weight it
+//! takes in no more than its multiplier, which is given back once. What devices pay to a facility
+//! or for a rule is given back there. So no wiring weighs less than the sum, whatever the
+//! multipliers are. Each opening of a facility with a cover saves something, and the saving is
+//! added as often as the cover requires at least.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::claims::{Facilities, below, groups, violators};
@@ -24,7 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Multipliers and scales stay below this, so that no sum overflows.
 const MOST: u64 = 1 << 60;
 
-/// The weights of the objective's parts, and what all wirings are to weigh more than.
+/// The weights of the objective's parts, and the limit that all wirings must exceed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights {
     pub(crate) moved: i128,
@@ -38,19 +39,19 @@ pub(crate) struct Weights {
 /// How a rule is paid for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Paying {
-    /// By the only one who can violate it, in full.
+    /// In full, by the only one that can violate it.
     Full,
-    /// By all who violate it, as the multipliers say.
+    /// In parts given by the multipliers, by all that violate it.
     Parts,
 }
 
-/// What is the same for all multipliers.
+/// The data that is the same for all multipliers.
 pub(crate) struct Market<'s> {
     pub(crate) statement: &'s Statement,
     pub(crate) facilities: &'s Facilities,
     pub(crate) weights: Weights,
     paying: Vec<Paying>,
-    /// What the weight of a wiring without spare boards is a multiple of.
+    /// The weight of a wiring without spare boards is a multiple of this.
     unit: i128,
 }
 
@@ -73,7 +74,7 @@ impl<'s> Market<'s> {
         self.weights.cost * i128::from(of.cost) + if of.shared { self.weights.shared } else { 0 }
     }
 
-    /// What a wiring can weigh at most.
+    /// The most that a wiring can weigh.
     pub(crate) fn most(&self) -> i128 {
         let Self { statement, weights, .. } = self;
         let moved = if statement.wires.iter().any(|wire| wire.moved) { weights.moved } else { 0 };
@@ -95,7 +96,8 @@ impl<'s> Market<'s> {
     }
 }
 
-/// Whether in any wiring one place of one device, or the holder of one pin, can violate the rule.
+/// Whether in any wiring only one place of one device, or the holder of one pin, can violate the
+/// rule.
 fn alone(statement: &Statement, rule: usize) -> bool {
     let pin = |part: &Part| match part {
         Part::Wire(wire) => {
@@ -125,18 +127,18 @@ struct Prices {
     scale: i128,
     pins: Vec<i128>,
     resources: Vec<i128>,
-    /// What the requests of each user of DMA cost.
+    /// The cost of the requests of each user of DMA.
     users: Vec<i128>,
     streams: i128,
     links: BTreeMap<(usize, usize), i128>,
-    /// For each resource to whom its holder pays.
+    /// For each resource, the facilities that its holder pays, and how much.
     tickets: Vec<Vec<(usize, i128)>>,
-    /// What each facility takes in by tickets at most.
+    /// The most that each facility takes in by tickets.
     of_tickets: Vec<i128>,
     rules: BTreeMap<(usize, usize, usize), i128>,
-    /// What all pay for each rule.
+    /// The sum of what is paid for each rule.
     of_rules: BTreeMap<usize, i128>,
-    /// What each facility saves.
+    /// The amount that each facility saves.
     savings: Vec<i128>,
     covers: i128,
 }
@@ -208,7 +210,7 @@ impl Prices {
             *self.of_rules.entry(rule).or_default() += price;
         }
         for (rule, sum) in &mut self.of_rules {
-            // What nobody can pay is not given back.
+            // A payment that nobody can make is not given back.
             let paid = violators(statement, *rule).into_iter();
             let paid = paid.filter_map(|(device, at)| self.rules.get(&(*rule, device, at)));
             *sum = paid.sum();
@@ -217,26 +219,26 @@ impl Prices {
     }
 }
 
-/// What everybody pays in a case.
+/// All payments in a case.
 struct Bill {
-    /// What a candidate costs.
+    /// The cost of each candidate.
     wires: Vec<i128>,
     /// The cheapest candidate of each role.
     roles: Vec<i128>,
     ways: Vec<i128>,
     devices: Vec<i128>,
-    /// What opening each facility costs; none where nobody can use it.
+    /// The cost of opening each facility; `None` if no device can use it.
     openings: Vec<Option<Opening>>,
-    /// What violating each rule costs that is paid in parts and not decided.
+    /// The cost of violating each rule that is paid in parts and not decided.
     rules: Vec<(usize, i128)>,
-    /// The weight shown, without spare boards.
+    /// The weight that is proved, without spare boards.
     sum: i128,
     /// The weight of the spare boards in use.
     spares: i128,
     work: usize,
 }
 
-/// What a facility costs.
+/// The cost of a facility.
 struct Opening {
     cost: i128,
     forced: bool,
@@ -245,7 +247,7 @@ struct Opening {
 }
 
 impl Market<'_> {
-    /// Whether the multipliers show that all that is left weighs more than the limit.
+    /// Whether the multipliers show that everything that is left weighs more than the limit.
     pub(crate) fn closes(&self, state: &State, by: &By) -> Result<(bool, usize), Refuted> {
         let prices = Prices::new(self, by)?;
         let bill = self.bill(state, &prices);
@@ -307,7 +309,7 @@ impl Market<'_> {
         bill
     }
 
-    /// What a device pays for an alternative at least.
+    /// The least that a device pays for an alternative.
     fn way(&self, state: &State, prices: &Prices, way: usize, bill: &mut Bill) -> i128 {
         let of = &self.statement.ways[way];
         let facilities = &self.facilities.of_way[way];
@@ -399,7 +401,7 @@ impl Market<'_> {
                 state.wires(statement, role).map(|wire| self.place(prices, wire)).min()
             };
             let members = || facility.members.iter().zip(roles).zip(&decided);
-            // Whoever uses it for sure holds one of its own places.
+            // A member that is certain holds one of its own places.
             let sure = members().filter(|(_, sure)| **sure).filter_map(|((_, role), _)| at(*role));
             let all = members().filter(|((way, _), _)| alive(way));
             let least = sure.max().or_else(|| all.filter_map(|((_, role), _)| at(*role)).min());
@@ -419,7 +421,7 @@ impl Market<'_> {
         Some(Opening { cost: cost - prices.savings[number], forced, wires })
     }
 
-    /// What a facility pays for a place.
+    /// The price that a facility pays for a place.
     fn place(&self, prices: &Prices, wire: usize) -> i128 {
         let of = &self.statement.wires[wire];
         let moved = self.facilities.moved.get(&of.place()) == Some(&true);
@@ -427,7 +429,7 @@ impl Market<'_> {
         (self.pin(of.pin) + moved) * prices.scale + prices.pins[of.pin]
     }
 
-    /// Removes what weighs too much.
+    /// Removes everything that weighs too much.
     pub(crate) fn narrow(&self, state: &mut State, by: &By) -> Result<usize, Refuted> {
         let statement = self.statement;
         let prices = Prices::new(self, by)?;

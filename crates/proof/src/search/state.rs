@@ -1,21 +1,21 @@
-//! What can still be taken in a case. It only shrinks; every change is on a trail and taken back
-//! when the case is left.
+//! The choices that can still be taken in a case. They only shrink; every change is recorded on a
+//! trail and undone when the case is left.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::statement::{Claim, Part, Statement, agree};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Streams that are matched with requests; no board has as many.
+/// The most streams that are matched with requests; no board has as many.
 const STREAMS_MAX: usize = 1000;
 
-/// A rule or a board.
+/// The state of a rule or a board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Charge {
     /// May be violated, or used, or not.
     Open,
     /// Is violated, or used, in every wiring of the case.
     Paid,
-    /// Is in none.
+    /// Is violated, or used, in no wiring of the case.
     Closed,
 }
 
@@ -29,29 +29,30 @@ enum Event {
     Died,
 }
 
-/// What is left.
+/// The choices that are left.
 #[derive(Debug)]
 pub(crate) struct State {
     pub(crate) way: Vec<bool>,
     pub(crate) wire: Vec<bool>,
-    /// How many alternatives a device has left, and candidates a role.
+    /// The number of alternatives that each device has left, and of candidates that each role has
+    /// left.
     ways_left: Vec<usize>,
     pub(crate) wires_left: Vec<usize>,
     pub(crate) rule: Vec<Charge>,
     pub(crate) board: Vec<Charge>,
-    /// Facilities that somebody uses in every wiring of the case.
+    /// Facilities that at least one device uses in every wiring of the case.
     pub(crate) open: Vec<bool>,
     /// Whether nothing is left.
     pub(crate) dead: bool,
     trail: Vec<Event>,
-    /// Devices with one alternative left that propagation has to look at.
+    /// Devices with one alternative left that propagation still has to process.
     waiting: Vec<usize>,
-    /// Choices looked at, a measure of the time.
+    /// Number of choices examined, a measure of the time.
     pub(crate) work: usize,
 }
 
 impl State {
-    /// Everything.
+    /// The state in which everything is left.
     pub(crate) fn new(statement: &Statement, facilities: usize) -> Self {
         let mut state = Self {
             way: vec![true; statement.ways.len()],
@@ -77,7 +78,7 @@ impl State {
         self.trail.len()
     }
 
-    /// Takes back what came after the mark.
+    /// Undoes everything after the mark.
     pub(crate) fn undo(&mut self, statement: &Statement, mark: usize) {
         self.waiting.clear();
         while self.trail.len() > mark {
@@ -219,8 +220,8 @@ impl State {
         }
     }
 
-    /// Takes away what nobody can take beside those who have one alternative, or one candidate,
-    /// left.
+    /// Removes everything that is excluded by devices with one alternative left and by roles with
+    /// one candidate left.
     pub(crate) fn propagate(&mut self, statement: &Statement) {
         while let Some(device) = self.waiting.pop() {
             if self.dead {
@@ -249,7 +250,7 @@ impl State {
         }
     }
 
-    /// Nobody else can take these on another behalf.
+    /// No other device can take these on another behalf.
     fn exclude(&mut self, statement: &Statement, device: usize, claims: &[Claim]) {
         for claim in claims {
             self.work += statement.resources[claim.resource].len();
@@ -261,7 +262,7 @@ impl State {
         }
     }
 
-    /// The one candidate of a role excludes others.
+    /// The only candidate of a role excludes others.
     fn follow(&mut self, statement: &Statement, role: usize) {
         let Some(wire) = self.wires(statement, role).next() else { return };
         let of = &statement.wires[wire];
@@ -281,7 +282,7 @@ impl State {
         }
     }
 
-    /// Who shares what this role takes in any case has to fit one of its candidates.
+    /// Devices that share what this role takes in any case must fit one of its candidates.
     fn agree_on(&mut self, statement: &Statement, device: usize, role: usize) {
         let mut others = BTreeSet::new();
         for tie in &statement.roles[role].ties {
@@ -304,8 +305,9 @@ impl State {
         }
     }
 
-    /// Whether there are streams for all who need some for sure: the users of DMA of those who have
-    /// one alternative left, and so many private ones as each other device needs whatever it takes.
+    /// Whether there are streams for everything that certainly needs them: the users of DMA of
+    /// devices that have one alternative left, and as many private ones as each other device needs
+    /// whatever it takes.
     pub(crate) fn has_streams(&self, statement: &Statement, private: &[bool]) -> bool {
         let mut users = BTreeSet::new();
         let mut requests: Vec<BTreeSet<usize>> = Vec::new();
@@ -334,7 +336,7 @@ impl State {
     }
 }
 
-/// Gives a request a stream of its own, moving others where needed.
+/// Gives a request a stream of its own, moving others if needed.
 fn serve(
     requests: &[BTreeSet<usize>],
     one: usize,

@@ -1,4 +1,4 @@
-//! The problem in numbers: everything is numbered in the order of names, and found by who uses it.
+//! The problem in numbers: everything is numbered in the order of names, and indexed by its users.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use crate::format::{Alternative, Candidate, Map, OWN, Problem};
@@ -17,7 +17,7 @@ pub(crate) struct Claim {
     pub(crate) first: bool,
 }
 
-/// Who claims a resource or violates a rule.
+/// A part of the problem that claims a resource or violates a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     Way(usize),
@@ -31,7 +31,7 @@ pub(crate) struct Way {
     pub(crate) board: usize,
     pub(crate) claims: Vec<Claim>,
     pub(crate) rules: Vec<usize>,
-    /// Further ones, which all candidates of a role violate.
+    /// Further rules, which all candidates of a role violate.
     pub(crate) implied: BTreeSet<usize>,
     pub(crate) users: Vec<usize>,
     /// Its roles.
@@ -64,7 +64,7 @@ pub(crate) struct Wire {
     pub(crate) rules: Vec<usize>,
 }
 
-/// A pin, who can hold it, and what it weighs in cost and as a shared one.
+/// A pin: its cost, whether it is shared, and the candidates that can hold it.
 #[derive(Debug)]
 pub(crate) struct Pin {
     pub(crate) cost: u32,
@@ -81,19 +81,19 @@ pub(crate) struct Statement {
     pub(crate) roles: Vec<Role>,
     pub(crate) wires: Vec<Wire>,
     pub(crate) pins: Vec<Pin>,
-    /// For each board whether it is a spare one.
+    /// For each board, whether it is a spare one.
     pub(crate) spare: Vec<bool>,
-    /// For each user of DMA its requests, as streams.
+    /// For each user of DMA, its requests, as streams.
     pub(crate) users: Vec<Vec<BTreeSet<usize>>>,
     pub(crate) streams: usize,
     pub(crate) holders: usize,
-    /// Who claims each resource.
+    /// The claimants of each resource.
     pub(crate) resources: Vec<Vec<(Part, Holder)>>,
-    /// Who violates each rule.
+    /// The parts that violate each rule.
     pub(crate) rules: Vec<Vec<Part>>,
 }
 
-/// Whether two devices may hold one thing on these behalves.
+/// Whether two devices with these holders may hold the same thing.
 pub(crate) const fn agree(one: Holder, other: Holder) -> bool {
     one == other && one != 0
 }
@@ -111,7 +111,7 @@ struct Names<'a> {
     streams: BTreeMap<&'a str, usize>,
 }
 
-/// The number of a name that was numbered.
+/// The number that was given to a name.
 fn number(names: &BTreeMap<&str, usize>, name: &str) -> usize {
     names.get(name).copied().unwrap_or(0)
 }
@@ -179,7 +179,7 @@ impl<'a> Names<'a> {
                     match first[at] {
                         None => first[at] = Some((device, holder)),
                         Some((one, held)) if one == device => {
-                            // One device with two holders shares with nobody.
+                            // A device with two holders cannot share.
                             first[at] = Some((one, if held == holder { held } else { 0 }));
                         }
                         Some((_, held)) => contested[at] |= !agree(held, holder),
@@ -315,7 +315,7 @@ impl Statement {
 }
 
 impl Wire {
-    /// What those agree on who hold a pin together.
+    /// The properties on which devices that hold a pin together must agree.
     pub(crate) const fn place(&self) -> (usize, usize, usize) {
         (self.pin, self.holder, self.signal)
     }

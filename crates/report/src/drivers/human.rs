@@ -1,4 +1,4 @@
-//! For a terminal of 80 columns.
+//! The parts for a terminal of 80 columns.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
 
-/// Letters of a line.
+/// Characters in a line.
 const WIDTH: usize = 80;
 /// Widest columns of the list: name, kinds, full name; the values take the rest.
 const NAME_MAX: usize = 22;
@@ -35,11 +35,11 @@ pub fn listing(parts: &[PartFacts]) -> String {
     out
 }
 
-/// A row whose cells are as many lines as they need.
+/// A row with as many lines as its cells need.
 fn row<const N: usize>(out: &mut String, cells: &[String; N], widths: [usize; N]) {
     let mut columns: Vec<Vec<String>> = Vec::new();
     for (cell, width) in cells.iter().zip(widths) {
-        // The indentation of the first cell is its own.
+        // An indented cell keeps its indentation.
         let indent = if cell.starts_with(' ') { "  " } else { "" };
         let lines = wrapped(cell, width, indent, indent);
         columns.push(lines.lines().map(str::to_owned).collect());
@@ -138,7 +138,7 @@ fn values(part: &PartFacts) -> String {
     columns(["Value", "", "Type", "Unit", "Scale", "Range", invalid], &rows)
 }
 
-/// Rows below their heads.
+/// Rows below their headings.
 fn columns<const N: usize>(heads: [&str; N], rows: &[[String; N]]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());

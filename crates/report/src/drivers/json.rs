@@ -1,4 +1,4 @@
-//! For programs.
+//! The parts as JSON, for programs.
 
 use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts, example};
 use sensedsl_wire::Direction;
@@ -10,7 +10,7 @@ pub fn values(parts: &[PartFacts]) -> Value {
     json!({ "version": 1, "drivers": parts.iter().map(value).collect::<Vec<_>>() })
 }
 
-/// A part.
+/// A part as JSON.
 #[must_use]
 pub fn value(part: &PartFacts) -> Value {
     let identity = part.protocol.as_ref().and_then(|protocol| protocol.identity.as_ref());

@@ -1,4 +1,4 @@
-//! A page for each part, and one that lists them: Markdown.
+//! A page for each part, and one that lists them, in Markdown.
 
 use std::fmt::Write as _;
 
@@ -8,10 +8,10 @@ use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
 
-/// Letters of a line.
+/// Characters in a line.
 const WIDTH: usize = 120;
 
-/// The page that lists all parts, with links to their pages. `intro` stands above the tables.
+/// The page that lists all parts, with links to their pages. `intro` comes before the tables.
 #[must_use]
 pub fn index(parts: &[PartFacts], intro: &str) -> String {
     let mut out = intro.to_owned();
@@ -168,7 +168,7 @@ fn sources(out: &mut String, part: &PartFacts) {
     out.push_str(&wrapped(&text, WIDTH, "- ", "  "));
 }
 
-/// Text that does not end its cell.
+/// Text escaped so that it does not end its cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }

@@ -1,4 +1,4 @@
-//! Facts in words: numbers, units, wires and lines of text that are not too long.
+//! Facts in words: numbers, units, wires, and text in lines of limited length.
 
 use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts};
 use sensedsl_model::kind::digital::Pull;
@@ -15,7 +15,7 @@ pub(super) fn field(name: &str) -> String {
     first.into_iter().chain(letters).collect()
 }
 
-/// The lines of a text of at most so many letters, each behind its indentation.
+/// The text in lines of at most `letters` characters, each after its indentation.
 pub(super) fn wrapped(text: &str, letters: usize, first: &str, others: &str) -> String {
     let mut out = String::new();
     let mut line = first.to_owned();
@@ -38,7 +38,7 @@ pub(super) fn wrapped(text: &str, letters: usize, first: &str, others: &str) -> 
     out
 }
 
-/// A number with at most so many digits that count.
+/// A number with at most `count` significant digits.
 pub(super) fn digits(number: f64, count: usize) -> String {
     if number == 0.0 {
         return "0".to_owned();
@@ -53,7 +53,7 @@ pub(super) fn digits(number: f64, count: usize) -> String {
     text
 }
 
-/// A factor: as a fraction of one where that says it shorter.
+/// A factor, as a fraction of one if that is shorter.
 fn factor(scale: f64) -> String {
     const SHORT: usize = 7;
     let plain = format!("{scale}");
@@ -66,7 +66,7 @@ fn factor(scale: f64) -> String {
     if is_fraction { format!("1/{whole}") } else { digits(scale, 6) }
 }
 
-/// How a host makes the shown value of the one on the wire; empty where it is the same.
+/// How a host computes the shown value from the one on the wire; empty if they are the same.
 pub(super) fn scale(value: &ValueFacts) -> String {
     let mut words = Vec::new();
     if let Some(scale) = value.shown.scale {
@@ -87,7 +87,7 @@ pub(super) fn unit(value: &ValueFacts) -> &str {
     value.shown.quantity.as_deref().unwrap_or_default()
 }
 
-/// What the value is between.
+/// The range of the value.
 pub(super) fn range(value: &ValueFacts) -> String {
     let Some((least, most)) = value.range() else { return String::new() };
     format!("{} to {}", digits(least, 4), digits(most, 4))
@@ -101,7 +101,7 @@ pub(super) fn invalid(value: &ValueFacts) -> String {
     value.filter.invalid.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// What a value is called; that of a part with one value which has no name is `value`.
+/// The name of a value; `value` for the only value of a part if it has no name.
 pub(super) fn name(value: &ValueFacts) -> &str {
     value.name.as_deref().unwrap_or("value")
 }
@@ -126,7 +126,7 @@ fn in_unit(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(", in {unit}") }
 }
 
-/// A supply voltage, or the range of it.
+/// A supply voltage, or its range.
 pub(super) fn supply(part: &PartFacts) -> Option<String> {
     let (least, most) = part.supply_mv?;
     let least_shown = shown_mv(least);
@@ -149,7 +149,7 @@ pub(super) fn levels(part: &PartFacts) -> Option<String> {
     if all.is_empty() { None } else { Some(all.join("; ")) }
 }
 
-/// The addresses; the one that it has by itself first.
+/// The addresses; the default address first.
 pub(super) fn addresses(part: &PartFacts) -> Option<String> {
     let shown = |one: &u8| format!("0x{one:02X}");
     let list = part.addresses.iter().filter(|one| part.address != Some(**one));
@@ -167,7 +167,7 @@ pub(super) fn addresses(part: &PartFacts) -> Option<String> {
     }
 }
 
-/// Addresses; of four and more that follow one another the first and the last.
+/// Addresses; of four or more in a row, only the first and the last.
 fn runs(addresses: &[u8]) -> String {
     let follows = |one: &u8, next: &u8| one.checked_add(1) == Some(*next);
     let runs = addresses.chunk_by(follows).map(|run| match run {
@@ -177,7 +177,7 @@ fn runs(addresses: &[u8]) -> String {
     runs.collect::<Vec<_>>().join(", ")
 }
 
-/// What tells the part from others.
+/// The means by which the part can be told from others.
 pub(super) fn identity(part: &PartFacts) -> Option<String> {
     let identity = part.protocol.as_ref()?.identity.as_ref()?;
     let bytes = |bytes: &[u8]| {
@@ -203,7 +203,7 @@ fn hertz(hz: u32) -> String {
     }
 }
 
-/// What the board sets for a connection.
+/// The settings that the board makes for a connection.
 pub(super) fn settings(kind: &Kind) -> String {
     let words: Vec<String> = match kind {
         Kind::I2c(i2c) => vec![hertz(i2c.speed_hz)],
@@ -246,7 +246,7 @@ pub(super) fn settings(kind: &Kind) -> String {
     words.join(", ")
 }
 
-/// A wire as the tool calls it: `scl`, `pwm_a`, `encoder.a`.
+/// The tool's name for a wire: `scl`, `pwm_a`, `encoder.a`.
 pub(super) fn wire(connection: &ConnectionFacts, role: Role) -> String {
     match &connection.name {
         None => role.name().to_owned(),
@@ -255,7 +255,7 @@ pub(super) fn wire(connection: &ConnectionFacts, role: Role) -> String {
     }
 }
 
-/// The contact of the usual module that the wire goes to, where its name tells.
+/// The contact of the usual module that the wire goes to, if its name tells.
 pub(super) fn contact<'a>(
     part: &'a PartFacts,
     connection: &ConnectionFacts,
@@ -286,13 +286,13 @@ fn spelled(name: &str) -> Vec<String> {
     std::iter::once(name.replace('_', "")).chain(moved).collect()
 }
 
-/// What modules print beside the contact of a wire, the surest first.
+/// The names that modules print beside the contact of a wire, the surest first.
 fn names_of(kind: sensedsl_model::kind::KindName, role: Role) -> &'static [&'static str] {
     use sensedsl_model::kind::KindName;
     match role {
         Role::Scl => &["SCL"],
         Role::Sda => &["SDA"],
-        // What one end sends the other receives.
+        // What one end sends, the other receives.
         Role::Tx => &["RX", "RXD"],
         Role::Rx => &["TX", "TXD", "SIGNAL"],
         Role::Sck => &["SCK", "CLK"],

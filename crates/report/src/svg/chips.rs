@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use super::{MARGIN, WIDTH, colour, cut, escaped};
 use crate::rows::Row;
 
-/// Boxes beside each other.
+/// Number of boxes side by side.
 const COLUMNS: usize = 4;
 const GAP: usize = 12;
 const BOX_WIDTH: usize = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS;
 const HEAD_HEIGHT: usize = 30;
 const LINE_HEIGHT: usize = 16;
-/// What fits on a line of a box.
+/// Characters that fit on a line of a box.
 const LETTERS_MAX: usize = 34;
 
 /// Draws the chips of one board, whose rows are given, and returns where the next thing begins.

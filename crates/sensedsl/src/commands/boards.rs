@@ -1,4 +1,4 @@
-//! `sensedsl boards`: what is built in.
+//! `sensedsl boards`: the built-in boards.
 
 use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
@@ -25,8 +25,8 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
     Ok(Status::Done)
 }
 
-/// Prints the boards with all words of `search` somewhere in what is known of them. Scripts read
-/// one board a line, name first; heads and count are for people.
+/// Prints the boards for which all words of `search` occur somewhere in what is known about them.
+/// Scripts read one board from each line, name first; heads and count are for people.
 fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     let search = search.to_lowercase();
     let found = |board: &catalog::Entry, row: &[String; 8]| {
@@ -89,7 +89,7 @@ fn row(board: &catalog::Entry) -> [String; 8] {
     ]
 }
 
-/// The systems that there is firmware for, with their versions and the usual one first.
+/// The systems for which there is firmware, with their versions, the usual one first.
 pub(crate) fn firmware(board: &catalog::Entry) -> Vec<&'static str> {
     let facts = board.board().ok();
     let names = profile::names();

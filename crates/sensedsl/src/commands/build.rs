@@ -1,8 +1,8 @@
 //! `sensedsl build`: the firmware of a file, or of a generated folder, built by make with the user's tree of ChibiOS,
 //! or by cargo.
 //!
-//! Everything that the build needs is looked at first; what is missing is said before a file is
-//! written or compiled. What make and cargo say goes to the terminal as it is.
+//! Everything that the build needs is checked first, and anything missing is reported before a file is written or
+//! compiled. The output of make and cargo goes to the terminal unchanged.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -35,21 +35,21 @@ pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
     })
 }
 
-/// What is built, when the ground has been looked at.
+/// A build whose requirements have been checked.
 pub(super) struct Job<'a> {
     pub(super) programs: Vec<Program>,
     pub(super) production: bool,
-    /// The command that follows; empty where none does.
+    /// The command that runs after the build; empty if there is none.
     pub(super) after: Vec<String>,
-    /// That command takes raw bytes, and the build makes none.
+    /// Whether that command takes raw bytes that the build does not make.
     pub(super) makes_raw: bool,
-    /// The place of what concerns the whole.
+    /// The place for diagnostics that concern the whole.
     pub(super) at: Span,
     pub(super) sources: &'a SourceMap,
 }
 
 impl Job<'_> {
-    /// The ELF file that is built.
+    /// The ELF file that the build makes.
     pub(super) fn elf(&self, program: &Program) -> PathBuf {
         match &program.build {
             Build::Make(_) => program.folder.join("build").join(self.mode()).join("sense.elf"),
@@ -59,7 +59,7 @@ impl Job<'_> {
         }
     }
 
-    /// The same as raw bytes.
+    /// The same program as raw bytes.
     pub(super) fn raw(&self, program: &Program) -> PathBuf {
         self.elf(program).with_extension("bin")
     }
@@ -68,7 +68,7 @@ impl Job<'_> {
         if self.production { "production" } else { "development" }
     }
 
-    /// Says what is wrong.
+    /// Reports the error.
     pub(super) fn refuse(
         &self,
         why: Diagnostic,
@@ -80,10 +80,10 @@ impl Job<'_> {
     }
 }
 
-/// Further ground to look at: what the caller needs beside the build.
+/// A further check, of what the caller needs in addition to the build.
 pub(super) type FurtherCheck<'a> = dyn FnMut(&mut Job<'_>) -> Result<(), Box<Diagnostic>> + 'a;
 
-/// Builds what is named, and hands it on.
+/// Builds the named firmware, and passes it on.
 pub(super) fn built(
     place: &Place,
     terminal: &Terminal,
@@ -116,7 +116,7 @@ pub(super) fn built(
     then(&job)
 }
 
-/// Generates first; the ground is looked at before anything is written.
+/// Generates first; all requirements are checked before anything is written.
 fn of_file(
     place: &Place,
     file: &Path,
@@ -172,7 +172,7 @@ fn of_file(
     })
 }
 
-/// What the command line names: a file, a folder, or what stands in this folder.
+/// The path that the command line names: a file, a folder, or, without one, this folder or the file in it.
 fn named(place: &Place) -> Result<PathBuf> {
     if let Some(path) = &place.path {
         return Ok(path.clone());
@@ -185,18 +185,18 @@ fn named(place: &Place) -> Result<PathBuf> {
     let mut files = found.iter().filter(|file| file.extension().is_some_and(|one| one == "sense"));
     match (files.next(), files.next()) {
         (Some(file), None) => Ok(file.clone()),
-        // The folder is told as one without firmware.
+        // This folder is reported as one without firmware.
         _ => Ok(here.to_path_buf()),
     }
 }
 
-/// What builds, as far as it is needed.
+/// The build tools, as far as they are needed.
 struct Builders {
     make: Option<(Make, PathBuf)>,
     cargo: Option<Cargo>,
 }
 
-/// Looks at everything that building needs, and leaves only the boards that are asked for.
+/// Checks everything that building needs, and keeps only the boards that are asked for.
 fn look(
     place: &Place,
     job: &mut Job<'_>,
@@ -241,7 +241,7 @@ fn look(
     Ok(builders)
 }
 
-/// Builds one board after the other.
+/// Builds one board after another.
 fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<()> {
     for program in &job.programs {
         let Some(mut command) = command(job, program, builders, terminal) else { continue };
@@ -262,7 +262,7 @@ fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<
     Ok(())
 }
 
-/// The command that builds a board; none where nothing was found that could.
+/// The command that builds a board; `None` if the tool for it was not found.
 fn command(
     job: &Job<'_>,
     program: &Program,
@@ -284,7 +284,8 @@ fn command(
         }
         Build::Cargo(_) => {
             let mut command = Command::new(&builders.cargo.as_ref()?.0);
-            // A folder that boards share would hand one of them the program of another: all are called `firmware`.
+            // In a target folder shared by several boards, one would get the program of another: all are called
+            // `firmware`.
             command.args(["build", "--release", "--locked", "--target-dir", "target"]);
             command.current_dir(&program.folder);
             if terminal.is_quiet() {

@@ -15,7 +15,7 @@ use crate::Status;
 use crate::cli::{CapacityArgs, TableFormat};
 use crate::terminal::Terminal;
 
-/// Names of blockers in one line.
+/// The number of blockers named in one line.
 const NAMED_MAX: usize = 8;
 
 pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status> {

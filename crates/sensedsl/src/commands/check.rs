@@ -1,4 +1,4 @@
-//! `sensedsl check`: what is wrong, and whether there is a wiring.
+//! `sensedsl check`: the errors, and whether there is a wiring.
 
 use anyhow::Result;
 use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(status)
 }
 
-/// One line a file. Whether there is a wiring is said only where it was looked for.
+/// A line for each file. It tells whether there is a wiring only if one was searched for.
 fn summary(file: &str, answer: &Answer<'_>, diagnostics: &[Diagnostic]) -> String {
     let of = |severity| move |one: &&Diagnostic| one.severity == severity;
     let count = |severity| diagnostics.iter().filter(of(severity)).count();
@@ -77,7 +77,7 @@ fn summary(file: &str, answer: &Answer<'_>, diagnostics: &[Diagnostic]) -> Strin
     format!("{file}: {}\n", parts.join(", "))
 }
 
-/// One log for all files: each file's diagnostics are a run of their own.
+/// One log for all files: the diagnostics of each file are a run of their own.
 fn merged_sarif(logs: &[String]) -> String {
     let mut merged: Option<serde_json::Value> = None;
     for text in logs {

@@ -1,8 +1,8 @@
-//! The end of a command that has a `--timeout`: seconds in, the question whether they are over out.
+//! The end of a command that has a `--timeout`. In: seconds. Out: whether they are over.
 
 use std::time::{Duration, Instant};
 
-/// When the whole command is to be over, reading included: made before anything else is done.
+/// The time at which the whole command must end, including reading: computed before anything else.
 pub(crate) struct Deadline(Option<Instant>);
 
 impl Deadline {

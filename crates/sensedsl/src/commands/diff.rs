@@ -19,7 +19,7 @@ use crate::files::read_text;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &DiffArgs, terminal: &mut Terminal) -> Result<Status> {
-    // What is wrong with either file is said before the command gives up.
+    // Errors in either file are reported before the command gives up.
     let old = wires_of(&args.old, &args.on, terminal);
     let new = wires_of(&args.new, &args.on, terminal);
     let (old, new) = (old?, new?);

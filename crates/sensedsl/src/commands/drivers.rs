@@ -1,4 +1,4 @@
-//! `sensedsl drivers`: the library of drivers, or all that is known of one part.
+//! `sensedsl drivers`: the library of drivers, or everything that is known about one part.
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::{render, visible};

@@ -1,4 +1,4 @@
-//! `sensedsl explain`: the long text of a diagnostic, why a device is on its pin, or what takes how long.
+//! `sensedsl explain`: the long text of a diagnostic, why a device is on its pin, or how long everything takes.
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
@@ -49,7 +49,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let over = || deadline.is_over();
     let cancel = Cancel::when(&over);
     let snapshot = input::load(file, &args.on);
-    // A misspelled name is said before anything is solved.
+    // A misspelled name is reported before anything is solved.
     snapshot.design().map(|design| connections(design, name)).transpose()?;
     let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
     let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
@@ -77,7 +77,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     Ok(Status::Done)
 }
 
-/// What is wired of the device or the chip of that name.
+/// The connections of the device or chip with that name.
 fn connections(design: &Design, name: &str) -> Result<Vec<ConnectionIndex>> {
     if let Some(device) = design.devices.iter().find(|one| one.name.value == name) {
         return Ok(device.connections.clone());

@@ -1,4 +1,4 @@
-//! What parts are made of, as tables and JSON show it, and what filters ask for.
+//! The facts about parts, as tables and JSON show them and filters check them.
 
 use sensedsl_parts::{Found, Part};
 use serde_json::{Map, Value, json};
@@ -7,13 +7,13 @@ use crate::cli::PartsArgs;
 
 const KB: usize = 1024;
 
-/// What a part is made of, as far as it is known.
+/// The known facts about a part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facts {
     pub(super) package: Option<&'static str>,
     pub(super) contacts: Option<u32>,
     cores: Vec<&'static str>,
-    /// None where the flash is a chip beside the part.
+    /// `None` if the flash is a chip beside the part.
     pub(super) flash_bytes: Option<usize>,
     pub(super) ram_bytes: Option<usize>,
 }
@@ -29,16 +29,16 @@ impl Facts {
         }
     }
 
-    /// The facts of a board's MCU; none of one that is not a known part.
+    /// The facts about a board's MCU; none if it is not a known part.
     pub(super) fn of_mcu(mcu: &str) -> Self {
         let Some(found) = sensedsl_parts::find(mcu) else { return Self::default() };
         let first = found.parts.first().map(|part| Self::of(*part)).unwrap_or_default();
         Self { package: Found::package(&found), ..first }
     }
 
-    /// Package, core, flash and RAM, as short as a table wants them: `LQFP100`, `M4`, `1024`, `192`.
+    /// Package, core, flash and RAM in the short form for a table: `LQFP100`, `M4`, `1024`, `192`.
     pub(super) fn cells(&self) -> [String; 4] {
-        // Two packages have further words, which the part number tells as well.
+        // Two packages have further words, which the part number also tells.
         let package = self.package.unwrap_or("-").split(' ').next().unwrap_or_default().to_owned();
         let cores: Vec<&str> =
             self.cores.iter().map(|core| core.strip_prefix("Cortex-").unwrap_or(core)).collect();
@@ -55,7 +55,7 @@ impl Facts {
         [package, core, flash, self.ram_bytes.map_or_else(|| "-".to_owned(), kb)]
     }
 
-    /// A line of JSON that begins with the part's number and its facts and goes on with more.
+    /// A line of JSON with the part's number, its facts, and further values.
     pub(super) fn json_line<'a>(
         &self,
         part: &str,
@@ -74,7 +74,7 @@ impl Facts {
         format!("{}\n", Value::Object(object))
     }
 
-    /// Whether the part has memory and no flash.
+    /// Whether the part has memory but no flash.
     pub(super) const fn is_flash_outside(&self) -> bool {
         self.ram_bytes.is_some() && self.flash_bytes.is_none()
     }
@@ -88,7 +88,7 @@ fn kb(bytes: usize) -> String {
     }
 }
 
-/// What a table says below itself of the memory in it.
+/// The legend below a table for the memory sizes in it.
 pub(super) fn units<'a>(mut shown: impl Iterator<Item = &'a Facts>) -> &'static str {
     if shown.any(Facts::is_flash_outside) {
         "flash and RAM in KB; ext: the flash is a chip beside the part"
@@ -97,7 +97,7 @@ pub(super) fn units<'a>(mut shown: impl Iterator<Item = &'a Facts>) -> &'static 
     }
 }
 
-/// What the filters of a call leave.
+/// The filters of a call.
 pub(super) struct Filter {
     family: Option<String>,
     package: Option<String>,
@@ -121,7 +121,7 @@ impl Filter {
         }
     }
 
-    /// Whether they leave a part, or a board's MCU.
+    /// Whether a part, or a board's MCU, passes the filters.
     pub(super) fn leaves(&self, base: &str, facts: &Facts) -> bool {
         let begins = |family: &String| {
             let short = base.strip_prefix("STM32").unwrap_or(base);
@@ -135,7 +135,7 @@ impl Filter {
             let short = |core: &str| core.strip_prefix("CORTEX-").unwrap_or(core).to_owned();
             facts.cores.iter().any(|core| short(&core.to_uppercase()) == short(wanted))
         };
-        // Flash beside a part is as large as one likes.
+        // The flash beside a part can have any size.
         let flash =
             if facts.is_flash_outside() { usize::MAX } else { facts.flash_bytes.unwrap_or(0) };
         self.family.as_ref().is_none_or(begins)

@@ -22,14 +22,14 @@ pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
         let tool = probe::choose(args.with, job.at)?;
         let (elf, raw) = (job.elf(program), job.raw(program));
         job.after = probe::command(tool, program, (&elf, &raw), job.at)?;
-        // Make writes both.
+        // Make writes both files.
         job.makes_raw = tool.takes_raw() && matches!(program.build, Build::Cargo(_));
         Ok(())
     };
     built(&args.place, terminal, &mut ground, &mut |job| flash(job, terminal))
 }
 
-/// Runs the command that writes.
+/// Runs the command that writes the program.
 fn flash(job: &Job<'_>, terminal: &Terminal) -> Result<Status> {
     if let Some(program) = job.programs.first().filter(|_| job.makes_raw) {
         let (elf, raw) = (job.elf(program), job.raw(program));

@@ -56,7 +56,7 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(status)
 }
 
-/// The text with what is to be written into it, laid out; none where it has mistakes, which are said.
+/// The canonical text with the requested changes; `None` if it has errors, which have been reported.
 fn rewritten(
     path: &Path,
     text: &str,
@@ -83,7 +83,7 @@ fn rewritten(
     Ok(Some(wanted.1))
 }
 
-/// The text in its canonical layout; none where it has mistakes, which are said.
+/// The text in its canonical layout; `None` if it has errors, which have been reported.
 fn laid_out(path: &Path, text: &str, terminal: &Terminal) -> Result<Option<String>> {
     let errors = match sensedsl_syntax::format(text) {
         Ok(formatted) => return Ok(Some(formatted)),
@@ -96,7 +96,7 @@ fn laid_out(path: &Path, text: &str, terminal: &Terminal) -> Result<Option<Strin
     Ok(None)
 }
 
-/// The text with all identifiers, laid out; none where the design has mistakes, which are said.
+/// The canonical text with all identifiers; `None` if the design has errors, which have been reported.
 fn numbered(
     path: &Path,
     text: &str,
@@ -104,7 +104,7 @@ fn numbered(
     args: &FmtArgs,
     terminal: &Terminal,
 ) -> Result<Option<String>> {
-    // What a system can do says nothing about identifiers.
+    // The abilities of a system do not matter for identifiers.
     let on = On { board: None, target: Some("none".to_owned()), reach: args.reach.clone() };
     let before = input::of_text(path, text.to_owned(), &on);
     let Some(design) = before.design() else {
@@ -128,7 +128,7 @@ fn numbered(
     Ok(Some(numbered))
 }
 
-/// The devices whose identifier has changed.
+/// The devices whose identifiers have changed.
 fn moved(before: &Snapshot, after: &Snapshot) -> Vec<String> {
     let (Some(before), Some(after)) = (before.design(), after.design()) else { return Vec::new() };
     let devices = before.devices.iter().zip(&after.devices);

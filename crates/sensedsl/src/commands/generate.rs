@@ -27,7 +27,7 @@ use crate::files::tree::{Away, Failure, Output, Trouble};
 use crate::files::{lock, shown};
 use crate::terminal::Terminal;
 
-/// Names of files in one message.
+/// The number of files named in one message.
 const NAMED_MAX: usize = 5;
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     })
 }
 
-/// A design with everything that is to be written of it.
+/// A design with everything that is generated from it.
 pub(super) struct Made<'a> {
     pub(super) design: &'a Design,
     pub(super) assignment: &'a Assignment,
@@ -51,7 +51,7 @@ pub(super) struct Made<'a> {
     pub(super) sources: &'a SourceMap,
 }
 
-/// Makes everything, and hands it on where nothing is wrong.
+/// Generates everything, and passes it on if there are no errors.
 pub(super) fn made(
     args: &GenerateArgs,
     terminal: &Terminal,
@@ -81,7 +81,7 @@ pub(super) fn made(
 }
 
 impl Made<'_> {
-    /// Brings the folder up to date. Where that cannot be, the reason has been said.
+    /// Brings the folder up to date. If that is not possible, the reason has been reported.
     pub(super) fn update(
         &self,
         args: &GenerateArgs,
@@ -97,7 +97,7 @@ impl Made<'_> {
     }
 }
 
-/// All that is to be written. A gap of the firmware is an error: whoever can do without says so.
+/// All files to write. A gap in the firmware is an error: a user who can do without says so.
 fn files(
     args: &GenerateArgs,
     design: &Design,
@@ -111,13 +111,13 @@ fn files(
     if made.gaps.is_empty() { Ok(made.files) } else { Err(made.gaps) }
 }
 
-/// What people call the design: what its file is called.
+/// The name of the design for people: that of its file.
 fn design_name(file: &Path) -> String {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     stem.filter(|stem| stem != "-").unwrap_or_else(|| "design".to_owned())
 }
 
-/// Why the folder was not written, or not as it should be.
+/// The reason why the folder was not written, or not properly.
 struct Refusal {
     why: Box<Diagnostic>,
     status: Status,
@@ -129,7 +129,8 @@ impl Refusal {
     }
 }
 
-/// Compares the folder with what it is to hold, and writes it unless that was not asked for.
+/// Compares the folder with its new contents, and writes it unless only the comparison was
+/// requested.
 fn update(
     args: &GenerateArgs,
     terminal: &Terminal,
@@ -143,7 +144,7 @@ fn update(
         return Ok(why.map_or(Ok(changes), |why| Err(Refusal::new(why, Status::Wrong))));
     }
     let mut waiting = || {
-        // There is nowhere to report that reporting failed.
+        // There is nowhere to report a failure to report.
         let _ = terminal.aside(&format!("waiting for another run that writes {folder}"));
     };
     let project = args.file.parent().unwrap_or(Path::new(""));
@@ -221,25 +222,25 @@ fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>,
     if unknown.is_empty() { Ok(hosts) } else { Err(unknown) }
 }
 
-/// That the folder holds files of somebody else.
+/// Reports files in the folder that were not generated.
 fn foreign(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     let files = (!changes.foreign.is_empty()).then(|| some(&changes.foreign))?;
     Some(e0502_foreign_files::foreign_files(at, folder, &files))
 }
 
-/// That files would be written through links.
+/// Reports files that would be written through links.
 fn linked(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     let files = (!changes.linked.is_empty()).then(|| some(&changes.linked))?;
     Some(e0524_through_a_link::files_are_elsewhere(at, folder, &files))
 }
 
-/// That files would be lost which nothing proves to be generated.
+/// Reports files that would be lost although nothing proves that they were generated.
 fn unproved(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     let files = (!changes.unproved.is_empty()).then(|| some(&changes.unproved))?;
     Some(e0526_unproved_files::unproved_files(at, folder, &files))
 }
 
-/// That the folder is not what would be written.
+/// Reports that the folder is not what would be written.
 fn out_of_date(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     if changes.is_up_to_date() {
         return None;

@@ -1,4 +1,4 @@
-//! Shell completions and manual pages, made from the arguments themselves.
+//! Shell completions and manual pages, generated from the definitions of the arguments.
 
 use anyhow::Result;
 use clap::CommandFactory as _;

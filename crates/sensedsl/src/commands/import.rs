@@ -1,4 +1,4 @@
-//! `sensedsl import`: a board table, or a file with devices, from what other tools write.
+//! `sensedsl import`: a board table, or a file with devices, from the files of other tools.
 
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
     if beside.is_some() && table == output {
         bail!("{} would hold both the devices and the table: end it in .sense", shown(output));
     }
-    // The table first: a file is of no use without what it names.
+    // The table comes first: a file is useless without the table that it names.
     let mut files: Vec<(&Path, &[u8])> = Vec::new();
     let beside = beside.filter(|_| !is_stream(output));
     files.extend(beside.map(|csv| (table.as_path(), csv.as_bytes())));
@@ -57,20 +57,20 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
     Ok(Status::Done)
 }
 
-/// The file that is asked for; none where the result is printed, or goes to a device, beside which
-/// no table can be put.
+/// The requested output file; `None` if the result is printed, or goes to a device, which cannot
+/// have a table beside it.
 fn file_to_write(args: &ImportArgs) -> Option<&Path> {
     args.output.as_deref().filter(|output| *output != Path::new("-"))
 }
 
-/// The folder of the source, and the one whose files it may name: its own. Boards of ArduPilot
-/// include others that are in folders beside theirs, so of these it is the folder above.
+/// The folder of the source, and the one whose files it may name, which is the same. Boards of
+/// ArduPilot include others in neighbouring folders, so for these it is the parent folder.
 fn folders(args: &ImportArgs, bytes: &[u8]) -> (PathBuf, PathBuf) {
     let folder = args.source.parent().unwrap_or(Path::new("")).to_path_buf();
     if format(args.format).or_else(|| detect(bytes)) != Some(Format::Hwdef) {
         return (folder.clone(), folder);
     }
-    // A folder such as `..` has no name, and so no folder above it that could be named.
+    // A folder such as `..` has no name, so it has no parent that could be named.
     let own = match folder.file_name() {
         Some(_) => folder,
         None => real_folder(&folder),
@@ -79,7 +79,7 @@ fn folders(args: &ImportArgs, bytes: &[u8]) -> (PathBuf, PathBuf) {
     (own, above)
 }
 
-/// What is asked for, and the table that goes beside it; none when there is no result.
+/// The requested result, and the table that belongs beside it; `None` if there is no result.
 fn results<'a>(args: &ImportArgs, imported: &'a Imported) -> Option<(&'a str, Option<&'a str>)> {
     let Some(table) = imported.table.as_deref() else {
         return imported.program.as_deref().map(|program| (program, None));
@@ -90,7 +90,7 @@ fn results<'a>(args: &ImportArgs, imported: &'a Imported) -> Option<(&'a str, Op
     }
 }
 
-/// Where the table of a project goes: beside the result, or beside the source.
+/// The place of a project's table: beside the result, or beside the source.
 fn table_path(args: &ImportArgs) -> PathBuf {
     let stdin = args.source == Path::new("-");
     let source = if stdin { Path::new("board") } else { args.source.as_path() };

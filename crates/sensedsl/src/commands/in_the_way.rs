@@ -1,5 +1,5 @@
-//! Files that exist are not replaced unasked: what `import`, `new` and `solve --proof` have in
-//! common.
+//! Existing files are not replaced unless requested: the code shared by `import`, `new` and
+//! `solve --proof`.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use crate::files::{is_in_the_way, shown};
 use crate::terminal::Terminal;
 
-/// Says which of these files exist and would be lost; whether there is any.
+/// Reports which of these files exist and would be lost; returns whether there are any.
 pub(crate) fn refuse(files: &[(&Path, &[u8])], by: &str, terminal: &Terminal) -> Result<bool> {
     let mut refused = false;
     for (path, bytes) in files {
@@ -22,12 +22,12 @@ pub(crate) fn refuse(files: &[(&Path, &[u8])], by: &str, terminal: &Terminal) ->
     Ok(refused)
 }
 
-/// Says that this file exists.
+/// Reports that this file exists.
 pub(crate) fn say(path: &Path, by: &str, terminal: &Terminal) -> Result<()> {
     show(path, terminal, |at| e0508_file_exists::file_exists(at, &shown(path), by))
 }
 
-/// Says that this folder has a file in it.
+/// Reports that this folder has a file in it.
 pub(crate) fn say_not_empty(folder: &Path, file: &Path, terminal: &Terminal) -> Result<()> {
     show(folder, terminal, |at| {
         e0508_file_exists::folder_not_empty(at, &shown(folder), &shown(file))
@@ -36,7 +36,7 @@ pub(crate) fn say_not_empty(folder: &Path, file: &Path, terminal: &Terminal) -> 
 
 fn show(path: &Path, terminal: &Terminal, why: impl FnOnce(Span) -> Diagnostic) -> Result<()> {
     let mut sources = SourceMap::default();
-    // The place is the file itself; its content does not matter here.
+    // The place is the file itself; its contents do not matter here.
     let at = Span::new(sources.add(shown(path), ""), 0..0);
     Ok(terminal.diagnostics(&[why(at)], &sources)?)
 }

@@ -1,4 +1,4 @@
-//! From a file on disk to a snapshot: what the commands that read a design have in common.
+//! From a file on disk to a snapshot: the code shared by the commands that read a design.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -20,10 +20,10 @@ use crate::files::{Disk, Refused, read_text, shown};
 use crate::terminal::Terminal;
 use crate::{Reported, Status};
 
-/// How long `check` looks for the best wiring.
+/// How long `check` searches for the best wiring.
 const BEST: Duration = Duration::from_secs(2);
 
-/// Reads a file and what it uses. That it cannot be read is a diagnostic like any other.
+/// Reads a file and everything that it uses. A file that cannot be read becomes a diagnostic like any other.
 pub(crate) fn load(path: &Path, on: &On) -> Snapshot {
     match read_text(path, What::Sense) {
         Ok(text) => of_text(path, text, on),
@@ -31,7 +31,7 @@ pub(crate) fn load(path: &Path, on: &On) -> Snapshot {
     }
 }
 
-/// As [`load`], of a file with this text.
+/// Makes the snapshot of a file with this text; see [`load`].
 pub(crate) fn of_text(path: &Path, text: String, on: &On) -> Snapshot {
     let shown = shown(path);
     let mut workspace = Workspace::default();
@@ -40,10 +40,10 @@ pub(crate) fn of_text(path: &Path, text: String, on: &On) -> Snapshot {
     workspace.snapshot(&shown, on.asked(), &disk)
 }
 
-/// The design and its wiring, for a command that can do nothing without.
+/// The design and its wiring, for a command that cannot do without them.
 ///
 /// # Errors
-/// [`Reported`], once everything that is wrong has been said.
+/// [`Reported`], once all errors have been reported.
 pub(crate) fn wired<'a>(
     answer: &'a Answer<'_>,
     snapshot: &Snapshot,
@@ -77,13 +77,13 @@ pub(crate) fn answer_in(path: &Path, text: &str) -> Result<serde_json::Value, Re
     serde_json::from_str(text).map_err(|error| not_an_answer(path, &error.to_string()))
 }
 
-/// That a file is not an answer of `solve`.
+/// Reports that a file is not an answer of `solve`.
 pub(crate) fn not_an_answer(path: &Path, why: &str) -> Refused {
     Refused::new(path, |at, shown| e0226_not_an_answer::not_an_answer(at, shown, why))
 }
 
-/// Whether there is a wiring of what is sound. Warnings speak of the best one, which `solve` gives, or
-/// of the best that was found when that takes long.
+/// Whether the sound part of the design has a wiring. Warnings are about the best wiring, which `solve` gives, or about
+/// the best one found in time.
 pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
     let deadline = Instant::now() + BEST;
     let late = || Instant::now() >= deadline;
@@ -97,8 +97,8 @@ pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
     }
 }
 
-/// How a command ends whose diagnostics are these: a wrong input is told from a wrong call, such as
-/// a target that does not exist or a `--board` that cannot be read.
+/// The exit status for these diagnostics. It distinguishes a wrong input from a wrong call, such as a target that does
+/// not exist or a `--board` that cannot be read.
 pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
     let by_call =
         [e0111_file_unreadable::CODE, e0313_unknown_target::CODE, e0505_unknown_host::CODE];
@@ -115,7 +115,7 @@ pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
     }
 }
 
-/// The first board's name: the place of what concerns the whole design.
+/// The name of the first board: the place for diagnostics about the whole design.
 pub(crate) fn place(design: &Design) -> Span {
     let board = design.boards.first();
     board.map_or_else(|| Span::new(design.file, 0..0), |board| board.name.span)

@@ -1,4 +1,4 @@
-//! One file for each command.
+//! The commands, with a file for each.
 
 pub(crate) mod boards;
 pub(crate) mod build;

@@ -1,4 +1,4 @@
-//! `sensedsl new`: a small project to begin with.
+//! `sensedsl new`: a small project to start with.
 
 use std::path::Path;
 
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(Status::Done)
 }
 
-/// The first files: with firmware of the first system that a robot can have it of, or with a wiring alone.
+/// The first files: with firmware for the first system on which the board can have a robot, or only a wiring.
 fn begin(board: &catalog::Entry) -> (&'static str, String) {
     let usual = profile::full_name(profile::DEFAULT);
     for system in boards::firmware(board) {

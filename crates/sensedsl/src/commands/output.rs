@@ -1,4 +1,4 @@
-//! A folder that `generate` owns: what stands in it, what is to stand in it, and the difference.
+//! A folder that `generate` owns: its present contents, its new contents, and the difference.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -14,24 +14,24 @@ use crate::files::tree::layout::{
 use crate::files::tree::{Failure, NewFile, NewTree, Output};
 use crate::files::{read_if_there, remove_file};
 
-/// What has to happen to a folder.
+/// The changes that a folder needs.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Changes {
-    /// Files that are not there.
+    /// Files that do not exist.
     pub(crate) missing: Vec<String>,
-    /// Files with another content.
+    /// Files with different contents.
     pub(crate) different: Vec<String>,
-    /// Generated files that are no longer made.
+    /// Generated files that are no longer needed.
     pub(crate) stale: Vec<String>,
     /// Files that were not generated.
     pub(crate) foreign: Vec<String>,
-    /// Files of a list that this machine did not make which are not, or no longer, what it says.
+    /// Listed files whose contents do not match a list that this machine did not write.
     pub(crate) unproved: Vec<String>,
-    /// Files to make whose folder is a link.
+    /// Files to write in a folder that is a link.
     pub(crate) linked: Vec<String>,
-    /// Parts of files that earlier versions left behind when they were stopped.
+    /// Parts of files that earlier versions left behind when they were killed.
     parts: Vec<String>,
-    /// Number of files that need no change.
+    /// The number of files that need no change.
     pub(crate) same: usize,
 }
 
@@ -42,7 +42,7 @@ impl Changes {
     }
 }
 
-/// What the list of a folder says, and whether this machine made it.
+/// The contents of a folder's list, and whether this machine wrote it.
 struct Listed {
     files: BTreeMap<String, Option<String>>,
     is_known: bool,
@@ -56,7 +56,7 @@ impl Listed {
         Ok(Self { files: entries(&text), is_known })
     }
 
-    /// Whether a file was generated: by this machine, or it is what the list says.
+    /// Whether it is proved that a file was generated: this machine wrote the list, or the file still matches it.
     fn proves(&self, root: &Path, path: &str) -> bool {
         let Some(wanted) = self.files.get(path) else { return false };
         let is = |wanted: &String| matches!(found(root, path), Ok(Found::Bytes(bytes)) if digest(&bytes) == *wanted);
@@ -64,7 +64,7 @@ impl Listed {
     }
 }
 
-/// Compares the folder with what it is to hold.
+/// Compares the folder with its new contents.
 pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
     let mut changes = Changes::default();
     let listed = Listed::of(root)?;
@@ -73,10 +73,10 @@ pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
         let found = found(root, path)?;
         let is_linked = link_above(root, Path::new(path)).is_some();
         match found {
-            // Whoever follows a link finds a file of the user's; to make one would be to follow it.
+            // Following a link would reach a user's file; to create a file there would be to follow the link.
             Found::Nothing if is_linked => changes.linked.push(path.to_owned()),
             Found::Nothing => changes.missing.push(path.to_owned()),
-            // What is in a user's file is the user's business.
+            // The contents of a user's file are the user's business.
             _ if entry.once => changes.same += 1,
             Found::Bytes(bytes) if bytes == entry.bytes => {
                 changes.same += 1;
@@ -85,7 +85,7 @@ pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
             Found::Bytes(_) | Found::Other if is_linked => changes.linked.push(path.to_owned()),
             Found::Bytes(_) | Found::Other => {
                 changes.different.push(path.to_owned());
-                // In a folder that nothing below looks into.
+                // The file may be in a folder that is not searched below.
                 let is_hidden = Path::new(path).ancestors().skip(1).any(is_named_as_theirs);
                 if is_hidden && !listed.proves(root, path) {
                     changes.unproved.push(path.to_owned());
@@ -98,7 +98,7 @@ pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
     Ok(changes)
 }
 
-/// Says of each file that stands in the folder whose it is.
+/// Sorts the files in the folder by their owner.
 fn sort_out(
     root: &Path,
     listed: &Listed,
@@ -108,7 +108,7 @@ fn sort_out(
 ) -> Result<()> {
     let is_listed = |path: &str| listed.files.contains_key(path);
     for (path, kind) in walk(root).with_context(|| format!("cannot read {}", root.display()))? {
-        // A user's folder may be a link to one that is elsewhere.
+        // A user's folder may be a link to one elsewhere.
         let theirs = kind == Kind::Link && is_named_as_theirs(&path);
         if kind == Kind::Folder && path == Path::new(LIST) {
             changes.foreign.push(LIST.to_owned());
@@ -144,7 +144,7 @@ fn is_named_as_theirs(path: &Path) -> bool {
     path.file_name().is_some_and(is_not_ours)
 }
 
-/// Makes the folder hold the files. To be called only when nothing of somebody else's is in the way.
+/// Writes the files to the folder. Must be called only if no files of others are in the way.
 pub(crate) fn write(
     output: &mut Output,
     files: &FileSet,
@@ -174,17 +174,17 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// What stands at a path.
+/// The entry at a path.
 enum Found {
     Nothing,
     Bytes(Vec<u8>),
-    /// A link, or something that cannot be read without waiting for somebody.
+    /// A link, or something that cannot be read without waiting.
     Other,
 }
 
 fn found(root: &Path, path: &str) -> Result<Found> {
     let path = root.join(path);
-    // Not there either where a folder above it is a file.
+    // It does not exist either if one of the folders above it is a file.
     let Ok(found) = fs::symlink_metadata(&path) else { return Ok(Found::Nothing) };
     if found.is_dir() {
         bail!("{} is a folder, and has to be a file", path.display());
@@ -195,13 +195,13 @@ fn found(root: &Path, path: &str) -> Result<Found> {
     Ok(read_if_there(&path)?.map_or(Found::Nothing, Found::Bytes))
 }
 
-/// The file whose part this is: earlier versions wrote `.NAME.part` first.
+/// The file that this is a part of: earlier versions first wrote `.NAME.part`.
 fn whole(path: &Path) -> Option<String> {
     let name = path.file_name()?.to_str()?.strip_prefix('.')?.strip_suffix(".part")?;
     Some(slashed(&path.with_file_name(name)))
 }
 
-/// The folder as people see it in a command to type.
+/// The path as people would type it in a command.
 pub(crate) fn typed(root: &Path, relative: &str) -> String {
     let path: PathBuf = if relative.is_empty() { root.to_owned() } else { root.join(relative) };
     let text = path.display().to_string();

@@ -1,4 +1,4 @@
-//! `sensedsl parts`: which MCU parts and boards can carry the devices of a file, or which there are.
+//! `sensedsl parts`: the MCU parts and boards that can carry the devices of a file, or all that there are.
 
 use anyhow::{Result, bail};
 use sensedsl_board::profile;
@@ -40,14 +40,14 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
     sweep(args, file, terminal)
 }
 
-/// The parts that the filters leave.
+/// The parts that pass the filters.
 pub(super) fn parts(args: &PartsArgs) -> impl Iterator<Item = (Part, Facts)> {
     let filter = Filter::of(args);
     let with_facts = sensedsl_parts::all().map(|part| (part, Facts::of(part)));
     with_facts.filter(move |(part, facts)| filter.leaves(part.base(), facts))
 }
 
-/// Where a part stands in an order; the cost of a wiring is not known here.
+/// The rank of a part in an order; the cost of a wiring is not known here.
 pub(super) fn rank(order: Option<PartsOrder>, facts: &Facts) -> usize {
     match order {
         None | Some(PartsOrder::Cost) => 0,
@@ -71,7 +71,7 @@ fn listing(args: &PartsArgs, search: &str) -> Result<String> {
         words.iter().all(|word| text.contains(word))
     });
     let mut found: Vec<(Part, Facts)> = found.collect();
-    // Those that are equal stay in the order of their names.
+    // Equal parts stay in the order of their names.
     found.sort_by_key(|(_, facts)| rank(args.sort, facts));
     if args.format == TableFormat::Json {
         return Ok(found.iter().map(|(part, facts)| value(*part, facts)).collect());
@@ -111,7 +111,7 @@ fn value(part: Part, facts: &Facts) -> String {
     facts.json_line(&part.name(), [("numbers", json!(numbers))])
 }
 
-/// How a file spells a part whose name has a hyphen, where one is listed.
+/// Explains the spelling in a file if a listed part's name has a hyphen.
 fn spelled_in_a_file(rows: &[[String; 6]]) -> String {
     let hyphened = rows.iter().find(|[name, ..]| name.contains('-'));
     hyphened.map_or_else(String::new, |[name, ..]| {

@@ -23,7 +23,7 @@ use crate::terminal::Terminal;
 /// The program with its version.
 const TOOL: &str = concat!("sensedsl ", env!("CARGO_PKG_VERSION"));
 
-/// How every certificate begins: an earlier one is replaced.
+/// The start of every certificate, which tells an earlier one that may be replaced.
 const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -47,7 +47,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         let wiring = Wiring::within(design, keep.as_ref(), cancel);
         return problem(args, terminal, &wiring, sources);
     }
-    // On the standard output the certificate is the result.
+    // A certificate for the standard output is the result.
     let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
     if let (Some(path), Some(_)) = (file, snapshot.design())
         && !args.force
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(status)
 }
 
-/// How the command ends: well where there is a wiring without an error.
+/// The exit status: success if there is a wiring without errors.
 fn status(answer: &Answer<'_>, on: &On) -> Status {
     let least = if answer.wired().is_some() { Status::Done } else { Status::Wrong };
     input::status(&answer.diagnostics, on).max(least)
@@ -188,7 +188,7 @@ fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assi
         SolveFormat::Csv => csv::csv(design, wiring),
         SolveFormat::Markdown => markdown::markdown(design, wiring),
         SolveFormat::Svg => svg::svg(design, wiring),
-        // Answered before solving: it needs no answer.
+        // These are answered before solving: they need no answer.
         SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
     }
 }

@@ -1,8 +1,8 @@
-//! The robot that `sensedsl new` begins with: of a few devices those that the board can carry.
+//! The robot that `sensedsl new` starts with: those of a few devices that the board can carry.
 //!
 //! The template has a sensor of each common kind. They are put on the board one by one, and one
-//! stays where there is a wiring with it, and firmware where the board has some; the last stands in
-//! where another could not stay.
+//! stays if there is a wiring with it, and firmware if the board has any; the last one
+//! replaces another that could not stay.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::files::Disk;
 
 const TEMPLATE: &str = include_str!("../../templates/starter.sense");
 
-/// Devices of a small robot.
+/// The number of devices of a small robot.
 const ENOUGH: usize = 3;
 
-/// The text of the robot, with firmware of that system; `None` where it can have no device.
+/// The text of the robot, with firmware of that system; `None` if it cannot have any device.
 pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<String> {
     let template = TEMPLATE.replace("BOARD", &board.name.replace('-', "_"));
     let template = template.trim_end().trim_end_matches('}').trim_end();
@@ -41,7 +41,7 @@ pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<Stri
     (count > 0).then(|| text + "}\n")
 }
 
-/// Whether a file has a wiring, and firmware where that is asked for.
+/// Whether a file has a wiring, and firmware if that is required.
 fn is_made(text: &str, has_firmware: bool) -> bool {
     const NAME: &str = "robot.sense";
     let mut workspace = Workspace::default();

@@ -24,7 +24,7 @@ use crate::cli::{PartsArgs, TableFormat};
 use crate::files::{Disk, read_text, shown};
 use crate::terminal::Terminal;
 
-/// What a shell says of a program that the user interrupted.
+/// The status that a shell gives a program that the user interrupted.
 const INTERRUPTED: i32 = 130;
 
 /// A part or a board that may carry the devices.
@@ -34,11 +34,11 @@ struct Carrier {
     mcu: String,
     facts: Facts,
     is_board: bool,
-    /// Whether the target has a profile of it; otherwise the pins alone are looked at.
+    /// Whether the target has a profile for it; otherwise only the pins are checked.
     has_profile: bool,
 }
 
-/// Solves the devices of a file on all carriers that the filters leave, and prints those that fit.
+/// Solves the devices of a file on all carriers that pass the filters, and prints those that fit.
 pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
     let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let interrupted = interruption()?;
@@ -48,8 +48,8 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
     let mut workspace = Workspace::default();
     workspace.open(&path, text);
     let on = On { board: None, target: args.target.as_deref() };
-    // What is wrong with the devices is told once; that the file's own board is unknown, or does not
-    // suit, does not matter here.
+    // Errors in the devices are reported once. It does not matter here whether the file's own board is unknown or
+    // unsuitable.
     let snapshot = workspace.snapshot(&path, on, &disk);
     let carriers = carriers(args);
     if carriers.is_empty() {
@@ -73,7 +73,7 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
         disk: &disk,
         cancel: Cancel::when(&over),
     };
-    // Where nobody asked for an order, whoever reads gets each row as soon as it is known.
+    // Without a requested order, the reader gets each row as soon as it is known.
     let in_turn = args.sort.is_none() && args.limit.is_none() && !terminal.is_watched();
     let answers = solve_all(&question, &carriers, args, (terminal, in_turn));
     let failed = answers.iter().filter(|fit| **fit == Fit::Failed).count();
@@ -105,7 +105,7 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
     Ok(if found.is_empty() { Status::Wrong } else { Status::Done })
 }
 
-/// Set by the first Ctrl-C, after which what is known is printed; the second one ends the program.
+/// A flag that the first Ctrl-C sets, after which the results so far are printed; the second one ends the program.
 fn interruption() -> Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&flag))?;
@@ -113,7 +113,7 @@ fn interruption() -> Result<Arc<AtomicBool>> {
     Ok(flag)
 }
 
-/// Those that can carry the devices, in the order asked for.
+/// The carriers that can carry the devices, in the requested order.
 fn sorted<'a>(
     carriers: &'a [(Carrier, String)],
     answers: &[Fit],
@@ -133,7 +133,7 @@ fn sorted<'a>(
     found
 }
 
-/// All carriers, with the key under which their wirings are equal.
+/// All carriers, each with a key that is the same for equal wirings.
 fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
     let target = |mcu: &str| match args.target.as_deref() {
         Some(target) => target.to_owned(),
@@ -170,7 +170,7 @@ fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
     parts(args).map(of_part).chain(boards).collect()
 }
 
-/// What is asked of every carrier.
+/// The question put to every carrier.
 struct Question<'a> {
     workspace: &'a Workspace,
     path: &'a str,
@@ -179,13 +179,12 @@ struct Question<'a> {
     cancel: Cancel<'a>,
 }
 
-/// Steps of the search that one carrier is worth: a hard one does not block the others, and the same
-/// ones are decided on every machine.
+/// The number of search steps spent on a carrier: a hard one does not block the others, and the same ones are decided
+/// on every machine.
 const STEPS_MAX: u64 = 20_000;
 
-/// The answers in the carriers' order: equal ones are asked once, all cores ask. Where people look,
-/// carriers are shown as they are found; `in_turn` they are printed as soon as all before them are
-/// known.
+/// The answers in the order of the carriers: equal ones are solved once, on all cores. On a terminal, carriers are
+/// shown as they are found; with `in_turn` they are printed as soon as all carriers before them are known.
 fn solve_all(
     question: &Question<'_>,
     carriers: &[(Carrier, String)],
@@ -206,7 +205,7 @@ fn solve_all(
     let is_shown = is_human && terminal.is_watched();
     let all = questions.len();
     let turn = Mutex::new(Turn { known: BTreeMap::new(), next: 0 });
-    // Set when nobody reads any more.
+    // Set when nobody reads any longer.
     let is_closed = AtomicBool::new(false);
     let say = |line: &str| {
         is_closed.fetch_or(terminal.passing(line.trim_end()).is_err(), Ordering::Relaxed);
@@ -226,7 +225,7 @@ fn solve_all(
                 return;
             }
             let fit = carriers.first().map_or(Fit::Failed, |first| question.ask(&first.name));
-            // One line at a time; a thread that panicked while it wrote has left none half.
+            // One line at a time; a thread that panicked while it wrote has not left half a line.
             let mut turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
             turn.known.insert(at, fit);
             if let (Fit::Wired(worth), true) = (fit, is_shown) {
@@ -254,7 +253,7 @@ fn solve_all(
     carriers.iter().map(|carrier| answer(carrier).unwrap_or(unanswered)).collect()
 }
 
-/// What is known by the numbers of the questions, and whose turn it is to be printed.
+/// The answers so far, by the number of the question, and the number of the next one to print.
 struct Turn {
     known: BTreeMap<usize, Fit>,
     next: usize,
@@ -273,33 +272,33 @@ impl Question<'_> {
     }
 }
 
-/// What the target knows of a carrier: its drivers, or only which pins there are.
+/// The target's knowledge of a carrier: drivers, or only pins.
 const fn known(carrier: &Carrier) -> &'static str {
     if carrier.has_profile { "drivers" } else { "pins only" }
 }
 
-/// What a table shows of a carrier beside its cost: the part, its package or the board that it is on,
-/// core, flash, RAM, and what is known. The number of the part tells the package as well.
+/// The columns of a table for a carrier apart from its cost: the part, its package or the board that it is on, core,
+/// flash, RAM, and what is known. The part number also tells the package.
 fn cells(carrier: &Carrier) -> [String; 6] {
     let [package, core, flash, ram] = carrier.facts.cells();
     let place = if carrier.is_board { carrier.name.clone() } else { package };
     [carrier.mcu.clone(), place, core, flash, ram, known(carrier).to_owned()]
 }
 
-/// A carrier as it is shown when it is found.
+/// The line of a carrier that is shown as soon as it is found.
 fn line(carrier: &Carrier, worth: Quality) -> String {
     let [part, place, core, flash, ram, known] = cells(carrier);
     let Quality { cost, .. } = worth;
     format!("{cost:>6}  {part:<15}  {place:<23}  {core:<6}  {flash:>5}  {ram:>4}  {known}")
 }
 
-/// The heads above such lines.
+/// The heads above these lines.
 fn heads() -> String {
     let [cost, part, place] = ["Cost", "Part", "Package or board"];
     format!("{cost:>6}  {part:<15}  {place:<23}  Core    Flash   RAM  Known")
 }
 
-/// How many can carry the devices, and in what their memories are counted.
+/// The number of carriers that can carry the devices, and the unit of their memory sizes.
 fn sum(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize, cut: &str) -> String {
     let units = match shown {
         [] => String::new(),
@@ -308,7 +307,7 @@ fn sum(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize, cut: &str) -
     format!("{fitting} of {asked} parts and boards can carry the devices{cut}\n{units}")
 }
 
-/// The carriers that are shown, and how many of those looked at can carry the devices.
+/// The table of the carriers shown, and how many of those checked can carry the devices.
 fn human(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize) -> String {
     let row = |(carrier, worth): &(&Carrier, Quality)| {
         let [part, place, core, flash, ram, known] = cells(carrier);

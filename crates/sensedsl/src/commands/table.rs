@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-/// A column's head and whether its cells are numbers, which are aligned right.
+/// A column's head, and whether its cells are numbers, which are right-aligned.
 pub(crate) type Head = (&'static str, bool);
 
-/// What every line begins with.
+/// The indentation of every line.
 pub(crate) const INDENT: &str = "  ";
 
-/// The rows below their heads, two spaces between columns.
+/// The rows below their heads, with two spaces between columns.
 pub(crate) fn table<const N: usize>(heads: [Head; N], rows: &[[String; N]]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());

@@ -1,4 +1,4 @@
-//! `sensedsl explain timing`: what the hardware has to do in a second, part by part.
+//! `sensedsl explain timing`: the work of the hardware in a second, part by part.
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::render;
@@ -15,14 +15,14 @@ use crate::Status;
 use crate::cli::{ExplainArgs, TableFormat};
 use crate::terminal::Terminal;
 
-/// What the columns mean.
+/// The meanings of the columns.
 const LEGEND: [&str; 3] = [
     "A second: conversions, bytes (B), interrupts (irq) or instructions (ins).",
     "Least: the shortest delay that can be kept beside the others.",
     "not known: no profile, or no `max` of the device, says enough.",
 ];
 
-/// What stands where a profile lacks the fact.
+/// The text for a fact that a profile lacks.
 const UNKNOWN: &str = "not known";
 
 pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     if wiring.bound.is_some() {
         terminal.aside("stopped: this is the best wiring so far, and there may be a better one")?;
     }
-    // What cannot be kept is shown all the same: the table says where the time goes.
+    // A timing that cannot be kept is shown all the same: the table tells where the time goes.
     let timing = timing(design, wiring);
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &timing))?,
@@ -175,7 +175,7 @@ fn cells(row: &Row) -> [String; 8] {
     ]
 }
 
-/// A serial rate in baud, everything else as a frequency.
+/// The clock of a part: in baud for a serial port, in Hz for anything else.
 fn clock(part: Part, hz: u32) -> String {
     match part {
         Part::Link | Part::Port => format!("{hz} Bd"),
@@ -188,13 +188,13 @@ fn clock(part: Part, hz: u32) -> String {
     }
 }
 
-/// `0.4 %`
+/// A share of a second: `0.4 %`.
 fn percent(busy_ns: u64) -> String {
     let thousandths = busy_ns.saturating_mul(1_000).div_ceil(SECOND_NS);
     format!("{}.{} %", thousandths / 10, thousandths % 10)
 }
 
-/// `400 kHz`, with every digit that is not zero.
+/// A frequency without trailing zeros: `400 kHz`.
 fn frequency(hz: u32) -> String {
     let of = |unit: u32, name: &str| {
         let (whole, rest) = (hz / unit, hz % unit);
@@ -211,7 +211,7 @@ fn frequency(hz: u32) -> String {
     }
 }
 
-/// Four digits at most.
+/// A number with at most four digits.
 fn short(number: u64) -> String {
     match number {
         0..10_000 => number.to_string(),

@@ -1,7 +1,7 @@
-//! `check --typecheck`: a wiring put into types, and judged by the Rust compiler.
+//! `check --typecheck`: a wiring is turned into types, and checked by the Rust compiler.
 //!
-//! For each board a crate is written to a folder of the user's cache and checked for the host, with the versions of the
-//! lock file that is part of this program. Crates of all chips share one folder of built dependencies.
+//! For each board, a crate is written to a folder in the user's cache and checked for the host, with the versions of
+//! the lock file that is part of this program. Crates for all chips share one folder of built dependencies.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use serde_json::Value;
 
 use crate::terminal::Terminal;
 
-/// What the compiler makes of the wiring of all boards.
+/// The compiler's verdict on the wiring of all boards.
 pub(super) fn judge(
     design: &Design,
     wiring: &Assignment,
@@ -41,7 +41,7 @@ pub(super) fn judge(
     Ok(diagnostics)
 }
 
-/// What the compiler makes of one board.
+/// The compiler's verdict on one board.
 fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<Vec<Diagnostic>> {
     let name = &job.board.name;
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
@@ -57,7 +57,7 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
         std::fs::create_dir_all(parent).with_context(|| parent.display().to_string())?;
         std::fs::write(&path, &file.bytes).with_context(|| path.display().to_string())?;
     }
-    // What is there already needs no network; only the first check of a chip downloads.
+    // Dependencies that are in the cache need no network; only the first check of a chip downloads.
     let mut output = run(&cargo, &folder, &cache.join("target"), true)?;
     if !output.status.success() && messages(&output).next().is_none() {
         output = run(&cargo, &folder, &cache.join("target"), false)?;
@@ -95,7 +95,7 @@ fn run(cargo: &str, folder: &Path, target: &Path, offline: bool) -> Result<Outpu
     command.output().with_context(|| cargo.to_owned())
 }
 
-/// What the compiler says, as cargo passes it on.
+/// The compiler's messages, as cargo passes them on.
 fn messages(output: &Output) -> impl Iterator<Item = Value> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let lines: Vec<Value> = text
@@ -108,7 +108,7 @@ fn messages(output: &Output) -> impl Iterator<Item = Value> {
     lines.into_iter()
 }
 
-/// The diagnostics of a run: one for each line that is refused.
+/// The diagnostics of a run: one for each rejected line.
 fn read(job: &BoardJob<'_>, check: &TypeCheck, output: &Output) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let mut seen = BTreeSet::new();
@@ -141,20 +141,20 @@ fn line_of(message: &Value) -> Option<usize> {
     let own = |span: &&Value| span.get("file_name").and_then(Value::as_str) == Some("src/lib.rs");
     let primary = |span: &&Value| span.get("is_primary").and_then(Value::as_bool) == Some(true);
     let span = spans.iter().filter(own).find(primary)?;
-    // What a macro stands for is where the macro stands.
+    // The code that a macro expands to is at the place of the macro.
     let outer = span.get("expansion").and_then(|expansion| expansion.get("span"));
     let line = outer.unwrap_or(span).get("line_start")?.as_u64()?;
     usize::try_from(line).ok()
 }
 
-/// Why cargo ended: its first error and what belongs to it.
+/// The reason why cargo failed: its first error with the lines that belong to it.
 fn reason(stderr: &str) -> String {
     let lines = stderr.lines().skip_while(|line| !line.starts_with("error"));
     let said: Vec<&str> = lines.map(str::trim).filter(|line| !line.is_empty()).take(4).collect();
     if said.is_empty() { "cargo says nothing".to_owned() } else { said.join("; ") }
 }
 
-/// The user's cache.
+/// The folder for this program in the user's cache.
 fn cache() -> PathBuf {
     let of =
         |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);

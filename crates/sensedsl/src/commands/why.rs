@@ -1,8 +1,8 @@
 //! Why a device is on its pins, for people.
 //!
-//! In: the pins that each of its wires could have, with what the best wiring with each would cost. Out: a line a wire
-//! that says the pin and the reason, then the other pins, those that stand in the way of nothing first; or all of them
-//! as a table.
+//! In: the pins that each of its wires could have, with the cost of the best wiring for each. Out: a line for each wire
+//! with its pin and the reason, then the other pins, starting with those that are in nobody's way; or all pins as a
+//! table.
 
 use std::collections::BTreeMap;
 
@@ -13,12 +13,12 @@ use sensedsl_wiring::assignment::Assignment;
 
 use super::table::table;
 
-/// Where a line of pins ends.
+/// The width of a line of pins.
 const WIDTH: usize = 100;
-/// Where the pins of a group begin.
+/// The column at which the pins of a group start.
 const PINS_AT: usize = 32;
 
-/// What there is to say of a pin; the order is that in which people want to know.
+/// The verdict on a pin, in the order in which people want to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Verdict {
     Chosen,
@@ -50,7 +50,7 @@ impl Verdict {
         }
     }
 
-    /// The same without numbers: what is listed together.
+    /// The verdict without numbers: pins with the same group are listed together.
     const fn group(self) -> Self {
         match self {
             Self::Costs(_) => Self::Costs(0),
@@ -60,7 +60,7 @@ impl Verdict {
         }
     }
 
-    /// What a group of pins is called.
+    /// The title of a group of pins.
     const fn title(self) -> &'static str {
         match self {
             Self::Chosen => "chosen",
@@ -73,7 +73,7 @@ impl Verdict {
         }
     }
 
-    /// What stands behind a pin in its group.
+    /// The text after a pin in its group.
     fn mark(self, one: &Alternative) -> String {
         match (self, &one.shared_with) {
             (Self::Costs(more), _) => format!(" (+{more})"),
@@ -107,7 +107,7 @@ impl Verdict {
     }
 }
 
-/// Every pin that could be, as a table.
+/// The table of every possible pin.
 pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
     let row = |one: &Alternative| {
         let why = Verdict::of(wiring, one).long(design, one);
@@ -128,7 +128,7 @@ pub(super) fn summary(
     let mut wires: Vec<Vec<(Verdict, &Alternative)>> = Vec::new();
     for one in alternatives {
         let judged = (Verdict::of(wiring, one), one);
-        // The wires of a chip's connections may have one name; each has one pin that is chosen.
+        // The wires of a chip's connections may share a name; each has one chosen pin.
         match wires.last_mut().filter(|wire| is_same(wire, one)) {
             Some(wire) => wire.push(judged),
             None => wires.push(vec![judged]),
@@ -155,14 +155,14 @@ fn pin(design: &Design, one: &Alternative) -> String {
     if design.boards.len() > 1 { format!("{} {}", one.board, one.pin) } else { one.pin.clone() }
 }
 
-/// A wire with the pin that it has and why.
+/// The row of a wire: its pin, and the reason for it.
 fn row(design: &Design, wire: &[(Verdict, &Alternative)]) -> Option<[String; 4]> {
     let (_, chosen) = wire.iter().find(|(verdict, _)| *verdict == Verdict::Chosen)?;
     let why = reason(design, wire);
     Some([chosen.wire.clone(), pin(design, chosen), chosen.signal.clone(), why])
 }
 
-/// Why the chosen pin is the chosen one.
+/// The reason why the chosen pin was chosen.
 fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
     let mut rest: Vec<&(Verdict, &Alternative)> =
         wire.iter().filter(|(verdict, _)| *verdict != Verdict::Chosen).collect();
@@ -186,7 +186,7 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
     }
 }
 
-/// The pins that are not chosen, those of wires with the same ones together.
+/// The pins that were not chosen; wires with the same ones share an entry.
 fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>]) -> String {
     let mut texts: Vec<(Vec<&str>, String)> = Vec::new();
     let mut count = 0;
@@ -218,7 +218,7 @@ fn groups(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
         let pin = pin(design, one);
         let mark = verdict.mark(one);
         match group.iter_mut().find(|(_, other, _)| *other == pin) {
-            // A pin counts with the best of its signals.
+            // A pin counts with its best signal.
             Some(other) if *verdict < other.0 => *other = (*verdict, pin, mark),
             Some(_) => {}
             None => group.push((*verdict, pin, mark)),
@@ -232,7 +232,7 @@ fn groups(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
     groups.into_iter().map(line).collect()
 }
 
-/// As many as fit into a line, and how many there are beside them.
+/// As many pins as fit into a line, and the number of the others.
 fn listed(pins: &[String]) -> String {
     const REST: usize = " … 999 more".len();
     let mut out = String::new();

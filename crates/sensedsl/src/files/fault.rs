@@ -1,29 +1,29 @@
-//! For tests: lets the n-th change fail, once or with all that follow.
+//! For tests: makes the n-th change fail, once or together with all later ones.
 
 use std::cell::Cell;
 use std::io;
 
-/// Which change fails.
+/// The change that fails.
 #[derive(Debug, Default)]
 pub(crate) struct Fault {
-    /// Changes that still succeed; none for all.
+    /// The number of changes that still succeed; `None` if all do.
     left: Cell<Option<usize>>,
     once: bool,
     has_struck: Cell<bool>,
 }
 
 impl Fault {
-    /// As a kill does: from the n-th change on nothing happens any more.
+    /// Fails as after a kill: from the n-th change on, nothing happens any more.
     pub(crate) fn killed_at(n: usize) -> Self {
         Self { left: Cell::new(Some(n)), ..Self::default() }
     }
 
-    /// As a full disk does: the n-th change fails, and later ones succeed.
+    /// Fails as with a full disk: the n-th change fails, and later ones succeed.
     pub(crate) fn full_at(n: usize) -> Self {
         Self { left: Cell::new(Some(n)), once: true, ..Self::default() }
     }
 
-    /// Whether the moment came.
+    /// Whether the fault has occurred.
     pub(crate) fn has_struck(&self) -> bool {
         self.has_struck.get()
     }

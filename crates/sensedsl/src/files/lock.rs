@@ -1,7 +1,9 @@
-//! One writer at a time: a lock that ends with the process that holds it, however that ends.
+//! One writer at a time: a lock that ends with the process that holds it, however that process
+//! ends.
 //!
-//! The lock is held on a file in a folder of its own, and both are removed when it is given back.
-//! Whoever waited for a file that is gone by then begins anew, so no two hold one lock.
+//! The lock is held on a file in a folder of its own, and both are removed when it is released. A
+//! process that waited for a file which is gone by then starts again, so no two processes hold the
+//! same lock.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -9,34 +11,34 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The file in the folder.
+/// The name of the file in the folder.
 pub(super) const NAME: &str = "lock";
 
-/// How often a lock that another holds is tried.
+/// The interval at which a lock held by another process is tried.
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// How long a run waits for another before it says so.
 const SILENT: Duration = Duration::from_millis(300);
 
-/// How long a run waits: far longer than any other writes.
+/// How long a run waits: far longer than any other takes to write.
 pub(crate) const WAIT: Duration = Duration::from_secs(30);
 
-/// A lock that is held; dropping it gives it back.
+/// A lock that is held; dropping it releases it.
 #[derive(Debug)]
 pub(crate) struct Lock {
     folder: PathBuf,
-    /// None where the file system has no locks.
+    /// `None` if the file system has no locks.
     _file: Option<File>,
 }
 
-/// Why there is no lock.
+/// The reason why there is no lock.
 #[derive(Debug)]
 pub(crate) enum NoLock {
     /// Another process holds it.
     Busy,
     /// The folder cannot be made.
     Failed(io::Error),
-    /// What stands there was not made by a run.
+    /// The entry at that path was not made by a run.
     Strange(PathBuf),
 }
 
@@ -47,7 +49,7 @@ impl From<io::Error> for NoLock {
 }
 
 impl Lock {
-    /// Takes the lock of a folder, which is made for it. `waiting` is called once when that takes
+    /// Takes the lock of a folder, which is created for it. `waiting` is called once if this takes
     /// longer than a moment.
     pub(crate) fn take(
         folder: &Path,
@@ -78,7 +80,7 @@ impl Lock {
             Ok(()) | Err(_) => {}
         }
         match fs::symlink_metadata(folder) {
-            // Who held it has removed it just now.
+            // The process that held it has just removed it.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(error.into()),
             // A link leads to somebody else's folder.
@@ -87,7 +89,7 @@ impl Lock {
         }
         let path = folder.join(NAME);
         let file = match open(&path) {
-            // Who held it has removed the folder just now.
+            // The process that held it has just removed the folder.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(_) if is_strange(&path) => return Err(NoLock::Strange(path)),
             file => file?,
@@ -98,7 +100,7 @@ impl Lock {
         let file = match file.try_lock() {
             Ok(()) => Some(file),
             Err(TryLockError::WouldBlock) => return Ok(None),
-            // A file system without locks: better one that writes than none.
+            // On a file system without locks, writing unlocked is better than not writing.
             Err(TryLockError::Error(_)) => None,
         };
         if file.as_ref().is_some_and(|file| !is_at(file, &path)) {
@@ -110,17 +112,17 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Where a file that is open cannot be told from another, it stays, and so does the folder.
+        // Where an open file cannot be told from another, it stays, and so does the folder.
         if cfg!(unix) {
             // Leftovers are found and used by the next run.
             let _ = fs::remove_file(self.folder.join(NAME));
         }
-        // Not empty where something is left for the next run to complete.
+        // The folder is not empty if something is left for the next run to complete.
         let _ = fs::remove_dir(&self.folder);
     }
 }
 
-/// Opens the file of a lock: never what a link leads to, and without waiting for a pipe's reader.
+/// Opens the file of a lock, without following a link, and without waiting for a pipe's reader.
 fn open(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.create(true).truncate(false).write(true);
@@ -133,12 +135,12 @@ fn open(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Whether something stands there that is not a file.
+/// Whether the entry at a path is not a file.
 fn is_strange(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| !found.is_file())
 }
 
-/// Whether the file is still the one of that name.
+/// Whether the file is still the one with that name.
 #[cfg(unix)]
 pub(super) fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;

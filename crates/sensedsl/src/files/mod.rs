@@ -1,8 +1,8 @@
 //! The machine's files: reading, writing, and the names under which people see them.
 //!
-//! `read` reads. `write` writes single files, `tree` whole folders, both so that a run that is
-//! stopped at any moment leaves nothing half done; `ops` are the changes that a tree is written
-//! with, `lock` keeps two runs apart, `state` knows what this machine has written.
+//! `read` reads. `write` writes single files, `tree` whole folders, both in such a way that a run
+//! which is stopped at any moment leaves nothing half done. `ops` has the changes of which writing
+//! a tree consists, `lock` keeps two runs apart, and `state` knows what this machine has written.
 
 #[cfg(test)]
 mod fault;
@@ -29,7 +29,7 @@ pub(crate) fn shown(path: &Path) -> String {
     if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
 }
 
-/// A file of the command line that was not read, as an error that tells the diagnostic.
+/// A file from the command line that was not read, as an error with its diagnostic.
 #[derive(Debug)]
 pub(crate) struct Refused {
     pub(crate) diagnostic: Box<Diagnostic>,
@@ -37,7 +37,7 @@ pub(crate) struct Refused {
 }
 
 impl Refused {
-    /// The place of what concerns the whole file.
+    /// Makes the error for a problem with the whole file.
     pub(crate) fn new(path: &Path, report: impl FnOnce(Span, &str) -> Diagnostic) -> Self {
         let (shown, mut sources) = (shown(path), SourceMap::default());
         let file = sources.add(shown.as_str(), "");
@@ -45,7 +45,7 @@ impl Refused {
         Self { diagnostic, sources }
     }
 
-    /// That a file was not read.
+    /// Reports that a file was not read.
     pub(crate) fn unread(path: &Path, what: What, unread: &Unread) -> Self {
         Self::new(path, |at, shown| {
             unread.diagnostic(at, &Wanted { path: shown, what, by_user: true })
@@ -61,7 +61,7 @@ impl std::fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
-/// The content of a file that the command line names.
+/// The contents of a file that the command line names.
 pub(crate) fn read_bytes(path: &Path, what: What) -> Result<Vec<u8>, Refused> {
     read::read(path, what, true).map_err(|unread| Refused::unread(path, what, &unread))
 }

@@ -1,8 +1,8 @@
-//! Opening what is read: a path in, a regular file out, or a pipe where the user names one.
+//! Opening of files to read. In: a path. Out: a regular file, or a pipe if the user names one.
 //!
-//! What stands at the path is looked at before it is opened, because opening a device can do
-//! things, and again when it is open, because it may have been changed in between. Nothing here waits: a
-//! pipe that has no writer is refused after a moment.
+//! The entry at the path is checked before it is opened, because opening a device can have effects, and again after
+//! that, because it may have changed in between. Nothing here waits for long: a pipe that has no writer is refused
+//! after a moment.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, Read};
@@ -12,21 +12,21 @@ use sensedsl_model::Unread;
 
 use super::read::why;
 
-/// What was opened.
+/// A file that was opened.
 pub(super) struct Opened {
     pub(super) file: File,
-    /// What was read of a pipe to see whether somebody writes to it.
+    /// The bytes that were read from a pipe to see whether somebody writes to it.
     head: Vec<u8>,
 }
 
 impl Opened {
-    /// The content from its start.
+    /// The contents from the start.
     pub(super) fn reader(self) -> impl Read {
         io::Cursor::new(self.head).chain(self.file)
     }
 }
 
-/// Opens a file for reading; a pipe only where the user names it.
+/// Opens a file for reading; a pipe only if the user names it.
 pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, Unread> {
     readable(fs::metadata(path).map_err(|error| why(&error))?.file_type(), by_user)?;
     let file = open_at_once(path).map_err(|error| why(&error))?;
@@ -35,7 +35,7 @@ pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, Unread> {
     if kind.is_file() { Ok(Opened { file, head: Vec::new() }) } else { pipe(file) }
 }
 
-/// Refuses what is neither a file nor a pipe of the user's.
+/// Refuses anything that is neither a file nor a pipe named by the user.
 fn readable(kind: FileType, by_user: bool) -> Result<(), Unread> {
     match () {
         () if kind.is_file() || (by_user && is_pipe(kind)) => Ok(()),
@@ -55,7 +55,7 @@ fn is_pipe(_: FileType) -> bool {
     false
 }
 
-/// Opens without waiting for anybody.
+/// Opens a file without waiting.
 #[cfg(unix)]
 fn open_at_once(path: &Path) -> io::Result<File> {
     use std::os::unix::fs::OpenOptionsExt as _;
@@ -71,7 +71,7 @@ fn open_at_once(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// Waits a moment for who writes to a pipe; from then on reading waits for them.
+/// Waits a moment for a program that writes to a pipe; from then on, reading waits for that program.
 #[cfg(unix)]
 fn pipe(mut file: File) -> Result<Opened, Unread> {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -81,10 +81,10 @@ fn pipe(mut file: File) -> Result<Opened, Unread> {
         .map_err(|error| why(&error.into()))?;
     let mut head = vec![0];
     match file.read(&mut head) {
-        // Only our side of it is open.
+        // Only our end of it is open.
         Ok(0) => return Err(Unread::NotAFile("a pipe to which no program writes")),
         Ok(_) => {}
-        // Somebody has it open and did not write yet.
+        // A program has it open and has not written yet.
         Err(error) if error.kind() == io::ErrorKind::WouldBlock => head.clear(),
         Err(error) => return Err(why(&error)),
     }

@@ -1,17 +1,18 @@
-//! Every change to the names in a folder, one call each, and the way to make changes durable.
+//! All changes to the names in a folder, with a method for each, and a way to make changes durable.
 //!
-//! What writes a tree does it through [`Ops`] alone, so that a test can stop after any single
-//! change, as a kill does, or let any single one fail, as a full disk does.
+//! A tree is written only through [`Ops`], so that a test can stop after any single change, as a
+//! kill does, or let any single one fail, as a full disk does.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread;
 
-/// Threads that wait for the disk: many small files are as quick together as one of them.
+/// The number of threads that wait for the disk: syncing many small files together takes no longer
+/// than one of them.
 const SYNCING_MAX: usize = 8;
 
-/// The changes.
+/// The changes to a folder.
 #[derive(Debug, Default)]
 pub(crate) struct Ops {
     #[cfg(test)]
@@ -26,12 +27,12 @@ impl Ops {
         Ok(())
     }
 
-    /// Writes a new file, with the permissions and the owner of that one.
+    /// Writes a new file, with the permissions and the owner of the file `like`.
     pub(crate) fn create(&self, path: &Path, bytes: &[u8], like: Option<&Path>) -> io::Result<()> {
         self.may()?;
         let write = || {
             let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-            // A kill can come while a file is written.
+            // A kill can come while a file is being written.
             self.may()?;
             file.write_all(bytes)?;
             like.and_then(|like| fs::metadata(like).ok())
@@ -40,7 +41,7 @@ impl Ops {
         write().map_err(at(path))
     }
 
-    /// Makes a folder, and those above it; none of them must be a file.
+    /// Makes a folder, and those above it; none of them may be a file.
     pub(crate) fn make_folders(&self, path: &Path) -> io::Result<()> {
         if path.is_dir() {
             return Ok(());
@@ -65,13 +66,13 @@ impl Ops {
         std::os::unix::fs::symlink(target, path).map_err(at(path))
     }
 
-    /// Renames; a file that is there is replaced.
+    /// Renames a file or folder; an existing file is replaced.
     pub(crate) fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         self.may()?;
         fs::rename(from, to).map_err(at(to))
     }
 
-    /// Lets two names change places: the one moment at which a tree becomes another.
+    /// Exchanges two names: the one moment at which a tree is replaced by another.
     #[cfg(target_os = "linux")]
     pub(crate) fn exchange(&self, one: &Path, other: &Path) -> io::Result<()> {
         use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -80,26 +81,26 @@ impl Ops {
             .map_err(|error| at(one)(error.into()))
     }
 
-    /// Removes a file or a symbolic link; it may be gone already.
+    /// Removes a file or a symbolic link; it may already be gone.
     pub(crate) fn remove_file(&self, path: &Path) -> io::Result<()> {
         self.may()?;
         unless_gone(fs::remove_file(path)).map_err(at(path))
     }
 
-    /// Removes an empty folder; it may be gone already.
+    /// Removes an empty folder; it may already be gone.
     pub(crate) fn remove_folder(&self, path: &Path) -> io::Result<()> {
         self.may()?;
         unless_gone(fs::remove_dir(path)).map_err(at(path))
     }
 
-    /// Removes a folder of the program's own with all that is in it; it may be gone already.
+    /// Removes one of the program's own folders with everything in it; it may already be gone.
     pub(crate) fn remove_all(&self, path: &Path) -> io::Result<()> {
         self.may()?;
         unless_gone(fs::remove_dir_all(path)).map_err(at(path))
     }
 }
 
-/// Says which file it was, and keeps what kind of failure.
+/// Adds the path to an error, and keeps the kind of failure.
 fn at(path: &Path) -> impl FnOnce(io::Error) -> io::Error {
     move |error| {
         let kind =
@@ -115,24 +116,23 @@ fn unless_gone(removed: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Gives a new file the permissions of the one whose place it takes, and the owner where that is
-/// allowed.
+/// Gives a new file the permissions of the file that it replaces, and its owner if that is allowed.
 pub(crate) fn resemble(file: &File, old: &fs::Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::{MetadataExt as _, fchown};
         let new = file.metadata()?;
         if (new.uid(), new.gid()) != (old.uid(), old.gid()) {
-            // Only root may give files away: whoever else rewrites a file owns the new one.
+            // Only root may give files away: any other user who rewrites a file owns the new one.
             let _ = fchown(file, Some(old.uid()), Some(old.gid()));
         }
     }
     if old.is_file() { file.set_permissions(old.permissions()) } else { Ok(()) }
 }
 
-/// Waits until files and folders are on the disk.
+/// Waits until files and folders are on disk.
 pub(crate) fn sync(paths: &[PathBuf]) -> io::Result<()> {
-    // A test of the order of changes makes thousands, and power does not fail in it.
+    // A test of the order of changes makes thousands of them, and does not cover power failures.
     if cfg!(test) {
         return Ok(());
     }
@@ -152,18 +152,19 @@ pub(crate) fn sync(paths: &[PathBuf]) -> io::Result<()> {
 }
 
 fn sync_one(path: &Path) -> io::Result<()> {
-    // Windows opens no folders, and keeps their changes by itself.
+    // Windows does not open folders, and keeps their changes by itself.
     if !cfg!(unix) && path.is_dir() {
         return Ok(());
     }
     match File::open(path)?.sync_all() {
-        // Some file systems have nothing to wait for, and say so for folders.
+        // Some file systems have nothing to wait for, and report that for folders.
         Err(error) if is_unsupported(&error) => Ok(()),
         done => done,
     }
 }
 
-/// Whether the file system, or the place in it, does not have this call, rather than not now.
+/// Whether the file system, or the place in it, does not support this call at all, rather than just
+/// now.
 pub(crate) fn is_unsupported(error: &io::Error) -> bool {
     is_unsupported_call(error)
         || matches!(

@@ -1,8 +1,9 @@
-//! Reading files: what the user names, and what a file names.
+//! Reading of files: those that the user names, and those that a file names.
 //!
-//! All reading goes through [`read`]: regular files only, and a pipe where the user names one; no
-//! more bytes than the file's kind may have, nor all files together. What a *file* names must be in
-//! the project's folder as well, or in one that the command line allows.
+//! All reading goes through [`read`]. It takes only regular files, and a pipe if the user names
+//! one; a file may have no more bytes than its kind allows, and neither may all files together. A
+//! file named by a *file* must also be in the project's folder, or in one that the command line
+//! allows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,7 +17,7 @@ use sensedsl_model::{Files, Unread, Wanted, What, normal_path, stays_inside};
 
 use super::open::open;
 
-/// The machine's files, as one design or source may see them.
+/// The machine's files, as far as one design or source may see them.
 #[derive(Debug)]
 pub(crate) struct Disk {
     /// The folder of the file on the command line.
@@ -28,25 +29,26 @@ pub(crate) struct Disk {
 }
 
 impl Disk {
-    /// What the file on the command line may name.
+    /// The files that the file on the command line may name.
     pub(crate) fn of(file: &Path, allowed: &[PathBuf]) -> Self {
         let root = if file == Path::new("-") { None } else { file.parent() };
         Self::below(root.unwrap_or(Path::new("")), allowed)
     }
 
-    /// What a file of that folder may name.
+    /// The files that a file in that folder may name.
     pub(crate) fn below(root: &Path, allowed: &[PathBuf]) -> Self {
         let seen = Mutex::new(BTreeMap::new());
         Self { root: root.to_path_buf(), allowed: allowed.to_vec(), seen }
     }
 
-    /// The content of a file that a file names, seen from where the program runs.
+    /// The contents of a file that a file names, with a path relative to the program's working
+    /// folder.
     pub(crate) fn bytes(&self, path: &Path, what: What) -> Result<Vec<u8>, Unread> {
         let real = self.real(path)?;
         self.counted(&real, read(&real, what, false)?)
     }
 
-    /// The path without symbolic links, where it is in an allowed folder.
+    /// The path without symbolic links, if it is in an allowed folder.
     fn real(&self, path: &Path) -> Result<PathBuf, Unread> {
         let relative = path.strip_prefix(&self.root).ok();
         let outside = || {
@@ -55,7 +57,7 @@ impl Disk {
         };
         let stays = relative.is_some_and(|relative| stays_inside(&relative.to_string_lossy()))
             || self.comes_back(path);
-        // Where nothing else is allowed, not even that the file exists is looked up.
+        // If nothing else is allowed, not even the existence of the file is checked.
         if !stays && self.allowed.is_empty() {
             return Err(outside());
         }
@@ -71,7 +73,8 @@ impl Disk {
         Path::new(&normal_path(&whole.to_string_lossy())).starts_with(real_folder(&self.root))
     }
 
-    /// The bytes, unless all files together are too large. A file that is read again counts once.
+    /// The bytes, unless all files together are too large. A file that is read again counts only
+    /// once.
     fn counted(&self, path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, Unread> {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.insert(path.to_path_buf(), bytes.len());
@@ -90,7 +93,7 @@ impl Files for Disk {
     }
 }
 
-/// The content of a file, or of the standard input for `-` where the user names it.
+/// The contents of a file, or of the standard input for `-` if the user names it.
 pub(crate) fn read(path: &Path, what: What, by_user: bool) -> Result<Vec<u8>, Unread> {
     if by_user && path == Path::new("-") {
         return limited(io::stdin().lock(), what);
@@ -103,7 +106,7 @@ pub(crate) fn read(path: &Path, what: What, by_user: bool) -> Result<Vec<u8>, Un
     limited(opened.reader(), what)
 }
 
-/// Reads to the end, or to where there is more than may be: a file can grow, and a pipe has no
+/// Reads to the end, or until there is more than allowed: a file can grow, and a pipe has no
 /// length.
 fn limited(source: impl io::Read, what: What) -> Result<Vec<u8>, Unread> {
     let mut bytes = Vec::new();
@@ -112,7 +115,7 @@ fn limited(source: impl io::Read, what: What) -> Result<Vec<u8>, Unread> {
     if bytes.len() > most { Err(Unread::TooLarge) } else { Ok(bytes) }
 }
 
-/// A folder without symbolic links, so that it has a name; as it is where there is none.
+/// A folder without symbolic links, so that it has a name; unchanged if it does not exist.
 pub(crate) fn real_folder(folder: &Path) -> PathBuf {
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
     fs::canonicalize(here).unwrap_or_else(|_| folder.to_path_buf())
@@ -126,7 +129,7 @@ pub(crate) fn text(bytes: Vec<u8>) -> Result<String, Unread> {
     })
 }
 
-/// The machine's reason.
+/// The reason that the system gives.
 pub(crate) fn why(error: &io::Error) -> Unread {
     if error.kind() == io::ErrorKind::NotFound {
         Unread::Missing
@@ -135,7 +138,7 @@ pub(crate) fn why(error: &io::Error) -> Unread {
     }
 }
 
-/// The content of a file; none when there is no such file.
+/// The contents of a file; `None` if there is no such file.
 pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     match open(path, false) {
@@ -149,7 +152,7 @@ pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
     }
 }
 
-/// All files below `root`, relative to it, but for those in folders that `skip` names.
+/// All files below `root`, with paths relative to it, except those in folders that `skip` names.
 pub(crate) fn files_below(root: &Path, skip: &dyn Fn(&str) -> bool) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![root.to_path_buf()];

@@ -1,12 +1,14 @@
-//! What this machine knows of the folders that it has written: a key, and the list of each folder.
+//! The machine's memory of the folders that it has written: a key, and a record of each folder's
+//! list.
 //!
 //! An output folder may be a stranger's: cloned, unpacked, pulled. Nothing in it can prove that a
-//! run of this machine left it, but for a code that only this machine can compute. The key is in
-//! the user's folder for state, readable to nobody else, as is a record of each folder's list. Both
-//! are of the folder's inode, so that a folder may be moved, and a copy is nobody's.
+//! run on this machine left it, except a code that only this machine can compute. The key is in the
+//! user's state folder, where nobody else can read it, and so is a record of each folder's list.
+//! Both codes depend on the folder's inode, so that a folder may be moved, whereas a copy belongs
+//! to nobody.
 //!
-//! Without a place for the key each run has one of its own: it writes as safely, and what a killed
-//! run has left is refused by the next one.
+//! Without a place for the key, each run has a key of its own: it writes just as safely, but the
+//! next run refuses what a killed one has left.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Write as _};
@@ -16,32 +18,32 @@ use std::time::UNIX_EPOCH;
 
 use sha2::{Digest as _, Sha256};
 
-/// The bytes of the key.
+/// The length of the key.
 const KEY_BYTES: usize = 32;
 
-/// What SHA-256 takes at a time.
+/// The block size of SHA-256.
 const BLOCK_BYTES: usize = 64;
 
-/// Folders that are remembered; beyond that the ones written longest ago are forgotten.
+/// The most folders that are remembered; beyond that, those written longest ago are forgotten.
 const FOLDERS_MAX: usize = 4_096;
 
-/// In the folder for state: a record of each output folder.
+/// The subfolder of the state folder with a record of each output folder.
 const FOLDERS: &str = "folders";
 
 /// The machine's memory.
 #[derive(Debug)]
 pub(crate) struct State {
-    /// None where there is no place that is the user's alone.
+    /// `None` if there is no place that only the user can access.
     place: Option<PathBuf>,
     key: [u8; KEY_BYTES],
 }
 
 impl State {
-    /// That of this user on this machine.
+    /// The memory of this user on this machine.
     pub(crate) fn of_user() -> &'static Self {
         static STATE: OnceLock<State> = OnceLock::new();
         STATE.get_or_init(|| {
-            // Tests of this crate leave no traces, and each runs as one machine.
+            // Tests of this crate leave no traces, and every test runs as the same machine.
             if cfg!(test) {
                 return Self { place: None, key: [7; KEY_BYTES] };
             }
@@ -57,7 +59,7 @@ impl State {
         }
     }
 
-    /// What a run leaves in a folder of its own, so that the next one believes what is in it.
+    /// The code that a run leaves in a folder of its own, so that the next run trusts its contents.
     pub(crate) fn seal(&self, folder: &Path) -> io::Result<String> {
         Ok(self.code(&[b"work", identity(folder)?.as_bytes()]))
     }
@@ -68,8 +70,8 @@ impl State {
         fs::read(record).is_ok_and(|found| found == text.as_bytes())
     }
 
-    /// Remembers that this machine wrote that list into that folder. Where it cannot, the files'
-    /// own content has to prove whose they are.
+    /// Remembers that this machine wrote that list into that folder. If it cannot, the contents of
+    /// the files must prove whose they are.
     pub(crate) fn remember(&self, folder: &Path, list: &[u8]) {
         let Some((record, text)) = self.record(folder, list) else { return };
         let Some(above) = record.parent() else { return };
@@ -79,7 +81,7 @@ impl State {
         }
     }
 
-    /// Where the record of a folder is, and what it says.
+    /// The path of a folder's record, and the text in it.
     fn record(&self, folder: &Path, list: &[u8]) -> Option<(PathBuf, String)> {
         let (place, id) = (self.place.as_ref()?, identity(folder).ok()?);
         let name = self.code(&[b"folder", id.as_bytes()]);
@@ -87,7 +89,7 @@ impl State {
         Some((place.join(FOLDERS).join(name), text))
     }
 
-    /// The code of some texts, each with its length before it.
+    /// The code of some texts, each preceded by its length.
     fn code(&self, texts: &[&[u8]]) -> String {
         let mut all = Vec::new();
         for text in texts {
@@ -109,7 +111,7 @@ fn hmac(key: &[u8; KEY_BYTES], text: &[u8]) -> String {
     hex(&Sha256::new().chain_update(pad(0x5c)).chain_update(inner).finalize())
 }
 
-/// The SHA-256 of a file's content, as `sha256sum` prints it.
+/// The SHA-256 of a file's contents, as `sha256sum` prints it.
 pub(crate) fn digest(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
@@ -118,12 +120,12 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What stays the same when a folder is moved, and not when it is copied.
+/// A text that stays the same when a folder is moved, but not when it is copied.
 #[cfg(unix)]
 fn identity(folder: &Path) -> io::Result<String> {
     use std::os::unix::fs::MetadataExt as _;
     let found = fs::metadata(folder)?;
-    // The number of a folder that was removed is given to another one.
+    // The inode number of a removed folder is used again.
     let born = found.created().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     Ok(format!("{} {}", found.ino(), born.unwrap_or_default().as_nanos()))
 }
@@ -133,9 +135,9 @@ fn identity(folder: &Path) -> io::Result<String> {
     Ok(fs::canonicalize(folder)?.display().to_string())
 }
 
-/// Where state may be kept, the best place first.
+/// The possible places for state, the best one first.
 fn places() -> Vec<PathBuf> {
-    // What is relative would be in somebody's project.
+    // A relative path would be in somebody's project.
     let variable =
         |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let mut places: Vec<PathBuf> = variable("XDG_STATE_HOME").into_iter().collect();
@@ -150,7 +152,7 @@ fn places() -> Vec<PathBuf> {
     places
 }
 
-/// The key in a folder, made where there is none.
+/// The key in a folder, created if there is none.
 fn key(place: &Path) -> io::Result<[u8; KEY_BYTES]> {
     private_folder(place)?;
     let path = place.join("key");
@@ -158,7 +160,7 @@ fn key(place: &Path) -> io::Result<[u8; KEY_BYTES]> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         found => return found,
     }
-    // Of two runs that make it at once, one is first, and both take what is there then.
+    // If two runs create it at once, the first one wins, and both use its key.
     let part = place.join(format!("key-{}", std::process::id()));
     let _ = fs::remove_file(&part);
     let mut options = OpenOptions::new();
@@ -175,7 +177,7 @@ fn key(place: &Path) -> io::Result<[u8; KEY_BYTES]> {
     }
 }
 
-/// A key that others can neither read nor have put there.
+/// Reads a key that others could neither read nor have put there.
 fn read_key(path: &Path) -> io::Result<[u8; KEY_BYTES]> {
     let found = fs::symlink_metadata(path)?;
     if !found.is_file() || found.len() != KEY_BYTES as u64 || !is_private(&found, 0o077) {
@@ -186,7 +188,7 @@ fn read_key(path: &Path) -> io::Result<[u8; KEY_BYTES]> {
     Ok(key)
 }
 
-/// Makes a folder that is the user's alone, or finds it.
+/// Makes or finds a folder that only the user can access.
 fn private_folder(path: &Path) -> io::Result<()> {
     if let Some(above) = path.parent() {
         fs::create_dir_all(above)?;
@@ -203,7 +205,7 @@ fn private_folder(path: &Path) -> io::Result<()> {
     if is_own { Ok(()) } else { Err(io::ErrorKind::PermissionDenied.into()) }
 }
 
-/// Whether something is the user's, and gives others none of these permissions.
+/// Whether something belongs to the user, and gives others none of these permissions.
 #[cfg(unix)]
 fn is_private(found: &fs::Metadata, others: u32) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -215,7 +217,7 @@ fn is_private(_: &fs::Metadata, _: u32) -> bool {
     true
 }
 
-/// Removes records where there are very many.
+/// Removes the oldest records if there are very many.
 fn forget_some(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut records: Vec<_> = entries
@@ -229,7 +231,7 @@ fn forget_some(folder: &Path) {
     }
 }
 
-/// Bytes that nobody can guess: of the system's source, or of the seeds of hash tables.
+/// Bytes that nobody can guess: from the system's random source, or from the seeds of hash tables.
 fn random() -> [u8; KEY_BYTES] {
     use std::hash::{BuildHasher as _, Hasher as _, RandomState};
     let mut key = [0; KEY_BYTES];
@@ -250,7 +252,7 @@ mod tests {
 
     #[test]
     fn codes_are_those_of_rfc_4231() {
-        // Its second case. The key is shorter than ours, and HMAC fills keys up with zeros.
+        // The second case. Its key is shorter than ours, and HMAC pads keys with zeros.
         let mut key = [0; KEY_BYTES];
         key[..4].copy_from_slice(b"Jefe");
         let code = "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843";

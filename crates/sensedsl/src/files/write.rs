@@ -1,9 +1,9 @@
-//! Single files: whole or not at all, and what stands there is respected.
+//! Single files: written completely or not at all, with respect for what is already there.
 //!
-//! A regular file is written beside its place under a name of its own, is on the disk before it
-//! takes its place, and keeps the permissions and the owner of the one that it replaces; symbolic
-//! links are followed and stay. A device or a pipe is written to and stays what it is. What a
-//! process that was killed left beside a file, the next one that writes this file removes.
+//! A regular file is written beside its place under a temporary name and is on disk before it takes
+//! its place. It keeps the permissions and the owner of the file that it replaces; symbolic links
+//! are followed and stay. A device or a pipe is written to and stays what it is. Leftovers of a
+//! killed process are removed by the next one that writes the same file.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
@@ -15,10 +15,10 @@ use anyhow::{Context as _, Result, bail};
 
 use super::ops;
 
-/// Links that lead from one to the next.
+/// The most links that are followed one after another.
 const LINKS_MAX: usize = 40;
 
-/// What a file is called until it takes its place.
+/// The part in the middle of a file's name before it takes its place.
 const UNTIL_THEN: &str = ".sensedsl-part-";
 
 /// Writes a file, with the folders above it.
@@ -26,8 +26,8 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     write_together(&[(path, bytes)])
 }
 
-/// Writes several files: all of them are complete and on the disk before the first one takes its
-/// place, so that a failure leaves none.
+/// Writes several files: all of them are complete and on disk before the first one takes its place,
+/// so that a failure leaves none.
 pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
     let mut staged = Vec::new();
     for (path, bytes) in files {
@@ -44,14 +44,14 @@ pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
     Ok(())
 }
 
-/// Whether what stands there is written to rather than replaced: a device, a pipe, an open file.
+/// Whether the entry at a path is written to rather than replaced: a device, a pipe, an open file.
 pub(crate) fn is_stream(path: &Path) -> bool {
     let open = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc"];
     open.iter().any(|one| path.starts_with(one))
         || fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
-/// Whether a file stands there that would be lost: neither empty nor what is to be written.
+/// Whether there is a file that would be lost: neither empty nor the same as the new one.
 pub(crate) fn is_in_the_way(path: &Path, bytes: &[u8]) -> Result<bool> {
     let reading = || format!("cannot read {}", path.display());
     match fs::metadata(path) {
@@ -64,7 +64,7 @@ pub(crate) fn is_in_the_way(path: &Path, bytes: &[u8]) -> Result<bool> {
     }
 }
 
-/// Whether a file begins with these bytes.
+/// Whether a file starts with these bytes.
 pub(crate) fn begins_with(path: &Path, bytes: &[u8]) -> Result<bool> {
     use io::Read as _;
     let reading = || format!("cannot read {}", path.display());
@@ -74,7 +74,7 @@ pub(crate) fn begins_with(path: &Path, bytes: &[u8]) -> Result<bool> {
     Ok(head == bytes)
 }
 
-/// Removes a file; it may be gone already.
+/// Removes a file; it may already be gone.
 pub(crate) fn remove_file(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
@@ -83,13 +83,13 @@ pub(crate) fn remove_file(path: &Path) -> io::Result<()> {
 }
 
 fn write_in_place(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // What is in an open file already was printed by this very command.
+    // The contents of an open file were printed by this very command.
     let mut file = OpenOptions::new().append(true).open(path)?;
     file.write_all(bytes)?;
     file.flush()
 }
 
-/// A file that is complete, beside its place.
+/// A complete file, beside its place.
 struct Staged {
     /// Open, and locked as long as its process lives.
     file: File,
@@ -131,11 +131,12 @@ impl Staged {
             name.push(format!("{UNTIL_THEN}{}-{number}", std::process::id()));
             let part = place.with_file_name(name);
             match OpenOptions::new().write(true).create_new(true).open(&part) {
-                // Of a process of the same number, on another machine or before a restart.
+                // It is from a process with the same number, on another machine or before a
+                // restart.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
-                    // Without locks leftovers stay, as they cannot be told from files in use.
+                    // Without locks, leftovers stay, because they cannot be told from files in use.
                     let _ = file.try_lock();
                     return Ok(Self { file, part, place, is_published: false });
                 }
@@ -154,13 +155,13 @@ impl Staged {
 impl Drop for Staged {
     fn drop(&mut self) {
         if !self.is_published {
-            // If that fails too, the first error says why, and the next run tries again.
+            // If that also fails, the first error gives the reason, and the next run tries again.
             let _ = fs::remove_file(&self.part);
         }
     }
 }
 
-/// Whether a file was to become that one, by a run that was stopped or one that is at it.
+/// Whether a file is a part of that one, from a run that was stopped or one that is still going on.
 pub(crate) fn is_part_of(part: &Path, whole: &Path) -> bool {
     let names = part.file_name().zip(whole.file_name());
     part.parent() == whole.parent()
@@ -173,17 +174,18 @@ fn beginning_of_parts(name: &std::ffi::OsStr) -> String {
     format!(".{}{UNTIL_THEN}", name.to_string_lossy())
 }
 
-/// Removes what processes left beside a file that were killed.
+/// Removes the files that killed processes left beside a file.
 fn remove_leftovers(folder: &Path, name: &std::ffi::OsStr) {
     let beginning = beginning_of_parts(name);
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
         let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-        // Opening a link or a pipe of that name would reach what is somebody else's.
+        // Opening a link or a pipe of that name would reach something that belongs to somebody
+        // else.
         if !is_file || !entry.file_name().to_string_lossy().starts_with(&beginning) {
             continue;
         }
-        // The lock of a process ends with it.
+        // The lock of a process ends with the process.
         let is_dead = OpenOptions::new().write(true).open(entry.path());
         if is_dead.is_ok_and(|file| file.try_lock().is_ok()) {
             let _ = fs::remove_file(entry.path());
@@ -191,7 +193,7 @@ fn remove_leftovers(folder: &Path, name: &std::ffi::OsStr) {
     }
 }
 
-/// Where a path leads through links, also when nothing is there yet.
+/// The path at the end of a chain of links, even if nothing is there yet.
 fn behind_links(path: &Path) -> Result<PathBuf> {
     let mut place = path.to_path_buf();
     for _ in 0..LINKS_MAX {

@@ -1,4 +1,4 @@
-//! Cargo and the core library of a board's processor: whether they are here.
+//! Cargo and the core library for a board's processor: whether they are installed.
 
 use std::path::Path;
 
@@ -11,13 +11,14 @@ use super::asked;
 #[derive(Clone, Debug)]
 pub(crate) struct Cargo(pub(crate) String);
 
-/// Cargo, once the core library of every target triple is known to be here, or to be built.
+/// Cargo, once it is known that the core library for every target triple is installed or will be
+/// built.
 pub(crate) fn cargo(triples: &[&str], at: Span) -> Result<Cargo, Box<Diagnostic>> {
     let cargo = variable("CARGO").unwrap_or_else(|| "cargo".to_owned());
     if asked(&cargo, &["--version"]).is_none() {
         return Err(e0531_no_cargo::no_cargo(at, &cargo, "firmware for Embassy").into());
     }
-    // With this cargo builds the core library itself.
+    // With this setting, cargo builds the core library itself.
     if variable("CARGO_UNSTABLE_BUILD_STD").is_some() {
         return Ok(Cargo(cargo));
     }

@@ -1,9 +1,9 @@
-//! Building generated firmware: what it needs of the machine, looked at before anything is built.
+//! The requirements for building generated firmware, checked before anything is built.
 //!
-//! `program` finds the firmware in a generated folder and reads what builds it: make or cargo. `tree` holds what a
-//! Makefile wants against the user's tree of ChibiOS, `tools` looks for make and the compiler, `cargo` for cargo and
-//! the processor's core library, `probe` for what writes to a board, and `raw` makes the bytes that some of those take.
-//! What is missing comes back as a diagnostic; nothing here says anything.
+//! `program` finds the firmware in a generated folder and determines what builds it: make or cargo. `tree` compares the
+//! requirements of a Makefile with the user's tree of ChibiOS, `tools` checks for make and the compiler, `cargo` for
+//! cargo and the processor's core library, `probe` for tools that write to a board, and `raw` makes the bytes that some
+//! of these take. Anything missing is returned as a diagnostic; nothing here prints.
 
 pub(crate) mod cargo;
 pub(crate) mod probe;
@@ -18,7 +18,7 @@ pub(crate) use program::{Build, Program, Wants, in_folder};
 pub(crate) use tools::{Make, tools};
 pub(crate) use tree::tree;
 
-/// What a program says when it is asked something: both streams. None where there is no such program.
+/// The output of a program, both streams; `None` if there is no such program.
 fn asked(program: &str, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new(program);
     let output = command.args(arguments).stdin(Stdio::null()).output().ok()?;
@@ -26,7 +26,7 @@ fn asked(program: &str, arguments: &[&str]) -> Option<String> {
     Some(said.join("\n"))
 }
 
-/// How a program ended, in words: `status 2`.
+/// The end of a program in words: `status 2`.
 pub(crate) fn ending(status: ExitStatus) -> String {
     status.code().map_or_else(|| "a signal".to_owned(), |code| format!("status {code}"))
 }

@@ -1,4 +1,4 @@
-//! What writes a program to a board: which tools are here, which of them find a board, and the command.
+//! Tools that write a program to a board: which are installed, which of them find a board, and the command.
 
 use std::path::Path;
 
@@ -8,27 +8,27 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use super::{Program, asked};
 use crate::cli::Tool;
 
-/// Where the flash of every STM32 begins.
+/// The address of the flash on every STM32.
 const FLASH: &str = "0x08000000";
 
 /// All tools, in the order in which they are tried.
 const TOOLS: [Tool; 4] = [Tool::StFlash, Tool::ProbeRs, Tool::DfuUtil, Tool::Openocd];
 
-/// What a tool says of boards on this machine.
+/// A tool's answer about boards on this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Found {
     /// The tool is not installed.
     NoTool,
-    /// It finds none.
+    /// It finds no board.
     Nothing,
-    /// It finds one.
+    /// It finds a board.
     Board,
     /// It cannot be asked.
     Unknown,
 }
 
 impl Tool {
-    /// The command that writes.
+    /// The name of the command that writes.
     fn name(self) -> &'static str {
         match self {
             Self::StFlash => "st-flash",
@@ -38,7 +38,7 @@ impl Tool {
         }
     }
 
-    /// Whether it takes raw bytes and no ELF file.
+    /// Whether it takes raw bytes instead of an ELF file.
     pub(crate) fn takes_raw(self) -> bool {
         match self {
             Self::StFlash | Self::DfuUtil => true,
@@ -46,7 +46,7 @@ impl Tool {
         }
     }
 
-    /// How it is asked for boards, and the words of an answer that means none.
+    /// Asks the tool for boards.
     fn look(self) -> Found {
         let (command, arguments, has): (_, &[&str], fn(&str) -> bool) = match self {
             Self::StFlash => ("st-info", &["--probe"], stlink_found),
@@ -59,7 +59,7 @@ impl Tool {
         };
         match asked(command, arguments) {
             None => Found::NoTool,
-            // The package brings both; one alone is of no use.
+            // The package has both commands; one is useless without the other.
             Some(_) if self == Self::StFlash && asked("st-flash", &["--version"]).is_none() => {
                 Found::NoTool
             }
@@ -68,7 +68,7 @@ impl Tool {
         }
     }
 
-    /// What it was asked, and what came of it.
+    /// The question to the tool, and its result.
     fn result(self, found: Found) -> String {
         let how = match self {
             Self::StFlash => "st-info --probe",
@@ -84,14 +84,14 @@ impl Tool {
     }
 }
 
-/// `Found 1 stlink programmers`
+/// Whether the output reports a board: `Found 1 stlink programmers`.
 fn stlink_found(said: &str) -> bool {
     let count = said.split("Found ").nth(1).and_then(|rest| rest.split_whitespace().next());
     count.and_then(|count| count.parse::<u32>().ok()).is_some_and(|count| count > 0)
 }
 
-/// The tool to flash with: the one that is asked for, or the first that finds a board, or one that
-/// cannot be asked where no other is installed.
+/// The tool to flash with: the requested one, or the first that finds a board, or one that cannot be asked if no other
+/// is installed.
 pub(crate) fn choose(wanted: Option<Tool>, at: Span) -> Result<Tool, Box<Diagnostic>> {
     let tools = wanted.as_ref().map_or(&TOOLS[..], std::slice::from_ref);
     let mut looked = Vec::new();
@@ -114,7 +114,7 @@ pub(crate) fn choose(wanted: Option<Tool>, at: Span) -> Result<Tool, Box<Diagnos
     Err(tell(at, &list.join(", ")).into())
 }
 
-/// The command that writes an ELF file to the board, or the same as raw bytes, and starts it.
+/// The command that writes an ELF file, or the same program as raw bytes, to the board and starts it.
 pub(crate) fn command(
     tool: Tool,
     program: &Program,
@@ -147,7 +147,7 @@ pub(crate) fn command(
     Ok(std::iter::once(tool.name().to_owned()).chain(words).collect())
 }
 
-/// A part as probe-rs names it, without its grade of temperature: `STM32F407VGTx`.
+/// A part as probe-rs names it, without its temperature grade: `STM32F407VGTx`.
 fn chip(mcu: &str) -> String {
     const GRADE: usize = "STM32F407VGT".len();
     if mcu.starts_with("RP235") {
@@ -159,7 +159,7 @@ fn chip(mcu: &str) -> String {
     }
 }
 
-/// The file of `OpenOCD` for a family: `stm32f4x`; L0 and L1 have no x.
+/// The name of the `OpenOCD` file for a family: `stm32f4x`; L0 and L1 have no x.
 fn target(mcu: &str) -> String {
     const FAMILY: usize = "STM32F4".len();
     let family = mcu.get(..FAMILY).unwrap_or(mcu).to_ascii_lowercase();

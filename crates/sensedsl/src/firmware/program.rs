@@ -1,4 +1,4 @@
-//! The firmware of one board, as `generate` wrote it: a folder in, what it builds from out.
+//! The firmware of one board, as `generate` wrote it. In: a folder. Out: how its firmware is built.
 
 use std::path::{Path, PathBuf};
 
@@ -11,15 +11,15 @@ use crate::files::read_if_there;
 pub(crate) struct Program {
     /// The board's name.
     pub(crate) board: String,
-    /// Where its Makefile or its `Cargo.toml` is.
+    /// The folder with its Makefile or its `Cargo.toml`.
     pub(crate) folder: PathBuf,
-    /// The board's MCU, where that is known.
+    /// The board's MCU, if it is known.
     pub(crate) mcu: Option<String>,
-    /// What builds it.
+    /// The tool that builds it.
     pub(crate) build: Build,
 }
 
-/// What builds the firmware of a board.
+/// The tool that builds the firmware of a board.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Build {
     /// GNU make, with a tree of ChibiOS.
@@ -29,7 +29,7 @@ pub(crate) enum Build {
 }
 
 impl Build {
-    /// Reads it from the text of a board's files, which `file` looks up; none where there is no firmware.
+    /// Determines the tool from a board's files, whose texts `file` looks up; `None` if there is no firmware.
     pub(crate) fn of(file: &mut dyn FnMut(&str) -> Result<Option<String>>) -> Result<Option<Self>> {
         if let Some(makefile) = file("Makefile")? {
             return Ok(Some(Self::Make(Wants::of(&makefile))));
@@ -40,7 +40,7 @@ impl Build {
         Ok(triple.map(|triple| Self::Cargo(triple.to_owned())))
     }
 
-    /// What people call it.
+    /// The name of the tool for people.
     pub(crate) fn tool(&self) -> &'static str {
         match self {
             Self::Make(_) => "make",
@@ -49,7 +49,7 @@ impl Build {
     }
 }
 
-/// What a Makefile wants of the tree.
+/// The requirements of a Makefile for the tree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Wants {
     /// The release: `21.11`.
@@ -59,8 +59,8 @@ pub(crate) struct Wants {
 }
 
 impl Wants {
-    /// Reads a generated Makefile. The release stands in its head; the paths are what it includes and
-    /// what its variables name.
+    /// Reads a generated Makefile. The release is in its head; the paths are those that it includes and that its
+    /// variables name.
     pub(crate) fn of(makefile: &str) -> Self {
         let version = makefile.split("ChibiOS ").skip(1).map(|rest| {
             rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect::<String>()
@@ -79,8 +79,8 @@ impl Wants {
     }
 }
 
-/// The firmware in a folder: of all boards where it is what `generate` wrote, of one where it is that
-/// of a board; none otherwise.
+/// The firmware in a folder: that of all boards if `generate` wrote the folder, that of one board if the folder is one
+/// board's; otherwise empty.
 pub(crate) fn in_folder(folder: &Path) -> Result<Vec<Program>> {
     if let Some(program) = program(folder, &mcus(&folder.join("../../assignment.json"))?)? {
         return Ok(vec![program]);
@@ -98,7 +98,7 @@ pub(crate) fn in_folder(folder: &Path) -> Result<Vec<Program>> {
     Ok(programs)
 }
 
-/// The firmware of one board, where the folder is one.
+/// The firmware of one board, if the folder has it.
 fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> {
     if !folder.join("generated").is_dir() && !folder.join("src/wiring.rs").is_file() {
         return Ok(None);
@@ -108,14 +108,14 @@ fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> 
         Ok(bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()))
     };
     let Some(build) = Build::of(&mut file)? else { return Ok(None) };
-    // The folder may be called `.`.
+    // The folder's name may be `.`.
     let named = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let board = named.file_name().map_or_else(String::new, |name| name.display().to_string());
     let mcu = mcus.iter().find(|(name, _)| *name == board).map(|(_, mcu)| mcu.clone());
     Ok(Some(Program { board, folder: folder.to_path_buf(), mcu, build }))
 }
 
-/// The MCUs of the boards of an answer; none where there is no answer.
+/// The MCUs of the boards in an answer; empty if there is no answer.
 fn mcus(answer: &Path) -> Result<Vec<(String, String)>> {
     let bytes = read_if_there(answer)?.unwrap_or_default();
     let answer: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();

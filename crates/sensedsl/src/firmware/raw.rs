@@ -1,20 +1,20 @@
-//! The bytes of a program as they stand in the flash, for tools that take no ELF file.
+//! The bytes of a program as they are in the flash, for tools that do not take ELF files.
 
 use anyhow::{Result, bail};
 use object::Endianness;
 use object::elf::{FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader as _, ProgramHeader as _};
 
-/// What erased flash reads.
+/// The value of erased flash.
 const ERASED: u8 = 0xFF;
-/// No microcontroller has more flash.
+/// The size that no microcontroller's flash exceeds.
 const FLASH_BYTES_MAX: u64 = 16 << 20;
 
 /// The bytes from the lowest load address of a 32-bit ELF file to its highest.
 ///
 /// # Errors
 ///
-/// When it is no such file, or is larger than any flash.
+/// If it is not such a file, or is larger than any flash.
 pub(crate) fn of_elf(elf: &[u8]) -> Result<Vec<u8>> {
     let header = FileHeader32::<Endianness>::parse(elf)?;
     let endian = header.endian()?;

@@ -1,4 +1,4 @@
-//! Make and the compiler: whether they are here, and new enough.
+//! Make and the compiler: whether they are installed, and new enough.
 
 use sensedsl_diagnostics::codes::{e0516_tool_missing, e0517_compiler_too_old};
 use sensedsl_diagnostics::{Diagnostic, Span};
@@ -7,14 +7,14 @@ use super::asked;
 
 const COMPILER: &str = "arm-none-eabi-gcc";
 const OBJCOPY: &str = "arm-none-eabi-objcopy";
-/// The first version that never gives an instruction of a Cortex-M0 a register that it cannot take.
+/// The first version that never gives an instruction of a Cortex-M0 a register that it cannot use.
 const VERSION_MIN: u32 = 9;
 
 /// GNU make as it is called here.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Make(pub(crate) &'static str);
 
-/// What a build calls, once all of it is known to be here.
+/// Make, once everything that a build calls is known to be installed.
 pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
     let is_gnu =
         |name: &&&str| asked(name, &["--version"]).is_some_and(|said| said.starts_with("GNU Make"));
@@ -34,7 +34,7 @@ pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
         let what = "it makes the image that is flashed, and comes with the compiler";
         return Err(e0516_tool_missing::tool_missing(at, OBJCOPY, what).into());
     }
-    // The compiler repeats the bare name of a library that it does not have.
+    // For a library that it does not have, the compiler repeats the bare name.
     let library = asked(COMPILER, &["-print-file-name=libc.a"]).unwrap_or_default();
     if !library.contains(['/', '\\']) {
         let what = "the C library of the compiler is not installed";

@@ -1,4 +1,4 @@
-//! The user's tree of ChibiOS: a folder and what a board wants of it in, the folder's full path out.
+//! The user's tree of ChibiOS. In: a folder, and a board's requirements. Out: the full path of the folder.
 
 use std::path::{Path, PathBuf};
 
@@ -12,14 +12,14 @@ use super::{Program, Wants};
 /// The file without which a folder is not a tree.
 const KERNEL: &str = "os/rt/rt.mk";
 
-/// The files that say which release a tree is, and the macro in each; the first that is there counts.
+/// The files that tell the release of a tree, with the macro in each; the first file that exists counts.
 const RELEASES: [(&str, &str); 2] =
     [("os/license/chversion.h", "CH_VERSION"), ("os/rt/include/ch.h", "CH_KERNEL_VERSION")];
 
-/// What of a demo's configuration the generated files include.
+/// The files of a demo's configuration that the generated files include.
 const OF_CFG: [&str; 3] = ["chconf.h", "halconf.h", "mcuconf.h"];
 
-/// The full path of the tree that is named, once it is known to be one that the programs build with.
+/// The full path of the named tree, once it is known that the programs can be built with it.
 pub(crate) fn tree(
     named: Option<&Path>,
     programs: &[(&Program, &Wants)],
@@ -62,7 +62,7 @@ pub(crate) fn tree(
     Ok(tree)
 }
 
-/// The release of a tree in its own words: `2021.11.5`, or `of kernel 7.0.6`.
+/// The release of a tree in its own words: `2021.11.5`, or `with kernel 7.0.6`.
 fn release(tree: &Path) -> String {
     for (file, name) in RELEASES {
         let text = std::fs::read_to_string(tree.join(file)).unwrap_or_default();
@@ -73,21 +73,21 @@ fn release(tree: &Path) -> String {
     "of an unknown release".to_owned()
 }
 
-/// The text of a macro: `#define CH_VERSION "2021.11.5"`.
+/// The value of a macro: `#define CH_VERSION "2021.11.5"`.
 fn value(text: &str, name: &str) -> Option<String> {
     let mut defines = text.lines().filter_map(|line| line.trim().strip_prefix("#define"));
     let value = defines.find_map(|define| define.trim().strip_prefix(name)?.strip_prefix(' '))?;
     Some(value.trim().trim_matches('"').to_owned())
 }
 
-/// Whether `2021.11.5` or `21.11.5` is of `21.11`.
+/// Whether `2021.11.5` or `21.11.5` belongs to `21.11`.
 fn is_of(found: &str, version: &str) -> bool {
     let found = found.strip_prefix("20").unwrap_or(found);
     found.strip_prefix(version).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// What the tree lacks for a board. A folder that the Makefile names as a demo's configuration must have
-/// the files that ours include.
+/// The files that the tree lacks for a board. A folder that the Makefile names as a demo's configuration must have the
+/// files that ours include.
 fn missing(tree: &Path, wants: &Wants) -> Vec<String> {
     let mut missing = Vec::new();
     for path in &wants.paths {

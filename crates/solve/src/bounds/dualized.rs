@@ -1,11 +1,11 @@
-//! The constraints that the Lagrangian bound dualizes: a model in, the things with prices and who
-//! is tied to them out.
+//! The constraints that the Lagrangian bound dualizes: finds everything in a model that has a
+//! price, and whatever is tied to it.
 //!
-//! Pins, resources and DMA streams can be held once, so each has a price. What remains has the
+//! Pins, resources and DMA streams can be held only once, so each has a price. The rest has the
 //! structure of facility location (G. Cornuéjols, G. L. Nemhauser and L. A. Wolsey, *The
 //! uncapacitated facility location problem*, 1990): a bus, or a timer at one frequency, is opened
-//! once for all devices that use it. A link ties a use to that opening, and has a price too. Where
-//! a proof takes long, look here first for a constraint that is missing.
+//! once for all devices that use it. A link ties a use to that opening, and has a price too. If a
+//! proof takes long, look here first for a missing constraint.
 
 mod covers;
 mod facilities;
@@ -19,8 +19,8 @@ use crate::problem::{Claim, DeviceId, Holder, PinId, Problem, ResourceId, RuleId
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Prices may exceed the greatest weight by this many powers of two. Where there is no answer, one
-/// pin may have to pay for many devices.
+/// Prices may exceed the greatest weight by this many powers of two. If there is no answer, one pin
+/// may have to pay for many devices.
 const DEARER: u32 = 4;
 
 /// A link's price, and how many devices have a link with that price.
@@ -29,60 +29,60 @@ pub(crate) type Link = (PriceId, i64);
 /// The streams, as prices, that can serve one request.
 pub(crate) type Request = Vec<PriceId>;
 
-/// What never changes: who is tied to which price.
+/// The fixed part of the bound: which choices are tied to which prices.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Dualized {
     /// All prices: of pins, of resources, of streams, of links.
     pub(crate) prices: Ids<PriceId>,
-    /// Prices of what can be held once. The others are links.
+    /// Prices of things that can be held only once. The others are prices of links.
     pub(crate) held: Ids<PriceId>,
     first_resource: usize,
     first_stream: usize,
-    /// Prices count in weights times 2^shift.
+    /// Prices are weights times 2^shift.
     pub(crate) shift: u32,
-    /// Prices of an alternative and of a candidate, beside its pin.
+    /// Prices of an alternative and of a candidate, except that of its pin.
     pub(crate) alt_prices: Rows<AltId, PriceId>,
     pub(crate) cand_prices: Rows<CandId, PriceId>,
     /// Requests of DMA users that belong to the alternative alone.
     pub(crate) alt_requests: IdVec<AltId, Vec<Request>>,
     pub(crate) alt_facilities: Rows<AltId, FacilityId>,
     pub(crate) facilities: IdVec<FacilityId, Facility>,
-    /// Facilities of which so many must be open together.
+    /// Sets of facilities of which a minimum number must be open.
     pub(crate) covers: Vec<Cover>,
     /// Soft rules that more than one wire can violate.
     pub(crate) penalties: IdVec<PenaltyId, Penalty>,
-    /// What the price of each link is for.
+    /// The two things that each link ties together.
     pub(crate) ties: Vec<(PriceId, Tie)>,
 }
 
-/// A soft rule that is paid for once, by all who violate it together.
+/// A soft rule that is paid for once, by all that violate it together.
 #[derive(Clone, Debug)]
 pub(crate) struct Penalty {
     pub(crate) rule: RuleId,
     pub(crate) links: Vec<Link>,
 }
 
-/// What the price of a link ties to what.
+/// The two things that a link ties together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Tie {
-    /// Whoever claims the resource for itself pays to the facility.
+    /// A device that claims the resource for itself pays the facility.
     Ticket(FacilityId, ResourceId),
-    /// Each device of the class pays to the facility.
+    /// Each device of the class pays the facility.
     Link(FacilityId, DeviceId),
     /// Each device of the class pays for the rule: as a whole (0) or by a role (1 and up).
     Rule(RuleId, DeviceId, usize),
 }
 
-/// What a link ties to a facility.
+/// The thing that a link ties to a facility.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Tied {
-    /// Whoever claims the resource.
+    /// Any device that claims the resource.
     Resource(ResourceId),
     /// Each device of a class.
     Class(Reverse<DeviceId>),
 }
 
-/// What a link ties to a rule.
+/// The thing that a link ties to a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     /// The role at this position.
@@ -95,7 +95,7 @@ enum Place {
 struct Links {
     next: usize,
     of_facility: BTreeMap<(Tied, FacilityId), PriceId>,
-    /// By the rule, the class of devices, and the place.
+    /// Keyed by the rule, the class of devices, and the place.
     of_rule: BTreeMap<(RuleId, DeviceId, Place), PriceId>,
 }
 
@@ -135,7 +135,7 @@ impl Dualized {
         for alt in model.alt_device.ids() {
             let mut prices = dualized.alt_prices(model, alt, &of_alt, &irregular, &mut links);
             add_penalties(model, alt, &mut links, &mut prices);
-            // Links of channels do not bind alike devices together.
+            // Links of channels do not bind interchangeable devices together.
             let class = Tied::Class(Reverse(model.class[model.alt_device[alt]]));
             prices.own.extend(of_alt[alt].iter().map(|&f| links.facility(class, f)));
             dualized.alt_facilities.push(of_alt[alt].iter().copied());
@@ -166,7 +166,7 @@ impl Dualized {
         ResourceId::new(price.index().saturating_sub(self.first_resource))
     }
 
-    /// The stream of a price, if it is one of a stream.
+    /// The stream of a price, if it is the price of a stream.
     pub(crate) fn stream_of(&self, price: PriceId) -> Option<StreamId> {
         price.index().checked_sub(self.first_stream).map(StreamId::new)
     }
@@ -197,8 +197,8 @@ impl Dualized {
         AltPrices { own, of_cands: cands.map(|id| price_all(&model.cand_claims[id])).collect() }
     }
 
-    /// Gives facilities and penalties their links. Alike devices share a price, but each has a link
-    /// of its own.
+    /// Gives facilities and penalties their links. Interchangeable devices share a price, but each
+    /// has a link of its own.
     fn add_links(&mut self, model: &Model, links: &Links) {
         let alike = |class: DeviceId| model.class.iter().filter(|c| **c == class).count() as i64;
         for (&(tied, facility), &link) in &links.of_facility {
@@ -235,7 +235,7 @@ impl Dualized {
         61_u32.saturating_sub(bits + DEARER).min(16)
     }
 
-    /// The greatest price that is used. Greater ones are cut to it.
+    /// The highest price used. Higher ones are clamped to it.
     pub(crate) fn dearest(&self, model: &Model) -> u64 {
         model.most << (self.shift + DEARER)
     }
@@ -262,7 +262,7 @@ impl Dualized {
         }
     }
 
-    /// Whether taking the alternative means using the facility, or keeping it shut.
+    /// Whether taking the alternative means either using the facility or keeping it closed.
     fn excludes(
         &self,
         model: &Model,
@@ -281,7 +281,7 @@ impl Dualized {
 }
 
 /// Ties an alternative and its candidates to the rules that they violate. A shared wire has no
-/// prices of its own; it counts where all its candidates violate a rule.
+/// prices of its own; it counts only if all its candidates violate a rule.
 fn add_penalties(model: &Model, alt: AltId, links: &mut Links, prices: &mut AltPrices) {
     let class = model.class[model.alt_device[alt]];
     let general = |rules: &[RuleId]| -> Vec<RuleId> {
@@ -308,8 +308,8 @@ fn add_penalties(model: &Model, alt: AltId, links: &mut Links, prices: &mut AltP
     }
 }
 
-/// Resources that one device can claim in several places, or for several holders. A device is never
-/// in conflict with itself, so a price would charge it more than once.
+/// Resources that one device can claim in several places, or for several holders. A device never
+/// conflicts with itself, so a price would charge it more than once.
 fn irregular_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
     let mut irregular = IdVec::same(false, problem.resources as usize);
     for alt in model.alt_device.ids() {

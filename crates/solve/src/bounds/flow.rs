@@ -1,15 +1,15 @@
-//! The assignment bound: every wire that must exist gets a pin of its own at least total cost.
+//! The assignment bound: every wire that must exist gets a pin of its own at the least total cost.
 //!
-//! Domains in, a cheapest flow wire -> (gate) -> pin out, or the wires for which there is none. A
-//! gate is a resource of one holder (a timer, an interrupt line) that the wires of different
-//! devices pass one at a time. The flow forgets that a device's roles must agree on one
-//! alternative and that groups exclude each other, so its cost is a lower bound; whoever takes it
-//! for a wiring must check it.
+//! Computes a cheapest flow wire -> (gate) -> pin from the domains, or finds the wires for which
+//! there is none. A gate is a resource of one holder (a timer, an interrupt line) that the wires of
+//! different devices pass one at a time. The flow ignores that a device's roles must agree on one
+//! alternative and that groups exclude each other, so its cost is a lower bound; a caller that
+//! takes it for a wiring must check it.
 //!
 //! The method is successive shortest paths with label correction (R. K. Ahuja, T. L. Magnanti and
-//! J. B. Orlin, *Network Flows*, 1993, ch. 9). The flow stays optimal while domains shrink by
-//! rerouting only the wires that lost their pin; such a bound within constraint programming is
-//! from F. Focacci, A. Lodi and M. Milano, *Cost-based domain filtering*, 1999.
+//! J. B. Orlin, *Network Flows*, 1993, ch. 9). While domains shrink, the flow is kept optimal by
+//! rerouting only the wires that lost their pin; such a bound within constraint programming is from
+//! F. Focacci, A. Lodi and M. Milano, *Cost-based domain filtering*, 1999.
 
 mod network;
 
@@ -20,23 +20,23 @@ use crate::model::{Cand, Holding, Model};
 use crate::problem::{DeviceId, PinId};
 use std::collections::VecDeque;
 
-/// The distance of what is not reached.
+/// The distance of a node that is not reached.
 const FAR: i64 = i64::MAX / 2;
 
-/// Who holds a pin.
+/// The holder of a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Owner {
     Demand(DemandId),
     Gate(GateId),
 }
 
-/// What a search returns to.
+/// The state that a search returns to.
 #[derive(Debug)]
 pub(crate) struct Saved {
-    /// Candidate by which a demand leaves.
+    /// The candidate whose arc a demand takes.
     arc: IdVec<DemandId, Option<CandId>>,
     owner: IdVec<PinId, Option<Owner>>,
-    /// Demand that passes a gate, and the pin to which.
+    /// The demand that passes a gate, and the pin that it goes on to.
     gate_in: IdVec<GateId, Option<DemandId>>,
     gate_out: IdVec<GateId, Option<PinId>>,
     active: IdVec<DemandId, bool>,
@@ -66,7 +66,7 @@ impl Clone for Saved {
     }
 }
 
-/// The last arc of a shortest path: the node before, and the candidate where it is one.
+/// The last arc of a shortest path: the node before, and the candidate if it is one.
 type Arc = (NodeId, Option<CandId>);
 
 /// The flow. Demands are the role positions of all devices, then the shared wires.
@@ -76,11 +76,11 @@ pub(crate) struct Flow {
     layout: Layout,
     /// Pins, those with the greatest weight first.
     dear_first: Vec<PinId>,
-    /// Whether no arc but that of a free pin costs anything.
+    /// Whether only the arc to a free pin costs anything.
     arcs_are_free: bool,
-    /// Demands that are a wire of their own in every alternative.
+    /// Demands that are an unshared wire in every alternative.
     always: IdVec<DemandId, bool>,
-    /// Role whose candidates stand for a shared wire.
+    /// Role whose candidates represent a shared wire.
     wire_role: IdVec<WireId, Option<RoleId>>,
     wire_covered: IdVec<WireId, bool>,
     wanted: IdVec<DemandId, bool>,
@@ -142,7 +142,7 @@ impl Flow {
         self.now.cost as u64
     }
 
-    /// Pin and candidate of a role position of a device, when the flow has it.
+    /// The pin and candidate of a device's role position, if it is in the flow.
     pub(crate) fn at(
         &self,
         model: &Model,
@@ -154,14 +154,14 @@ impl Flow {
         Some((self.pin_of(&model.cand[held])?, held))
     }
 
-    /// Pin of a shared wire, when a decided device wants it.
+    /// The pin of a shared wire, if a decided device needs it.
     pub(crate) fn wire(&self, model: &Model, wire: WireId) -> Option<PinId> {
         let demand = self.layout.wire(wire);
         let held = self.now.arc[demand].filter(|_| self.now.active[demand])?;
         self.pin_of(&model.cand[held])
     }
 
-    /// The pin of a demand that leaves by this candidate.
+    /// The pin of a demand that takes this candidate's arc.
     fn pin_of(&self, c: &Cand) -> Option<PinId> {
         c.gate.map_or(Some(c.pin), |gate| self.now.gate_out[gate])
     }
@@ -169,7 +169,7 @@ impl Flow {
     /// Brings the flow up to date with the domains.
     ///
     /// # Errors
-    /// [`Pruned`] when a wire finds no pin; [`Self::stuck`] then tells whose.
+    /// [`Pruned`] if there is no pin for a wire; [`Self::stuck`] then lists the devices.
     pub(crate) fn refresh(&mut self, model: &Model, domains: &Domains) -> Result<(), Pruned> {
         self.find_wanted(model, domains);
         // Taking one demand out can move another into a gate whose pin is no longer possible.
@@ -222,8 +222,8 @@ impl Flow {
         }
     }
 
-    /// A device that may still choose wants the role positions that are its own in every
-    /// alternative, and shared ones as long as nobody it might join has them.
+    /// A device that can still choose needs the role positions that are unshared in every
+    /// alternative, and shared ones unless a device that it might join has them.
     fn want_undecided(&mut self, model: &Model, domains: &Domains, device: DeviceId) {
         let demands = model.demands.of(device);
         if demands.iter().all(|d| self.always[d]) {
@@ -247,7 +247,7 @@ impl Flow {
         }
     }
 
-    /// The candidates a demand may leave by.
+    /// The candidates whose arcs a demand may take.
     fn arcs<'a>(&self, model: &'a Model, demand: DemandId) -> Arcs<'a> {
         match self.layout.wire_of(demand) {
             None => Arcs::Listed(model.demand_cands[demand].iter()),
@@ -293,7 +293,8 @@ impl Flow {
         }
     }
 
-    /// Shortest residual paths from what is queued (label correcting; most arcs cost nothing).
+    /// Finds shortest residual paths from the queued nodes (label correcting; most arcs cost
+    /// nothing).
     fn explore(&mut self, model: &Model, domains: &Domains) {
         while let Some(node) = self.queue.pop_front() {
             self.queued[node] = false;
@@ -328,7 +329,7 @@ impl Flow {
         }
     }
 
-    /// Reaches everything that the demand could have instead of what it has.
+    /// Reaches every node that the demand could take instead of its present one.
     fn leave(&mut self, model: &Model, domains: &Domains, demand: DemandId, dist: i64) {
         let node = self.layout.id(Node::Demand(demand));
         let held = self.now.arc[demand].map(|held| self.entry(&model.cand[held]));
@@ -352,7 +353,7 @@ impl Flow {
         }
     }
 
-    /// Where a candidate's arc leads.
+    /// The node that a candidate's arc leads to.
     fn entry(&self, c: &Cand) -> NodeId {
         self.layout.id(c.gate.map_or(Node::Pin(c.pin), Node::GateIn))
     }
@@ -384,7 +385,7 @@ impl Flow {
         self.dist.fill(FAR);
         let node = self.layout.id(Node::Demand(demand));
         let dear_first = std::mem::take(&mut self.dear_first);
-        // From the dearest pin on, so that most nodes are reached once.
+        // Start with the most expensive pin, so that most nodes are reached only once.
         for &pin in &dear_first {
             if self.now.owner[pin].is_none() {
                 continue;
@@ -437,7 +438,7 @@ impl Flow {
         }
     }
 
-    /// Devices that fight for too few pins, after [`Self::refresh`] failed.
+    /// The devices that compete for too few pins, after [`Self::refresh`] has failed.
     pub(crate) fn stuck(&self, model: &Model) -> Vec<DeviceId> {
         let reached = |demand| self.dist[self.layout.id(Node::Demand(demand))] < FAR;
         let fights = |&device: &DeviceId| model.demands.of(device).iter().any(reached);

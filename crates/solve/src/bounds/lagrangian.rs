@@ -1,19 +1,19 @@
-//! The Lagrangian bound: prices on pins, resources, units and streams in, an exact lower bound and
-//! what cannot be in any better answer out.
+//! The Lagrangian bound: from prices on pins, resources, units and streams, an exact lower bound
+//! and the choices that no better answer can contain.
 //!
-//! Every thing that can be held once gets a price instead of a limit (A. M. Geoffrion, *Lagrangean
-//! relaxation for integer programming*, 1974; M. L. Fisher, *The Lagrangian relaxation method for
-//! solving integer programming problems*, 1981). Then each group of alike devices, and each shared
-//! unit, chooses for itself what is cheapest, and the sum less the prices is a lower bound
-//! whatever the prices are. The linear program ([`super::relaxation`]) finds the best prices.
-//! Unlike the flow, this bound sees that a device's wires come from one alternative, that a shared
-//! unit is opened as a whole and that groups exclude each other.
+//! Everything that can be held only once gets a price instead of a limit (A. M. Geoffrion,
+//! *Lagrangean relaxation for integer programming*, 1974; M. L. Fisher, *The Lagrangian relaxation
+//! method for solving integer programming problems*, 1981). Then each group of interchangeable
+//! devices, and each shared unit, makes the choice that is cheapest for itself, and the sum minus
+//! the prices is a lower bound for any prices. The linear program ([`super::relaxation`]) finds the
+//! best prices. Unlike the flow, this bound sees that a device's wires come from one alternative,
+//! that a shared unit is opened as a whole and that groups exclude each other.
 //!
-//! What would cost too much at the prices found is removed from the domains: this is reduced-cost
-//! fixing (H. Crowder, E. L. Johnson and M. Padberg, *Solving large-scale zero-one linear
-//! programming problems*, 1983). All arithmetic is in integers, so the bound is exact although
-//! its prices come from floating point (A. Neumaier and O. Shcherbina, *Safe bounds in linear and
-//! mixed-integer linear programming*, 2004).
+//! Choices that would cost too much at these prices are removed from the domains: this is
+//! reduced-cost fixing (H. Crowder, E. L. Johnson and M. Padberg, *Solving large-scale zero-one
+//! linear programming problems*, 1983). All arithmetic is in integers, so the bound is exact
+//! although its prices come from floating point (A. Neumaier and O. Shcherbina, *Safe bounds in
+//! linear and mixed-integer linear programming*, 2004).
 
 mod fixing;
 mod multipliers;
@@ -24,14 +24,14 @@ use crate::domains::{Charge, Domains};
 use crate::index::{GroupId, IdVec, OpeningId, OptionId, PriceId};
 use crate::model::Model;
 
-/// More than any sum of costs ([`crate::answer::Fault::TooLarge`] sees to that).
+/// More than any sum of costs ([`crate::answer::Fault::TooLarge`] ensures that).
 const FAR: i64 = 1 << 54;
 
 /// Prices, and the subproblems as last assessed.
 #[derive(Clone, Debug)]
 pub(crate) struct Lagrangian {
     prices: IdVec<PriceId, i64>,
-    /// The bound as last assessed, without what is paid.
+    /// The bound as last assessed, without the charges already paid.
     value: i64,
     subproblems: Subproblems,
 }
@@ -45,7 +45,7 @@ impl Lagrangian {
         }
     }
 
-    /// The greatest weight of an answer below the limit, without what is paid except penalties.
+    /// The greatest weight of an answer below the limit, without paid charges other than penalties.
     pub(crate) fn most(
         dualized: &Dualized,
         model: &Model,
@@ -56,18 +56,18 @@ impl Lagrangian {
         Some((limit - 1).checked_sub(Self::beside(dualized, model, domains))? / unit * unit)
     }
 
-    /// What is paid, except penalties.
+    /// The charges already paid, except penalties.
     fn beside(dualized: &Dualized, model: &Model, domains: &Domains) -> u64 {
         let paid = dualized.penalties.iter().filter(|p| domains.rule[p.rule] == Charge::Paid);
         domains.paid - paid.count() as u64 * model.weights.rule
     }
 
-    /// Takes other prices.
+    /// Sets new prices.
     pub(crate) fn set(&mut self, prices: impl Iterator<Item = i64>) {
         self.prices.iter_mut().zip(prices).for_each(|(price, new)| *price = new);
     }
 
-    /// The bound at the present prices, which counts everything.
+    /// The complete bound at the present prices.
     pub(crate) fn assess(&mut self, dualized: &Dualized, model: &Model, domains: &Domains) -> u64 {
         self.subproblems.build(dualized, model, domains);
         self.value = self.evaluate(dualized) + self.pay(dualized, model, domains);
@@ -83,7 +83,7 @@ impl Lagrangian {
         way.fixed + self.prices[way.price] + more.iter().map(|&p| self.prices[p]).sum::<i64>()
     }
 
-    /// The bound at the present prices (without what is paid).
+    /// The bound at the present prices (without the charges already paid).
     fn evaluate(&mut self, dualized: &Dualized) -> i64 {
         for slot in self.subproblems.slots.ids() {
             let ways = self.subproblems.ways.of(self.subproblems.slots[slot]);
@@ -96,7 +96,7 @@ impl Lagrangian {
         groups + self.open(dualized) - held
     }
 
-    /// Rules are violated where that pays, and where it is certain.
+    /// Rules are violated where that pays off, and where it is certain.
     fn pay(&mut self, dualized: &Dualized, model: &Model, domains: &Domains) -> i64 {
         let weight = (model.weights.rule as i64) << dualized.shift;
         self.subproblems.penalties.clear();
@@ -114,7 +114,8 @@ impl Lagrangian {
         sum
     }
 
-    /// A group of alike devices takes the cheapest options that all of them can have together.
+    /// A group of interchangeable devices takes the cheapest options that all of them can have
+    /// together.
     fn choose(&mut self, index: GroupId) -> i64 {
         let mut order = std::mem::take(&mut self.subproblems.order);
         self.price_options(index, &mut order);
@@ -175,7 +176,7 @@ impl Lagrangian {
         }
     }
 
-    /// Facilities open where that pays, and as many as their covers need.
+    /// Opens facilities where that pays off, and as many as their covers need.
     fn open(&mut self, dualized: &Dualized) -> i64 {
         for opening in &mut self.subproblems.openings {
             let facility = &dualized.facilities[opening.facility];

@@ -1,7 +1,7 @@
-//! Lower bounds: the domains of a node in, a weight below which no answer lies out.
+//! Lower bounds: from the domains of a node, a weight below which there is no answer.
 //!
-//! Two relaxations. [`flow`] is cheap and runs at every node. [`lagrangian`] is sharper: it judges
-//! multipliers that a linear program ([`relaxation`], [`program`], [`lp`]) finds.
+//! There are two relaxations. [`flow`] is cheap and runs at every node. [`lagrangian`] is sharper:
+//! it evaluates the multipliers that a linear program ([`relaxation`], [`program`], [`lp`]) finds.
 
 pub(crate) mod dualized;
 pub(crate) mod flow;

@@ -1,10 +1,10 @@
-//! The linear program of the Lagrangian bound: dualized constraints and domains in, matrix and
-//! meaning of its columns out.
+//! The linear program of the Lagrangian bound: dualized constraints and domains in, a matrix and
+//! the meaning of its columns out.
 //!
-//! Devices that are alike, and have the same choices left when the program is made, stand in one set
-//! of columns that count them. So the program is small, and no branch of the search makes it wrong:
-//! where their domains have come to differ it is only less sharp, until it is made anew. A role with
-//! one way left has no columns; its entries go to whoever needs it.
+//! Interchangeable devices that have the same choices left when the program is made share one set
+//! of columns, which count them. This keeps the program small, and no branch of the search makes it
+//! wrong: once the domains of these devices differ, it is only less sharp until it is made again. A
+//! role with one way left has no columns; its entries go to the column that needs it.
 
 mod builder;
 
@@ -21,7 +21,7 @@ use crate::problem::DeviceId;
 pub(crate) enum Column {
     /// It was not possible when the program was made.
     Absent,
-    /// It is part of another column, or nobody prices it.
+    /// It is part of another column, or has no price.
     Merged,
     Of(ColumnId),
 }
@@ -32,7 +32,7 @@ pub(crate) struct Program {
     pub(crate) simplex: Simplex,
     /// For each device the first one of its group.
     pub(crate) group: IdVec<DeviceId, DeviceId>,
-    /// Row of each price that somebody is tied to.
+    /// Row of each price that something is tied to.
     pub(crate) price_row: IdVec<PriceId, Option<RowId>>,
     /// Column of an alternative of the first device of each group.
     pub(crate) alt_column: IdVec<AltId, Column>,
@@ -42,8 +42,8 @@ pub(crate) struct Program {
     /// Column of each facility that could be opened.
     pub(crate) opening: IdVec<FacilityId, Option<ColumnId>>,
     pub(crate) penalty: IdVec<PenaltyId, ColumnId>,
-    /// The upper bound of each column while it lives. The exact bound knows few of these limits. The
-    /// others are too high to be reached, so no part of the value hides in them.
+    /// The upper bound of each column while it is live. The exact bound has only a few of these
+    /// limits. The others are too high to be reached, so they hide no part of the value.
     pub(crate) ceiling: IdVec<ColumnId, f64>,
     /// Columns that no domain bounds.
     pub(crate) loose: Vec<ColumnId>,
@@ -67,7 +67,7 @@ impl Program {
     }
 }
 
-/// For each device the first that is alike and has the same choices left.
+/// For each device, the first that is interchangeable with it and has the same choices left.
 fn groups(model: &Model, domains: &Domains) -> IdVec<DeviceId, DeviceId> {
     let first = |device: DeviceId| {
         let mut class = model.class_of(model.class[device]);

@@ -1,9 +1,9 @@
-//! The linear relaxation: what the Lagrangian bound prices, as a linear program whose row prices
-//! are the best prices there are.
+//! The linear relaxation: the problem of the Lagrangian bound as a linear program, whose row prices
+//! are the best possible prices.
 //!
 //! Dualized constraints and domains in, prices and the number of devices at each alternative out.
-//! The program is made once; a node changes bounds of columns, and the basis of the node before is
-//! the start. Nothing here needs to be exact (see [`super::lp`]): [`super::lagrangian`] judges the
+//! The program is made once; a node changes bounds of columns and starts from the basis of the node
+//! before. Nothing here needs to be exact (see [`super::lp`]): [`super::lagrangian`] judges the
 //! prices.
 
 use super::dualized::Dualized;
@@ -123,8 +123,8 @@ impl Relaxation {
         }
     }
 
-    /// Solves under the present domains and hands the prices on. A value that is certainly above
-    /// `cutoff` (a weight) is enough.
+    /// Solves the program under the present domains and passes the prices on. Stops once the value
+    /// is certainly above `cutoff` (a weight).
     pub(crate) fn run(
         &mut self,
         dualized: &Dualized,
@@ -135,7 +135,7 @@ impl Relaxation {
     ) -> Status {
         if self.update(dualized, model, domains).is_err() {
             *self = Self::new(dualized, model, domains);
-            // A program made of these domains has all of them.
+            // A program made from these domains contains everything that they allow.
             let _ = self.update(dualized, model, domains);
         }
         let unit = model.weights.cost as f64;
@@ -157,7 +157,7 @@ impl Relaxation {
         self.program.simplex.remember();
     }
 
-    /// Takes the basis that was kept, unless the program was made anew since.
+    /// Restores the basis that was kept, unless the program has been made again since.
     pub(crate) fn go_back(&mut self) {
         self.program.simplex.go_back();
     }
@@ -167,23 +167,24 @@ impl Relaxation {
         self.program.simplex.objective()
     }
 
-    /// How far a facility is open.
+    /// The fraction to which a facility is open.
     pub(crate) fn opened(&self, facility: FacilityId) -> f64 {
         let column = self.program.opening[facility];
         column.map_or(0.0, |column| self.program.simplex.value(column))
     }
 
-    /// How far a rule is violated.
+    /// The fraction to which a rule is violated.
     pub(crate) fn violated(&self, penalty: PenaltyId) -> f64 {
         self.program.simplex.value(self.program.penalty[penalty])
     }
 
-    /// The device that stands for this one in the program: the first of those with the same choices.
+    /// The device that represents this one in the program: the first of those with the same
+    /// choices.
     pub(crate) fn group(&self, device: DeviceId) -> DeviceId {
         self.program.group[device]
     }
 
-    /// The groups of devices that stand in one set of columns.
+    /// The groups of devices that share one set of columns.
     pub(crate) fn groups(&self) -> Vec<Vec<DeviceId>> {
         let mut groups: BTreeMap<DeviceId, Vec<DeviceId>> = BTreeMap::new();
         for (device, first) in self.program.group.enumerate() {

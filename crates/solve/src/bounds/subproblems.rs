@@ -1,7 +1,7 @@
-//! The subproblems of the Lagrangian bound: the domains of one node in, flat tables that are quick
-//! to price over and over out.
+//! The subproblems of the Lagrangian bound: the domains of one node as flat tables that are quick
+//! to price again and again.
 //!
-//! With prices in place of limits the problem falls apart: each group of interchangeable devices
+//! With prices in place of limits the problem decomposes: each group of interchangeable devices
 //! chooses for itself, and each facility is opened or not by itself.
 
 use super::dualized::{Dualized, Facility, Request};
@@ -32,7 +32,7 @@ pub(crate) struct Choosable {
     pub(crate) prices: Ids<ListId>,
     pub(crate) slots: Ids<SlotId>,
     pub(crate) cost: i64,
-    /// Only one device can take it.
+    /// True if only one device can take it.
     pub(crate) once: bool,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Choosable {
 pub(crate) struct Group {
     pub(crate) devices: Vec<DeviceId>,
     pub(crate) options: Ids<OptionId>,
-    /// Every way of the only slot can be taken once.
+    /// True if every way of the only slot can be taken just once.
     pub(crate) spread: bool,
 }
 
@@ -53,7 +53,8 @@ pub(crate) struct Opening {
     pub(crate) forced: bool,
     pub(crate) cost: i64,
     pub(crate) open: bool,
-    /// What its opening would save: another facility that is open only because a cover needs it.
+    /// The saving from opening it: the cost of another facility that is open only because a cover
+    /// needs it.
     pub(crate) saves: i64,
 }
 
@@ -67,11 +68,11 @@ pub(crate) struct Subproblems {
     pub(crate) lists: IdVec<ListId, PriceId>,
     pub(crate) openings: IdVec<OpeningId, Opening>,
     pub(crate) opening_of: IdVec<FacilityId, Option<OpeningId>>,
-    /// Cheapest way of each slot at the present prices.
+    /// Cost of the cheapest way of each slot at the present prices.
     pub(crate) cheapest: IdVec<SlotId, i64>,
-    /// What violating each rule costs at the present prices.
+    /// Cost of violating each rule at the present prices.
     pub(crate) penalties: IdVec<PenaltyId, i64>,
-    /// Dearest option that some device of the group takes.
+    /// Cost of the dearest option that a device of the group takes.
     pub(crate) margin: IdVec<GroupId, i64>,
     pub(crate) order: Vec<(i64, OptionId)>,
 }
@@ -82,7 +83,7 @@ fn added<I: Id>(from: usize, to: usize) -> Ids<I> {
 }
 
 impl Subproblems {
-    /// Brings the living domains into the tables.
+    /// Builds the tables from the domains.
     pub(crate) fn build(&mut self, dualized: &Dualized, model: &Model, domains: &Domains) {
         self.groups.clear();
         self.options.clear();

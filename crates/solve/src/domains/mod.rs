@@ -1,7 +1,7 @@
-//! What is still possible: restrictions in, what remains out, all of it undone on demand.
+//! Domains: the choices that are still possible at a node of the search.
 //!
-//! Domains only shrink. Every change is written on a trail, so a search returns to an earlier
-//! state by unwinding it. What follows from a restriction is in [`propagate`].
+//! Domains only shrink. Every change is recorded on a trail, so a search returns to an earlier
+//! state by unwinding it. The consequences of a restriction are computed in [`propagate`].
 
 mod propagate;
 pub(crate) mod streams;
@@ -10,7 +10,7 @@ use crate::index::{AltId, CandId, FacilityId, IdVec, Ids, RoleId};
 use crate::model::{Holding, Model};
 use crate::problem::{BoardId, DeviceId, RuleId};
 
-/// A cost that is paid once however many cause it: a soft rule or a spare board.
+/// A cost that is paid once, however many choices cause it: a soft rule or a spare board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Charge {
     /// May still be avoided.
@@ -27,9 +27,9 @@ enum Event {
     Cand(CandId),
     Rule(RuleId, Charge),
     Board(BoardId, Charge),
-    /// The last of `opened`.
+    /// A facility was added to `opened`.
     Opened,
-    /// Something is decided of the board.
+    /// Something was decided about the board.
     Touched(BoardId),
 }
 
@@ -37,11 +37,11 @@ enum Event {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pruned;
 
-/// The living ids among consecutive ones.
+/// The live ids in a range of consecutive ids.
 #[derive(Clone, Copy, Debug, Default)]
 struct LiveIds {
     number: usize,
-    /// Exclusive or of the ids, which is the id itself when one is left.
+    /// Exclusive or of the live ids; when only one is left, this is that id.
     xor: u32,
 }
 
@@ -76,13 +76,13 @@ pub(crate) struct Domains {
     pub(crate) board: IdVec<BoardId, Charge>,
     /// Weight of the rules and spare boards that are certain.
     pub(crate) paid: u64,
-    /// Facilities (see [`crate::bounds::dualized`]) that somebody must use.
+    /// Facilities (see [`crate::bounds::dualized`]) that at least one device must use.
     pub(crate) opened: Vec<FacilityId>,
-    /// Boards of which something is decided that is not decided of all equal ones. Consequences do
-    /// not count.
+    /// Boards about which something has been decided that has not been decided about all equal
+    /// boards. Consequences of decisions do not count.
     touched: IdVec<BoardId, bool>,
     trail: Vec<Event>,
-    /// Devices and roles with one choice left that propagation has not followed yet.
+    /// Devices and roles with one choice left that propagation has not processed yet.
     decided: Vec<DeviceId>,
     chosen: Vec<RoleId>,
 }
@@ -163,7 +163,7 @@ impl Domains {
         model.alts.of(device).iter().filter(|&a| self.has_alt[a])
     }
 
-    /// The living candidates of a role whose alternative is known to live.
+    /// The live candidates of a role whose alternative is known to be live.
     pub(crate) fn cands<'a>(
         &'a self,
         model: &'a Model,
@@ -195,7 +195,7 @@ impl Domains {
         self.trail.len()
     }
 
-    /// Takes back all that happened after the mark.
+    /// Undoes everything since the mark.
     pub(crate) fn undo(&mut self, model: &Model, mark: usize) {
         self.decided.clear();
         self.chosen.clear();
@@ -271,7 +271,7 @@ impl Domains {
         Ok(())
     }
 
-    /// Leaves the device this alternative only.
+    /// Leaves the device only this alternative.
     pub(crate) fn choose_alt(&mut self, model: &Model, alt: AltId) -> Result<(), Pruned> {
         for other in model.alts.of(model.alt_device[alt]) {
             if other != alt {
@@ -281,7 +281,7 @@ impl Domains {
         if self.has_alt[alt] { Ok(()) } else { Err(Pruned) }
     }
 
-    /// Leaves the device this candidate's alternative, and its role this candidate only.
+    /// Leaves the device only this candidate's alternative, and the role only this candidate.
     pub(crate) fn choose_cand(&mut self, model: &Model, id: CandId) -> Result<(), Pruned> {
         self.choose_alt(model, model.cand_alt(id))?;
         for other in model.cands.of(model.cand[id].role) {
@@ -335,13 +335,13 @@ impl Domains {
         model.board_alts[board].iter().try_for_each(|alt| self.remove_alt(model, *alt))
     }
 
-    /// Looks only for answers in which somebody uses the facility.
+    /// Restricts the search to answers in which at least one device uses the facility.
     pub(crate) fn open(&mut self, facility: FacilityId) {
         self.trail.push(Event::Opened);
         self.opened.push(facility);
     }
 
-    /// Notes that something is decided of the board.
+    /// Notes that something was decided about the board.
     pub(crate) fn touch(&mut self, board: BoardId) {
         if !std::mem::replace(&mut self.touched[board], true) {
             self.trail.push(Event::Touched(board));

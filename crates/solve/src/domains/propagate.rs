@@ -1,9 +1,9 @@
-//! Propagation: decisions in, what they rule out for all others out.
+//! Propagation: removes from all other devices what a decision rules out.
 //!
 //! This is forward checking (R. M. Haralick and G. L. Elliott, *Increasing tree search efficiency
 //! for constraint satisfaction problems*, 1980): once a device has one alternative left, or a role
-//! one candidate, nobody else can have what that excludes. Stronger reasoning is left to the
-//! bounds.
+//! one candidate, no other device can have anything that this excludes. Stronger reasoning is left
+//! to the bounds.
 
 use super::{Domains, Pruned};
 use crate::index::{AltId, CandId, RoleId, WireId};
@@ -35,7 +35,7 @@ impl Domains {
         }
     }
 
-    /// A decided device cannot take this candidate, so nobody on its wire can.
+    /// A decided device cannot take this candidate, so no device on its wire can.
     pub(super) fn remove_on_wire(
         &mut self,
         model: &Model,
@@ -69,7 +69,7 @@ impl Domains {
         Ok(())
     }
 
-    /// A device joins a wire: everybody on the wire is limited to its candidates.
+    /// A device joins a wire: all devices on the wire are limited to its candidates.
     fn join_wire(&mut self, model: &Model, role: RoleId, wire: WireId) -> Result<(), Pruned> {
         let device = model.alt_device[model.role_alt[role]];
         for &other in &model.wire_cands[wire] {

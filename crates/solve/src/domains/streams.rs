@@ -1,4 +1,4 @@
-//! DMA streams as a bipartite matching: requests in, a stream of its own for each of them out.
+//! DMA streams as a bipartite matching: each request gets a stream of its own.
 //!
 //! A matching grows by augmenting paths (C. Berge, *Two theorems in graph theory*, 1957).
 
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// A growing matching of requests to streams.
 pub(crate) struct Matching<'a> {
-    /// The request that holds the stream, as the list of those that can serve it.
+    /// The request that holds the stream, as the list of streams that can serve it.
     holder: IdVec<StreamId, Option<&'a [StreamId]>>,
 }
 
@@ -19,7 +19,7 @@ impl<'a> Matching<'a> {
         Self { holder: IdVec::same(None, streams as usize) }
     }
 
-    /// Serves one more request, moving others where needed; false when it cannot be.
+    /// Serves one more request, moving others if needed; false if that is impossible.
     pub(crate) fn add(&mut self, streams: &'a [StreamId]) -> bool {
         let mut seen = IdVec::same(false, self.holder.len());
         self.serve(streams, &mut seen)
@@ -64,7 +64,8 @@ fn fit<'a>(problem: &Problem, requests: impl Iterator<Item = &'a [StreamId]>) ->
     requests.all(|r| matching.add(r))
 }
 
-/// The streams of these users, the first that works for each request in turn.
+/// Assigns streams to these users: to each request in turn, the first that leaves enough for the
+/// rest.
 pub(crate) fn assign(
     problem: &Problem,
     users: &BTreeSet<DmaUserId>,
@@ -93,7 +94,7 @@ pub(crate) fn suffice(problem: &Problem, model: &Model, choices: &Choices) -> bo
     users_fit(problem, &users)
 }
 
-/// Whether the streams may suffice for all that is certain.
+/// Whether the streams can still suffice for everything that is certain.
 pub(crate) fn may_suffice(problem: &Problem, model: &Model, domains: &Domains) -> bool {
     let decided = model.devices.iter().filter_map(|d| domains.decided(d));
     let users = decided.flat_map(|alt| &model.alt_dma[alt]).copied().collect();
@@ -104,8 +105,8 @@ pub(crate) fn may_suffice(problem: &Problem, model: &Model, domains: &Domains) -
     fit(problem, requests(problem, &users).chain(unions.iter().map(Vec::as_slice)))
 }
 
-/// The requests of a device that needs streams of its own whatever it chooses. Each stands for one
-/// request of every alternative, so any stream of those may serve it.
+/// Adds the requests of a device that needs streams of its own whatever it chooses. Each represents
+/// one request of every alternative, so any stream of those requests may serve it.
 fn add_undecided_requests(
     problem: &Problem,
     model: &Model,

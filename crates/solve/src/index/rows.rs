@@ -1,11 +1,11 @@
-//! Lists of different lengths in one vector, by typed index: what a flat model is made of.
+//! Lists of different lengths in one vector, by typed index: the building blocks of a flat model.
 #![expect(clippy::indexing_slicing, reason = "ids are checked once, by `model::validate`")]
 
 use super::{Id, Ids};
 use std::marker::PhantomData;
 use std::ops::{Index, Range};
 
-/// Which consecutive ids of one sort belong to each id of another: the alternatives of a device.
+/// Maps each id of one type to consecutive ids of another, such as a device to its alternatives.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks<I, J> {
     start: Vec<u32>,
@@ -19,7 +19,7 @@ impl<I, J> Default for Blocks<I, J> {
 }
 
 impl<I: Id, J: Id> Blocks<I, J> {
-    /// The next id of the one sort owns all ids of the other that follow, up to `end` of them.
+    /// Gives the next owner all ids before `end` that have no owner yet.
     pub(crate) fn close(&mut self, end: usize) {
         self.start.push(end as u32);
     }
@@ -29,7 +29,7 @@ impl<I: Id, J: Id> Blocks<I, J> {
         Ids { start: self.start[owner], end: self.start[owner + 1], id: PhantomData }
     }
 
-    /// All that belongs to consecutive owners.
+    /// All ids that belong to consecutive owners.
     pub(crate) fn of_all(&self, owners: Ids<I>) -> Ids<J> {
         let start = self.start[owners.start as usize];
         Ids { start, end: self.start[owners.end as usize], id: PhantomData }
@@ -40,7 +40,7 @@ impl<I: Id, J: Id> Blocks<I, J> {
         self.start.last().map_or(0, |end| *end as usize)
     }
 
-    /// Whether as many owners in both places own as many each.
+    /// Whether both ranges have the same number of owners, with the same number of ids each.
     pub(crate) fn same_sizes(&self, one: Ids<I>, other: Ids<I>) -> bool {
         same_sizes(&self.start, one.indices(), other.indices())
     }
@@ -88,7 +88,7 @@ impl<I: Id, T> Rows<I, T> {
         &mut self.items[start..]
     }
 
-    /// Forgets all lists.
+    /// Removes all lists.
     pub(crate) fn clear(&mut self) {
         self.start.truncate(1);
         self.items.clear();
@@ -107,7 +107,7 @@ impl<I: Id, T> Rows<I, T> {
         &self.items
     }
 
-    /// Whether as many lists in both places have the same lengths.
+    /// Whether both ranges have the same number of lists, with the same lengths.
     fn same_sizes(&self, one: Ids<I>, other: Ids<I>) -> bool {
         same_sizes(&self.start, one.indices(), other.indices())
     }
@@ -119,14 +119,14 @@ impl<I: Id, T> Rows<I, T> {
 }
 
 impl<I: Id, T: PartialEq> Rows<I, T> {
-    /// Whether the lists in both places are the same.
+    /// Whether the lists in both ranges are equal.
     pub(crate) fn equal(&self, one: Ids<I>, other: Ids<I>) -> bool {
         self.same_sizes(one, other) && self.span(one) == self.span(other)
     }
 }
 
 impl<I: Id, T: Copy> Rows<I, T> {
-    /// Sorts pairs of id and item into lists and keeps the order within each list.
+    /// Groups pairs of id and item into lists, keeping the order within each list.
     pub(crate) fn collect(rows: usize, pairs: &[(I, T)]) -> Self {
         let Some(&(_, any)) = pairs.first() else {
             return Self { start: vec![0; rows + 1], ..Self::default() };

@@ -1,9 +1,9 @@
-//! Symmetry of boards: a model in, the first equal board of each board out.
+//! Board symmetry: finds, for each board, the first board that is equal to it.
 //!
 //! Two boards are equal when every device has the same choices on both, with pins, resources and
-//! streams numbered in the order in which they appear on each board. Swapping all that is on them
+//! streams numbered in the order in which they appear on each board. Swapping everything on them
 //! then gives an answer with the same objective. The search uses this twice: it refuses a choice on
-//! all equal boards about which nothing is decided yet, and it tries only the first of them.
+//! all equal boards about which nothing has been decided yet, and it tries only the first of them.
 
 use crate::index::{AltId, CandId, Id, IdVec};
 use crate::model::Model;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 pub(crate) struct BoardSymmetry {
     /// For each board the first that is equal to it.
     pub(crate) first_equal: IdVec<BoardId, BoardId>,
-    /// Place of each alternative among those of its device on its board.
+    /// Position of each alternative among those of its device on the same board.
     place: IdVec<AltId, usize>,
 }
 
@@ -48,13 +48,13 @@ impl BoardSymmetry {
         Self { first_equal, place }
     }
 
-    /// What the alternative is on an equal board.
+    /// The alternative that corresponds to this one on an equal board.
     pub(crate) fn alt_on(&self, model: &Model, alt: AltId, board: BoardId) -> Option<AltId> {
         let mut alts = model.alts.of(model.alt_device[alt]).iter();
         alts.find(|&other| model.alt_board[other] == board && self.place[other] == self.place[alt])
     }
 
-    /// What the candidate is on an equal board.
+    /// The candidate that corresponds to this one on an equal board.
     pub(crate) fn cand_on(&self, model: &Model, id: CandId, board: BoardId) -> Option<CandId> {
         Some(model.twin_cand(id, self.alt_on(model, model.cand_alt(id), board)?))
     }
@@ -118,10 +118,10 @@ impl Sites {
     }
 }
 
-/// What a board looks like, in numbers that are the same for equal boards.
+/// A board described in numbers that are the same for equal boards.
 struct Signature<'a> {
     sites: &'a Sites,
-    /// Numbers of things in the order in which they come.
+    /// Numbers of things, in order of first appearance.
     names: BTreeMap<Numbered, u64>,
     text: Vec<u64>,
 }
@@ -178,8 +178,8 @@ impl<'a> Signature<'a> {
                 self.holder(holder);
                 continue;
             }
-            // On a resource of several boards, equal boards must have the same groups, or each one
-            // of its own: a chip is on this board or on that.
+            // On a resource of several boards, equal boards must have the same groups, or each a
+            // group of its own: a chip is on one board or on the other.
             match holder {
                 Holder::Group(number) if self.is_of_one_board(number) => {
                     self.text.push(u64::MAX - 1);
@@ -195,7 +195,7 @@ impl<'a> Signature<'a> {
         matches!(self.sites.groups.get(&group), Some(Site::On(_)))
     }
 
-    /// The device alone is the same on every board.
+    /// [`Holder::Own`] is the same on every board.
     fn holder(&mut self, holder: Holder) {
         match holder {
             Holder::Own => self.text.push(u64::MAX),
@@ -218,7 +218,8 @@ impl<'a> Signature<'a> {
         }
     }
 
-    /// The number of a thing on this board; its own, and a mark, where other boards have it too.
+    /// Appends the number of a thing on this board. A thing that other boards have too is marked
+    /// and keeps its own number.
     fn name(&mut self, thing: Numbered, own: u64, site: Site) {
         let next = self.names.len() as u64;
         let shared = site == Site::Several;

@@ -1,17 +1,17 @@
-//! Symmetry of bundles: a model in, the bundles of devices that can change places as a whole out.
+//! Symmetry of bundles: finds the bundles of devices that can change places as a whole.
 //!
-//! The connections of a chip, or of an array, are tied by resources and rules of their own, so those
-//! of two equal chips are not alike one by one. As a whole they are: swapping the chips, and what
-//! ties the one with what ties the other, changes nothing. Each pair of bundles found here is such a
-//! swap by construction: all claims and rules of both were compared, and nobody else has any of what
-//! changes places.
+//! The connections of a chip, or of an array, are tied by resources and rules of their own, so
+//! those of two equal chips are not interchangeable one by one. As a whole they are: swapping the
+//! chips, together with whatever ties the connections of each, changes nothing. Each pair of
+//! bundles found here is such a swap by construction: all claims and rules of both were compared,
+//! and no other device has any of what changes places.
 
 use super::{Model, Part};
 use crate::index::{AltId, CandId, IdVec};
 use crate::problem::{Claim, DeviceId, ResourceId, RuleId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Where a device is: its family, its bundle, and its place there.
+/// A device's family, its bundle, and its position in the bundle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     pub(crate) family: usize,
@@ -19,14 +19,14 @@ pub(crate) struct Place {
     pub(crate) position: usize,
 }
 
-/// Devices in order that change places with those of another bundle, one by one, and their rules.
+/// Devices, in order, that change places one by one with those of another bundle, and their rules.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Bundle {
     pub(crate) devices: Vec<DeviceId>,
     pub(crate) rules: Vec<RuleId>,
 }
 
-/// All bundles: each family has those that can stand for each other, in order.
+/// All bundles. Each family lists, in order, the bundles that can replace each other.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bundles {
     pub(crate) families: Vec<Vec<Bundle>>,
@@ -53,7 +53,7 @@ impl Bundles {
         bundles
     }
 
-    /// Where the device is, if it is in a bundle.
+    /// The place of the device, if it is in a bundle.
     pub(crate) fn place(&self, device: DeviceId) -> Option<Place> {
         self.place[device]
     }
@@ -63,7 +63,7 @@ impl Bundles {
         self.families.get(place.family).map_or(&[], Vec::as_slice)
     }
 
-    /// Puts the device into the family of the other one, if their bundles are a swap.
+    /// Adds the device to the family of the other one, if their bundles can be swapped.
     fn join(&mut self, model: &Model, first: DeviceId, device: DeviceId) {
         let leads = self.place[first].map(|at| (at.bundle, at.position));
         if leads.is_some_and(|leads| leads != (0, 0)) {
@@ -82,7 +82,7 @@ impl Bundles {
                 self.families.len() - 1
             }
         };
-        // The same bundle has to be swapped whoever is the other one.
+        // The first bundle must be the same whichever bundle it is swapped with.
         if self.families.get(family).and_then(|all| all.first()) == Some(&one) {
             self.put(family, other);
         }
@@ -97,7 +97,7 @@ impl Bundles {
     }
 }
 
-/// What two devices must have in common at least; quick to compare.
+/// The numbers that two devices must at least have in common; quick to compare.
 fn shape(model: &Model, device: DeviceId) -> Vec<u32> {
     let alts = model.alts.of(device);
     let roles = model.roles.of_all(alts);
@@ -107,22 +107,22 @@ fn shape(model: &Model, device: DeviceId) -> Vec<u32> {
     numbers.chain(ends.map(|id| model.cand[id].pin.0)).collect()
 }
 
-/// A swap while it is being found: what goes where, in both directions.
+/// A swap under construction: what goes where, in both directions.
 struct Swap<'a> {
     model: &'a Model,
     devices: BTreeMap<DeviceId, DeviceId>,
     resources: BTreeMap<ResourceId, ResourceId>,
     rules: BTreeMap<RuleId, RuleId>,
-    /// Pairs that are to be compared.
+    /// Pairs still to be compared.
     open: Vec<(DeviceId, DeviceId)>,
 }
 
-/// There is no such swap.
+/// No such swap exists.
 struct Unlike;
 
 impl<'a> Swap<'a> {
-    /// The two smallest bundles with these devices that can change places; none where the devices
-    /// are alike by themselves.
+    /// The two smallest bundles that contain these devices and can change places. `None` if there
+    /// are none, or if the devices are interchangeable by themselves.
     fn of(model: &'a Model, one: DeviceId, other: DeviceId) -> Option<(Bundle, Bundle)> {
         let mut swap = Self {
             model,
@@ -142,7 +142,8 @@ impl<'a> Swap<'a> {
         if swap.resources.iter().all(|(r, s)| r == s) && swap.rules.iter().all(|(r, s)| r == s) {
             return None;
         }
-        // The first device of each is the one that was asked about: the tie-break counts on it.
+        // The first device of each must be the one that was asked about: the tie-break relies on
+        // it.
         if !in_order || firsts.first() != Some(&one) {
             return None;
         }
@@ -160,7 +161,7 @@ impl<'a> Swap<'a> {
         self.model.alt_device[self.model.part_alt(part)]
     }
 
-    /// The two change places.
+    /// Records that the two change places, and compares them later.
     fn pair(&mut self, one: DeviceId, other: DeviceId) -> Result<(), Unlike> {
         match (self.devices.get(&one), self.devices.get(&other)) {
             (None, None) if one != other => {
@@ -239,7 +240,7 @@ impl<'a> Swap<'a> {
         Ok(())
     }
 
-    /// All who have the one thing change places with all who have the other.
+    /// Pairs all users of one thing with all users of the other.
     fn pair_all(
         &mut self,
         ones: BTreeSet<DeviceId>,
@@ -252,8 +253,8 @@ impl<'a> Swap<'a> {
     }
 }
 
-/// Notes that two things change places, or that one stays; whether they have just been found to
-/// change places.
+/// Records that two things change places, or that one stays. Returns whether they have just been
+/// found to change places.
 fn meet<T: Copy + Ord>(known: &mut BTreeMap<T, T>, one: T, other: T) -> Result<bool, Unlike> {
     match (known.get(&one), known.get(&other)) {
         (None, None) => {

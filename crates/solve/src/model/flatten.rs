@@ -1,5 +1,5 @@
-//! From a problem to flat tables: nested vectors in, one vector for each property out, and for
-//! pins, resources, rules and boards who uses them.
+//! Flattens a problem: makes one vector for each property from nested vectors, and lists the users
+//! of each pin, resource, rule and board.
 
 use crate::index::{AltId, Id, IdVec, Rows};
 use crate::model::{Cand, Model, Part, agree};
@@ -53,7 +53,7 @@ impl Model {
         self.cands.close(self.cand.len());
     }
 
-    /// Finds who uses each pin, resource, rule and board.
+    /// Finds the users of each pin, resource, rule and board.
     pub(super) fn invert(&mut self, problem: &Problem) {
         let mut pins = Vec::with_capacity(self.cand.len());
         let mut resources = Vec::new();
@@ -92,7 +92,7 @@ fn contested(problem: &Problem) -> IdVec<ResourceId, bool> {
                     None => first[resource] = Some((device, holder)),
                     Some((d, h)) => contested[resource] |= d != device && !agree(h, holder),
                 }
-                // One device with two holders: remember that it shares with nobody.
+                // One device with two holders: record that it cannot share.
                 if first[resource].is_some_and(|(d, h)| d == device && h != holder) {
                     first[resource] = Some((device, Holder::Own));
                 }

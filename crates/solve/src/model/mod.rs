@@ -1,8 +1,8 @@
-//! The problem made flat: nested vectors in, ranges of ids with inverse tables out.
+//! The flat problem: nested vectors in, ranges of ids with inverse tables out.
 //!
-//! What can never matter is dropped here (claims that nobody contests, DMA that always fits), and
-//! roles are told apart by how they hold their pins. Every cost becomes one number whose order is
-//! the lexicographic order of the objective (H. D. Sherali, *Equivalent weights for lexicographic
+//! Whatever can never matter is dropped here (uncontested claims, DMA that always fits), and roles
+//! are classified by how they hold their pins. Every cost becomes one number whose order is the
+//! lexicographic order of the objective (H. D. Sherali, *Equivalent weights for lexicographic
 //! multi-objective programs*, 1982).
 
 mod board_symmetry;
@@ -24,11 +24,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How a role holds its pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Holding {
-    /// The device alone.
+    /// The device holds it alone.
     Own,
     /// All devices with this wire hold one pin together.
     Wire(WireId),
-    /// Shared in a way that no bound knows; only propagation and branching see it.
+    /// Shared in a way that no bound models; only propagation and branching see it.
     Irregular,
 }
 
@@ -68,27 +68,27 @@ pub(crate) struct Cand {
     pub(crate) holder: Holder,
     pub(crate) signal: SignalId,
     pub(crate) moved: bool,
-    /// What it costs beside its pin.
+    /// Its cost in addition to that of its pin.
     pub(crate) extra: u64,
     /// Resource that at most one wire can pass.
     pub(crate) gate: Option<GateId>,
 }
 
 impl Cand {
-    /// What the devices on one wire must agree on.
+    /// The properties on which the devices on one wire must agree.
     pub(crate) fn place(&self) -> (PinId, SignalId, Holder) {
         (self.pin, self.signal, self.holder)
     }
 }
 
-/// What is chosen for one device: its alternative and a candidate for each role.
+/// The choice for one device: its alternative and a candidate for each role.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Chosen {
     pub(crate) alt: AltId,
     pub(crate) cands: Vec<CandId>,
 }
 
-/// What is chosen for all devices.
+/// The choices for all devices.
 pub(crate) type Choices = IdVec<DeviceId, Chosen>;
 
 /// The flat problem.
@@ -101,7 +101,7 @@ pub(crate) struct Model {
     pub(crate) weights: Weights,
     pub(crate) pin_weight: IdVec<PinId, u64>,
     pub(crate) spare: IdVec<BoardId, bool>,
-    /// Boards that can stand for each other.
+    /// Boards that can replace each other.
     pub(crate) boards: BoardSymmetry,
     /// First device that is interchangeable with this one.
     pub(crate) class: IdVec<DeviceId, DeviceId>,
@@ -111,7 +111,7 @@ pub(crate) struct Model {
     pub(crate) alt_device: IdVec<AltId, DeviceId>,
     pub(crate) alt_board: IdVec<AltId, BoardId>,
     pub(crate) alt_claims: Rows<AltId, Claim>,
-    /// Claims as a group, contested or not.
+    /// Claims made as a group, contested or not.
     pub(crate) alt_groups: Rows<AltId, Claim>,
     pub(crate) alt_rules: Rows<AltId, RuleId>,
     pub(crate) alt_dma: Rows<AltId, DmaUserId>,
@@ -125,9 +125,9 @@ pub(crate) struct Model {
     /// Rules whose weight is part of `extra`.
     pub(crate) rule_local: IdVec<RuleId, bool>,
     pub(crate) pin_cands: Rows<PinId, CandId>,
-    /// Who claims a resource, and on whose behalf.
+    /// The claimants of a resource, and on whose behalf they claim it.
     pub(crate) resource_users: Rows<ResourceId, (Part, Holder)>,
-    /// Who violates a rule.
+    /// The parts that violate a rule.
     pub(crate) rule_users: Rows<RuleId, Part>,
     pub(crate) wire_cands: Rows<WireId, CandId>,
     pub(crate) gate_cands: Rows<GateId, CandId>,
@@ -135,15 +135,15 @@ pub(crate) struct Model {
     /// The demands of a device, one for each role position.
     pub(crate) demands: Blocks<DeviceId, DemandId>,
     pub(crate) demand_cands: Rows<DemandId, CandId>,
-    /// More than any answer weighs.
+    /// A weight that no answer reaches.
     pub(crate) most: u64,
     /// Whether DMA can fail at all.
     pub(crate) dma_matters: bool,
-    /// Every use of this DMA user excludes all others.
+    /// True if every use of this DMA user excludes all others.
     pub(crate) user_private: IdVec<DmaUserId, bool>,
 }
 
-/// Whether two devices may hold one thing on behalf of these.
+/// Whether two devices with these holders may hold the same thing.
 #[inline]
 pub(crate) fn agree(one: Holder, other: Holder) -> bool {
     matches!((one, other), (Holder::Group(one), Holder::Group(other)) if one == other)
@@ -204,7 +204,7 @@ impl Model {
         from.iter().filter(move |&d| self.class[d] == leader)
     }
 
-    /// Where the alternative stands among those of its device.
+    /// The position of the alternative among those of its device.
     pub(crate) fn alt_position(&self, alt: AltId) -> usize {
         self.alts.of(self.alt_device[alt]).position(alt)
     }
@@ -283,7 +283,8 @@ impl Model {
     }
 
     fn find_private_users(&mut self, problem: &Problem) {
-        // For each user: the device, if there is only one, and what everybody who uses it claims alone.
+        // For each user: its device, if there is only one, and the resources that every alternative
+        // with it claims as its own.
         type Users = (Option<DeviceId>, BTreeSet<ResourceId>);
         let mut users: IdVec<DmaUserId, Option<Users>> = IdVec::same(None, problem.dma.len());
         for (alt, &device) in self.alt_device.enumerate() {
@@ -338,7 +339,7 @@ impl Model {
             + boards.iter().filter(|b| self.spare[**b]).count() as u64
     }
 
-    /// Back to indices of the problem.
+    /// Converts choices back to indices of the problem.
     pub(crate) fn choices(&self, choices: &Choices) -> Vec<Choice> {
         let choice = |chosen: &Chosen| Choice {
             alternative: self.alt_position(chosen.alt),

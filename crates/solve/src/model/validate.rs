@@ -1,5 +1,5 @@
-//! Whether a problem is well-formed: a problem in, the weights of its objective out, or what it
-//! names and does not have.
+//! Validation: a problem in, the weights of its objective out, or an error if the problem refers to
+//! something that it does not have.
 //!
 //! Everything after this relies on it: ids are not checked a second time.
 
@@ -8,7 +8,7 @@ use crate::model::Weights;
 use crate::problem::{Claim, Device, Problem};
 use std::cmp::Reverse;
 
-/// The weights by which an objective becomes one number; [`Fault::TooLarge`] where it does not fit.
+/// The weights that turn an objective into one number, or [`Fault::TooLarge`] if it does not fit.
 pub(crate) fn weights(problem: &Problem) -> Result<Weights, Fault> {
     let spares = problem.boards.iter().filter(|b| b.spare).count() as u64;
     let wires = wires(problem).min(problem.pins.len());
@@ -38,7 +38,7 @@ fn wires(problem: &Problem) -> usize {
     problem.devices.iter().filter_map(roles).sum()
 }
 
-/// [`Fault::Malformed`] where the problem names what it does not have.
+/// Returns [`Fault::Malformed`] if the problem refers to something that it does not have.
 pub(crate) fn validate(problem: &Problem) -> Result<(), Fault> {
     let bad = |what| Err(Fault::Malformed(what));
     let resource = |claims: &[Claim]| claims.iter().all(|c| c.resource.0 < problem.resources);

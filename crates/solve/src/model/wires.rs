@@ -1,5 +1,5 @@
-//! How roles hold their pins: a flat model in, its shared wires, its gates and the rules that only
-//! one wire can violate out.
+//! How roles hold their pins: finds a model's shared wires, its gates and the rules that only one
+//! wire can violate.
 
 use crate::index::{AltId, CandId, Id, Ids, RoleId, Rows, WireId};
 use crate::model::{Cand, Holding, Model, Part};
@@ -8,8 +8,8 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Model {
-    /// Finds the wires: roles all of whose candidates claim one resource as a group of their pin,
-    /// so that all devices on it must take one pin.
+    /// Finds the shared wires: roles of which all candidates claim one resource as a group of their
+    /// pin, so that all devices on the wire must take the same pin.
     pub(super) fn find_holdings(&mut self, problem: &Problem) {
         self.holding = self.role_alt.ids().iter().map(|role| self.own_or_irregular(role)).collect();
         if self.holding.iter().all(|holding| *holding == Holding::Own) {
@@ -33,7 +33,7 @@ impl Model {
         self.cheapen_wires();
     }
 
-    /// Irregular as soon as another device may hold the same pin together with this one.
+    /// Irregular if another device may hold the same pin together with this one.
     fn own_or_irregular(&self, role: RoleId) -> Holding {
         let device = self.alt_device[self.role_alt[role]];
         let shared = |c: &Cand| {
@@ -48,7 +48,8 @@ impl Model {
         if shares { Holding::Irregular } else { Holding::Own }
     }
 
-    /// Devices of one wire may disagree on whether a pin is a move: the bound takes the least.
+    /// Devices on one wire may disagree on whether a pin is a move: the bound takes the lowest
+    /// cost.
     fn cheapen_wires(&mut self) {
         for wire in self.wires {
             let mut least = BTreeMap::new();
@@ -64,7 +65,7 @@ impl Model {
         }
     }
 
-    /// A rule that one wire alone can violate costs that wire; no branching is needed.
+    /// A rule that only one wire can violate is charged to that wire; no branching is needed.
     pub(super) fn find_local_rules(&mut self) {
         let rules = self.rule_users.ids();
         self.rule_local = rules.iter().map(|rule| self.is_local(rule)).collect();
@@ -87,7 +88,8 @@ impl Model {
         }
     }
 
-    /// Whether all who can violate the rule are one role position of one device, or one pin.
+    /// Whether the rule can be violated only by one role position of one device, or only by one
+    /// pin.
     fn is_local(&self, rule: RuleId) -> bool {
         let users = &self.rule_users[rule];
         let Some(&first) = users.first() else { return false };
@@ -114,7 +116,7 @@ impl Model {
             || pin(first).is_some_and(|first| users.iter().all(|&part| pin(part) == Some(first)))
     }
 
-    /// Gives each own wire the most contested resource that only one device can hold.
+    /// Gives each unshared wire the most contested resource that only one device can hold.
     pub(super) fn find_gates(&mut self) {
         let mut numbers = BTreeMap::new();
         let mut pairs = Vec::new();
@@ -131,8 +133,9 @@ impl Model {
         self.gate_cands = Rows::collect(self.gates.len(), &pairs);
     }
 
-    /// The resource that a candidate has to pass: one of its alternative, for the wires at one
-    /// position, or one of its own, which no other role of the alternative may claim.
+    /// The resource that a candidate must pass: one that its alternative claims, for the wires at
+    /// one position, or one that it claims itself and that no other role of the alternative may
+    /// claim.
     fn gate_of(&self, id: CandId) -> Option<(ResourceId, Option<usize>)> {
         let role = self.cand[id].role;
         if self.holding[role] != Holding::Own {
@@ -161,12 +164,13 @@ impl Model {
     }
 }
 
-/// Which resource ties which roles to one pin.
+/// The resources that tie roles to one pin.
 #[derive(Default)]
 struct Ties {
-    /// Role and the resources that may tie it.
+    /// Each role, with the resources that may tie it.
     roles: Vec<(RoleId, Vec<ResourceId>)>,
-    /// For each resource and group the one pin that all its claimants mean.
+    /// For each resource and group, the pins that its claimants name: exactly one if the resource
+    /// ties.
     pins: BTreeMap<ResourceId, BTreeMap<Holder, BTreeSet<PinId>>>,
 }
 
@@ -218,11 +222,11 @@ impl Ties {
     }
 }
 
-/// The resources that cannot stand for a wire.
+/// The resources that cannot represent a wire.
 fn mixed(model: &Model, found: &[(RoleId, Option<ResourceId>)]) -> BTreeSet<ResourceId> {
-    // A pin held by one group on two wires would be one pin of two wires: leave both. As another
-    // signal it is held by somebody else: a table may well have the data and the clock of one bus
-    // in one row.
+    // A pin held by one group on two wires would belong to both: leave both alone. With another
+    // signal, it has another owner: a table may well have the data and the clock of one bus in one
+    // row.
     let mut owners: BTreeMap<_, BTreeSet<Option<ResourceId>>> = BTreeMap::new();
     for (role, wire) in found {
         for c in model.cand.of(model.cands.of(*role)) {

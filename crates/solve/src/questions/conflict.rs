@@ -1,15 +1,15 @@
 //! Why there is no answer: an infeasible problem in, a minimal conflict out.
 //!
 //! This is a deletion filter (J. W. Chinneck and E. W. Dravnieks, *Locating minimal infeasible
-//! constraint sets in linear programs*, 1991): devices are left out as long as the rest stays
-//! without an answer, and what remains is minimal by proof. Whole parts are left out first and
-//! halved where that fails, as in delta debugging (A. Zeller and R. Hildebrandt, *Simplifying and
-//! isolating failure-inducing input*, 2002) and QuickXplain (U. Junker, 2004). First only what is
-//! quickly seen counts, which keeps to conflicts that are easy to prove; then every device is
-//! tried once more for good. The same is done to what those devices fight for: streams, resources
-//! and pins stop being exclusive as long as there is still no answer.
+//! constraint sets in linear programs*, 1991): devices are left out as long as the rest still has
+//! no answer, and what remains is provably minimal. Large parts are left out first and halved if
+//! that fails, as in delta debugging (A. Zeller and R. Hildebrandt, *Simplifying and isolating
+//! failure-inducing input*, 2002) and QuickXplain (U. Junker, 2004). At first only quick proofs
+//! count, which favours conflicts that are easy to prove; then every device is tried once more
+//! without a limit. The same is done to what those devices compete for: streams, resources and pins
+//! stop being exclusive as long as there is still no answer.
 //!
-//! Of devices that are alike only the number counts, so most of these questions are never asked
+//! Only the number of interchangeable devices matters, so most of these questions are never asked
 //! ([`super::known_sets`]).
 
 use super::known_sets::{KnownSets, LARGE};
@@ -22,21 +22,21 @@ use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
 use crate::search::{Budget, Effort};
 use std::collections::BTreeSet;
 
-/// A proof is quick when it takes at most so many nodes, and three more for each device.
+/// A proof is quick if it takes at most this many nodes, plus three for each device.
 const QUICK: u64 = 50;
 
-/// The questions of a search for a conflict.
+/// The questions asked in a search for a conflict.
 struct Questions<'a> {
     cancel: Cancel<'a>,
     effort: Effort,
-    /// What is left for the questions whether a pin, resource or stream has a part in the conflict.
+    /// The budget for asking whether a pin, resource or stream has a part in the conflict.
     budget: Option<Budget>,
-    /// What is known of sets of the devices.
+    /// The sets of devices that are known to have, or not to have, an answer.
     known: KnownSets,
 }
 
-/// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is
-/// probably one.
+/// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is probably
+/// a conflict.
 pub(crate) fn explain(
     problem: &Problem,
     seed: Option<Vec<DeviceId>>,
@@ -73,7 +73,7 @@ pub(crate) fn explain(
     if !cancel.is_over() {
         things = ask.contested_things(only(problem, &kept))?;
     }
-    // What could not be asked any more is not known to have a part in it.
+    // Anything that could no longer be asked about is not known to have a part in the conflict.
     if cancel.is_over() {
         things = [Vec::new(), Vec::new(), Vec::new()];
     }
@@ -95,7 +95,7 @@ fn conflict(
 }
 
 impl Questions<'_> {
-    /// Whether the problem has an answer; `None` when that takes more than the effort.
+    /// Whether the problem has an answer; `None` if finding out takes more than the effort.
     fn has_answer(&mut self, problem: &Problem) -> Result<Option<bool>, Fault> {
         let work = self.budget.as_ref().map(|budget| Effort::Work(budget.next()));
         let (answer, work) = feasible_within(problem, work.unwrap_or(self.effort), self.cancel)?;
@@ -105,7 +105,7 @@ impl Questions<'_> {
         Ok(answer)
     }
 
-    /// Whether these devices of the problem have an answer, as [`Self::has_answer`].
+    /// Whether the problem has an answer with only these devices, as [`Self::has_answer`].
     fn of_devices(
         &mut self,
         problem: &Problem,
@@ -124,10 +124,10 @@ impl Questions<'_> {
         Ok(answer)
     }
 
-    /// Asks of each large class of alike devices whether it is a conflict by itself, which is
-    /// quickly known. Of those that are (of all classes where none is) it asks whether there is one
-    /// device too many: then each device of the class is needed, and no question that leaves one
-    /// out has to be asked.
+    /// Asks for each large class of interchangeable devices whether it is a conflict by itself,
+    /// which is quickly known. For those that are (for all classes if none is), it asks whether
+    /// there is just one device too many: then each device of the class is needed, and no question
+    /// that leaves one out has to be asked.
     fn ask_of_large_classes(&mut self, problem: &Problem, kept: &[DeviceId]) -> Result<(), Fault> {
         let large_classes = self.known.large_classes(kept);
         let mut alone = Vec::new();
@@ -146,7 +146,8 @@ impl Questions<'_> {
     }
 
     /// Leaves devices out as long as the others have no answer, many at once first, because most
-    /// have no part in the conflict. Returns those that are kept without a proof that they must be.
+    /// have no part in the conflict. Returns those that are kept without a proof that they are
+    /// needed.
     fn leave_out(
         &mut self,
         problem: &Problem,
@@ -173,8 +174,8 @@ impl Questions<'_> {
     }
 
     /// The streams, resources and pins that must be exclusive for the conflict. Reasons of one kind
-    /// read best, so each kind is first shared as a whole. Pins come last: signals would explain as
-    /// much, but people see pins.
+    /// are the easiest to read, so each kind is first shared as a whole. Pins come last: signals
+    /// would explain just as much, but people see pins.
     fn contested_things(&mut self, mut core: Problem) -> Result<[Vec<u32>; 3], Fault> {
         let streams = core.streams;
         let mut needed = [Vec::new(), Vec::new(), Vec::new()];
@@ -196,13 +197,13 @@ impl Questions<'_> {
         *of_pins = self.contested(&mut core, Contested::Pins, std::mem::take(of_pins))?;
         *of_resources =
             self.contested(&mut core, Contested::Resources, std::mem::take(of_resources))?;
-        // Copies made for sharing stand for nothing of the problem.
+        // Copies made for sharing do not exist in the problem.
         of_streams.retain(|stream| *stream < streams);
         Ok(needed)
     }
 
-    /// Not all of these can be shared. Shares ever smaller parts as long as the conflict stays, and
-    /// returns those that must be exclusive.
+    /// Not all of these can be shared. Shares ever smaller parts as long as the conflict remains,
+    /// and returns those that must be exclusive.
     fn contested(
         &mut self,
         core: &mut Problem,
@@ -240,7 +241,7 @@ impl Questions<'_> {
 }
 
 impl Questions<'_> {
-    /// The members of each large class of which a single shared one is enough for an answer.
+    /// The members of each large class in which sharing a single member is enough for an answer.
     fn needed_alone(
         &mut self,
         core: &Problem,

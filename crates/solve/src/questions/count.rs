@@ -1,8 +1,8 @@
 //! The exact number of answers: a problem in, a number of any size out.
 //!
-//! Devices of several wires, and those that share, are tried in all alternatives (as many at once
-//! as are interchangeable); what is then left is to put single wires on pins, which
-//! [`super::placements`] counts without enumerating.
+//! Devices with several wires, and those that share, are tried in all alternatives (interchangeable
+//! ones together). This leaves single wires to put on pins, which [`super::placements`] counts
+//! without enumerating them.
 
 use super::placements::{Class, Counter, Place};
 use crate::answer::{Count, Fault};
@@ -14,7 +14,7 @@ use crate::problem::{Claim, DeviceId, Holder, Problem, ResourceId};
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Counts the answers, which differ in some pin or signal of some device.
+/// Counts the answers. Two answers differ in a pin or signal of at least one device.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed, or when the search was cancelled.
@@ -32,7 +32,7 @@ pub fn count(problem: &Problem, cancel: Cancel<'_>) -> Result<Count, Fault> {
     if cancel.is_over() { Err(Fault::Cancelled) } else { Ok(number) }
 }
 
-/// Whether every alternative of the device is one wire of its own.
+/// Whether every alternative of the device is a single unshared wire.
 fn simple(model: &Model, device: DeviceId) -> bool {
     model.alts.of(device).iter().all(|alt| {
         let roles = model.roles.of(alt);
@@ -48,13 +48,13 @@ struct Census<'a> {
     domains: Domains,
     /// Devices whose alternatives are tried, interchangeable ones together.
     order: &'a [DeviceId],
-    /// The same, by device.
+    /// Whether each device is in `order`.
     complex: IdVec<DeviceId, bool>,
     counter: Counter<'a>,
     cancel: Cancel<'a>,
 }
 
-/// The alike devices just before the next one in order.
+/// The interchangeable devices just before the next one in order.
 #[derive(Clone, Copy, Default)]
 struct Run {
     /// The last of them.
@@ -66,8 +66,8 @@ struct Run {
 }
 
 impl Census<'_> {
-    /// Counts over all alternatives of the devices that are left; `run` are alike devices before
-    /// them, and `times` ways to name the devices are meant.
+    /// Counts over all alternatives of the devices that are left. `run` describes the
+    /// interchangeable devices before them, and each way found stands for `times` ways.
     fn alternatives(&mut self, left: &[DeviceId], run: Run, times: BigUint) -> BigUint {
         let model = self.model;
         let Some((&device, left)) = left.split_first() else {
@@ -75,7 +75,8 @@ impl Census<'_> {
         };
         let last = run.last.filter(|&last| model.class[last] == model.class[device]);
         let devices = if last.is_some() { run.devices } else { 0 };
-        // Alike devices are tried in order only: a multinomial coefficient grows.
+        // Interchangeable devices are tried only in order; `times` makes up for it, as a
+        // multinomial coefficient.
         let before = last.and_then(|last| self.domains.decided(last));
         let before = before.map(|alt| model.alt_position(alt));
         let alts = model.alts.of(device);
@@ -107,8 +108,8 @@ impl Census<'_> {
         streams::users_fit(self.problem, &users)
     }
 
-    /// Tries every candidate of the roles that share in a way the count of placements does not
-    /// know.
+    /// Tries every candidate of the roles that share in a way that the count of placements does not
+    /// model.
     fn irregular_roles(&mut self) -> BigUint {
         let model = self.model;
         let Some(role) = self.open_irregular_role() else { return self.place() };
@@ -140,7 +141,7 @@ impl Census<'_> {
         decided.find_map(|alt| model.roles.of(alt).iter().find(|&role| open(alt, role)))
     }
 
-    /// Whether a role can claim what another role of its device claims too. That is no conflict.
+    /// Whether a role can claim what another role of its device claims too. That is not a conflict.
     fn entangled(&self, alt: AltId, role: RoleId) -> bool {
         let model = self.model;
         let claims = |role: RoleId| {
@@ -175,8 +176,8 @@ impl Census<'_> {
         self.counter.count(classes.collect())
     }
 
-    /// The places of each wire that is not placed yet. What is down to one candidate has been
-    /// propagated and takes no further part.
+    /// The places of each wire that is not placed yet. A wire that is down to one candidate has
+    /// been propagated and takes no further part.
     fn open_wires(&self) -> Vec<Vec<Place>> {
         let model = self.model;
         let mut wires: Vec<Vec<Place>> = Vec::new();
@@ -202,7 +203,7 @@ impl Census<'_> {
         wires
     }
 
-    /// The places of a device that is one wire in every alternative.
+    /// The places of a device that is a single wire in every alternative.
     fn free_places(&self, device: DeviceId) -> Vec<Place> {
         let model = self.model;
         let mut places = Vec::new();
@@ -228,7 +229,7 @@ impl Census<'_> {
                     let o = &model.cand[o];
                     (o.pin, o.signal) == (c.pin, c.signal)
                 };
-                // What the alternative claims itself is settled with all others by now.
+                // The claims of the alternative itself have been settled with all others by now.
                 let own = |claim: &&Claim| {
                     let held = held.iter().find(|c| c.resource == claim.resource);
                     held.is_none_or(|held| held.holder != Holder::Own && held != *claim)
@@ -252,7 +253,7 @@ fn quarrel(claims: &[&Claim], several: bool) -> bool {
         && claims.iter().enumerate().any(|(i, a)| claims.iter().skip(i + 1).any(|b| clash(a, b)))
 }
 
-/// One claim for each resource; two holders at once exclude everybody.
+/// One claim for each resource; two holders at once exclude everybody else.
 fn merged<'a>(claims: impl Iterator<Item = &'a Claim>) -> Vec<Claim> {
     let mut all: BTreeMap<ResourceId, Holder> = BTreeMap::new();
     for &Claim { resource, holder } in claims {

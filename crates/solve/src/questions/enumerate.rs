@@ -1,10 +1,9 @@
-//! All answers, best first: a problem in, an iterator out that works only as far as it is asked.
+//! All answers, best first: a problem in, a lazy iterator out.
 //!
-//! The answers of one objective are walked in order by a depth-first search over the entries of
-//! the tie-break; a branch is entered only when some answer within the objective lies there, so no
-//! part of the walk is in vain (R. C. Read and R. E. Tarjan, *Bounds on backtrack algorithms for
-//! listing cycles, paths, and spanning trees*, 1975). Then the least objective above it is looked
-//! for.
+//! A depth-first search over the entries of the tie-break visits the answers of one objective in
+//! order. It enters a branch only if there is an answer within the objective in it, so no part of
+//! the walk is wasted (R. C. Read and R. E. Tarjan, *Bounds on backtrack algorithms for listing
+//! cycles, paths, and spanning trees*, 1975). After that it searches for the least objective above.
 
 use super::solve::finish;
 use crate::answer::{Answer, Fault, Optimality};
@@ -17,15 +16,15 @@ use crate::search::{Engine, Parked};
 
 /// Iterator over all answers of a problem: by objective, then pins, then signals.
 ///
-/// An item is an error only where [`crate::solve`] gives one, or [`Fault::Cancelled`]. Nothing
-/// follows an error.
+/// An item is an error only where [`crate::solve`] gives one, or if it is [`Fault::Cancelled`].
+/// Nothing follows an error.
 pub struct Answers<'a> {
     problem: &'a Problem,
     cancel: Cancel<'a>,
     model: Model,
     entries: Vec<Entry>,
     walk: Walk,
-    /// Objective of the answers now given.
+    /// Objective of the present answers.
     level: u64,
     best: u64,
 }
@@ -132,7 +131,7 @@ impl Answers<'_> {
     }
 }
 
-/// Opens the first entry that is not settled. Where all are, the answer is complete.
+/// Opens the first entry that is not settled. If all are settled, the answer is complete.
 fn begin(
     engine: &mut Engine<'_>,
     entries: &[Entry],

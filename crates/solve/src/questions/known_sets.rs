@@ -1,9 +1,8 @@
-//! What is known of sets of devices: sets with and without an answer in, what follows for others
-//! out.
+//! Known sets of devices: what the sets with and without an answer imply for other sets.
 //!
-//! Fewer devices only make it easier, and alike devices can stand for each other. So a set has an
-//! answer when some known set with an answer holds at least as many devices of each class. It has
-//! none when some known set without one, a nogood, holds at most as many. Such a map of all sets is
+//! Fewer devices only make a problem easier, and interchangeable devices can replace each other. So
+//! a set has an answer if a known set with an answer has at least as many devices of each class. It
+//! has none if a known set without one, a nogood, has at most as many. Such a map of all sets is
 //! from M. H. Liffiton et al., *Fast, flexible MUS enumeration*, 2016.
 
 use super::solve::alike;
@@ -12,13 +11,13 @@ use crate::index::Id;
 use crate::problem::{DeviceId, Problem};
 use std::collections::BTreeMap;
 
-/// A class of so many is worth a question whose answer holds for all its members.
+/// A class with this many members is worth a question whose answer holds for all of them.
 pub(crate) const LARGE: usize = 3;
 
 /// Number of devices of each class.
 type Counts = Vec<u32>;
 
-/// What has been found out.
+/// The sets known so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnownSets {
     /// Class of each device.
@@ -28,13 +27,13 @@ pub(crate) struct KnownSets {
     nogoods: Vec<Counts>,
 }
 
-/// Whether there are at most as many of each class in the one as in the other.
+/// Whether `one` has at most as many devices of each class as `other`.
 fn within(one: &Counts, other: &Counts) -> bool {
     one.iter().zip(other).all(|(one, other)| one <= other)
 }
 
 impl KnownSets {
-    /// Nothing is known yet but which devices are alike.
+    /// At first, only the classes of interchangeable devices are known.
     pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
         let mut numbers = BTreeMap::new();
         let number = |first: &usize| {
@@ -56,7 +55,7 @@ impl KnownSets {
         counts
     }
 
-    /// Whether the devices have an answer, where that follows from what is known.
+    /// Whether the devices have an answer, if that follows from what is known.
     pub(crate) fn tells(&self, devices: &[DeviceId]) -> Option<bool> {
         let counts = self.counts(devices);
         if self.with_answer.iter().any(|known| within(&counts, known)) {

@@ -1,11 +1,11 @@
-//! Counts how wires can be put on pins: classes of alike wires with their options in, a number out.
+//! Counts how wires can be put on pins: classes of interchangeable wires in, a number out.
 //!
-//! The pins are taken one after another. All that the rest depends on is how many wires of each
-//! class are still to be placed and who holds the resources that later pins can claim; ways that
-//! agree in that are added up. This is dynamic programming over a frontier (J. Kawahara et al.,
+//! The pins are taken one after another. The rest depends only on how many wires of each class are
+//! still to be placed and who holds the resources that later pins can claim; ways that agree on
+//! these are added up. This is dynamic programming over a frontier (J. Kawahara et al.,
 //! *Frontier-based search for enumerating all constrained subgraphs with compressed
-//! representation*, 2017). Classes that share no pin and no resource are counted apart, and what
-//! was counted is remembered (R. J. Bayardo and J. D. Pehoushek, *Counting models using connected
+//! representation*, 2017). Classes that share no pin and no resource are counted separately, and
+//! counts are remembered (R. J. Bayardo and J. D. Pehoushek, *Counting models using connected
 //! components*, 2000).
 
 use crate::cancel::Cancel;
@@ -25,14 +25,14 @@ pub(crate) struct Place {
 /// Wires that can be placed in the same ways.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Class {
-    /// Sorted; a place that stands twice counts twice.
+    /// Sorted; a place that occurs twice counts twice.
     pub(crate) places: Vec<Place>,
     pub(crate) wires: u32,
 }
 
 /// Counts, and remembers the parts that it has counted.
 ///
-/// A count means nothing once the caller has given up, so callers check that first.
+/// A count is meaningless once the caller has given up, so callers check that first.
 pub(crate) struct Counter<'a> {
     known: BTreeMap<Vec<Class>, BigUint>,
     cancel: Cancel<'a>,
@@ -64,14 +64,14 @@ impl<'a> Counter<'a> {
     }
 }
 
-/// What a place takes.
+/// Something that a place takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Taken {
     Pin(PinId),
     Resource(ResourceId),
 }
 
-/// Splits the classes where they share neither pin nor resource.
+/// Splits the classes into parts that share neither pin nor resource.
 fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
     let mut parts: Vec<(BTreeSet<Taken>, Vec<Class>)> = Vec::new();
     for class in classes {
@@ -116,7 +116,8 @@ fn count_part(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
     }
 }
 
-/// Too much to remember for one key: places one wire in every way and counts the rest.
+/// For a part that needs too many bits for one key: places one wire in every way and counts the
+/// rest.
 fn split(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
     let mut total = BigUint::ZERO;
     let mut classed = classes.iter().enumerate();
@@ -147,10 +148,10 @@ fn compatible(one: &Place, other: &Place) -> bool {
     one.pin != other.pin && !one.claims.iter().any(clash)
 }
 
-/// States between two looks at whether the caller has given up.
+/// Number of states between two checks whether the caller has given up.
 const ASK: usize = 1 << 14;
 
-/// A number that may overflow, and one that cannot.
+/// A number of ways, which may or may not overflow.
 trait Tally: Sized + Clone {
     fn one() -> Self;
     fn times(&self, factor: u32) -> Option<Self>;
@@ -187,7 +188,7 @@ impl Tally for BigUint {
     }
 }
 
-/// Bits of the key.
+/// Some bits of the key.
 #[derive(Clone, Copy, Debug, Default)]
 struct Field {
     shift: u32,
@@ -216,9 +217,9 @@ struct Take {
 struct Step {
     /// Class and claims of each way to use the pin.
     uses: Vec<(ClassId, Vec<Take>)>,
-    /// Fields that nobody asks for after this pin.
+    /// Fields that are not needed after this pin.
     forget: u128,
-    /// Most wires of each class that later pins can take.
+    /// The most wires of each class that later pins can take.
     later: IdVec<ClassId, u32>,
 }
 
@@ -228,12 +229,12 @@ struct Plan {
     steps: Vec<Step>,
 }
 
-/// What the pins, taken in order, do to the resources.
+/// The order of the pins, and what it means for the resources.
 struct Timeline {
     order: Vec<PinId>,
     /// The last step at which each resource is claimed.
     last: BTreeMap<ResourceId, usize>,
-    /// For whom each resource can be claimed.
+    /// The holders for which each resource can be claimed.
     holders: BTreeMap<ResourceId, Vec<Holder>>,
 }
 
@@ -256,7 +257,7 @@ impl Timeline {
         Self { order, last, holders }
     }
 
-    /// What placing a wire does to the key; new resources get their bits.
+    /// The changes to the key when a wire is placed; new resources get their bits.
     fn takes(
         &self,
         place: &Place,
@@ -355,7 +356,7 @@ impl Plan {
         }
         match states.pop() {
             Some((_, ways)) => Some(ways),
-            // Nothing survived: there are zero ways. It is not an overflow.
+            // Nothing survived: there are zero ways. This is not an overflow.
             None => T::one().times(0),
         }
     }
@@ -374,7 +375,7 @@ fn take(key: u128, takes: &[Take]) -> Option<u128> {
     Some(key)
 }
 
-/// Finds free neighbouring bits for the values 0 to `most`.
+/// Finds free adjacent bits for the values 0 to `most`.
 fn claim_bits(used: &mut u128, most: u128) -> Option<Field> {
     let width = 128 - most.leading_zeros();
     let mask = if width >= 128 { u128::MAX } else { (1 << width) - 1 };
@@ -383,7 +384,7 @@ fn claim_bits(used: &mut u128, most: u128) -> Option<Field> {
     Some(Field { shift, mask })
 }
 
-/// What connects pins.
+/// Something that connects pins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Class(ClassId),

@@ -1,17 +1,17 @@
-//! Relaxed problems: a problem and some of its pins, resources or streams in, the problem in which
-//! any number of devices may hold them at once out.
+//! Relaxed problems: makes a problem in which any number of devices may hold some of the pins,
+//! resources or streams at once.
 //!
 //! The only question asked of such a problem is whether it has an answer. So choices that no longer
-//! differ become one, and devices that were alike stay alike.
+//! differ are merged, and interchangeable devices remain interchangeable.
 
 use crate::problem::{Alternative, Candidate, Claim, DmaRequest, Holder, Problem, StreamId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A place where a thing is held, on whose behalf (and with what signal, where it is shared), and
-/// what is claimed with it.
+/// The place where a thing is held, its holder (and its signal, if it is shared), and what is
+/// claimed with it.
 type Mark = (usize, Holder, u32, Vec<Claim>);
 
-/// What devices may fight for.
+/// The kinds of things that devices may compete for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Contested {
     Streams,
@@ -20,7 +20,7 @@ pub(crate) enum Contested {
 }
 
 impl Contested {
-    /// All of them that the problem names.
+    /// All things of this kind that the problem names.
     pub(crate) fn of(self, problem: &Problem) -> BTreeSet<u32> {
         let alternatives = || problem.devices.iter().flat_map(|d| &d.alternatives);
         let candidates = || alternatives().flat_map(|a| &a.roles).flat_map(|role| &role.candidates);
@@ -38,7 +38,7 @@ impl Contested {
         }
     }
 
-    /// The classes of those among `all` that could change places: the same devices hold them in
+    /// Divides `all` into classes of things that could change places: the same devices hold them in
     /// the same places and with the same claims.
     pub(crate) fn interchangeable(self, problem: &Problem, all: &[u32]) -> Vec<Vec<u32>> {
         let mut marks: BTreeMap<u32, Vec<Mark>> = BTreeMap::new();
@@ -88,7 +88,7 @@ impl Contested {
         classes.into_values().collect()
     }
 
-    /// The problem in which these can be held any number of times.
+    /// The problem in which these things can be held any number of times.
     pub(crate) fn share(self, problem: &Problem, shared: &BTreeSet<u32>) -> Problem {
         let mut problem = problem.clone();
         match self {
@@ -100,7 +100,7 @@ impl Contested {
     }
 }
 
-/// Each request gets copies of the streams for itself.
+/// Gives each request its own copies of the streams.
 fn share_streams(problem: &mut Problem, shared: &BTreeSet<u32>) {
     let mut next = problem.streams;
     let requests = problem.dma.iter_mut().flat_map(|u| &mut u.requests);
@@ -113,7 +113,7 @@ fn share_streams(problem: &mut Problem, shared: &BTreeSet<u32>) {
     problem.streams = next;
 }
 
-/// The resources are no longer claimed.
+/// Drops the claims on the resources.
 fn share_resources(problem: &mut Problem, shared: &BTreeSet<u32>) {
     for device in &mut problem.devices {
         for a in &mut device.alternatives {
@@ -126,7 +126,7 @@ fn share_resources(problem: &mut Problem, shared: &BTreeSet<u32>) {
     }
 }
 
-/// A wire on a shared pin need not be placed any more. What it claims goes to the device as a whole.
+/// Wires on shared pins no longer have to be placed. What they claim goes to the device as a whole.
 fn share_pins(problem: &mut Problem, shared: &BTreeSet<u32>) {
     for device in &mut problem.devices {
         let whole = std::mem::take(&mut device.alternatives);
@@ -169,7 +169,7 @@ fn without_wires(alternative: Alternative, shared: &BTreeSet<u32>) -> Vec<Altern
     ways
 }
 
-/// Leaves each choice once.
+/// Removes duplicate choices.
 fn merge(alternatives: &mut Vec<Alternative>) {
     let mut seen: Vec<(Vec<Claim>, usize)> = Vec::new();
     let all = std::mem::take(alternatives);

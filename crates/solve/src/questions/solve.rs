@@ -11,22 +11,23 @@ use crate::problem::{DeviceId, DmaUserId, Problem};
 use crate::search::{Effort, Engine, PseudoCosts};
 use std::collections::BTreeSet;
 
-/// What is asked for.
+/// The options of a search.
 #[derive(Clone, Copy, Default)]
 pub struct Options<'a> {
-    /// Any valid answer will do.
+    /// True if any valid answer will do.
     pub any: bool,
-    /// Ends the search with what is known by then.
+    /// Ends the search with whatever is known by then.
     pub cancel: Cancel<'a>,
 }
 
-/// What a search learned about the branches of its problem. Searching the same problem again is faster
-/// with it; the answer is as good without it, and no proof relies on it.
+/// Experience from a search with the branches of its problem. It makes another search of the same
+/// problem faster; the answer is just as good without it, and no proof relies on it.
 #[derive(Clone, Debug, Default)]
 pub struct Experience(pub(crate) PseudoCosts);
 
-/// Finds the best answer, or a minimal conflict. That none is better is proved; of equally good ones it is the first, as
-/// far as a bounded effort shows, and the same one on every machine.
+/// Finds the best answer, or a minimal conflict. It is proved that no answer is better. Of equally
+/// good answers it is the first, as far as a bounded effort shows, and the same one on every
+/// machine.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed, or when an answer fails [`check`].
@@ -34,10 +35,10 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     Ok(solve_and_learn(problem, options)?.0)
 }
 
-/// As [`solve`], and also returns what [`record`](crate::record) starts from.
+/// Like [`solve`], but also returns what [`record`](crate::record) starts from.
 ///
 /// # Errors
-/// As [`solve`].
+/// The same as [`solve`].
 pub fn solve_and_learn(
     problem: &Problem,
     options: &Options<'_>,
@@ -50,11 +51,12 @@ pub fn solve_and_learn(
     Ok((outcome, learned))
 }
 
-/// Finds one of the best answers, whichever comes first; nothing where there is none. What that
-/// saves is most of the time: why there is none, and which of the best comes first in order.
+/// Finds one of the best answers, whichever comes up first, or nothing if there is none. This saves
+/// most of the time: the search for a reason why there is none, or for the best answer that is
+/// first in order.
 ///
 /// # Errors
-/// As [`solve`].
+/// The same as [`solve`].
 pub fn one_of_the_best(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<Outcome>, Fault> {
     let options = Options { any: false, cancel };
     Ok(match search(problem, &options, false, &mut Experience::default())? {
@@ -63,7 +65,7 @@ pub fn one_of_the_best(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<O
     })
 }
 
-/// What a search comes to.
+/// The result of a search.
 enum Searched {
     Ended(Outcome),
     /// No answer, and devices that probably have none by themselves.
@@ -118,7 +120,7 @@ fn search(
     Ok(Searched::Ended(Outcome::Solved(answer)))
 }
 
-/// Whether there is an answer at all; `None` when stopped before that is known. Where there is none
+/// Whether there is an answer at all; `None` if stopped before that is known. If there is none,
 /// this is quicker than [`solve`], which also finds out why.
 ///
 /// # Errors
@@ -127,7 +129,7 @@ pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, F
     Ok(feasible_within(problem, Effort::Any, cancel)?.0)
 }
 
-/// For each device the first one with the same choices. The two are interchangeable.
+/// For each device, the first device with the same choices. The two are interchangeable.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed.
@@ -135,7 +137,7 @@ pub fn alike(problem: &Problem) -> Result<Vec<usize>, Fault> {
     Ok(Model::new(problem)?.class.iter().map(|device| device.index()).collect())
 }
 
-/// As [`feasible`], and the work that it took; `None` also when it is not known within the effort.
+/// Like [`feasible`], and the work that it took; also `None` if the effort was too little to know.
 pub(crate) fn feasible_within(
     problem: &Problem,
     effort: Effort,

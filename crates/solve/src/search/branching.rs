@@ -1,10 +1,10 @@
-//! What a node splits on: an open choice in, the domains with it or without it out.
+//! Branching: an open choice in, the domains with it or without it out.
 //!
-//! A choice is taken, or taken away from the device and all its interchangeable siblings at once,
-//! on all boards that can stand for each other. This is what breaks the symmetry of devices and
-//! boards; integer programming calls it orbital branching (J. Ostrowski, J. Linderoth, F. Rossi
-//! and S. Smriglio, *Orbital branching*, 2011), constraint programming symmetry breaking during
-//! search (I. P. Gent and B. M. Smith, *Symmetry breaking in constraint programming*, 2000).
+//! A choice is taken, or it is refused to the device and all devices that are interchangeable with
+//! it at once, on all boards that can replace each other. This breaks the symmetry of devices and
+//! boards; integer programming calls it orbital branching (J. Ostrowski, J. Linderoth, F. Rossi and
+//! S. Smriglio, *Orbital branching*, 2011), constraint programming calls it symmetry breaking
+//! during search (I. P. Gent and B. M. Smith, *Symmetry breaking in constraint programming*, 2000).
 
 use super::Engine;
 use crate::domains::{Charge, Pruned};
@@ -14,18 +14,18 @@ use crate::model::{Choices, Chosen};
 use crate::problem::{BoardId, DeviceId, RuleId};
 use std::collections::BTreeSet;
 
-/// What a node splits on: taken first, then refused.
+/// A choice that a node splits on: taken first, then refused.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Branch {
     /// The device takes the alternative.
     Alt(AltId),
     /// The role takes the candidate.
     Cand(CandId),
-    /// Nobody violates the rule.
+    /// No device violates the rule.
     Rule(RuleId),
-    /// Nobody uses the spare board.
+    /// No device uses the spare board.
     Board(BoardId),
-    /// Somebody uses the facility.
+    /// At least one device uses the facility.
     Facility(FacilityId),
 }
 
@@ -76,13 +76,13 @@ impl Engine<'_> {
         }
     }
 
-    /// Nobody uses the facility.
+    /// Lets no device use the facility.
     fn shut(&mut self, facility: FacilityId) -> Result<(), Pruned> {
         let model = self.model;
         let branch = Branch::Facility(facility);
         let Some(pricing) = &self.pricing else { return Ok(()) };
         let alts = &pricing.dualized.facilities[facility].alts;
-        // A facility of several boards is refused as it is: they need not be equal.
+        // A facility of several boards is refused only where it is: these boards need not be equal.
         let boards = self.boards_of(branch);
         let [_] = boards.as_slice() else {
             return alts.iter().try_for_each(|&alt| self.domains.remove_alt(model, alt));
@@ -117,9 +117,9 @@ impl Engine<'_> {
         }
     }
 
-    /// The board of a branch and those that are equal to it at this node, because nothing is decided
-    /// of any of them. If some answer had the refused choice on another one of them, swapping the two
-    /// boards would give an answer with the choice where it was tried.
+    /// The board of a branch and the boards that are equal to it at this node because nothing has
+    /// been decided about any of them. If an answer had the refused choice on another of these
+    /// boards, swapping the two boards would give an answer with the choice where it was tried.
     pub(super) fn equals(&self, branch: Branch) -> impl Iterator<Item = BoardId> + use<> {
         let first = &self.model.boards.first_equal;
         let mut boards = self.boards_of(branch);
@@ -156,7 +156,7 @@ impl Engine<'_> {
         model.class_of(model.class[device]).filter(same).collect()
     }
 
-    /// The bundles that are interchangeable at this node with the one of the device.
+    /// The bundles that are interchangeable at this node with the device's own.
     pub(super) fn equal_bundles(&self, device: DeviceId) -> Vec<&Bundle> {
         let bundles = &self.model.bundles;
         let Some(place) = bundles.place(device).filter(|_| self.bundle_symmetry) else {
@@ -167,7 +167,7 @@ impl Engine<'_> {
         family.iter().filter(|other| *other != own && self.are_equal(own, other)).collect()
     }
 
-    /// Whether two bundles that can stand for each other have the same choices left.
+    /// Whether two bundles that can replace each other have the same choices left.
     fn are_equal(&self, one: &Bundle, other: &Bundle) -> bool {
         let mut devices = one.devices.iter().zip(&other.devices);
         let mut rules = one.rules.iter().zip(&other.rules);
@@ -215,7 +215,7 @@ impl Engine<'_> {
                 (at.family == place.family && at.bundle == place.bundle).then_some(at.position)
             })
             .collect();
-        // A facility of others too is the same whoever changes places.
+        // A facility that other devices have too stays the same whatever changes places.
         let Some(positions) = positions else { return Vec::new() };
         let there = |bundle: &Bundle| {
             let twins = alts.iter().zip(&positions);
@@ -227,7 +227,8 @@ impl Engine<'_> {
         self.equal_bundles(device).into_iter().map(there).collect()
     }
 
-    /// A rule that the wiring violates, or a spare board that it uses, and that the bound leaves out.
+    /// A rule that the wiring violates, or a spare board that it uses, that the bound does not
+    /// include.
     pub(super) fn unpaid_charge(&self, choices: &Choices) -> Option<Branch> {
         let model = self.model;
         for Chosen { alt, cands } in choices {
@@ -248,7 +249,7 @@ impl Engine<'_> {
         None
     }
 
-    /// A spare board to close, where an answer below the limit can only save spare boards.
+    /// A spare board to close, if an answer below the limit can only save spare boards.
     pub(super) fn deciding_board(&self) -> Option<Branch> {
         let unit = self.model.weights.cost;
         let bound = self.pricing.as_ref()?.bound;
@@ -267,7 +268,7 @@ impl Engine<'_> {
         self.model.devices.iter().find_map(|d| self.open_role(d))
     }
 
-    /// A candidate of an open role of a decided device: that of the flow, if it has one.
+    /// A candidate of an open role of a decided device: the flow's, if it has one.
     pub(super) fn open_role(&self, device: DeviceId) -> Option<Branch> {
         let model = self.model;
         let roles = model.roles.of(self.domains.decided(device)?);
@@ -291,7 +292,7 @@ mod tests {
         ResourceId, Role, SignalId,
     };
 
-    /// One pin of a board, and the group as which it holds the resource, if it does.
+    /// One pin of a board, and the group as which the alternative holds the resource, if it does.
     fn on(board: u32, pin: u32, group: Option<u32>) -> Alternative {
         let candidate = Candidate {
             pin: PinId(pin),

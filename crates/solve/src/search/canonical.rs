@@ -1,7 +1,7 @@
-//! Answers that follow from an answer: boards and devices that are alike change places.
+//! Symmetric answers: equal boards and interchangeable devices change places.
 //!
-//! An answer in, one that is as good and comes no later in the order of the tie-break out, without
-//! any search. It is a step towards the canonical one of all its symmetric images.
+//! From an answer, makes one that is equally good and comes no later in the order of the tie-break,
+//! without any search. This is a step towards the canonical one of all its symmetric images.
 
 use super::tie_break::{Entry, entries};
 use crate::index::{AltId, CandId, IdVec};
@@ -9,7 +9,7 @@ use crate::model::bundles::Bundle;
 use crate::model::{Choices, Chosen, Model};
 use crate::problem::{BoardId, DeviceId, PinId};
 
-/// Puts alike devices in order, and what is on equal boards on the first of them.
+/// Puts interchangeable devices in order, and moves what is on equal boards to the first of them.
 pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {
     let entries = entries(model);
     let mut best = earlier(model, &entries, in_order(model, &known), known);
@@ -28,12 +28,12 @@ pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {
     earlier(model, &entries, in_order(model, &best), best)
 }
 
-/// Puts alike devices in order, then bundles.
+/// Puts interchangeable devices in order, then bundles.
 fn in_order(model: &Model, known: &Choices) -> Choices {
     bundles_in_order(model, &devices_in_order(model, known))
 }
 
-/// The one of two answers that comes first.
+/// The earlier of two answers.
 fn earlier(model: &Model, entries: &[Entry], one: Choices, other: Choices) -> Choices {
     let values = |choices| entries.iter().map(move |entry| entry.of(model, choices));
     if values(&one).lt(values(&other)) { one } else { other }
@@ -52,7 +52,7 @@ fn swapped(model: &Model, known: &Choices, one: BoardId, other: BoardId) -> Opti
     swapped.collect()
 }
 
-/// Gives alike devices their choices in order.
+/// Gives interchangeable devices their choices in order.
 fn devices_in_order(model: &Model, known: &Choices) -> Choices {
     let mut sorted = known.clone();
     for leader in model.class_leaders() {

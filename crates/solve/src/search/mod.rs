@@ -2,12 +2,12 @@
 //!
 //! The scheme is that of A. H. Land and A. G. Doig, *An automatic method of solving discrete
 //! programming problems*, 1960. Each node ([`node`]) propagates, bounds by the flow, and tries to
-//! read a wiring off the flow ([`read_off`]). Where that fails, it bounds by prices, tries the
-//! wiring that the linear program comes nearest to ([`rounding`]), and branches ([`branching`]) on
+//! read a wiring off the flow ([`read_off`]). If that fails, it bounds by prices, tries the wiring
+//! nearest to the solution of the linear program ([`rounding`]), and branches ([`branching`]) on
 //! what the program leaves fractional ([`strong_branching`]), or on the choice at fault.
 //!
-//! Once there is any answer, the best one is looked for little above the bound first, then farther
-//! up, with limits that grow as in iterative deepening (R. E. Korf, *Depth-first
+//! Once there is an answer, the search for the best one begins just above the bound and goes
+//! farther up from there, with limits that grow as in iterative deepening (R. E. Korf, *Depth-first
 //! iterative-deepening*, 1985).
 
 pub(crate) mod branching;
@@ -46,18 +46,18 @@ pub(crate) struct Engine<'a> {
     holders: Holders,
     /// The second bound, made when the flow is not enough.
     pub(crate) pricing: Option<Box<Pricing>>,
-    /// What an earlier search of the same problem learned; the second bound starts with it.
+    /// Experience from an earlier search of the same problem; the second bound starts with it.
     pub(crate) learned: PseudoCosts,
     pub(crate) goal: Goal,
     pub(crate) progress: Progress,
-    /// Whether a choice may be refused on all equal boards at once. It may be while every restriction
+    /// Whether a choice may be refused on all equal boards at once. It may while every restriction
     /// of the domains marks the boards that it is about.
     pub(crate) board_symmetry: bool,
     /// Whether a choice may be refused in all equal bundles at once.
     pub(crate) bundle_symmetry: bool,
 }
 
-/// What the Lagrangian bound needs.
+/// The state of the Lagrangian bound.
 pub(crate) struct Pricing {
     pub(crate) dualized: Dualized,
     lagrangian: Lagrangian,
@@ -76,23 +76,23 @@ pub(crate) struct Parked {
     nodes: u64,
 }
 
-/// How long the search looks for a first answer by the flow alone, beside a node for each device
-/// where any answer will do.
+/// Nodes in which the search looks for a first answer by the flow alone, plus one for each device
+/// if any answer will do.
 const DIVE: u64 = 10;
 
-/// Nodes in which it looks for any answer before it looks for the best one.
+/// Nodes in which the search looks for any answer before it looks for the best one.
 const ANY: u64 = 200;
 
-/// Nodes in which a question of the tie-break is asked near the known answer.
+/// Nodes that a question of the tie-break may spend near the known answer.
 const NEAR: u64 = 30;
 
-/// The limit above the bound doubles up to so much cost.
+/// The distance of the limit from the bound doubles up to this cost.
 const NEARLY: u64 = 16;
 
-/// The factor by which it grows beyond that: what is farther away costs a rule, not a pin.
+/// The factor by which it grows beyond that: an answer farther away costs a rule, not a pin.
 const LEAP: u64 = 64;
 
-/// Steps of the simplex method at one node.
+/// The most steps of the simplex method at one node.
 const LP_STEPS: usize = 5_000;
 
 /// A weight, and the choices that have it.
@@ -169,7 +169,7 @@ impl<'a> Engine<'a> {
         self.goal.best.take()
     }
 
-    /// Any choice below the limit near a known one, as far as few nodes find it.
+    /// Any choice below the limit that a few nodes find near a known one.
     pub(crate) fn search_near(&mut self, limit: u64, known: &Choices) -> Option<Found> {
         self.aim(limit, true);
         self.goal.near = Some(known.clone());
@@ -184,7 +184,7 @@ impl<'a> Engine<'a> {
         self.goal.best = None;
     }
 
-    /// Looks for any choice by the flow alone, for so many nodes.
+    /// Looks for any choice by the flow alone, for at most `nodes` nodes.
     fn dive(&mut self, nodes: u64) {
         let mark = self.domains.mark();
         let saved = self.flow.save();
@@ -204,8 +204,8 @@ impl<'a> Engine<'a> {
         self.back(mark, &saved);
     }
 
-    /// Searches with no more than this effort, and goes on with the old one. Returns whether it was too
-    /// little, too.
+    /// Searches with at most this effort, then restores the old one. Also returns whether the
+    /// effort was too little.
     fn within<T>(&mut self, effort: Effort, search: impl FnOnce(&mut Self) -> T) -> (T, bool) {
         let all = std::mem::replace(&mut self.progress.effort, effort);
         let found = search(self);
@@ -234,8 +234,8 @@ impl<'a> Engine<'a> {
         Ok(bound.max(self.bound()).max(self.goal.floor.map_or(0, |floor| floor + 1)))
     }
 
-    /// Looks for answers little above the bound first, then farther and farther up: what would be
-    /// too dear is removed early, and no search goes on long below a bad answer.
+    /// Looks for answers just above the bound first, then farther and farther up: what would be too
+    /// expensive is removed early, and no search goes on for long below a bad answer.
     fn deepen(&mut self, bound: u64) {
         let mark = self.domains.mark();
         let saved = self.flow.save();
@@ -274,7 +274,7 @@ impl<'a> Engine<'a> {
         self.flow.restore(saved);
     }
 
-    /// Removes all that cannot be in an answer below the limit, for good.
+    /// Removes everything that cannot be in an answer below the limit, for good.
     pub(crate) fn narrow(&mut self, limit: u64) -> Result<(), Pruned> {
         self.goal.limit = limit;
         self.settle()?;
@@ -284,7 +284,8 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    /// As [`Self::narrow`], but prices only once: a question that they answer is quickly answered.
+    /// Like [`Self::narrow`], but prices only once: a question that prices can answer is answered
+    /// quickly.
     pub(crate) fn narrow_once(&mut self, limit: u64) -> Result<(), Pruned> {
         self.goal.limit = limit;
         self.progress.step();
@@ -293,7 +294,7 @@ impl<'a> Engine<'a> {
         self.settle()
     }
 
-    /// Bounds by prices; whether they narrowed the domains.
+    /// Bounds by prices, and returns whether they narrowed the domains.
     fn price(&mut self) -> Result<bool, Pruned> {
         self.bound_by_prices(LP_STEPS)?;
         let (model, limit) = (self.model, self.goal.limit);
@@ -301,7 +302,8 @@ impl<'a> Engine<'a> {
         pricing.lagrangian.fix(&pricing.dualized, model, &mut self.domains, limit)
     }
 
-    /// The bound by the best prices that so many steps find, as the linear program sees it.
+    /// Bounds by the best prices that `steps` steps find. Returns the bound as the linear program
+    /// sees it.
     pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Pruned> {
         let (problem, model, domains) = (self.problem, self.model, &self.domains);
         let learned = &self.learned;
@@ -325,7 +327,7 @@ impl<'a> Engine<'a> {
 }
 
 impl Pricing {
-    /// What it has learned of branches.
+    /// Its experience with branches.
     pub(crate) const fn pseudo_costs(&self) -> &PseudoCosts {
         &self.pseudo_costs
     }

@@ -1,14 +1,14 @@
-//! One node of branch and bound: the domains in; nothing out but a better answer, if there is one
-//! below.
+//! One node of branch and bound: searches below the domains and keeps a better answer if there is
+//! one.
 
 use super::Engine;
 use super::branching::Branch;
 use crate::domains::{Pruned, streams};
 
-/// Nodes of a mere question that are spent on the flow alone.
+/// Nodes that a search for any answer spends on the flow alone.
 const PATIENCE: u64 = 3;
 
-/// What the prices say about a node.
+/// What to do at a node according to the prices.
 enum Advice {
     /// Nothing better is below.
     Leave,
@@ -47,7 +47,7 @@ impl Engine<'_> {
         }
     }
 
-    /// The branch that decides the same as the known choice does, as long as that is possible.
+    /// The branch that decides as the known choice does, as long as that is possible.
     fn nearest(&self, branch: Branch) -> Branch {
         let (Some(near), model) = (&self.goal.near, self.model) else { return branch };
         let known = match branch {
@@ -111,7 +111,8 @@ impl Engine<'_> {
                 || self.progress.of_this_search() > PATIENCE)
     }
 
-    /// Reads a wiring off the flow and keeps it if it is better; what to branch on, if anything.
+    /// Reads a wiring off the flow and keeps it if it is better. Returns what to branch on, if
+    /// anything.
     fn try_flow(&mut self, bound: u64) -> Option<Branch> {
         let choices = match self.read() {
             Ok(choices) => choices,
@@ -127,8 +128,8 @@ impl Engine<'_> {
         charge.or_else(|| self.any_branch())
     }
 
-    /// Searches where the branch is taken, then refuses it here (unless the limit has improved,
-    /// which makes the root start again, or the first answer was enough).
+    /// Searches with the branch taken, then refuses it here (unless the limit has improved, which
+    /// makes the root start again, or the first answer was enough).
     fn follow(&mut self, branch: Branch, depth: usize) -> Result<(), Pruned> {
         let mark = self.domains.mark();
         let saved = self.flow.save();

@@ -1,34 +1,36 @@
-//! What a search looks for, what it has found, and how far it has come.
+//! The goal of a search, what it has found, and how far it has got.
 
 use super::Found;
 use crate::model::Choices;
 
-/// What a node costs beside the simplex method, in its work: a row of one step takes some 50 ns, a node some 50 us.
+/// The cost of a node without the simplex method, in units of its work: a row of one step takes
+/// about 50 ns, a node about 50 us.
 const NODE: u64 = 1_000;
 
-/// How long a question is worth asking. It is counted, not timed, so that every machine gives up at the same place.
+/// How much effort a question is worth. It is counted, not timed, so that every machine gives up at
+/// the same point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effort {
-    /// So many nodes of the search.
+    /// This many nodes of the search.
     Nodes(u64),
-    /// So much work, of nodes and of the simplex method.
+    /// This much work, of nodes and of the simplex method.
     Work(u64),
     /// Until it is answered.
     Any,
 }
 
-/// What questions are worth together whose answers only make a good answer nicer.
+/// The work that is left for questions that only make a good answer nicer.
 #[derive(Debug)]
 pub(crate) struct Budget {
     left: u64,
 }
 
 impl Budget {
-    /// Work that all questions are worth, some 100 ms.
+    /// Work that all questions together are worth, about 100 ms.
     const ALL: u64 = 2_000_000;
-    /// Work that one question is worth, some 25 ms.
+    /// Work that one question is worth, about 25 ms.
     const ONE: u64 = 500_000;
-    /// Work that each is worth when all is spent: what the bounds alone, or a few nodes, answer.
+    /// Work that each is worth once all is spent: enough for the bounds alone, or for a few nodes.
     const REST: u64 = 3_000;
 
     pub(crate) fn new() -> Self {
@@ -45,14 +47,14 @@ impl Budget {
     }
 }
 
-/// What is looked for, and the best that is found.
+/// The goal of a search, and the best answer found so far.
 #[derive(Debug)]
 pub(crate) struct Goal {
-    /// Only answers below this are looked for.
+    /// The search looks only for answers below this.
     pub(crate) limit: u64,
-    /// Only answers above this are looked for.
+    /// The search looks only for answers above this.
     pub(crate) floor: Option<u64>,
-    /// Whether the first one is enough.
+    /// Whether the first answer is enough.
     pub(crate) first: bool,
     pub(crate) best: Option<Found>,
     /// A complete choice near which the search looks first.
@@ -68,7 +70,7 @@ impl Default for Goal {
 }
 
 impl Goal {
-    /// Whether an answer of this weight is looked for at all.
+    /// Whether the search looks for an answer of this weight at all.
     pub(crate) fn counts(&self, weight: u64) -> bool {
         self.floor.is_none_or(|floor| weight > floor)
     }
@@ -81,28 +83,28 @@ impl Goal {
         }
     }
 
-    /// Whether nothing more is looked for.
+    /// Whether the search can end here.
     pub(crate) fn is_reached(&self) -> bool {
         self.first && self.best.is_some()
     }
 }
 
-/// How far the search has come, and how far it may go.
+/// How far the search has got, and how far it may go.
 #[derive(Debug)]
 pub(crate) struct Progress {
     pub(crate) nodes: u64,
     /// The work of nodes and of the simplex method.
     pub(crate) work: u64,
-    /// Nodes when the present search began.
+    /// Number of nodes when the present search began.
     begun: u64,
-    /// Nodes until which any answer will do, so that there is a limit to bound against.
+    /// Number of nodes until which any answer will do, so that there is a limit to bound against.
     pub(crate) dive_until: Option<u64>,
     pub(crate) effort: Effort,
     pub(crate) stopped: bool,
 }
 
 impl Progress {
-    /// Goes on after so many nodes.
+    /// Continues after `nodes` nodes.
     pub(crate) fn after(nodes: u64) -> Self {
         Self { nodes, work: 0, begun: 0, dive_until: None, effort: Effort::Any, stopped: false }
     }
@@ -117,12 +119,12 @@ impl Progress {
         self.work += NODE;
     }
 
-    /// Nodes of the present search.
+    /// Number of nodes of the present search.
     pub(crate) fn of_this_search(&self) -> u64 {
         self.nodes - self.begun
     }
 
-    /// So many nodes from here, if the effort allows as many.
+    /// An effort of this many nodes from here, if the present effort allows as many.
     pub(crate) fn more(&self, nodes: u64) -> Effort {
         let until = self.nodes + nodes;
         match self.effort {

@@ -6,7 +6,7 @@ use super::branching::Branch;
 use crate::index::{AltId, FacilityId, PenaltyId};
 use std::collections::BTreeMap;
 
-/// Names a variable. Devices of one class have their variables together.
+/// Identifies a variable. Devices of one class share their variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key {
     Facility(FacilityId),
@@ -30,9 +30,10 @@ impl Fractional {
     }
 }
 
-/// What a variable gains for each unit of distance, where it is taken and where it is refused. One try is
-/// enough: *Branching rules revisited* (T. Achterberg, T. Koch and A. Martin, 2005) tries up to eight times
-/// before it relies on the mean, but our programs are small and a try costs more than what it saves.
+/// The gain of each variable for each unit of distance, when it is taken and when it is refused.
+/// One trial is enough: *Branching rules revisited* (T. Achterberg, T. Koch and A. Martin, 2005)
+/// makes up to eight trials before it relies on the mean, but our programs are small and a trial
+/// costs more than it saves.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PseudoCosts {
     known: BTreeMap<Key, [f64; 2]>,
@@ -49,7 +50,7 @@ impl PseudoCosts {
         self.known.contains_key(&question.key)
     }
 
-    /// The probable gains; none where nothing is known.
+    /// The probable gains, or 0 if nothing is known.
     pub(super) fn expected(&self, question: &Fractional) -> [f64; 2] {
         let [taken, refused] = self.known.get(&question.key).copied().unwrap_or_default();
         let [to_one, to_none] = question.missing();

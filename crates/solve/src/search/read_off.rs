@@ -1,7 +1,7 @@
-//! Reads a wiring off the flow: the flow and the domains in, complete choices or what to branch on
-//! out.
+//! Reads a wiring off the flow: the flow and the domains in, complete choices or a choice to branch
+//! on out.
 //!
-//! Where the relaxation already gives an answer, nothing has to be searched.
+//! If the relaxation already gives an answer, no search is needed.
 
 use super::Engine;
 use super::branching::Branch;
@@ -10,7 +10,7 @@ use crate::index::{AltId, CandId, IdVec, RoleId, WireId};
 use crate::model::{Choices, Chosen, Holding, Model, agree};
 use crate::problem::{Claim, DeviceId, Holder, PinId, Problem, ResourceId, SignalId};
 
-/// Who holds what while a wiring is read off the flow.
+/// The holders of pins and resources while a wiring is read off the flow.
 #[derive(Clone, Debug)]
 pub(super) struct Holders {
     resource: IdVec<ResourceId, Option<(DeviceId, Holder)>>,
@@ -19,7 +19,7 @@ pub(super) struct Holders {
     held_pins: Vec<PinId>,
 }
 
-/// How much was held at some time.
+/// The numbers of resources and pins held at some point.
 #[derive(Clone, Copy, Default)]
 struct Mark {
     resources: usize,
@@ -52,7 +52,7 @@ impl Holders {
     /// The device takes the pin and claims of a candidate.
     ///
     /// # Errors
-    /// Who holds one of them already.
+    /// The device that already holds one of them.
     fn hold_cand(&mut self, model: &Model, device: DeviceId, id: CandId) -> Result<(), DeviceId> {
         let c = &model.cand[id];
         let held = self.pin[c.pin];
@@ -80,7 +80,7 @@ impl Holders {
                     self.resource[resource] = Some((device, holder));
                     self.held_resources.push(resource);
                 }
-                // One device with two holders shares with nobody.
+                // A device with two holders cannot share.
                 Some((owner, held)) if owner == device => {
                     if held != holder {
                         self.resource[resource] = Some((device, Holder::Own));
@@ -95,7 +95,7 @@ impl Holders {
 }
 
 impl Engine<'_> {
-    /// Reads a wiring off the flow, or tells what to branch on.
+    /// Reads a wiring off the flow, or returns what to branch on.
     pub(super) fn read(&mut self) -> Result<Choices, Option<Branch>> {
         let model = self.model;
         let mut choices: IdVec<DeviceId, Option<Chosen>> = IdVec::same(None, model.devices.len());
@@ -130,7 +130,8 @@ impl Engine<'_> {
         Ok(choices)
     }
 
-    /// A device that cannot follow the flow is to choose; if it has chosen, its opponent is.
+    /// Branches on a device that cannot follow the flow, or on its opponent if the device is
+    /// decided.
     fn blame(&self, device: DeviceId, opponent: Option<DeviceId>) -> Option<Branch> {
         for d in [Some(device), opponent].into_iter().flatten() {
             if self.domains.alts_left(d) > 1 {
@@ -153,7 +154,7 @@ impl Engine<'_> {
         flow.next().or_else(|| self.domains.alts(model, device).next())
     }
 
-    /// What the device takes, or who is in its way, as far as it is somebody.
+    /// The choice of the device, or the device that is in its way, if it is a device.
     fn read_device(
         &mut self,
         device: DeviceId,

@@ -1,9 +1,9 @@
-//! The search once more, with a record: a limit that is known to hold in, the splits and
-//! multipliers that prove it out.
+//! The search with a record: a limit that is known to hold in, the splits and multipliers that
+//! prove it out.
 //!
-//! With the best weight as its limit the search has no answers to find. What is left of a node is
-//! what proves: propagation, the prices that close or narrow it, and the split. The flow only
-//! advises what to split on; what it would prune, the prices prune too.
+//! With the best weight as its limit, the search has no answers to find. Only the parts of a node
+//! that prove something are left: propagation, the prices that close or narrow it, and the split.
+//! The flow only suggests what to split on; whatever it would prune, the prices prune too.
 
 use super::branching::Branch;
 use super::{Engine, LP_STEPS};
@@ -19,19 +19,19 @@ use crate::problem::{BoardId, DeviceId, Problem};
 use crate::questions::solve::Experience;
 use crate::trace::{Cover, Exchange, Facility, Multipliers, Question, Record, Step, Way};
 
-/// Steps of a record; what is longer nobody would verify.
+/// The most steps of a record; nobody would verify a longer one.
 const STEPS_MAX: usize = 20_000;
 
 /// A record that cannot be completed.
 struct GivenUp;
 
-/// Records why no answer weighs less than the best one, `best`, or that there is none.
-/// Equal boards may stand for each other where `boards` says so. `learned` comes from the search that
-/// found the answer, or is empty; the record is found faster with it.
+/// Records why no answer weighs less than the best one, `best`, or that there is none. Equal boards
+/// may replace each other if `boards` is true. `learned` comes from the search that found the
+/// answer, or is empty; it makes the record faster to find.
 ///
 /// # Errors
-/// [`Fault`] when the problem is not well-formed. There is no record when the search was stopped, or
-/// needed what a record does not hold.
+/// [`Fault`] when the problem is not well-formed. There is no record if the search was stopped, or
+/// needed something that a record cannot hold.
 pub fn record(
     problem: &Problem,
     best: Option<crate::Objective>,
@@ -72,7 +72,7 @@ pub fn record(
     Ok(done.is_ok().then_some(record))
 }
 
-/// For each board the first that is equal to it.
+/// For each board, the first board that is equal to it.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed.
@@ -80,7 +80,7 @@ pub fn equal_boards(problem: &Problem) -> Result<Vec<usize>, Fault> {
     Ok(Model::new(problem)?.boards.first_equal.iter().map(|board| board.index()).collect())
 }
 
-/// The alternative as the problem has it.
+/// The alternative as the problem identifies it.
 fn way(model: &Model, alt: AltId) -> Way {
     (model.alt_device[alt], model.alt_position(alt))
 }
@@ -192,7 +192,8 @@ impl Engine<'_> {
         Recorded::Narrowed(by, narrowed)
     }
 
-    /// What to split on: what the program leaves fractional, else what the flow or anybody asks.
+    /// What to split on: a variable that the program leaves fractional, else what the flow
+    /// suggests, else any open choice.
     fn split(&mut self) -> Option<Branch> {
         if let Some(board) = self.deciding_board() {
             return Some(board);
@@ -210,7 +211,7 @@ impl Engine<'_> {
         self.any_branch()
     }
 
-    /// What puts the twins of a device in its place.
+    /// The exchanges that put the twins of a device in its place.
     fn exchanges(&self, device: DeviceId) -> Vec<Exchange> {
         let alike = self.alike(device).into_iter().filter(|twin| *twin != device);
         let mut all: Vec<Exchange> = alike.map(|twin| vec![(device, twin)]).collect();
@@ -218,7 +219,7 @@ impl Engine<'_> {
         all
     }
 
-    /// What puts equal bundles in the place of the one that a facility belongs to.
+    /// The exchanges that put equal bundles in the place of the one that a facility belongs to.
     fn facility_exchanges(&self, facility: FacilityId) -> Vec<Exchange> {
         let Some(pricing) = &self.pricing else { return Vec::new() };
         let alts = &pricing.dualized.facilities[facility].alts;
@@ -271,10 +272,10 @@ impl Engine<'_> {
     }
 }
 
-/// What the prices did at a node.
+/// The effect of the prices at a node.
 enum Recorded {
-    /// They ended it.
+    /// They ended it with this step.
     Step(Step),
-    /// By these, so much came of it.
+    /// The multipliers, and whether they narrowed the domains.
     Narrowed(Multipliers, Result<bool, Pruned>),
 }

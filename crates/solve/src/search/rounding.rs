@@ -4,12 +4,12 @@ use super::Engine;
 use crate::domains::Pruned;
 use crate::index::{AltId, Ids};
 
-/// Values nearer to a whole number count as whole.
+/// Values nearer to a whole number than this count as whole.
 pub(super) const WHOLE: f64 = 0.01;
 
 impl Engine<'_> {
-    /// Gives each device the alternative that the linear program gives it as a whole, and reads
-    /// the wiring that the flow then has.
+    /// Gives devices the alternatives that the linear program assigns to them as a whole, and reads
+    /// off the wiring that the flow then has.
     pub(super) fn round(&mut self) {
         let mark = self.domains.mark();
         let saved = self.flow.save();
@@ -23,7 +23,7 @@ impl Engine<'_> {
         self.back(mark, &saved);
     }
 
-    /// As many devices of a group go to an alternative as it is worth in whole numbers.
+    /// Gives each alternative as many devices of a group as the whole part of its value.
     fn decide_whole(&mut self) -> Result<(), Pruned> {
         let model = self.model;
         let Some(pricing) = &self.pricing else { return Err(Pruned) };

@@ -1,8 +1,9 @@
 //! Strong branching: the values of the linear program in, a branch out.
 //!
 //! Of the fractional variables, a node branches on the one whose two children have the best bounds.
-//! To know these bounds it tries both children (D. Applegate, R. Bixby, V. Chvátal and W. Cook, *Finding cuts in
-//! the TSP*, 1995), unless earlier tries have shown it ([`super::pseudo_costs`]).
+//! To find these bounds it tries both children (D. Applegate, R. Bixby, V. Chvátal and W. Cook,
+//! *Finding cuts in the TSP*, 1995), unless earlier trials have shown them
+//! ([`super::pseudo_costs`]).
 
 use super::Engine;
 use super::branching::Branch;
@@ -11,25 +12,25 @@ use super::rounding::WHOLE;
 use crate::domains::{Charge, Pruned};
 use crate::index::{AltId, IdVec};
 
-/// Variables that are tried at one node at most.
+/// The most variables that are tried at one node.
 const TRIALS: usize = 8;
 
-/// Steps of the simplex method for each try.
+/// Steps of the simplex method for each trial.
 const TRIAL_STEPS: usize = 100;
 
-/// A gain that is as good as none.
+/// Smaller gains count as this much.
 const LITTLE: f64 = 1e-3;
 
 impl Engine<'_> {
-    /// What to branch on by the values of the linear program, `fallback` where they do not tell;
-    /// nothing when one side of a branch is pruned and the other one is taken.
+    /// What to branch on according to the values of the linear program, or `fallback` if they do
+    /// not tell. Nothing if one side of a branch was pruned and the other one was taken.
     pub(super) fn choose_branch(&mut self, fallback: Branch) -> Result<Option<Branch>, Pruned> {
         if let Some(board) = self.deciding_board() {
             return Ok(Some(board));
         }
         let alt = match fallback {
             Branch::Alt(alt) => Some(alt),
-            // Which pin of one device is asked last: what the program leaves open says more.
+            // The pin of a single device comes last: what the program leaves open says more.
             Branch::Cand(_) => None,
             Branch::Rule(_) | Branch::Board(_) | Branch::Facility(_) => return Ok(Some(fallback)),
         };
@@ -43,8 +44,8 @@ impl Engine<'_> {
         self.strongest(&open)
     }
 
-    /// The fractional variable with the greatest product of gains. The pseudo-costs of a new one
-    /// are not reliable yet, so both of its children are bounded here.
+    /// The fractional variable with the greatest product of gains. A new variable has no reliable
+    /// pseudo-costs yet, so both of its children are bounded here.
     fn strongest(&mut self, open: &[Fractional]) -> Result<Option<Branch>, Pruned> {
         let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.bound());
         let mut best = (f64::NEG_INFINITY, None);
@@ -72,8 +73,8 @@ impl Engine<'_> {
         Ok(best.1)
     }
 
-    /// As [`Self::strongest`], for a record: where one side is pruned, that is the branch. None where
-    /// nothing is fractional.
+    /// Like [`Self::strongest`], but for a record: a variable with a pruned side is the branch.
+    /// `None` if nothing is fractional.
     pub(super) fn strongest_recorded(&mut self) -> Option<Branch> {
         let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.bound());
         let mut best = (f64::NEG_INFINITY, None);
@@ -96,7 +97,8 @@ impl Engine<'_> {
         best.1
     }
 
-    /// The bounds on both sides of a branch; nothing where earlier tries tell, or there were enough.
+    /// The bounds on both sides of a branch. Nothing if earlier trials have shown them, or if there
+    /// were enough trials.
     fn try_both(
         &mut self,
         question: &Fractional,
@@ -108,14 +110,14 @@ impl Engine<'_> {
             return None;
         }
         if *trials == 0 {
-            // Each try starts where the program is now.
+            // Each trial starts from the present basis.
             pricing.relaxation.remember();
         }
         *trials += 1;
         Some([true, false].map(|side| self.try_side(question.branch, side)))
     }
 
-    /// The bound on one side of a branch, by prices alone: the flow knows little that they do not.
+    /// The bound on one side of a branch, by prices alone: the flow would add little to them.
     fn try_side(&mut self, branch: Branch, taken: bool) -> Result<f64, Pruned> {
         let mark = self.domains.mark();
         let went = if taken { self.take(branch) } else { self.refuse(branch) };
@@ -136,7 +138,7 @@ impl Engine<'_> {
         valued.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, alt)| alt)
     }
 
-    /// What the linear program leaves fractional, the most even first.
+    /// The variables that the linear program leaves fractional, those nearest to one half first.
     fn fractional(&self) -> Vec<Fractional> {
         let (model, mut open) = (self.model, Vec::new());
         let Some(pricing) = &self.pricing else { return open };
@@ -147,7 +149,7 @@ impl Engine<'_> {
             }
         };
         for (index, facility) in pricing.dualized.facilities.enumerate() {
-            // Only what changes the domains, whichever way it is answered.
+            // Only facilities that change the domains, whichever way the question is answered.
             let usable = facility.alts.iter().any(|&alt| self.domains.has_alt(alt));
             if usable && !self.domains.opened.contains(&index) {
                 let value = pricing.relaxation.opened(index);
@@ -156,7 +158,7 @@ impl Engine<'_> {
         }
         for (index, penalty) in pricing.dualized.penalties.enumerate() {
             if self.domains.rule[penalty.rule] == Charge::Open {
-                // Taken is the side without it.
+                // The side taken is the one without the violation.
                 let value = 1.0 - pricing.relaxation.violated(index);
                 add(Branch::Rule(penalty.rule), Key::Penalty(index), value);
             }

@@ -2,13 +2,13 @@
 //!
 //! An answer is a list of pins (devices in order, roles in order), then of signals, then of
 //! alternatives. The least one is found by fixing one entry after another to the least value that
-//! still leads to an answer within the limit; the answer at hand saves most of the questions, and
+//! still leads to an answer within the limit. The known answer saves most of the questions, and
 //! most answers to the others are near it (J. C. Beck, *Solution-guided multi-point constructive
 //! search for job shop scheduling*, 2007).
 //!
-//! None of these answers is better than another one, so a question is worth a bounded effort. Where
-//! that is spent the answer keeps the value that it has. The effort is counted in work, not in time,
-//! so that the same problem has the same answer on every machine.
+//! None of these answers is better than another, so a question is worth only a bounded effort. Once
+//! that is spent, the answer keeps the value that it has. The effort is counted in work, not in
+//! time, so that the same problem has the same answer on every machine.
 
 use super::canonical::earliest;
 use super::{Budget, Effort, Engine, Found};
@@ -17,7 +17,7 @@ use crate::index::{AltId, CandId, RoleId};
 use crate::model::{Choices, Model};
 use crate::problem::DeviceId;
 
-/// A pin, a signal or an alternative, by its number; nothing where there is no such role.
+/// A pin, a signal or an alternative, by its number; `None` if there is no such role.
 pub(crate) type Value = Option<u32>;
 
 /// One entry of the list by which answers are ordered.
@@ -73,13 +73,14 @@ impl Entry {
     }
 }
 
-/// How far the tie-break has come.
+/// How far the tie-break has got.
 struct Least {
-    /// The greatest weight of an answer.
+    /// The greatest weight that an answer may have.
     limit: u64,
     known: Choices,
-    /// About so many values the next question is. What was not possible for one wire is often not
-    /// possible for the next, so each entry begins with what the one before it ended with.
+    /// The number of values that the next question is about. What was impossible for one wire is
+    /// often impossible for the next, so each entry begins with the number that the one before
+    /// ended with.
     number: usize,
     budget: Budget,
     /// Whether each entry so far has been shown to be the least.
@@ -87,9 +88,9 @@ struct Least {
 }
 
 impl Least {
-    /// Goes on from a lesser answer.
+    /// Continues from a smaller answer.
     fn improve(&mut self, model: &Model, better: Choices) {
-        // What stands in order may come before an entry that was given up, which is fixed by now.
+        // Reordering may change an entry that was given up, which is fixed by now.
         self.known = if self.is_proved { earliest(model, better) } else { better };
         self.number = 1;
     }
@@ -123,12 +124,13 @@ impl Engine<'_> {
         })
     }
 
-    /// Keeps only what gives the entry this value, and settles.
+    /// Keeps only the choices that give the entry this value, and settles.
     pub(crate) fn restrict(&mut self, entry: Entry, value: Value) -> Result<(), Pruned> {
         self.restrict_to(entry, &[value])
     }
 
-    /// Keeps only what gives the entry one of these values, which are in order, and settles.
+    /// Keeps only the choices that give the entry one of these values, which are in order, and
+    /// settles.
     fn restrict_to(&mut self, entry: Entry, values: &[Value]) -> Result<(), Pruned> {
         let model = self.model;
         let alts = model.alts.of(entry.device());
@@ -155,8 +157,8 @@ impl Engine<'_> {
         self.settle()
     }
 
-    /// The least answer within the limit, as far as the effort shows, given one within it. Leaves the domains
-    /// restricted to it.
+    /// The least answer within the limit, as far as the effort shows, given an answer within it.
+    /// Leaves the domains restricted to it.
     pub(crate) fn least(&mut self, limit: u64, known: Choices) -> Choices {
         let model = self.model;
         if self.narrow(limit + 1).is_err() {
@@ -184,8 +186,9 @@ impl Engine<'_> {
         values.retain(|value| *value >= floor);
         let saved = self.flow.save();
         let mark = self.domains.mark();
-        // The least first. Where that is not possible, more at once: mostly nothing is, and to show
-        // that takes hardly more of many than of one. Where it does, fewer are asked about.
+        // Ask about the least value first. If it is impossible, ask about more at once: usually all
+        // are impossible, and showing that for many takes hardly more work than for one. If it does
+        // take more, ask about fewer.
         loop {
             values.truncate(values.partition_point(|v| *v < entry.of(model, &answer.known)));
             if values.is_empty() || self.progress.stopped {
@@ -217,7 +220,7 @@ impl Engine<'_> {
         }
     }
 
-    /// An answer within the limit, looked for near the known one where the bounds leave any.
+    /// An answer within the limit, searched for near the known one if the bounds leave any.
     fn ask(&mut self, limit: u64, known: &Choices) -> Option<Found> {
         let saved = self.flow.save();
         let mark = self.domains.mark();
@@ -231,8 +234,8 @@ impl Engine<'_> {
         found
     }
 
-    /// Interchangeable devices, and bundles, stand in order in the least answer, so a later one
-    /// starts where the one before it stands.
+    /// The least value that an entry can have. Interchangeable devices, and bundles, are in order
+    /// in the least answer, so a later one starts no lower than the one before it.
     fn floor(&self, entry: Entry, known: &Choices) -> Value {
         let Entry::Pin(device, 0) = entry else { return None };
         let model = self.model;

@@ -11,7 +11,7 @@ use crate::problem::{
 };
 use crate::{Options, Outcome, count, solve};
 
-/// The pins of the example in order, and their usages.
+/// The number of usages of each pin of the example, in order.
 const PINS: [u32; 6] = [2, 3, 1, 4, 4, 1];
 const PA0: u32 = 0;
 const PA1: u32 = 1;

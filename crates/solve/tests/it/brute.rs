@@ -27,10 +27,10 @@ fn violates() -> impl Strategy<Value = Vec<RuleId>> {
     ]
 }
 
-/// A role of its own, or a wire of a bus: one pin for all that are on it.
+/// An unshared role, or a wire of a bus: one pin for all devices on it.
 fn role(pins: u32, base: u32) -> impl Strategy<Value = Role> {
     let candidate = ((0..pins), 0..2u32, claims(1), violates(), prop::bool::weighted(0.2));
-    // The wires of one bus may stand in one row, and one of them under two names.
+    // The wires of one bus may be in one row, and one of them may have two names.
     let wire = (0..2u32, any::<bool>(), prop::bool::weighted(0.3));
     let bus = prop_oneof![3 => Just(None), 2 => wire.prop_map(Some)];
     (prop::collection::vec((candidate, holder()), 1..4), bus, prop::bool::weighted(0.15)).prop_map(
@@ -75,7 +75,7 @@ fn device(boards: u32, pins: u32) -> impl Strategy<Value = Device> {
     let choice =
         (0..boards, 1..3usize).prop_flat_map(move |(board, wires)| alternative(board, pins, wires));
     prop::collection::vec(choice, 1..4).prop_map(|mut alternatives| {
-        // No answer may be reachable through two alternatives of one board.
+        // No answer may be reachable through two alternatives on one board.
         for (index, a) in alternatives.iter_mut().enumerate() {
             for c in a.roles.iter_mut().flat_map(|r| &mut r.candidates) {
                 if c.holder == Holder::Own {
@@ -90,7 +90,7 @@ fn device(boards: u32, pins: u32) -> impl Strategy<Value = Device> {
     })
 }
 
-/// Devices, some of which stand several times.
+/// A problem in which some devices occur several times.
 fn problem() -> impl Strategy<Value = Problem> {
     let shape = (1..3u32, 3..6u32);
     let devices = move |(boards, pins): (u32, u32)| {
@@ -128,7 +128,7 @@ fn problem() -> impl Strategy<Value = Problem> {
     })
 }
 
-/// A problem on one board, on several boards that are equal: most devices may go to any of them.
+/// A problem for one board, on several equal boards: most devices may go to any of them.
 fn on_equal_boards() -> impl Strategy<Value = Problem> {
     let device = (device(1, 4), 1..3usize, prop::option::weighted(0.25, 0..3u32));
     let devices = prop::collection::vec(device, 1..4);
@@ -167,7 +167,7 @@ fn on_equal_boards() -> impl Strategy<Value = Problem> {
     )
 }
 
-/// The alternative of the first board on another one that is equal to it.
+/// The alternative of the first board, on another board that is equal to it.
 fn copied(alternative: &Alternative, board: u32) -> Alternative {
     let mut copy = alternative.clone();
     copy.board = BoardId(board);
@@ -183,8 +183,8 @@ fn copied(alternative: &Alternative, board: u32) -> Alternative {
     copy
 }
 
-/// A problem with two devices, or one, in several copies: two resources and a rule belong to each
-/// copy alone, the others to all. On up to two boards, with a device of another sort.
+/// A problem with one or two devices in several copies: two resources and a rule belong to each
+/// copy alone, the others to all. It has up to two boards, and possibly a device of another sort.
 fn with_equal_bundles() -> impl Strategy<Value = Problem> {
     let devices = prop::collection::vec(device(2, 3), 1..3);
     (devices, 2..4u32, prop::option::of(device(2, 3)), problem(), any::<bool>()).prop_map(

@@ -116,7 +116,7 @@ fn the_real_car() {
     };
     let devices: Vec<u32> = conflict.devices.iter().map(|d| d.0).collect();
     assert_eq!(devices, [6, 7, 8, 9, 10, 11, 12, 13]);
-    // Eight timers could capture, but TIM2 and TIM5 have nothing but PA1.
+    // Eight timers could capture, but for TIM2 and TIM5 there is only PA1.
     assert_eq!(conflict.resources.len(), 6);
     let pins = conflict.pins.iter().map(|p| builder.names[p.0 as usize].as_str());
     assert_eq!(pins.collect::<Vec<_>>(), ["PA1"]);

@@ -36,14 +36,14 @@ PE9 TIM1_CH1
 PE11 TIM1_CH2
 ";
 
-/// What a target takes beside pins.
+/// The resources that a target takes in addition to pins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Target {
     /// Pins and signals only.
     None,
     /// One capture per timer.
     Timers,
-    /// Besides, no capture on one-channel timers.
+    /// In addition, no capture on one-channel timers.
     Chibios,
 }
 
@@ -77,7 +77,7 @@ pub struct Builder {
     pub names: Vec<String>,
     pub signals: Vec<String>,
     target: Target,
-    /// Pin, signal of each board in order.
+    /// Pins and signals of each board, in order.
     usages: Vec<Vec<(PinId, String)>>,
     resources: BTreeMap<String, u32>,
     users: BTreeMap<String, DmaUserId>,
@@ -168,7 +168,7 @@ impl Builder {
         vec![user]
     }
 
-    /// Candidates on a board whose signal passes, with the claims that the target asks for.
+    /// Candidates on a board whose signal is accepted, with the claims that the target requires.
     fn role(&mut self, board: usize, accept: impl Fn(&str) -> bool, shared: Option<&str>) -> Role {
         let mut candidates = Vec::new();
         for (pin, usage) in self.usages[board].clone() {

@@ -29,7 +29,7 @@ pub fn all(problem: &Problem) -> Vec<Found> {
     found
 }
 
-/// Upper bound of the combinations that `all` would try.
+/// Upper bound of the number of combinations that `all` would try.
 pub fn combinations(problem: &Problem) -> f64 {
     let ways = |d: &sensedsl_solve::problem::Device| -> f64 {
         let roles = |a: &sensedsl_solve::problem::Alternative| -> f64 {

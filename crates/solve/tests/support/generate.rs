@@ -2,7 +2,7 @@
 
 use super::board::{Builder, Kind, Target};
 
-/// A small generator of its own, so that a seed means the same problem for ever (splitmix64).
+/// A small generator (splitmix64), so that a seed always gives the same problem.
 pub struct Rng(pub u64);
 
 impl Rng {
@@ -31,14 +31,14 @@ impl Rng {
     }
 }
 
-/// Which mix of devices a family has.
+/// The mix of devices in a family.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mix {
     /// A bit of everything.
     General,
-    /// Mostly what needs DMA streams.
+    /// Mostly devices that need DMA streams.
     Dma,
-    /// Mostly what needs timers.
+    /// Mostly devices that need timers.
     Timers,
 }
 
@@ -106,8 +106,8 @@ fn kind(rng: &mut Rng, mix: Mix) -> Kind {
     rng.pick(&weighted).clone()
 }
 
-/// A made-up board table with as many pins as a port letter each 16, laid out like a real one:
-/// units have one to three places for each signal, pins carry one to eight usages.
+/// A made-up board table with `pins` pins, 16 for each port letter, laid out like a real one: units
+/// have one to three places for each signal, pins carry one to eight usages.
 pub fn table(seed: u64, pins: u64) -> String {
     let mut rng = Rng(seed);
     let mut usages: Vec<Vec<String>> = vec![Vec::new(); pins as usize];

@@ -17,7 +17,7 @@ pub fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(","))
 }
 
-/// The problem with numbers for names; a holder of -1 is the device itself.
+/// The problem with numbers instead of names; a holder of -1 is the device itself.
 pub fn json(problem: &Problem) -> String {
     let pins = list(problem.pins.iter().map(|pin| pin.cost.to_string()));
     let shared = list(problem.pins.iter().map(|pin| u32::from(pin.shared).to_string()));

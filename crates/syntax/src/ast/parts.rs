@@ -1,4 +1,4 @@
-//! Views over parts with several values: chips, and the drivers that say what is in one.
+//! Views over parts with several values: chips, and the drivers that describe them.
 
 use super::{AstNode, Device, Name, Property, Rule, Type, children, choice, name, node};
 use crate::kind::{SyntaxKind, SyntaxNode};
@@ -24,7 +24,7 @@ node!(
     Command = Command
 );
 choice!(
-    /// What a chip holds.
+    /// An item of a chip.
     ChipItem {
         /// A property of the chip, or of its connection.
         Property(Property),
@@ -37,7 +37,7 @@ choice!(
     }
 );
 choice!(
-    /// What a driver holds.
+    /// An item of a driver.
     DriverItem {
         /// A property.
         Property(Property),
@@ -56,7 +56,7 @@ impl Chip {
     pub fn name(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// All items in their order.
+    /// All items in order.
     pub fn items(&self) -> impl Iterator<Item = ChipItem> + use<> {
         children(&self.0)
     }
@@ -84,13 +84,13 @@ impl Driver {
     pub fn name(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// The kind of device it is for, when one is written. Whether there is such a kind is not checked
-    /// here.
+    /// The kind of device that it is for, if one is written. Whether that kind exists is not
+    /// checked here.
     #[must_use]
     pub fn kind(&self) -> Option<Name> {
         name(&self.0.children().find(|node| node.kind() == SyntaxKind::Kind)?)
     }
-    /// All items in their order.
+    /// All items in order.
     pub fn items(&self) -> impl Iterator<Item = DriverItem> + use<> {
         children(&self.0)
     }
@@ -118,8 +118,8 @@ impl Connection {
     pub fn name(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// The kind of connection it is, when one is written. Whether there is such a kind is not checked
-    /// here.
+    /// The kind of connection that it is, if one is written. Whether that kind exists is not
+    /// checked here.
     #[must_use]
     pub fn kind(&self) -> Option<Name> {
         name(&self.0.children().find(|node| node.kind() == SyntaxKind::Kind)?)

@@ -26,11 +26,11 @@ node!(
 choice!(
     /// A rule for the wiring or the checks.
     Rule {
-        /// A wish.
+        /// A preference.
         Prefer(Prefer),
-        /// The opposite of a wish.
+        /// The opposite of a preference.
         Avoid(Avoid),
-        /// Pins and peripherals that must be left alone.
+        /// Pins and peripherals that must stay free.
         Reserve(Reserve),
         /// Pins and peripherals that may be used although the board uses them.
         Release(Release),
@@ -40,7 +40,7 @@ choice!(
 );
 
 impl Prefer {
-    /// What is wished for.
+    /// The preferred property.
     #[must_use]
     pub fn property(&self) -> Option<Property> {
         children(&self.0).next()
@@ -48,7 +48,7 @@ impl Prefer {
 }
 
 impl Avoid {
-    /// What is unwelcome.
+    /// The property to avoid.
     #[must_use]
     pub fn property(&self) -> Option<Property> {
         children(&self.0).next()
@@ -75,7 +75,7 @@ impl Allow {
     pub fn code(&self) -> Option<Name> {
         name(&self.0)
     }
-    /// Why it is accepted.
+    /// The reason for accepting it.
     #[must_use]
     pub fn reason(&self) -> Option<StringLiteral> {
         string(&self.0)

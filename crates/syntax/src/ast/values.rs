@@ -1,4 +1,4 @@
-//! Views over names, strings, numbers, lists, and what is computed of them.
+//! Views over names, strings, numbers, lists and expressions.
 
 use super::{AstNode, children, choice, name, node, string, token};
 use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
@@ -49,18 +49,18 @@ choice!(
         String(StringValue),
         /// Several values.
         List(List),
-        /// A sign and what it is of.
+        /// A sign and its operand.
         Signed(Signed),
         /// An expression in parentheses.
         Paren(Paren),
         /// An operation.
         Binary(Binary),
-        /// A range. Lists have them, operations do not.
+        /// A range. It can be in a list, but not in an operation.
         Range(Range),
     }
 );
 
-/// A name as it stands in the text.
+/// A name, as written in the text.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Name(pub(super) SyntaxToken);
 
@@ -70,7 +70,7 @@ impl Name {
     pub fn text(&self) -> &str {
         self.0.text()
     }
-    /// Where it is.
+    /// The range of the name.
     #[must_use]
     pub fn range(&self) -> TextRange {
         self.0.text_range()
@@ -80,8 +80,8 @@ impl Name {
     pub fn token(&self) -> &SyntaxToken {
         &self.0
     }
-    /// The name as it was meant, and where that is. A hyphen cuts a name short, which is a mistake
-    /// that is told: of `NUCLEO-F446RE` this has all, [`Name::text`] the first word.
+    /// The name that was meant, with its range. A hyphen cuts a name short, which is a reported
+    /// mistake: for `NUCLEO-F446RE` this is the whole name, and [`Name::text`] the first word.
     #[must_use]
     pub fn whole(&self) -> (String, TextRange) {
         let rest = self.0.next_sibling_or_token().and_then(rowan::NodeOrToken::into_node);
@@ -95,17 +95,17 @@ impl Name {
     }
 }
 
-/// A string as it stands in the text.
+/// A string, as written in the text.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct StringLiteral(pub(super) SyntaxToken);
 
 impl StringLiteral {
-    /// The text that is meant: without the quotes, the escapes replaced.
+    /// The content of the string: without the quotes, with escapes replaced.
     #[must_use]
     pub fn value(&self) -> String {
         literal::unescape(self.0.text())
     }
-    /// Where it is, with the quotes.
+    /// The range of the string, including the quotes.
     #[must_use]
     pub fn range(&self) -> TextRange {
         self.0.text_range()
@@ -117,7 +117,7 @@ impl StringLiteral {
     }
 }
 
-/// The sign that is written before a number.
+/// The sign before a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sign {
     /// `+`
@@ -129,24 +129,24 @@ pub enum Sign {
 /// A number without its sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Magnitude {
-    /// An integer, exactly.
+    /// An exact integer.
     Integer(u64),
     /// A number with a fraction or an exponent; always finite.
     Float(f64),
 }
 
 impl Number {
-    /// The sign, when one is written.
+    /// The sign, if one is written.
     #[must_use]
     pub fn sign(&self) -> Option<Sign> {
         sign(&self.0)
     }
-    /// Whether it is a code and not the shown value: `raw 307`.
+    /// Whether it is a code, not a shown value: `raw 307`.
     #[must_use]
     pub fn is_raw(&self) -> bool {
         token(&self.0, SyntaxKind::RawKw).is_some()
     }
-    /// The number without its sign; `None` where it is out of range, which is an error already.
+    /// The number without its sign; `None` if it is out of range, which is already an error.
     #[must_use]
     pub fn magnitude(&self) -> Option<Magnitude> {
         if let Some(digits) = token(&self.0, SyntaxKind::Int) {
@@ -154,17 +154,17 @@ impl Number {
         }
         literal::float(token(&self.0, SyntaxKind::Float)?.text()).map(Magnitude::Float)
     }
-    /// The digits as they are written, without sign and unit.
+    /// The digits as written, without sign and unit.
     #[must_use]
     pub fn digits(&self) -> Option<SyntaxToken> {
         token(&self.0, SyntaxKind::Int).or_else(|| token(&self.0, SyntaxKind::Float))
     }
-    /// The unit; `None` also where there is no such unit, which is an error already.
+    /// The unit; `None` also if there is no such unit, which is already an error.
     #[must_use]
     pub fn unit(&self) -> Option<Unit> {
         Unit::from_name(self.unit_token()?.text())
     }
-    /// The unit as it is written.
+    /// The unit as written.
     #[must_use]
     pub fn unit_token(&self) -> Option<SyntaxToken> {
         token(&self.0, SyntaxKind::Unit)
@@ -194,7 +194,7 @@ impl List {
     }
 }
 
-/// What is done with two operands.
+/// The operator between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operator {
     /// `+`
@@ -222,8 +222,8 @@ impl Signed {
     pub fn sign(&self) -> Option<Sign> {
         sign(&self.0)
     }
-    /// What it is of: a name, an expression in parentheses, something signed; by the grammar also a
-    /// text or a list, of which there is no negative.
+    /// The operand: a name, an expression in parentheses, or another signed value; the grammar also
+    /// allows a text or a list, which cannot be negative.
     #[must_use]
     pub fn value(&self) -> Option<Value> {
         children(&self.0).next()
@@ -244,7 +244,7 @@ impl Binary {
     pub fn operator(&self) -> Option<Operator> {
         self.operator_and_token().map(|found| found.0)
     }
-    /// The operator as it stands in the text.
+    /// The operator's token.
     #[must_use]
     pub fn operator_token(&self) -> Option<SyntaxToken> {
         self.operator_and_token().map(|found| found.1)
@@ -278,7 +278,7 @@ impl Range {
     }
 }
 
-/// The value on one side of a token. The one on the other may be missing.
+/// The value on one side of a token. The value on the other side may be missing.
 fn operand(node: &SyntaxNode, middle: &SyntaxToken, before: bool) -> Option<Value> {
     let start = middle.text_range().start();
     children(node).find(|value: &Value| (value.range().start() < start) == before)

@@ -1,8 +1,8 @@
-//! Values: numbers, names, texts, lists, and what is computed of them.
+//! Values: numbers, names, texts, lists and expressions.
 //!
-//! Every function here says how high the tree is that it has built. Blocks, lists and expressions
-//! together are never deeper than the limit, so whoever walks the tree may do so by recursion; that
-//! is why a chain of operators, whose tree leans to the left, counts with each of them.
+//! Every function here returns the height of the tree that it has built. Blocks, lists and
+//! expressions together are never deeper than the limit, so the tree can be walked by recursion.
+//! That is why each operator of a chain, whose tree leans to the left, counts.
 
 use super::{NESTING_LIMIT, Parser};
 use crate::error::{Expected, SyntaxErrorKind};
@@ -26,7 +26,7 @@ impl<'a> Parser<'a> {
                     | SyntaxKind::LParen
                     | SyntaxKind::Plus
                     | SyntaxKind::Minus
-                    // No value begins with these: what is missing before them is told there.
+                    // No value begins with these; a missing operand before them is reported there.
                     | SyntaxKind::Star
                     | SyntaxKind::Slash
                     | SyntaxKind::DotDot
@@ -34,7 +34,7 @@ impl<'a> Parser<'a> {
         )
     }
 
-    /// An expression, or a range of two; the caller has seen that one begins here.
+    /// An expression, or a range of two; the caller has checked that one begins here.
     pub(super) fn value(&mut self) -> usize {
         let start = self.checkpoint();
         let mut height = 0;
@@ -65,7 +65,7 @@ impl<'a> Parser<'a> {
         self.chain([SyntaxKind::Star, SyntaxKind::Slash], Self::factor)
     }
 
-    /// Operands with operators of one precedence between them.
+    /// Operands separated by operators of one precedence.
     fn chain(&mut self, operators: [SyntaxKind; 2], operand: Operand<'a>) -> usize {
         let start = self.checkpoint();
         let mut height = operand(self);
@@ -84,7 +84,8 @@ impl<'a> Parser<'a> {
         height
     }
 
-    /// What must follow an operator, a sign, a `(` or a `..`. The next statement does not.
+    /// The operand that must follow an operator, a sign, a `(` or a `..`. The next statement is not
+    /// taken for one.
     fn operand(&mut self, parse: Operand<'a>, expected: Expected) -> usize {
         let begins = self.at_value() && !self.at(SyntaxKind::DotDot);
         if begins && !(self.begins_line() && self.at_item()) {
@@ -129,21 +130,21 @@ impl<'a> Parser<'a> {
         self.finish();
         if !self.at_unit() {
         } else if has_hyphen {
-            // The unit of `N-5 ms`, which is told as a hyphen.
+            // The unit in `N-5 ms`, which is reported as a hyphen.
             self.bump_error();
         } else {
             self.unit_alone();
         }
     }
 
-    /// Whether a code stands here: `raw 307`, `raw -20`.
+    /// Whether a code follows: `raw 307`, `raw -20`.
     fn at_raw(&self) -> bool {
         let is_number = |n| self.nth_at(n, SyntaxKind::Int) || self.nth_at(n, SyntaxKind::Float);
         let is_sign = self.nth_at(1, SyntaxKind::Plus) || self.nth_at(1, SyntaxKind::Minus);
         self.nth_word(0, "raw") && (is_number(1) || (is_sign && self.touches(2) && is_number(2)))
     }
 
-    /// A number, at `raw`, its sign or its digits.
+    /// A number, at its `raw`, its sign or its digits.
     fn number(&mut self) {
         self.start(SyntaxKind::Number);
         if self.at(SyntaxKind::Ident) {
@@ -157,7 +158,7 @@ impl<'a> Parser<'a> {
         self.finish();
     }
 
-    /// A sign and its number, or a sign and what else has one.
+    /// A sign and its number, or a sign and another operand.
     fn signed(&mut self) -> usize {
         if self.nth_at(1, SyntaxKind::Int) || self.nth_at(1, SyntaxKind::Float) {
             self.number();
@@ -209,7 +210,8 @@ impl<'a> Parser<'a> {
         height + 1
     }
 
-    /// Whether a `)` follows before the value must end. The bound keeps this from quadratic time.
+    /// Whether a `)` follows before the value must end. The limit keeps this from taking quadratic
+    /// time.
     fn closes_soon(&self) -> bool {
         let ends = |kind| {
             matches!(
@@ -226,7 +228,7 @@ impl<'a> Parser<'a> {
         end.is_some_and(|token| token.kind == SyntaxKind::RParen)
     }
 
-    /// The word after a number on its line is its unit, unless it begins the next statement.
+    /// Takes the word after a number on its line as its unit, unless it begins the next statement.
     fn unit(&mut self) {
         let begins_next = self.begins_line() || (!self.touches(0) && self.at_item());
         if !self.at(SyntaxKind::Ident) || begins_next {
@@ -240,7 +242,7 @@ impl<'a> Parser<'a> {
         self.bump_as(SyntaxKind::Unit);
     }
 
-    /// Whether a unit follows on the line of what is not a number.
+    /// Whether a unit follows on the same line, after something that is not a number.
     fn at_unit(&self) -> bool {
         let is_unit = self.at(SyntaxKind::Ident) && Unit::from_name(self.nth_text(0)).is_some();
         is_unit && !self.begins_line() && !self.at_item()
@@ -271,10 +273,10 @@ impl<'a> Parser<'a> {
         height + 1
     }
 
-    /// The values of a list up to its `]` or to where it must end without one.
+    /// The values of a list, up to its `]` or to where a list without one must end.
     fn list_values(&mut self) -> usize {
         let mut height = 0;
-        // The last comma, while no value has followed it.
+        // The last comma, as long as no value has followed it.
         let mut comma = None;
         let mut after_value = false;
         loop {
@@ -310,13 +312,13 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Steps over the rest of a value that nests too deep, without recursion.
+    /// Skips the rest of a value that nests too deeply, without recursion.
     fn too_deep(&mut self) {
         self.complain(SyntaxErrorKind::NestingTooDeep { limit: NESTING_LIMIT }, self.here());
         self.skip_value();
     }
 
-    /// Steps over the next token, and what follows up to the end of the value.
+    /// Skips the next token and everything up to the end of the value.
     fn skip_value(&mut self) {
         self.start(SyntaxKind::Error);
         let mut open = 0_usize;
@@ -339,7 +341,7 @@ impl<'a> Parser<'a> {
         self.finish();
     }
 
-    /// Where a node may begin later; the trivia before it stay outside.
+    /// A place where a node may begin later; the trivia before it stays outside.
     fn checkpoint(&mut self) -> Checkpoint {
         self.build_trivia();
         self.builder.checkpoint()

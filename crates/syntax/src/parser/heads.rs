@@ -1,4 +1,4 @@
-//! The heads of blocks: what stands between the keyword and the `{`.
+//! The heads of blocks: everything between the keyword and the `{`.
 
 use super::Parser;
 use crate::error::{Block, Expected, Item, SyntaxErrorKind};
@@ -13,7 +13,7 @@ impl Parser<'_> {
         } else {
             self.bump_as(SyntaxKind::BoardKw);
         }
-        // `board on X {` lacks its name; `board on {` is named so.
+        // `board on X {` lacks its name; `board on {` is named `on`.
         let source = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Str);
         if self.at_word("on") && source(1) && !self.nth_word(1, "on") {
             self.expected(Expected::NameOf(Item::Board));
@@ -47,7 +47,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// What has a type: a sensor, an actuator, a reading or a command.
+    /// A block with a type: a sensor, an actuator, a reading or a command.
     pub(super) fn valued(&mut self, block: Block) {
         let (node, item, first) = if block == Block::Reading {
             (SyntaxKind::Reading, Item::Reading, SyntaxKind::ReadingKw)
@@ -83,14 +83,14 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// Whether a pin stands where a type does, in the words of a wiring list: `sensor Front on PA0`.
+    /// Whether a pin is in the place of a type, as in a wiring list: `sensor Front on PA0`.
     fn at_pin(&self) -> bool {
         let is_at = ["on", "at", "pin"].iter().any(|word| self.at_word(word));
         let is_pin = self.nth_at(1, SyntaxKind::Ident) && !self.nth_begins_line(1);
         is_at && is_pin && !self.begins_line()
     }
 
-    /// The pin, told once, and the block or the `;` behind it.
+    /// The pin, reported once, and the block or the `;` after it.
     fn pin_in_head(&mut self, block: Block, head: String) {
         let pin = self.nth_text(1).to_owned();
         self.report(SyntaxErrorKind::PinInHead { head, pin }, self.here());
@@ -105,7 +105,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What may be for a kind: a driver or a connection.
+    /// A block that may be for a kind: a driver or a connection.
     pub(super) fn wired(&mut self, block: Block) {
         let (node, item, first) = if block == Block::Driver {
             (SyntaxKind::Driver, Item::Driver, SyntaxKind::DriverKw)
@@ -119,7 +119,7 @@ impl Parser<'_> {
         } else {
             self.name(Expected::NameOf(item));
         }
-        // A word on the line is a kind without its `for`, or a misspelled one.
+        // A word on the same line is a kind without its `for`, or a misspelled `for`.
         if self.at_word("for") || (self.at(SyntaxKind::Ident) && !self.begins_line()) {
             self.keyword("for", SyntaxKind::ForKw);
             self.start(SyntaxKind::Kind);
@@ -130,7 +130,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// A keyword within a head. Another word in its place is stepped over.
+    /// A keyword within a head. Another word in its place is skipped.
     fn keyword(&mut self, word: &'static str, kind: SyntaxKind) {
         if self.at_word(word) {
             self.bump_as(kind);

@@ -1,5 +1,5 @@
-//! Blocks and their items: what begins an item, what may stand where, and where a block ends that
-//! was never closed.
+//! Blocks and their items: what begins an item, what is allowed where, and where an unclosed block
+//! ends.
 
 use sensedsl_diagnostics::{distance, nearest};
 
@@ -156,13 +156,13 @@ impl Parser<'_> {
         self.block = outer;
     }
 
-    /// The `{` of a block. Returns whether items follow, be it that the `{` itself is missing.
+    /// The `{` of a block. Returns whether items follow, even if the `{` itself is missing.
     fn open_brace(&mut self) -> bool {
         if self.eat(SyntaxKind::LBrace) {
             return true;
         }
         self.expected(Expected::OpenBrace);
-        // Words too many before the `{`, on its line. The bound keeps this from quadratic time.
+        // Extra words before the `{`, on its line. The limit keeps this from taking quadratic time.
         let between = |parser: &Self, n: usize| {
             parser.nth(n).is_some_and(|token| {
                 !matches!(
@@ -204,7 +204,7 @@ impl Parser<'_> {
         self.report(SyntaxErrorKind::MissingCloseBrace { block, open }, self.gap());
     }
 
-    /// Parses one item. Returns false, without consuming anything, where the block must end.
+    /// Parses one item. Returns false, without consuming anything, if the block must end.
     fn item(&mut self) -> bool {
         if !self.at(SyntaxKind::Ident) {
             self.stray();
@@ -222,15 +222,15 @@ impl Parser<'_> {
         true
     }
 
-    /// The keyword of the item that begins here, if one does.
+    /// The keyword of the item that begins here, if any.
     fn keyword_ahead(&self) -> Option<Keyword> {
         let keyword = Keyword::from_word(self.nth_text(0))?;
         (allows(self.block, keyword.item()) || self.has_shape(keyword)).then_some(keyword)
     }
 
-    /// Whether what follows the next word is as it must be after this keyword. With this a misspelled
-    /// keyword is told from a property without `=`, and an item in the wrong block from a property
-    /// of the same name.
+    /// Whether the tokens after the next word fit this keyword. This distinguishes a misspelled
+    /// keyword from a property without `=`, and an item in the wrong block from a property with the
+    /// same name.
     fn has_shape(&self, keyword: Keyword) -> bool {
         let ident = |n| self.nth_at(n, SyntaxKind::Ident);
         match keyword {
@@ -263,7 +263,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether a property or an item visibly begins here.
+    /// Whether a property or an item clearly begins here.
     pub(super) fn at_item(&self) -> bool {
         let keyword = || Keyword::from_word(self.nth_text(0));
         self.at_property() || keyword().is_some_and(|keyword| self.has_shape(keyword))
@@ -299,7 +299,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A word that is not a keyword and has no `=` after it.
+    /// Reports a word that is not a keyword and has no `=` after it.
     fn unknown_item(&mut self) {
         let (word, block) = (self.nth_text(0), self.block);
         let allowed = KEYWORDS.into_iter().filter(|entry| allows(block, entry.1.item()));
@@ -322,7 +322,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether this word is rather a property without `=` or value than an unknown item.
+    /// Whether this word is more likely a property without `=` or value than an unknown item.
     fn at_broken_property(&self) -> bool {
         let end = self.name_end(0);
         let Some(next) = self.nth(end) else { return true };

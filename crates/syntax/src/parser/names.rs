@@ -5,10 +5,10 @@ use crate::error::{Expected, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
 impl Parser<'_> {
-    /// The token after the name that begins `n` tokens ahead. Hyphens between touching words count
-    /// to the name, so that `STM32F407G-DISC1` is one mistake and not several.
+    /// The index of the token after the name that begins `n` tokens ahead. Hyphens between touching
+    /// words are part of the name, so that `STM32F407G-DISC1` is one mistake, not several.
     pub(super) fn name_end(&self, n: usize) -> usize {
-        // More words than any name has; without a bound, looking ahead would take quadratic time.
+        // More words than any name has. Without a limit, looking ahead would take quadratic time.
         let last = n + 16;
         let mut end = n + 1;
         let word = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Int);
@@ -23,8 +23,7 @@ impl Parser<'_> {
         end
     }
 
-    /// A name; or a complaint that it is missing, after which a number or string in its place is
-    /// stepped over.
+    /// A name. If it is missing, reports that and skips a number or string in its place.
     pub(super) fn name(&mut self, expected: Expected) {
         match self.kind() {
             Some(SyntaxKind::Ident) => {}
@@ -58,7 +57,7 @@ impl Parser<'_> {
             let suggestion = name.replace('-', "_");
             let in_value = expected == Expected::Value;
             self.report(SyntaxErrorKind::HyphenInName { name, suggestion, in_value }, range);
-            // The report lies behind: what comes next may be wrong for its own reason.
+            // The reported mistake is over: what comes next may be wrong for a different reason.
             self.complained = None;
         }
     }
@@ -94,7 +93,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// Whether several words stand here, as in `unsigned int {`.
+    /// Whether several words are here, as in `unsigned int {`.
     fn at_type_of_words(&self) -> bool {
         let is_word = |n: usize| self.nth_at(n, SyntaxKind::Ident) && !self.nth_begins_line(n);
         let end = (1..4).find(|&n| !is_word(n)).unwrap_or(4);
@@ -114,7 +113,7 @@ impl Parser<'_> {
         self.report(SyntaxErrorKind::TypeOfWords { name }, start.cover(self.gap()));
     }
 
-    /// A number or the name of a constant. An expression is reported and stepped over.
+    /// A number or the name of a constant. An expression is reported and skipped.
     fn array_length(&mut self) {
         let is_plain = matches!(self.kind(), Some(SyntaxKind::Int | SyntaxKind::Ident));
         let operator = |kind: Option<SyntaxKind>| {

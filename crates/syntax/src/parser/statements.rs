@@ -1,12 +1,13 @@
-//! Statements that end with `;`: `use`, constants, properties and rules; and how to go on after a broken one.
+//! Statements that end with `;` (`use`, constants, properties and rules), and how to continue after
+//! a broken one.
 
 use super::Parser;
 use super::items::RuleKeyword;
 use crate::error::{Block, Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
-/// Properties whose value may itself say that something has a value: `mux = Page = 3`. Of any other a second `=` is the
-/// next property, whose `;` before it is missing.
+/// Properties whose value may itself be a name with a value: `mux = Page = 3`. For any other
+/// property, a second `=` belongs to the next property, and the `;` before it is missing.
 const PAIRED: &[&str] = &["mux"];
 
 impl Parser<'_> {
@@ -27,7 +28,7 @@ impl Parser<'_> {
         let is_next = self.begins_line() && self.at_item() && !self.at_property();
         if self.at(SyntaxKind::Ident) && !is_next {
             if self.nth_at(1, SyntaxKind::Ident) && self.nth_at(2, SyntaxKind::Eq) {
-                // A type, as other languages have it.
+                // A type, as in other languages.
                 self.expected(Expected::NameOf(Item::Const));
                 self.bump_error();
             }
@@ -80,7 +81,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `NAME = VALUE` as a value: a list of the two.
+    /// `NAME = VALUE` as a value, which is a list of the two.
     fn pair(&mut self) {
         self.start(SyntaxKind::List);
         self.start(SyntaxKind::NameValue);
@@ -95,7 +96,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// `->` and `+=` in place of `=`.
+    /// `->` and `+=` instead of `=`.
     fn other_assignment(&mut self, property: &str) {
         use SyntaxKind::{Minus, Plus, Slash, Star, Unknown};
         if !matches!(self.kind(), Some(Plus | Minus | Star | Slash)) || self.begins_line() {
@@ -174,7 +175,7 @@ impl Parser<'_> {
         self.end_statement();
     }
 
-    /// The `;` of a statement. What stands before it on the line is stepped over.
+    /// The `;` of a statement. Skips anything before it on the line.
     pub(super) fn end_statement(&mut self) {
         if self.eat(SyntaxKind::Semicolon) {
             return;
@@ -197,7 +198,7 @@ impl Parser<'_> {
         self.eat(SyntaxKind::Semicolon);
     }
 
-    /// Whether a statement cannot go on with the next token.
+    /// Whether the next token cannot continue a statement.
     pub(super) fn at_statement_end(&self) -> bool {
         match self.kind() {
             None | Some(SyntaxKind::Semicolon | SyntaxKind::RBrace) => true,
@@ -205,7 +206,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Consumes one token, or all of a block.
+    /// Consumes one token, or a whole block.
     pub(super) fn bump_group(&mut self) {
         if self.at(SyntaxKind::LBrace) {
             self.bump_braces();
@@ -214,14 +215,14 @@ impl Parser<'_> {
         }
     }
 
-    /// A token where an item should begin.
+    /// Reports a token where an item should begin.
     pub(super) fn stray(&mut self) {
         let (found, block) = (self.found(), self.block);
         self.report(SyntaxErrorKind::StrayToken { found, block }, self.here());
         self.skip_statement();
     }
 
-    /// Puts one statement or block that is not understood into an `Error` node.
+    /// Puts a statement or block that is not understood into an `Error` node.
     pub(super) fn skip_statement(&mut self) {
         self.start(SyntaxKind::Error);
         loop {

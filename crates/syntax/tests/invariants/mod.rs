@@ -1,5 +1,5 @@
-//! What holds for every text: the tree spells it, each mistake has a place in it, and the layout keeps
-//! its tokens and is stable.
+//! What holds for every text: the tree spells it, each mistake has a place in it, and the layout
+//! keeps its tokens and is stable.
 
 use proptest::prelude::*;
 use sensedsl_syntax::{SyntaxElement, SyntaxKind, parse};
@@ -12,7 +12,7 @@ fn tokens(text: &str) -> Vec<(SyntaxKind, String)> {
     meaningful.map(|token| (token.kind(), token.text().to_owned())).collect()
 }
 
-/// The comments of a text, white space at the ends of their lines aside.
+/// The comments of a text, ignoring white space at the ends of their lines.
 fn comments(text: &str) -> Vec<String> {
     let elements = parse(text).syntax().descendants_with_tokens();
     let comments =
@@ -24,12 +24,12 @@ fn comments(text: &str) -> Vec<String> {
     comments.map(|token| trimmed(token.text())).collect()
 }
 
-/// Whether all that holds for every text holds for this one.
+/// Checks that everything that holds for every text holds for this one.
 pub(crate) fn check(text: &str) -> Result<(), TestCaseError> {
     let parsed = parse(text);
     prop_assert_eq!(parsed.syntax().text().to_string(), text);
     for error in parsed.errors() {
-        // Slicing panics when a range is outside the text or splits a character.
+        // Slicing panics if a range is outside the text or splits a character.
         let _ = &text[error.range];
     }
     let has_error_node = parsed.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);

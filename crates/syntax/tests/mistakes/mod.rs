@@ -1,4 +1,4 @@
-//! Texts and what is reported for each, as `line:column`, the text that is marked and the mistake.
+//! Texts and what is reported for each: `line:column`, the marked text and the mistake.
 
 use sensedsl_syntax::{SyntaxError, parse};
 

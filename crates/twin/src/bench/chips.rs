@@ -15,9 +15,9 @@ pub(super) struct Chip {
     pub(super) part: PartIndex,
     name: String,
     pub(super) unit: u8,
-    /// On I2C.
+    /// The address; only on I2C.
     pub(super) address: Option<u8>,
-    /// On SPI: the connection whose chip select it is.
+    /// On SPI, the connection that has its chip select.
     pub(super) connection: ConnectionIndex,
     pub(super) is_selected: bool,
     pub(super) registers: Registers,
@@ -28,12 +28,12 @@ pub(super) struct Chip {
 pub struct Unasked {
     /// Its name.
     pub name: String,
-    /// Its driver says who it is, so that the board should have asked.
+    /// Whether its driver gives an identity to compare with, so that the board should have asked.
     pub is_known: bool,
 }
 
 impl Bench {
-    /// The parts on buses that the board has read without asking who they are.
+    /// The parts on buses that the board has read without asking for their identity.
     #[must_use]
     pub fn unasked(&self) -> Vec<Unasked> {
         let all = self.chips.iter().filter_map(|one| {
@@ -43,14 +43,15 @@ impl Bench {
         all.collect()
     }
 
-    /// The parts on buses with which the board has done something that their drivers do not say, and what.
+    /// The parts on buses that the board has treated in a way that their drivers do not describe, each with what
+    /// happened.
     #[must_use]
     pub fn odd_transfers(&self) -> Vec<(String, String)> {
         let odd = |one: &Chip| {
             let of_bus = self.chips.iter().filter(|other| other.unit == one.unit).count();
             let registers = &one.registers;
             let told = registers.odd().map(str::to_owned);
-            // What a fault of the world has undone may not be done again yet.
+            // Settings that a fault of the world has undone may not have been restored yet.
             let not_set_up = || registers.not_set_up().filter(|_| self.faults.is_empty());
             let not_left_alone = || registers.not_left_alone().filter(|_| self.faults.is_empty());
             let parts = u64::try_from(of_bus).unwrap_or(u64::MAX);
@@ -60,7 +61,7 @@ impl Bench {
         self.chips.iter().filter_map(|one| Some((one.name.clone(), odd(one)?))).collect()
     }
 
-    /// From one measurement of a part to the next, where it measures at a pace of its own; otherwise 0.
+    /// The time from one measurement of a part to the next if it measures at its own pace; otherwise 0.
     pub(crate) fn held_ns(&self, part: PartIndex) -> u64 {
         let own = self.chips.iter().filter(|one| one.part == part);
         own.map(|one| one.registers.held_ns()).max().unwrap_or(0)

@@ -1,28 +1,29 @@
-//! A log of what an emulated MCU puts on its pads and buses, a line each: when, where, what.
+//! A log of everything that an emulated MCU puts on its pads and buses, one event a line: time,
+//! place, event.
 
 use std::fmt::{Display, Write as _};
 
 use super::Bench;
 use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply};
 
-/// The lines so far.
+/// The lines so far, as CSV.
 #[derive(Clone, Debug)]
 pub(super) struct Log(String);
 
 impl Bench {
-    /// From now on everything that comes out of the MCU is written down.
+    /// Starts the log: everything that leaves the MCU from now on is written to it.
     pub fn start_log(&mut self) {
         self.log = Some(Log("time_ns,place,what\n".to_owned()));
     }
 
-    /// What was written down.
+    /// The log so far; logging stops.
     pub fn take_log(&mut self) -> Option<String> {
         self.log.take().map(|log| log.0)
     }
 
     pub(super) fn note(&mut self, now_ns: u64, place: impl Display, what: impl Display) {
         if let Some(log) = &mut self.log {
-            // A text takes everything.
+            // Writing to a string cannot fail.
             let _ = writeln!(log.0, "{now_ns},{place},{what}");
         }
     }

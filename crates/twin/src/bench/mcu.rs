@@ -1,4 +1,4 @@
-//! The bench as an emulated MCU sees it: by pads and units.
+//! The bench as an emulated MCU sees it: addressed by pads and units.
 
 use sensedsl_model::design::PartIndex;
 use sensedsl_model::kind::Role;
@@ -16,7 +16,7 @@ impl Surroundings for Bench {
         let (connection, role) = *self.pads.get(&pad)?;
         let unit = self.chips.iter().find(|one| one.connection == connection).map(|one| one.unit);
         match (role, unit) {
-            // The lines of a bus have their resistors.
+            // The lines of a bus have pull-up resistors.
             (Role::Scl, Some(unit)) => Some(!self.is_held(FaultKind::Hang, unit, now_ns)),
             (Role::Sda, Some(unit)) => Some(!self.is_held(FaultKind::StuckSda, unit, now_ns)),
             (_, _) => self.level_at(connection, role, now_ns),
@@ -116,7 +116,7 @@ impl Surroundings for Bench {
 }
 
 impl Bench {
-    /// What an I2C bus answers.
+    /// The reply on an I2C bus.
     fn reply(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
         if self.is_held(FaultKind::StuckSda, unit, now_ns) {
             return I2cReply::Stuck;

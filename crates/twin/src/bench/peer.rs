@@ -1,4 +1,4 @@
-//! CAN buses with somebody else on them: frames that come and go, in place of the stations of the world.
+//! CAN buses with a peer on them: another program's frames replace those of the world's stations.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -9,10 +9,10 @@ use sensedsl_model::kind::Kind;
 use super::Bench;
 use sensedsl_surroundings::CanFrame;
 
-/// Frames that wait at most, each way: a peer that does not read loses the oldest.
+/// The most frames that wait in each direction: a peer that does not read loses the oldest ones.
 const WAITING_MAX: usize = 4_096;
 
-/// The buses of a board as its peer sees them. Clones are the same buses.
+/// The CAN buses of a board as its peer sees them. All clones are the same buses.
 #[derive(Clone, Debug, Default)]
 pub struct Peer {
     units: BTreeSet<u8>,
@@ -26,7 +26,7 @@ struct Lines {
 }
 
 impl Bench {
-    /// Puts somebody else on the CAN buses of the board: from now on what the world says of devices there is not sent.
+    /// Puts a peer on the CAN buses of the board: from now on, the frames of the world's devices there are not sent.
     pub fn open_can(&mut self, job: &BoardJob<'_>) -> Peer {
         let on_can =
             job.connections.iter().filter(|one| matches!(one.connection.kind, Kind::Can(_)));
@@ -38,7 +38,7 @@ impl Bench {
 }
 
 impl Peer {
-    /// The numbers of the buses.
+    /// The unit numbers of the buses.
     pub fn units(&self) -> impl Iterator<Item = u8> + '_ {
         self.units.iter().copied()
     }
@@ -48,7 +48,7 @@ impl Peer {
         push(&mut self.lines().to_board, unit, frame);
     }
 
-    /// What the board has sent on a bus since the last call.
+    /// The frames that the board has sent on a bus since the last call.
     #[must_use]
     pub fn receive(&self, unit: u8) -> Vec<CanFrame> {
         let mut lines = self.lines();
@@ -71,7 +71,7 @@ impl Peer {
     }
 
     fn lines(&self) -> MutexGuard<'_, Lines> {
-        // Queues are whole whatever happened to who held them.
+        // A queue is consistent even if a thread panicked while it held the lock.
         self.lines.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,23 +1,23 @@
-//! What the host does to a board, and what comes out of it.
+//! The host's commands to a board, and the board's outputs.
 
 use super::Bench;
 use crate::commands::Command;
 use crate::commands::outputs::{Outputs, Recorder};
 
 impl Bench {
-    /// Whether the world does something to the board itself or to its link.
+    /// Whether the world disturbs the board itself or its link.
     #[must_use]
     pub fn is_disturbed(&self) -> bool {
         self.faults.iter().any(|one| one.kind.is_of_board())
     }
 
-    /// What the board puts out.
+    /// The outputs of the board.
     #[must_use]
     pub const fn outputs(&self) -> &Outputs {
         self.recorder.outputs()
     }
 
-    /// What the world has the host set.
+    /// The commands that the world has the host send.
     #[must_use]
     pub fn commands(&self) -> &[Command] {
         &self.commands

@@ -1,14 +1,15 @@
 //! The numbers of a board's peripheral instances.
 //!
-//! Emulated MCUs know their units by number. Boards that no emulator runs may have units without one (`TWI`, `SPI` of an
-//! AVR), or two of a kind that end in the same one (`USART1`, `LPUART1`): these get numbers that no unit of theirs has.
+//! Emulated MCUs know their units by number. Boards that cannot be emulated may have units without a number (`TWI`,
+//! `SPI` of an AVR), or two of a kind that end in the same number (`USART1`, `LPUART1`). Such units get numbers that no
+//! other unit has.
 
 use std::collections::BTreeMap;
 
 use sensedsl_job::BoardJob;
 use sensedsl_model::kind::KindName;
 
-/// Where the numbers begin of units that have none of their own.
+/// The first number for units that have none of their own.
 const OTHERS_FROM: u8 = 128;
 
 /// The numbers of all units that devices are wired to.
@@ -44,7 +45,7 @@ impl Units {
 #[must_use]
 pub fn number_of(unit: &str) -> Option<u8> {
     let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
-    // `I2C3`: what stands behind the last letter.
+    // `I2C3`: the number is after the last letter.
     let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
     last.parse().ok()
 }

@@ -1,4 +1,4 @@
-//! What came out of a board against what must come out.
+//! Comparison of a board's outputs with the expected ones.
 
 use sensedsl_model::design::ConnectionIndex;
 
@@ -7,14 +7,14 @@ use super::outputs::Outputs;
 use super::written::Written;
 use sensedsl_surroundings::CanFrame;
 
-/// How many bytes of a transfer are shown.
+/// The number of bytes of a transfer that are shown.
 const SHOWN: usize = 24;
 
-/// How late the first of repeated frames may be.
+/// The latest time at which the first of repeated frames may come.
 const FIRST_NS: u64 = 40_000_000;
 
-/// What is there in place of what must be; none where it is as it must be. Transfers, messages and frames count since
-/// a time.
+/// The output found instead of the expected one; `None` if it is as expected. Only transfers, messages and frames after
+/// a given time count.
 pub(super) fn differs(
     one: &Expected,
     outputs: &Outputs,
@@ -54,7 +54,7 @@ pub(super) fn differs(
     }
 }
 
-/// The last transfer of that sort: with its beginning and length, else any.
+/// The last transfer with the same start and length, otherwise the last one of any kind.
 fn last_write(
     at: ConnectionIndex,
     outputs: &Outputs,
@@ -68,7 +68,7 @@ fn last_write(
     alike.or_else(|| outputs.writes(at, since_ns).last()).map(<[u8]>::to_vec)
 }
 
-/// A timer counts whole ticks of its clock, and has 65,536 of them at most.
+/// A timer counts whole ticks of its clock, at most 65,536 of them.
 fn is_same(wanted: Option<(u64, u64)>, found: Option<(u64, u64)>) -> bool {
     let (period_ns, width_ns) = wanted.unwrap_or((0, 0));
     let (found_period_ns, found_width_ns) = found.unwrap_or((0, 0));
@@ -97,7 +97,7 @@ fn frame(sent: &Sent, outputs: &Outputs, since_ns: u64) -> Option<String> {
     (!is_right).then(|| data(found))
 }
 
-/// A frame that is repeated, but not as often as it must be.
+/// A frame that is repeated, but less often than it must be.
 fn too_seldom(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> Option<String> {
     let span_ns = now_ns.saturating_sub(since_ns + FIRST_NS);
     let wanted = (span_ns / 10 * 9).checked_div(sent.resend_ns)?;
@@ -109,8 +109,8 @@ fn too_seldom(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) ->
     (found < wanted).then(|| format!("only {found} times in {span_ms} ms"))
 }
 
-/// A frame that comes more often than it is set and repeated. Each device of it may be set twice meanwhile.
-/// Frames that select their contents are left out: nothing says how often each is repeated.
+/// A frame that comes more often than commands and repetition explain. Each of its devices may be set twice in that
+/// time. Multiplexed frames are left out: nothing tells how often each of them is repeated.
 fn too_often(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> Option<String> {
     if sent.select.0 != 0 {
         return None;
@@ -125,7 +125,7 @@ fn too_often(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> 
     (found > most).then(|| format!("it {found} times in {} ms", span_ns / 1_000_000))
 }
 
-/// What must be there, for people.
+/// The expected output, as text for people.
 pub(super) fn shown(one: &Expected) -> String {
     match &one.what {
         What::Level(_, high) => level(*high).to_owned(),

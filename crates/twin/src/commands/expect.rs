@@ -1,7 +1,7 @@
-//! What must come out of a board, by an own reading of its design: nothing here is shared with the generators, with
-//! their tables or with the runtimes.
+//! The expected outputs of a board, from an independent reading of its design: nothing here is shared with the
+//! generators, their tables or the runtimes.
 //!
-//! In: a device and the raw values that it has been set to. Out: what each of its wires must carry.
+//! In: a device and the raw values that it has been set to. Out: the signal that each of its wires must carry.
 
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
@@ -18,48 +18,48 @@ use crate::parts::{message, words};
 
 /// The value of the longest pulse.
 pub(super) const FULL_LEVEL: f64 = 10_000.0;
-/// The code of a converter's reference.
+/// The code that stands for a converter's reference voltage.
 pub(super) const FULL_CODE: f64 = 4_095.0;
 const REFERENCE_MV: f64 = 3_300.0;
 const FRAME_BYTES: u16 = 8;
 
-/// What one wire must carry.
+/// The expected output of one wire.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Expected {
     pub(super) element: usize,
-    /// For people: `Left.in1 at PB4`.
+    /// The wire, for people: `Left.in1 at PB4`.
     pub(super) wire: String,
     pub(super) at: ConnectionIndex,
     pub(super) what: What,
 }
 
-/// What that is.
+/// The expected level, pulses, voltage or data.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum What {
     Level(Role, bool),
-    /// Period and width in nanoseconds; none where there must be no pulses.
+    /// Period and width in nanoseconds; `None` if there must be no pulses.
     Pulses(Option<(u64, u64)>),
     Millivolts(f64),
     Write(Written),
-    /// A message of a serial port.
+    /// The unit of a serial port, and a message on it.
     Message(u8, Vec<u8>),
     Frame(Sent),
 }
 
-/// A value in a frame of CAN.
+/// A value in a CAN frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sent {
     pub(super) unit: u8,
     pub(super) identifier: u32,
     pub(super) is_extended: bool,
     pub(super) length: u8,
-    /// The bits of the frame that are the value's, and what is in them: byte 0 is the lowest.
+    /// The bits of the frame that belong to the value, and their contents: byte 0 is the lowest.
     pub(super) bits: (u64, u64),
-    /// The bits that say in which of the frames of an identifier it is.
+    /// The bits that select one of the frames with the same identifier, and their contents.
     pub(super) select: (u64, u64),
-    /// It is sent again after so long; 0: not.
+    /// The interval at which it is sent again; 0 if it is not.
     pub(super) resend_ns: u64,
-    /// Devices whose values are in frames of that identifier: each has one sent when it is set.
+    /// The number of devices whose values are in frames with that identifier: setting any of them sends one.
     pub(super) devices: u64,
 }
 
@@ -76,7 +76,7 @@ fn number(job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<u8> {
     wire.unit.and_then(|name| Units::new(job).number(name))
 }
 
-/// The levels that no value ever changes, such as that of a standby input.
+/// The levels that no value ever changes, such as the one on a standby input.
 pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
     let all = job.connections.iter().filter(|one| one.devices.is_empty());
     let constant = |one: &JobConnection<'_>| {
@@ -87,7 +87,7 @@ pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
     all.filter_map(constant).collect()
 }
 
-/// What a device must put out when its raw values are these.
+/// The expected outputs of a device that was set to these raw values.
 pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<Expected> {
     let wires = wires(job, one);
     let value = |element: usize| raw.get(element).copied().unwrap_or(0.0);
@@ -101,7 +101,7 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
             Kind::Pwm(own) => Some(pulses(*at, wire, element, own, value(element))),
             Kind::Dac(_) => {
                 let code = value(element).round().clamp(0.0, FULL_CODE);
-                // A converter of twelve bits divides its reference by 4096.
+                // A 12-bit converter divides its reference by 4096.
                 let what = What::Millivolts(code / (FULL_CODE + 1.0) * REFERENCE_MV);
                 Some(expected(*at, wire, element, what))
             }
@@ -119,7 +119,7 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
     wires.iter().filter_map(each).collect()
 }
 
-/// What a device must put out before the host has set it; nothing where that is not said.
+/// The expected outputs of a device that the host has not set yet; empty if the design does not define them.
 pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Vec<Expected> {
     let wires = wires(job, one);
     let safe = start(one);
@@ -141,7 +141,7 @@ pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Ve
     wires.iter().filter_map(each).collect()
 }
 
-/// The raw value that pulses and voltages begin with, where it is not nothing.
+/// The raw value that pulses and voltages start with; `None` if there is no output at first.
 fn start(one: &JobDevice<'_>) -> Option<f64> {
     match &one.device.kind {
         Kind::Pwm(own) => own.failsafe,
@@ -157,7 +157,7 @@ fn start(one: &JobDevice<'_>) -> Option<f64> {
     }
 }
 
-/// The raw value that a device takes when the host is silent; none where it keeps the last.
+/// The raw value that a device takes when the host is silent; `None` if it keeps the last one.
 pub(super) fn failsafe(one: &JobDevice<'_>) -> Option<f64> {
     one.device.coding.failsafe.or_else(|| start(one))
 }
@@ -199,7 +199,7 @@ fn pulses(
     expected(at, wire, element, What::Pulses(Some((period_ns, width_ns))))
 }
 
-/// A motor's bridge: strength and two directions, or a strength for each direction.
+/// A motor's bridge: a duty and two direction pins, or a duty for each direction.
 fn bridge(
     drive: Drive,
     wires: &[(ConnectionIndex, &JobConnection<'_>)],
@@ -230,7 +230,7 @@ fn bridge(
     all.filter_map(each).collect()
 }
 
-/// A value in a frame, which is as long as the values in it ask for.
+/// A value in a frame, which is as long as the values in it require.
 fn frame(
     job: &BoardJob<'_>,
     (at, wire): (ConnectionIndex, &JobConnection<'_>),
@@ -270,7 +270,7 @@ fn frame(
         *target = byte;
     }
     let own_bits = (mask, u64::from_le_bytes(data) & mask);
-    // The last frame may be one that it selects for others: its own must be among those before.
+    // The last frame may be one that it selects for other devices: its own must be among the earlier ones.
     let select = if is_selector { own_bits } else { select.unwrap_or_default() };
     let sent = Sent {
         unit: number(job, wire)?,

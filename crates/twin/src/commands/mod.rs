@@ -1,8 +1,8 @@
-//! The judge of actuators: a host that sets each of them to a script of values, falls silent and speaks again, and
-//! compares what comes out of the board with an own reading of the design.
+//! The judge of actuators: a host that sets each of them to a script of values, falls silent and speaks again. The
+//! board's outputs are compared with an independent reading of the design.
 //!
-//! In: a board's job, what the world wants commanded, and how long the run lasts. Out, each millisecond: what the host
-//! sends; at the end what was found out about each actuator, and about levels that never change.
+//! In: a board's job, the world's commands, and the length of the run. Out, each millisecond: the bytes that the host
+//! sends; at the end, the findings about each actuator and about levels that never change.
 
 mod compare;
 mod expect;
@@ -22,32 +22,32 @@ use tried::Actor;
 pub use tried::{Amiss, Tried};
 
 const MS: u64 = 1_000_000;
-/// When outputs are looked at that nobody has set yet, at the latest.
+/// The latest time at which outputs that nobody has set yet are checked.
 const UNTOLD_NS: u64 = 450 * MS;
-/// A silence that is shorter has outputs fall back before anybody can look.
+/// The shortest silence that is tried: after a shorter one, outputs fall back before they can be checked.
 const SILENCE_MIN_NS: u64 = 100 * MS;
-/// From the first command of an actuator to that of the next.
+/// The time from the first command of one actuator to that of the next.
 const APART_NS: u64 = 7 * MS;
 
-/// What a world has the host set.
+/// A command that a world has the host send.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Command {
-    /// Which actuator.
+    /// The actuator.
     pub device: DeviceIndex,
-    /// When.
+    /// The time of the command.
     pub at_ns: u64,
-    /// To what, as it is on the wire: an element each.
+    /// The value as it is on the wire, one scalar for each element.
     pub value: Vec<Scalar>,
 }
 
-/// What the host does now.
+/// The host's current activity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
-    /// It only asks who the board is.
+    /// It only asks for the board's identity.
     Listening,
     /// It sets actuators.
     Speaking,
-    /// It is silent, and actuators hold their values or have not fallen back for long.
+    /// It is silent, and actuators hold their values or have only just fallen back.
     Holding,
     /// It is still silent, and actuators have fallen back.
     FallenBack,
@@ -61,18 +61,18 @@ pub struct Commands<'a> {
     job: &'a BoardJob<'a>,
     actors: Vec<Actor>,
     constants: Vec<(Expected, Tried)>,
-    /// None where no actuator falls back.
+    /// `None` if no actuator falls back.
     silence_ns: Option<u64>,
     end_ns: u64,
     phase: Phase,
-    /// When the outputs are looked at next that concern all actuators.
+    /// The time of the next check of all actuators.
     look_ns: Option<u64>,
     sent_ns: u64,
     is_silence_tried: bool,
 }
 
 impl<'a> Commands<'a> {
-    /// A host of a board that runs so long.
+    /// A host for a board that runs until the given time.
     #[must_use]
     pub fn new(job: &'a BoardJob<'a>, bench: &Bench, end_ns: u64) -> Self {
         let usual = script::usual(job).into_iter().enumerate();
@@ -108,7 +108,7 @@ impl<'a> Commands<'a> {
         }
     }
 
-    /// What the host sends in this millisecond.
+    /// The bytes that the host sends in this millisecond.
     pub fn host(&mut self, now_ns: u64, is_known: bool) -> Vec<u8> {
         match self.phase {
             Phase::Listening if is_known && self.look_ns.is_none_or(|look| look < now_ns) => {
@@ -126,14 +126,14 @@ impl<'a> Commands<'a> {
         }
     }
 
-    /// Whether the outputs have to be looked at now.
+    /// Whether outputs must be checked now.
     #[must_use]
     pub fn looks(&self, now_ns: u64) -> bool {
         self.look_ns.is_some_and(|look| look <= now_ns)
             || self.actors.iter().any(|one| one.is_due(now_ns))
     }
 
-    /// Looks at the outputs.
+    /// Checks the outputs.
     pub fn look(&mut self, now_ns: u64, outputs: &Outputs) {
         for actor in &mut self.actors {
             actor.look(self.job, now_ns, outputs);
@@ -171,13 +171,13 @@ impl<'a> Commands<'a> {
         }
     }
 
-    /// The actuators that the host has set so far, by their identifiers, and when it has done so last.
+    /// The identifiers of the actuators that the host has set so far, and the time of the last command to each.
     #[must_use]
     pub fn told(&self) -> Vec<(u8, u64)> {
         self.actors.iter().filter_map(Actor::told).collect()
     }
 
-    /// The run is over.
+    /// Ends the run and returns the findings.
     #[must_use]
     pub fn finish(self) -> Vec<Tried> {
         let is_silence_left = self.silence_ns.is_some() && !self.is_silence_tried;
@@ -185,18 +185,18 @@ impl<'a> Commands<'a> {
         actors.chain(self.constants.into_iter().map(|(_, tried)| tried)).collect()
     }
 
-    /// The greatest time that an actuator takes to do what it is told.
+    /// The longest time that any actuator takes to follow a command.
     fn settles_ns(&self) -> u64 {
         self.actors.iter().map(|one| one.settle_ns).max().unwrap_or(0)
     }
 
-    /// What a silence takes of the run, with speaking again behind it; none where it is too long for the run.
+    /// The time that a silence and speaking again take; `None` if the rest of the run is too short for it.
     fn silence_takes_ns(&self, left_ns: u64) -> Option<u64> {
         let takes_ns = self.silence_ns? + 2 * self.settles_ns() + 100 * MS;
         (takes_ns <= left_ns / 2).then_some(takes_ns)
     }
 
-    /// The board is there: how many values of each script there is time for.
+    /// The board has answered: works out how many values of each script there is time for.
     fn begin(&mut self, now_ns: u64) {
         self.phase = Phase::Speaking;
         let left_ns = self.end_ns.saturating_sub(now_ns);
@@ -207,7 +207,7 @@ impl<'a> Commands<'a> {
     }
 
     fn speak(&mut self, now_ns: u64) -> Vec<u8> {
-        // What is told at the same time is in one frame.
+        // Values that are sent at the same time share a frame.
         let next = |actor: &mut Actor| actor.next(now_ns).map(|value| (actor.id, value));
         let values: Vec<(u8, Vec<Scalar>)> = self.actors.iter_mut().filter_map(next).collect();
         let mut bytes = Vec::new();

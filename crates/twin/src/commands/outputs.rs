@@ -1,4 +1,4 @@
-//! What a board puts out: levels, pulses, voltages, bytes on buses, frames. The bench writes it down as it happens.
+//! The outputs of a board: levels, pulses, voltages, bytes on buses, frames. The bench records them as they happen.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -10,10 +10,10 @@ use sensedsl_model::kind::{Kind, Role};
 use crate::bench::number_of;
 use sensedsl_surroundings::{CanFrame, TimerOutput};
 
-/// Transfers, bytes and frames that are kept of each wire: more than a step of a script makes.
+/// The most transfers, bytes and frames that are kept for each wire: more than one step of a script makes.
 const KEPT: usize = 4_096;
 
-/// What each wire carries now, and what was sent over buses lately.
+/// The current state of each wire, and the latest data on buses.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
     levels: BTreeMap<(ConnectionIndex, Role), bool>,
@@ -32,7 +32,7 @@ fn keep<T>(log: &mut VecDeque<T>, one: T) {
 }
 
 impl Outputs {
-    /// The level that the board gives a wire; none where it drives it no more, or never has.
+    /// The level that the board gives a wire; `None` if it no longer drives the wire, or never has.
     #[must_use]
     pub fn level(&self, at: ConnectionIndex, role: Role) -> Option<bool> {
         self.levels.get(&(at, role)).copied()
@@ -50,40 +50,41 @@ impl Outputs {
         self.millivolts.get(&at).copied()
     }
 
-    /// What was written to a chip since a time, a transfer each.
+    /// The data written to a chip since a given time, one item for each transfer.
     pub fn writes(&self, at: ConnectionIndex, since_ns: u64) -> impl Iterator<Item = &[u8]> {
         let all = self.writes.get(&at).into_iter().flatten();
         all.filter(move |(when, _)| *when >= since_ns).map(|(_, bytes)| bytes.as_slice())
     }
 
-    /// What a serial port has sent since a time.
+    /// The bytes that a serial port has sent since a given time.
     #[must_use]
     pub fn bytes(&self, unit: u8, since_ns: u64) -> Vec<u8> {
         let all = self.bytes.get(&unit).into_iter().flatten();
         all.filter(|(when, _)| *when >= since_ns).map(|(_, byte)| *byte).collect()
     }
 
-    /// The frames that a CAN bus has got since a time.
+    /// The frames sent on a CAN bus since a given time.
     pub fn frames(&self, unit: u8, since_ns: u64) -> impl Iterator<Item = &CanFrame> {
         let all = self.frames.get(&unit).into_iter().flatten();
         all.filter(move |(when, _)| *when >= since_ns).map(|(_, frame)| frame)
     }
 }
 
-/// The outputs with what leads to them: which wire a timer's channel is on, and transfers that are not over.
+/// The outputs together with the state that is needed to record them: the wire of each timer channel, and unfinished
+/// transfers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Recorder {
     outputs: Outputs,
     channels: BTreeMap<TimerOutput, ConnectionIndex>,
     converters: BTreeMap<u8, ConnectionIndex>,
-    /// By I2C unit.
+    /// The unfinished transfers, by I2C unit.
     open: BTreeMap<u8, (ConnectionIndex, Vec<u8>)>,
-    /// By chip on SPI.
+    /// The unfinished transfers, by SPI chip.
     selected: BTreeMap<ConnectionIndex, Vec<u8>>,
 }
 
 impl Recorder {
-    /// A connection of the board.
+    /// Adds a connection of the board.
     pub(crate) fn connect(&mut self, index: ConnectionIndex, one: &JobConnection<'_>) {
         let is_output = matches!(one.connection.kind, Kind::Pwm(_) | Kind::Dac(_));
         let signal = one.pad(Role::Out).and_then(|pad| pad.usage).map(|usage| &usage.signal);
@@ -149,7 +150,7 @@ impl Recorder {
         }
     }
 
-    /// The chip select of a chip on SPI.
+    /// The chip select of an SPI chip changes.
     pub(crate) fn select(&mut self, chip: ConnectionIndex, is_selected: bool, now_ns: u64) {
         if is_selected {
             self.selected.insert(chip, Vec::new());
@@ -158,7 +159,7 @@ impl Recorder {
         }
     }
 
-    /// A chip on SPI has got a byte.
+    /// An SPI chip has received a byte.
     pub(crate) fn shifted(&mut self, chip: ConnectionIndex, byte: u8) {
         if let Some(bytes) = self.selected.get_mut(&chip).filter(|all| all.len() < KEPT) {
             bytes.push(byte);

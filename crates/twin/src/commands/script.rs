@@ -1,5 +1,5 @@
-//! What a host sets actuators to, so that everything about them shows: both ends, the middle, both signs, what lies
-//! beyond, and another value for each element and each device.
+//! The values that a host sets actuators to, chosen so that every mistake shows: both ends, the middle, both signs,
+//! values out of range, and a different value for each element and each device.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
@@ -11,9 +11,9 @@ use crate::arith::number;
 use crate::parts::words;
 use crate::truth::scalar;
 
-/// Numbers that a double holds are enough of 64 bits.
+/// For 64-bit integers, the numbers that a double holds exactly are enough.
 const WHOLE_MAX: f64 = 9_007_199_254_740_991.0;
-/// What real numbers without bounds go to.
+/// The bound for real numbers that have none.
 const REAL_MAX: f64 = 1_000.0;
 
 /// The values of every actuator of a board, in the order of its devices: steps, and in each a value for each element.
@@ -43,8 +43,8 @@ fn is_switch(one: &JobDevice<'_>) -> bool {
     matches!(one.device.kind, Kind::Digital(_)) || one.device.value.value.scalar == ScalarType::Bool
 }
 
-/// Each switch of the board has a word of its own, whose bits it shows one after the other, each with its opposite: any
-/// two switches differ in some step, and each is on and off.
+/// Each switch of the board has its own code word and shows the bits of it one after another, each followed by its
+/// opposite. So any two switches differ in some step, and each of them is both on and off.
 fn switches(one: &JobDevice<'_>, first: usize, total: usize) -> Vec<Vec<Scalar>> {
     let of = one.device.value.value.scalar;
     let bits = usize::BITS - (total + 1).leading_zeros();
@@ -53,7 +53,7 @@ fn switches(one: &JobDevice<'_>, first: usize, total: usize) -> Vec<Vec<Scalar>>
         let element = |element: usize| {
             let word = first + element + 1;
             let is_on = ((word >> (step / 2)) & 1 == 1) != (step % 2 == 1);
-            // What is not 0 is on.
+            // Any value but 0 is on.
             scalar(
                 of,
                 if !is_on {
@@ -70,7 +70,8 @@ fn switches(one: &JobDevice<'_>, first: usize, total: usize) -> Vec<Vec<Scalar>>
     (0..2 * bits.max(2)).map(step).collect()
 }
 
-/// Ends, middle, beyond: each element begins at another place of the list, and the values between the ends are its own.
+/// The ends, the middle and values out of range. Each element starts at another place of the list, and its values
+/// between the ends are its own.
 fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
     let of = one.device.value.value.scalar;
     let (low, high) = range(one);
@@ -102,7 +103,7 @@ fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
     (0..steps).map(step).collect()
 }
 
-/// The least and the greatest raw value that make a difference, and that the type holds.
+/// The least and the greatest raw value that the output can follow and that the type holds.
 fn range(one: &JobDevice<'_>) -> (f64, f64) {
     let own = match &one.device.kind {
         Kind::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),

@@ -1,4 +1,5 @@
-//! One actuator: what it is told when, when it must have done so, and what was found out.
+//! One actuator: its commands and their times, the time by which each must have taken effect, and
+//! the findings.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
@@ -12,48 +13,49 @@ use crate::arith::number;
 use crate::bench::Bench;
 use crate::truth::{Scale, real};
 
-/// What a command takes in any case: cycles of the reporter on its way.
+/// The time that every command takes: a few cycles of the reporter.
 const SETTLE_NS: u64 = 60 * MS;
-/// How long a bus is left alone at most after something held it, and a chip takes to start again.
+/// The longest time for which a bus is left alone after something held it, and which a chip takes
+/// to restart.
 const RECOVERY_NS: u64 = 1_500 * MS;
 
 /// A wire that does not carry what it must.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Amiss {
-    /// When it was looked at.
+    /// The time of the check.
     pub at_ns: u64,
-    /// Of which element.
+    /// The element of the value.
     pub element: usize,
     /// The wire and its pins: `Left.in1 at PB4`.
     pub wire: String,
-    /// What the host had done: `after -100 %`.
+    /// The host's last action: `after -100 %`.
     pub after: String,
-    /// What must be there.
+    /// The expected output.
     pub expected: String,
-    /// What is there.
+    /// The output found.
     pub got: String,
 }
 
-/// What was found out about an actuator, or about a level that never changes.
+/// The findings about an actuator, or about a level that never changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tried {
     /// Its name, or the wire.
     pub name: String,
     /// Whether the host sets it.
     pub is_set: bool,
-    /// Values that it was set to.
+    /// The number of values that it was set to.
     pub commands: u64,
-    /// Values that there was no time for.
+    /// The number of values that there was no time for.
     pub left: u64,
-    /// Whether there was no time for a silence, which it has a failsafe for.
+    /// Whether there was no time to try the silence that it has a failsafe for.
     pub is_silence_left: bool,
-    /// How often its wires were compared.
+    /// The number of times that its wires were compared.
     pub looks: u64,
-    /// How often not, because a fault of the world was there.
+    /// The number of comparisons left out because of a fault of the world.
     pub excused: u64,
-    /// How often something was amiss.
+    /// The number of comparisons that failed.
     pub wrong: u64,
-    /// What was amiss first.
+    /// The first failure.
     pub first: Option<Amiss>,
 }
 
@@ -62,7 +64,7 @@ impl Tried {
         Self { name, ..Self::default() }
     }
 
-    /// Compares wires with the outputs since a time.
+    /// Compares wires with the outputs since a given time.
     pub(super) fn compare(
         &mut self,
         all: &[Expected],
@@ -93,18 +95,18 @@ pub(super) struct Actor {
     pub(super) id: u8,
     scale: Scale,
     quantity: String,
-    /// How long it takes to do what it is told.
+    /// The time that it takes to follow a command.
     pub(super) settle_ns: u64,
-    /// A time before which a value is not sent, and the value.
+    /// The values, and the earliest time at which each may be sent.
     steps: Vec<(u64, Vec<Scalar>)>,
-    /// Whether the world has said them.
+    /// Whether the world gave the steps.
     is_of_world: bool,
     next: usize,
-    /// When it may be told the next one.
+    /// The earliest time of its next command.
     pub(super) due_ns: u64,
-    /// When it must have done what it was told last.
+    /// The time by which the last command must have taken effect.
     settles_ns: Option<u64>,
-    /// What it was told last, and when.
+    /// The last command and its time.
     told: Option<(u64, Vec<Scalar>)>,
     excuses: Vec<(u64, u64)>,
     tried: Tried,
@@ -137,7 +139,7 @@ impl Actor {
         }
     }
 
-    /// Takes the world's script in place of the usual one.
+    /// Takes the world's script instead of the usual one.
     pub(super) fn follow(&mut self, commands: &[&Command]) {
         let mut steps: Vec<(u64, Vec<Scalar>)> =
             commands.iter().map(|one| (one.at_ns, one.value.clone())).collect();
@@ -146,7 +148,7 @@ impl Actor {
         self.is_of_world = true;
     }
 
-    /// From now on it is set; so much time is left for it.
+    /// Starts the commands; that much time is left for them.
     pub(super) fn begin(&mut self, now_ns: u64, left_ns: u64) {
         let offset_ns = self.due_ns;
         self.due_ns += now_ns;
@@ -172,10 +174,10 @@ impl Actor {
         }
     }
 
-    /// The value that it is told now.
+    /// The value to send now.
     pub(super) fn next(&mut self, now_ns: u64) -> Option<Vec<Scalar>> {
         let (at_ns, value) = self.steps.get(self.next)?;
-        // What a world says at a time is said then; else one after the other.
+        // Commands of a world are sent at their time; otherwise each waits for the one before it.
         let is_settled = self.settles_ns.is_none() || self.is_of_world;
         if now_ns < (*at_ns).max(self.due_ns) || !is_settled {
             return None;
@@ -187,17 +189,17 @@ impl Actor {
         Some(value.clone())
     }
 
-    /// Its identifier, and when it was told something last.
+    /// Its identifier, and the time of its last command.
     pub(super) fn told(&self) -> Option<(u8, u64)> {
         self.told.as_ref().map(|(at_ns, _)| (self.id, *at_ns))
     }
 
-    /// Whether it has been told everything, and has been looked at.
+    /// Whether all commands have been sent and checked.
     pub(super) fn is_done(&self, now_ns: u64) -> bool {
         self.next >= self.steps.len() && self.settles_ns.is_none_or(|at| at < now_ns)
     }
 
-    /// Whether it must have done what it was told by now.
+    /// Whether the last command must have taken effect by now.
     pub(super) fn is_due(&self, now_ns: u64) -> bool {
         self.settles_ns.is_some_and(|at| at <= now_ns)
     }
@@ -213,7 +215,7 @@ impl Actor {
         self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, |_| true);
     }
 
-    /// Before it is told anything.
+    /// Checks the outputs before any command.
     pub(super) fn look_untold(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
         let Some(one) = job.devices.get(self.index) else { return };
         let expected = expect::untold(job, one, now_ns);
@@ -224,7 +226,7 @@ impl Actor {
         }
     }
 
-    /// The host is silent, but not for as long as that counts.
+    /// Checks the outputs while the host is silent, but not yet for long enough to count.
     pub(super) fn look_held(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
         let Some((since_ns, value)) = self.told.clone() else { return };
         let after = format!("after {}, and before the silence counts", self.shown(&value));
@@ -232,7 +234,7 @@ impl Actor {
         self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, counts);
     }
 
-    /// The host has been silent for too long.
+    /// Checks the outputs after the host has been silent for too long.
     pub(super) fn look_silent(
         &mut self,
         job: &BoardJob<'_>,
@@ -284,7 +286,7 @@ impl Actor {
         self.tried
     }
 
-    /// A value as a host shows it, with what is on the wire where that differs.
+    /// A value as a host shows it, with the raw value if that differs.
     fn shown(&self, value: &[Scalar]) -> String {
         let raw = raw(value);
         let texts: Vec<String> =
@@ -312,7 +314,7 @@ fn raw(value: &[Scalar]) -> Vec<f64> {
     value.iter().map(|one| real(*one)).collect()
 }
 
-/// What is still there without being sent again.
+/// Whether an output stays without being sent again.
 fn is_lasting(one: &Expected) -> bool {
     match &one.what {
         What::Level(..) | What::Pulses(_) | What::Millivolts(_) => true,
@@ -321,19 +323,19 @@ fn is_lasting(one: &Expected) -> bool {
     }
 }
 
-/// What is sent again while the host speaks.
+/// Whether an output is sent again and again while the host speaks.
 fn is_repeated(one: &Expected) -> bool {
     matches!(&one.what, What::Frame(sent) if sent.resend_ns > 0)
 }
 
-/// How long a device takes to do what it is told, at the most.
+/// The longest time that a device takes to follow a command.
 fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     let cycle_ms = expect::wires(job, one).iter().map(|(_, wire)| wire.cycle.delay_ms).max();
     let cycle_ns = MS * u64::from(cycle_ms.unwrap_or(0));
     let own_ns = match &one.device.kind {
-        // A new width counts from the next period on.
+        // A new width takes effect at the next period.
         Kind::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
-        // A bus looks after its chips in turns, and waits for those that measure.
+        // A bus serves its chips in turn, and waits for those that measure.
         Kind::I2c(_) | Kind::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
         Kind::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
         Kind::Analog(_)
@@ -346,7 +348,7 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     SETTLE_NS + link_ns(job) + own_ns
 }
 
-/// How long the chips of a device's bus measure.
+/// The time that the chips on a device's bus take to measure.
 fn measuring_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     let on_bus = job.devices.iter().filter(|other| other.unit == one.unit);
     let wait_us = |other: &JobDevice<'_>| match &other.device.kind {
@@ -364,7 +366,7 @@ fn measuring_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     on_bus.map(|other| 1_000 * u64::from(wait_us(other))).sum::<u64>() + 40 * MS
 }
 
-/// What all commands take on a serial link.
+/// The time that all commands take on a serial link.
 fn link_ns(job: &BoardJob<'_>) -> u64 {
     if job.board.link.transport != Transport::Uart {
         return 0;

@@ -1,4 +1,4 @@
-//! What must be written to chips.
+//! The expected writes to chips.
 
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
@@ -13,37 +13,38 @@ use crate::parts::words;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Written {
     pub(super) bytes: Vec<u8>,
-    /// So many of them say what it is for.
+    /// The number of bytes at the start that identify the register.
     pub(super) begins: usize,
     /// The bits that are checked; the others belong to other devices.
     mask: Vec<u8>,
 }
 
 impl Written {
-    /// Whether a transfer is it, as far as it is of this device.
+    /// Whether a transfer matches, in the bits that belong to this device.
     pub(super) fn is(&self, found: &[u8]) -> bool {
         let mut pairs = self.bytes.iter().zip(found).zip(&self.mask);
         found.len() == self.bytes.len()
             && pairs.all(|((one, other), mask)| (one ^ other) & mask == 0)
     }
 
-    /// Whether other devices have bits of the same register, whose transfers must keep the value.
+    /// Whether other devices have bits of the same register, so that their transfers must keep this value.
     pub(super) fn is_shared(&self) -> bool {
         self.mask.iter().any(|mask| *mask != 0xFF)
     }
 
-    /// The bits that are checked, where these are not all.
+    /// The bits that are checked; `None` if all of them are.
     pub(super) fn mask(&self) -> Option<&[u8]> {
         self.is_shared().then_some(&self.mask)
     }
 }
 
-/// The register that a device is written to, if it is on a register bus; its number is none where the chip has one.
+/// The register that a device is written to; `None` if it is not on a register bus. The inner `None` is a device
+/// without a register number.
 fn register(one: &JobDevice<'_>) -> Option<Option<u16>> {
     one.device.kind.register_access().map(|own| own.register)
 }
 
-/// A value in registers: their number, then its bytes. The bits of a register that no device has are as the
+/// A value in registers: the register number, then its bytes. Bits of a register that belong to no device are as the
 /// initialisation leaves them.
 pub(super) fn write(
     job: &BoardJob<'_>,
@@ -77,7 +78,7 @@ pub(super) fn write(
     Some(expected(at, wire, 0, What::Write(Written { bytes, begins, mask })))
 }
 
-/// The last transfer of the initialisation that is as long and begins alike.
+/// The last transfer of the initialisation with the same length and start.
 fn left_by_init(chip: &Protocol, bytes: &[u8], begins: usize) -> Option<Vec<u8>> {
     let is_alike =
         |one: &&Vec<u8>| one.len() == bytes.len() && one.get(..begins) == bytes.get(..begins);
@@ -99,11 +100,11 @@ fn is_shared(job: &BoardJob<'_>, one: &JobDevice<'_>) -> bool {
     job.devices.iter().any(|other| is_beside(&other))
 }
 
-/// The most that starting a chip takes beside its pauses.
+/// The longest time that starting a chip takes, without its pauses.
 const START_MS: u64 = 40;
 
-/// What a switch of a chip must have been written to before the host has set it; nothing where that is not said, or the
-/// chip may not have started yet.
+/// The value that a chip's switch must have been set to before the host sets it; `None` if the design does not give it,
+/// or if the chip may not have started yet.
 pub(super) fn first(
     job: &BoardJob<'_>,
     (at, wire): (ConnectionIndex, &JobConnection<'_>),

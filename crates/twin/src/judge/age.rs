@@ -1,4 +1,4 @@
-//! How old a value can be when it arrives.
+//! The greatest age of a value when it arrives.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
@@ -10,17 +10,17 @@ use super::{MS, SECOND};
 use crate::truth::Subject;
 use crate::world::Signal;
 
-/// How long the longest frame is on a serial link.
+/// The time that the longest frame takes on a serial link.
 pub(super) fn link_ns(job: &BoardJob<'_>) -> u64 {
     if job.board.link.transport != Transport::Uart {
         return 0;
     }
     let bytes = u64::try_from(job.schema.frame_bytes_max(Direction::Sensor)).unwrap_or(0);
-    // A report waits for one that is on the line.
+    // A report waits for the one that is on the line.
     2 * bytes * 10 * SECOND / u64::from(job.board.link.baud.max(1))
 }
 
-/// How old a value can be when it is read.
+/// The greatest age of a value when it is read.
 pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
     let device = one.device;
     let delay_ns = MS * u64::from(device.delay_ms);
@@ -28,7 +28,7 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
         Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
         Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
-        // A spike has a contact begin to last anew, and where nothing interrupts each look is late by a cycle.
+        // A spike restarts a contact's debounce, and without interrupts each sample is a cycle late.
         Kind::Digital(own) if own.debounce_us > 0 => {
             delay_ns.min(50 * MS) + 3_000 * u64::from(own.debounce_us) + 20 * MS
         }
@@ -40,7 +40,7 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
     }
 }
 
-/// How old the last pulse can be.
+/// The greatest age of the last pulse.
 fn pulses_ns(icu: &Icu, subject: &Subject) -> u64 {
     let bounds = subject.signals.iter().filter_map(Signal::bounds);
     let ends =

@@ -1,6 +1,8 @@
-//! What counts is told when it changes, and once a second while it does not: how late it is told, and how often anew.
+//! Counts are reported when they change, and once a second while they do not. Checked here: how late they are reported,
+//! and how often they are repeated.
 //!
-//! In: when a value came, and the one before it. Out: how long the world had counted on by then, on average.
+//! In: the time of a value and of the one before it. Out: how long, on average, the world had already counted on by
+//! then.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
@@ -12,28 +14,28 @@ use super::{Finding, MS, Wrong};
 use crate::arith::number;
 use crate::truth::Subject;
 
-/// How often a timer of 16 bits is read that counts the steps of an encoder.
+/// The interval at which a 16-bit timer that counts the steps of an encoder is read.
 const READ_NS: u64 = 10 * MS;
-/// So many values tell how late they are.
+/// The least number of values for a verdict on how late they are.
 const TIMES_MIN: u64 = 10;
-/// By how much the average may be later than the longest that one may take, in per cent.
+/// By how much the average may exceed the longest delay of a single value, in per cent.
 const PERCENT: u64 = 10;
-/// What looks are too early for when a count is told anew, in per cent.
+/// By how much a count may be repeated too early, in per cent: samples are not taken at exact times.
 const EARLY_PERCENT: u64 = 10;
 
-/// How late the values of a count were so far.
+/// How late the values of a count have been so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Counted {
-    /// How late one may be.
+    /// The longest delay that a value may have.
     most_ns: u64,
-    /// Whether it is told anew only once a second.
+    /// Whether an unchanged count is repeated only once a second.
     is_repeated: bool,
     sum_ns: u64,
     times: u64,
 }
 
 impl Counted {
-    /// The one of a sensor that is told when it changes; none of others.
+    /// The state for a sensor that is reported when it changes; `None` for any other.
     pub(super) fn of(job: &BoardJob<'_>, one: &JobDevice<'_>, pace: Option<&Pace>) -> Option<Self> {
         let filter = &one.device.filter;
         let is_plain = filter.change.is_none() && filter.median < 2 && filter.smooth_ms == 0;
@@ -55,7 +57,7 @@ impl Counted {
         is_plain.then_some(Self { most_ns, is_repeated, sum_ns: 0, times: 0 })
     }
 
-    /// A value has come after another one.
+    /// Takes a value that has come after another one.
     pub(super) fn take(&mut self, subject: &Subject, last_ns: u64, now_ns: u64) {
         if let Some(late_ns) = late_ns(subject, last_ns, now_ns) {
             self.sum_ns += late_ns;
@@ -63,12 +65,12 @@ impl Counted {
         }
     }
 
-    /// A value that was told before is told again, so long after it.
+    /// Whether an unchanged value is repeated too early, so long after the last report.
     pub(super) fn is_too_early(&self, after_ns: u64) -> bool {
         self.is_repeated && after_ns < REPEAT_NS - REPEAT_NS / 100 * EARLY_PERCENT
     }
 
-    /// Whether values come later than the board has to tell them.
+    /// Whether values come later than the board has to report them.
     pub(super) fn differs(&self, now_ns: u64) -> Option<Wrong> {
         let got_ns = self.sum_ns.checked_div(self.times)?;
         let most_ns = self.most_ns + self.most_ns * PERCENT / 100 + MS;
@@ -81,7 +83,8 @@ impl Counted {
     }
 }
 
-/// For how long the world has been beyond what it was at one time when another one comes; none where it is not.
+/// For how long, at the time of a value, the world has already differed from the value before; `None` if it does not
+/// differ.
 fn late_ns(subject: &Subject, last_ns: u64, now_ns: u64) -> Option<u64> {
     let elements = 0..subject.signals.len();
     let counts = |at_ns: u64| elements.clone().map(move |one| subject.raw(one, at_ns).floor());

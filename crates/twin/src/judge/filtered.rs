@@ -1,7 +1,7 @@
-//! What `median` and `smooth` make of a value: between which numbers it can be, from what the world was.
+//! The effect of `median` and `smooth`: the range in which a filtered value can be, from what the world was.
 //!
-//! Both filters are monotonic: greater samples never make a lesser value. So the filter of all the least samples that
-//! there can have been is a lower bound, and that of the greatest an upper one.
+//! Both filters are monotonic: greater samples never give a smaller value. So the filter's result for the least samples
+//! possible is a lower bound, and that for the greatest ones an upper bound.
 
 use std::collections::VecDeque;
 
@@ -9,29 +9,29 @@ use super::MS;
 use crate::arith::{decay, number};
 use crate::truth::Subject;
 
-/// A low-pass is followed in steps of so much.
+/// The step in which a low-pass is followed.
 const STEP_NS: u64 = MS;
-/// So many of its time constants are all that it remembers.
+/// A low-pass remembers no more than this many of its time constants.
 const REMEMBERED: u64 = 8;
-/// What a sample may be early or late.
+/// The most by which a sample may be early or late.
 const JITTER_NS: u64 = 2 * MS;
-/// What a low-pass of integers rounds, as a share of what it has seen.
+/// The rounding of an integer low-pass, as a fraction of the range that it has seen.
 const ROUNDED: f64 = 0.002;
 
 /// The filters of a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
-    /// The median of so many; 0 for none.
+    /// The number of samples that the median is taken of; 0 for none.
     pub(super) median: u8,
-    /// Time constant of the low-pass; 0 for none.
+    /// The time constant of the low-pass; 0 for none.
     pub(super) smooth_ns: u64,
-    /// How old a value may be that is not filtered.
+    /// The greatest age of an unfiltered value.
     pub(super) age_ns: u64,
-    /// From one sample to the next, at most.
+    /// The longest time from one sample to the next.
     pub(super) cycle_ns: u64,
-    /// Whether samples come at their cycle, to a tenth of it.
+    /// Whether the time between samples is within a tenth of their cycle.
     pub(super) is_regular: bool,
-    /// What can be measured at all.
+    /// The range of measurable values.
     pub(super) bounds: Option<(f64, f64)>,
 }
 
@@ -41,12 +41,12 @@ impl Shape {
         self.median < 2 && self.smooth_ns == 0
     }
 
-    /// For how long a filter has to be fed before it can be told what it gives.
+    /// How long a filter must be fed before its result can be predicted.
     pub(super) fn settles_ns(&self) -> u64 {
         (u64::from(self.median) + 1) * self.cycle_ns + self.age_ns
     }
 
-    /// What can be measured in a span of time.
+    /// The range of values that can be measured in a span of time.
     pub(super) fn range(
         &self,
         subject: &Subject,
@@ -60,7 +60,7 @@ impl Shape {
         (within(least), within(greatest))
     }
 
-    /// What the median can be of samples of which the last one was taken between two moments.
+    /// The range of the median of samples, the last of which was taken between two moments.
     fn median(
         &self,
         subject: &Subject,
@@ -86,7 +86,7 @@ impl Shape {
         range
     }
 
-    /// What a sample, or the median of the last ones, can be that was taken between two moments.
+    /// The range of a sample, or of the median of the last ones, taken between two moments.
     fn sample(
         &self,
         subject: &Subject,
@@ -110,10 +110,10 @@ fn middle(mut all: Vec<f64>) -> f64 {
     all.get(all.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }
 
-/// The filters of one element while it runs.
+/// The state of the filters of one element.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Filtered {
-    /// Least and greatest value of the low-pass, one for each step that may still be reported.
+    /// The least and the greatest value of the low-pass, for each step that may still be reported.
     past: VecDeque<(f64, f64)>,
     at_ns: u64,
     /// The least and the greatest number that it has seen.
@@ -121,12 +121,13 @@ pub(super) struct Filtered {
 }
 
 impl Filtered {
-    /// Nothing is known any more.
+    /// Forgets everything.
     pub(super) fn forget(&mut self) {
         self.past.clear();
     }
 
-    /// What can be reported now, and what rounding adds to it. `since_ns`: since when the filter is fed for sure.
+    /// The range of the values that can be reported now, and what rounding adds to it. `since_ns` is the time since
+    /// which the filter has certainly been fed.
     pub(super) fn expected(
         &mut self,
         shape: &Shape,
@@ -158,7 +159,7 @@ impl Filtered {
         (least, greatest, 1.0 + ROUNDED * width)
     }
 
-    /// Goes on to now.
+    /// Follows the filter up to now.
     fn follow(&mut self, shape: &Shape, subject: &Subject, element: usize, now_ns: u64) {
         let kept = usize::try_from(shape.age_ns / STEP_NS + 2).unwrap_or(usize::MAX);
         let left = decay(number(STEP_NS) / number(shape.smooth_ns.max(1)));

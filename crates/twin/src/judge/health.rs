@@ -1,4 +1,4 @@
-//! What a board says of its devices, against the faults of the world.
+//! A board's report on the health of its devices, checked against the faults of the world.
 //!
 //! A device with which nothing is wrong must not fail, and nothing may be counted against it.
 
@@ -8,23 +8,23 @@ use sensedsl_wire::{Causes, DeviceHealth, Health, NEVER_MS, ResetCause, Status};
 use super::{Finding, Judged, MS, Wrong};
 use crate::bench::Bench;
 
-/// What the world has to say of a device when the board is asked for its health.
+/// The health that the world lets a device have when the board is asked for it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Expected {
-    /// Nothing of the world keeps it from answering now.
+    /// Whether nothing in the world keeps it from answering now.
     pub(super) is_well: bool,
-    /// Nothing ever has.
+    /// Whether nothing in the world has ever kept it from answering.
     pub(super) was_well: bool,
-    /// What it measures may be, or have been, `invalid`.
+    /// Whether its measurements may be, or may have been, `invalid`.
     pub(super) may_be_invalid: bool,
-    /// How old its value may be; none where it need not have one.
+    /// The greatest age of its value; `None` if it need not have one.
     pub(super) age_ns: Option<u64>,
-    /// Messages that may have been heard from the middle on.
+    /// The number of messages that the board may have received only in part.
     pub(super) halves: u16,
 }
 
 impl Expected {
-    /// What disagrees, in words.
+    /// The difference from the board's report, in words.
     pub(super) fn differs(&self, row: &DeviceHealth) -> Option<String> {
         let counted = if self.was_well { self.counted(row.causes) } else { None };
         let with = |what: &str| {
@@ -58,7 +58,7 @@ impl Expected {
         counted
     }
 
-    /// The faults that nothing explains.
+    /// The counted faults that nothing explains.
     fn counted(&self, causes: Causes) -> Option<String> {
         let checksums = causes.wrong_checksum.saturating_sub(self.halves);
         let invalid = if self.may_be_invalid { 0 } else { causes.invalid };
@@ -81,14 +81,14 @@ const fn times(count: u16) -> &'static str {
     if count == 1 { "reading" } else { "readings" }
 }
 
-/// How far a board's clock may be off, and how long it may take to begin.
+/// By how much a board's clock may be off, including the time that it takes to start.
 const CLOCK_MS: u64 = 500;
-/// How long a command may take until it counts.
+/// The longest time until a command takes effect.
 const SET_NS: u64 = 500 * MS;
-/// Reports on their way when the board counts them.
+/// The reports that are on their way when the board counts them.
 const UNDERWAY: u64 = 2;
 
-/// What disagrees of what a board says of itself, that nothing in the world has disturbed.
+/// The error in a board's report on itself, if nothing in the world has disturbed it.
 pub(super) fn board_differs(health: &Health, now_ns: u64, heard: u64) -> Option<String> {
     let (now_ms, up_ms) = (now_ns / MS, u64::from(health.uptime_ms));
     if up_ms > now_ms + now_ms / 100 || up_ms + CLOCK_MS + now_ms / 100 < now_ms {
@@ -113,18 +113,18 @@ pub(super) fn board_differs(health: &Health, now_ns: u64, heard: u64) -> Option<
     (health.stack_left_bytes == 0).then(|| "a stack is full".to_owned())
 }
 
-/// A finding of what the board said.
+/// A finding about the board's report.
 pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
     Wrong { at_ns, finding: Finding::Health(what), off: 100_000.0 }
 }
 
-/// A device that reports nothing: its bus may still tell of faults, and the board knows when it was set.
+/// A device that reports no values: its bus may still count faults, and the board knows when the device was set.
 #[derive(Clone, Debug)]
 pub(super) struct OtherJudge {
     pub(super) id: u8,
     pub(super) judged: Judged,
     pub(super) is_well: bool,
-    /// When the host has set it last.
+    /// The time at which the host last set it.
     pub(super) told_ns: Option<u64>,
 }
 
@@ -135,7 +135,8 @@ impl OtherJudge {
         Self { id: one.device.id.value, judged, is_well, told_ns: None }
     }
 
-    /// What is set has no cycle in which it would have to come again: it is never stale, and as old as the command.
+    /// A value that is set has no cycle in which it must come again: it is never stale, and it is as old as the
+    /// command.
     pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
         let since_ns = self.told_ns.map(|at_ns| now_ns.saturating_sub(at_ns));
         let expected = Expected {

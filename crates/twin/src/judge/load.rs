@@ -1,4 +1,4 @@
-//! How much of its time a board's processor works, against what the board says of it.
+//! The load of a board's processor, compared with the load that the board reports.
 
 use std::collections::VecDeque;
 
@@ -6,16 +6,17 @@ use sensedsl_wire::Health;
 
 use super::{MS, SECOND};
 
-/// A board tells the greatest load of a time so long.
+/// A board reports the greatest load of any window of this length.
 const WINDOW_NS: u64 = SECOND;
-/// So often it is looked at.
+/// The sampling interval.
 const EVERY_NS: u64 = 50 * MS;
-/// What its loads may be off: waiting in a loop is no work here, and its clock ticks in whole steps.
+/// The tolerance of the reported load: waiting in a loop does not count as work here, and the board's clock ticks in
+/// whole steps.
 const SLACK_PERCENT: u64 = 10;
-/// It does not know its load.
+/// The value by which a board reports that it does not know its load.
 const UNKNOWN: u8 = 255;
 
-/// What the processor has done so far.
+/// The record of the processor's work.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Load {
     past: VecDeque<(u64, u64)>,
@@ -24,7 +25,7 @@ pub(super) struct Load {
 }
 
 impl Load {
-    /// For how long the processor has worked until now.
+    /// Takes the time for which the processor has worked until now.
     pub(super) fn take(&mut self, now_ns: u64, worked_ns: u64) {
         if !now_ns.is_multiple_of(EVERY_NS) {
             return;
@@ -40,7 +41,7 @@ impl Load {
         }
     }
 
-    /// What disagrees of what the board says.
+    /// The error in the board's reported load.
     pub(super) fn differs(&self, health: &Health) -> Option<String> {
         let told = u64::from(health.load_percent);
         let is_known = health.load_percent != UNKNOWN && self.past.len() > 1;

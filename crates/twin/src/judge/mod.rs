@@ -1,10 +1,11 @@
-//! The judge: every value that a board reports against what the world did.
+//! The judge: it compares every value that a board reports with the world.
 //!
-//! A value that arrives at some time was measured a little earlier, and between measuring and arriving it is rounded,
-//! coded and filtered. So it must lie within what the world was in a span of time, give or take what rounding can do.
-//! Both are known for each device from its kind, its cycle and its filters. What is out of it, or does not come at all,
-//! is a disagreement, and the worst of each device is kept. So is a device that reports faster or more slowly than the
-//! file says, and what the board itself counts of a device with which nothing is wrong.
+//! A value that arrives was measured a little earlier; between measurement and arrival it is rounded, coded and
+//! filtered. So it must lie in the range that the world had in a span of time, give or take the rounding. Span and
+//! rounding are known for each device from its kind, its cycle and its filters. A value out of range, or one that does
+//! not come at all, is a finding, and the worst one of each device is kept. Other findings are a device that reports
+//! faster or more slowly than the file says, and a fault that the board itself counts for a device with which nothing
+//! is wrong.
 
 mod age;
 mod counted;
@@ -29,56 +30,57 @@ use sensor::SensorJudge;
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1_000 * MS;
-/// So many reports tell how often a board reports.
+/// The least number of reports for a verdict on how often a board reports.
 const REPORTS_MIN: u64 = 100;
 
-/// Something that disagrees.
+/// A disagreement between a board and its world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
-    /// When it was noticed.
+    /// The time at which it was noticed.
     pub at_ns: u64,
-    /// What.
+    /// The kind of disagreement.
     pub finding: Finding,
     /// How far it is off, in tolerances.
     pub off: f64,
 }
 
-/// What disagrees, in the device's own unit.
+/// The kinds of disagreement, with values in the device's own unit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// A value is not what the world was.
+    /// A value is not in the range that the world had.
     Value {
-        /// Of which element.
+        /// The element of the value.
         element: usize,
-        /// What it should have been: from, to.
+        /// The range, from and to, in which it should have been.
         expected: (f64, f64),
-        /// What it was.
+        /// The reported value.
         got: f64,
     },
-    /// Nothing came for so many seconds.
+    /// Nothing came for this many seconds.
     Silence(f64),
-    /// Reports come too fast or too slowly: nanoseconds from one to the next on average.
+    /// Reports come too fast or too slowly. The times are nanoseconds between two of them, on average.
     Pace {
-        /// What it should have been: from, to.
+        /// The range, from and to, in which it should have been.
         expected_ns: (u64, u64),
-        /// What it was.
+        /// The measured time.
         got_ns: u64,
     },
-    /// What counts is told too late: nanoseconds after it has changed, on average.
+    /// A count is reported too late. The times are nanoseconds after its change, on average.
     Late {
-        /// How late it may be.
+        /// The longest delay allowed.
         most_ns: u64,
-        /// How late it was.
+        /// The measured delay.
         got_ns: u64,
     },
-    /// A contact was the other way so often, for a little longer than it must last, and it was never told.
+    /// A contact changed for a little longer than its debounce time, several times, and none of the changes was
+    /// reported.
     Unseen {
-        /// How often.
+        /// The number of changes.
         count: u64,
-        /// How long it must last.
+        /// The debounce time.
         lasting_ns: u64,
     },
-    /// A count that has not changed is told again after so many nanoseconds.
+    /// A count that has not changed is reported again too early: after this many nanoseconds.
     Again(u64),
     /// A value that is `invalid` was reported.
     Invalid(f64),
@@ -89,30 +91,30 @@ pub enum Finding {
         /// The one before it.
         before: f64,
     },
-    /// What the board says of the device, though nothing in the world is wrong with it.
+    /// The board reports a fault of the device although nothing in the world is wrong with it.
     Health(String),
-    /// What the board does with the part on its bus.
+    /// The board treats the part on its bus in the wrong way.
     Transfer(String),
 }
 
-/// What was found out about a device.
+/// The findings about a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
     /// Its name.
     pub name: String,
     /// Its unit.
     pub quantity: String,
-    /// Values that were compared.
+    /// The number of values that were compared.
     pub reports: u64,
-    /// Values during and right after a fault that concerns it; they are not compared.
+    /// The number of values during and right after a fault that concerns the device; they are not compared.
     pub excused: u64,
-    /// Values that disagree, and silences.
+    /// The number of wrong values and of silences.
     pub wrong: u64,
-    /// The worst of them.
+    /// The worst finding.
     pub worst: Option<Wrong>,
-    /// How old a value may be.
+    /// The greatest age of a value.
     pub age_ns: u64,
-    /// From one report to the next, on average; none where too few came.
+    /// The average time from one report to the next; `None` if too few came.
     pub every_ns: Option<u64>,
 }
 
@@ -120,19 +122,19 @@ pub struct Judged {
 #[derive(Clone, Debug)]
 pub struct Judge {
     devices: Vec<SensorJudge>,
-    /// The actuators, of which only their health is known here.
+    /// The actuators, whose health is all that is judged here.
     others: Vec<OtherJudge>,
     board: String,
-    /// Its devices, in order.
+    /// The identifiers of the board's devices, in order.
     ids: Vec<u8>,
-    /// The board's name, where nothing in the world disturbs it.
+    /// The board's name; `None` if something in the world disturbs the board.
     undisturbed: Option<String>,
-    /// Reports that came.
+    /// The number of reports received.
     heard: u64,
-    /// When the first of them came, and the last.
+    /// The times of the first and the last report.
     first_ns: Option<u64>,
     last_ns: u64,
-    /// From one report to the next at least.
+    /// The shortest time from one report to the next.
     reporter_ns: u64,
     load: Load,
 }
@@ -152,7 +154,7 @@ impl Judged {
         }
     }
 
-    /// Counts what disagrees, and keeps the worst.
+    /// Counts a finding, and keeps the worst.
     fn note(&mut self, wrong: Option<Wrong>) {
         let Some(wrong) = wrong else { return };
         self.wrong += 1;
@@ -200,21 +202,21 @@ impl Judge {
         }
     }
 
-    /// For how long the board's processor has worked, where that is known.
+    /// Takes the time for which the board's processor has worked, if it is known.
     pub fn worked(&mut self, now_ns: u64, worked_ns: Option<u64>) {
         if let Some(worked_ns) = worked_ns {
             self.load.take(now_ns, worked_ns);
         }
     }
 
-    /// The board has answered its host, with a hello or with its health, in place of a report that was due.
+    /// The board has answered its host, with a hello or a health report, instead of sending a report that was due.
     pub fn answered(&mut self) {
         for sensor in &mut self.devices {
             sensor.answered();
         }
     }
 
-    /// When the host has set an actuator last, by its identifier.
+    /// Takes the time at which the host last set each actuator, by identifier.
     pub fn told(&mut self, told: &[(u8, u64)]) {
         for (id, at_ns) in told {
             if let Some(other) = self.others.iter_mut().find(|one| one.id == *id) {
@@ -223,7 +225,7 @@ impl Judge {
         }
     }
 
-    /// The board has said how it and its devices are.
+    /// The board has reported its own health and that of its devices.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
         if let Some(board) = self.undisturbed.clone() {
             let what = health::board_differs(health, now_ns, self.heard);
@@ -246,7 +248,7 @@ impl Judge {
         }
     }
 
-    /// What disagrees of the devices that the board speaks of: each of its own once, and no others.
+    /// The error in the list of devices that the board reports: each of its own must be there once, and no others.
     fn rows_differ(&self, health: &Health) -> Option<String> {
         let mut ids: Vec<u8> = health.devices.iter().map(|row| row.id).collect();
         ids.sort_unstable();
@@ -256,12 +258,12 @@ impl Judge {
         })
     }
 
-    /// The board was asked how it is, and did not say it.
+    /// The board was asked for its health and did not answer.
     pub fn no_health(&mut self, now_ns: u64, board: &str) {
         self.say_of_board(now_ns, board, "nothing, though it was asked".to_owned());
     }
 
-    /// What the board does with a host that has left and is back.
+    /// The board has handled the return of its host wrongly.
     pub fn comes_back(&mut self, now_ns: u64, what: String) {
         let mut judged = Judged::new(self.board.clone(), None);
         judged.note(Some(Wrong {
@@ -272,7 +274,7 @@ impl Judge {
         self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
     }
 
-    /// What the board has done with parts on buses that their drivers do not say.
+    /// The board has treated parts on buses in ways that their drivers do not describe.
     pub fn transfers(&mut self, now_ns: u64, odd: &[(String, String)]) {
         for (part, what) in odd {
             let mut judged = Judged::new(part.clone(), None);
@@ -288,7 +290,7 @@ impl Judge {
         self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
     }
 
-    /// Whether the board sends more reports than one in each cycle of its reporter.
+    /// The finding if the board sends more than one report in each cycle of its reporter.
     fn hurries(&self) -> Option<Wrong> {
         let between = self.heard.checked_sub(1).filter(|between| *between >= REPORTS_MIN)?;
         let got_ns = self.last_ns.saturating_sub(self.first_ns?) / between;
@@ -300,7 +302,7 @@ impl Judge {
         })
     }
 
-    /// The run is over.
+    /// Ends the run and returns the findings.
     #[must_use]
     pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
         if let Some(wrong) = self.hurries() {

@@ -1,4 +1,4 @@
-//! How often a device ought to report, and how often it does.
+//! How often a device should report, and how often it does.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
@@ -11,41 +11,41 @@ use crate::parts::pulses;
 use crate::range::is_counter;
 use crate::truth::Subject;
 
-/// How often a board looks for what is to be reported, unless its link says how often.
+/// How often a board looks for values to report, unless its link sets the rate.
 const REPORTER_NS: u64 = 10 * MS;
-/// How often a count that stands still is reported again.
+/// How often an unchanged count is reported again.
 pub(super) const REPEAT_NS: u64 = SECOND;
-/// What a measurement takes beside its waiting.
+/// The time that a measurement takes apart from its waiting.
 const MEASURING_NS: u64 = 3 * MS;
-/// What the first value waits for beside that: other parts of its bus are set up and measure before it.
+/// An additional delay of the first value: other parts on its bus are set up and measure before it.
 const FIRST_NS: u64 = SECOND;
-/// So many times make a pace.
+/// The least number of intervals for a verdict on the pace.
 const TIMES_MIN: u64 = 3;
-/// What a pace may be off, in per cent.
+/// The tolerance of a pace, in per cent.
 const PERCENT: u64 = 10;
-/// The same of a pace that the board's own clock makes.
+/// The tolerance of a pace that the board's own clock sets, in parts per thousand.
 const REGULAR_PER_MILLE: u64 = 10;
 
-/// From one report to the next.
+/// The time from one report to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pace {
-    /// No faster than that on average.
+    /// The shortest average.
     pub(super) least_ns: u64,
-    /// No slower on average, while there is something to report.
+    /// The longest average, while there is something to report.
     pub(super) most_ns: u64,
-    /// By how much two may be closer or further apart than that.
+    /// By how much a single interval may be shorter or longer than that.
     pub(super) jitter_ns: u64,
-    /// What a report waits for while the board answers its host.
+    /// The delay of a report while the board answers its host.
     pub(super) turn_ns: u64,
-    /// Whether the board's own clock says when.
+    /// Whether the board's own clock sets the pace.
     pub(super) is_regular: bool,
-    /// How long the first value takes at most that a board measures as soon as it is up, however long its cycle is; none
-    /// where something else than the board's clock says when there is a value.
+    /// The longest time until the first value, if the board measures it as soon as it is up, however long its cycle is;
+    /// `None` if something other than the board's clock determines when there is a value.
     pub(super) first_ns: Option<u64>,
 }
 
 impl Pace {
-    /// The one of a sensor. None where the world sends nothing that could be measured.
+    /// The pace of a sensor; `None` if the world sends nothing that could be measured.
     pub(super) fn of(
         job: &BoardJob<'_>,
         bench: &Bench,
@@ -76,7 +76,7 @@ impl Pace {
                 let is_asked = icu.mode == Mode::Width && icu.pulse_us.is_some();
                 let count = u64::try_from(subject.signals.len()).unwrap_or(1);
                 let waits_ns = count * 1_000 * u64::from(icu.wait_us).max(1_000);
-                // `wait` is the longest that an echo can take: most come sooner.
+                // `wait` is the longest time that an echo can take: most come sooner.
                 let (least_ns, most_ns) =
                     if is_asked { (cycle_ns, cycle_ns.max(waits_ns)) } else { (0, 0) };
                 (shortest_ns.max(least_ns), longest_ns.max(most_ns), 2 * longest_ns)
@@ -98,24 +98,25 @@ impl Pace {
             | Kind::Dac(_)
             | Kind::Can(_) => None,
         };
-        // A median may want several values before it has one.
+        // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);
         Some(Self { least_ns, most_ns, jitter_ns, turn_ns: reporter_ns, is_regular, first_ns })
     }
 
-    /// The longest silence that means nothing.
+    /// The longest silence that is still normal.
     pub(super) const fn gap_ns(&self) -> u64 {
         3 * self.most_ns + self.jitter_ns
     }
 
-    /// The same before the first value.
+    /// The longest silence before the first value that is still normal.
     pub(super) fn first_gap_ns(&self) -> u64 {
         let first_ns = self.first_ns.map(|ns| 3 * ns + self.jitter_ns + FIRST_NS);
         first_ns.map_or(self.gap_ns(), |ns| ns.min(self.gap_ns()))
     }
 }
 
-/// From one report to the next at least: as often as something can become due, or as the link says.
+/// The shortest time from one report to the next: the shortest cycle of anything that can become due, or the one that
+/// the link sets.
 pub(super) fn reporter_ns(job: &BoardJob<'_>) -> u64 {
     if let Some(rate_hz) = job.board.link.rate_hz {
         return cycle_ns_of(rate_hz);
@@ -125,12 +126,13 @@ pub(super) fn reporter_ns(job: &BoardJob<'_>) -> u64 {
     cycles.filter(|ms| *ms > 0).map(|ms| MS * u64::from(ms)).fold(REPORTER_NS, u64::min)
 }
 
-/// The reporter's cycle where a link has so many reports a second at most: whole milliseconds.
+/// The reporter's cycle on a link with this many reports a second at most, in whole milliseconds.
 fn cycle_ns_of(rate_hz: u32) -> u64 {
     MS * u64::from(1_000_u32.div_ceil(rate_hz.max(1)))
 }
 
-/// A chip measures one thing after the other, and misses whole cycles where that takes longer than one.
+/// The shortest and the longest cycle of a chip's device. A chip measures one thing after another, and misses whole
+/// cycles if that takes longer than one.
 fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64) {
     let of_part = job.devices.iter().filter(|of| of.device.part == one.device.part);
     let mut asked: Vec<(&[u8], u64)> = Vec::new();
@@ -161,20 +163,20 @@ fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64)
     (cycle_ns.max(longest_ns), most_ns.max(cycle_ns))
 }
 
-/// How far apart reports were so far.
+/// The time between reports so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Paced {
     sum_ns: u64,
     times: u64,
-    /// The first and the last report of the times that count.
+    /// The time of the last report, if the interval that starts there may count.
     last_ns: Option<u64>,
-    /// How often the board answered its host meanwhile.
+    /// How often the board has answered its host in that time.
     answers: u64,
 }
 
 impl Paced {
-    /// A report has come; what lies between it and the one before counts unless something explains its length. What has
-    /// waited for its host says nothing about when the next one comes.
+    /// A report has come. The interval since the one before counts unless something explains its length. A report that
+    /// was delayed by an answer to the host says nothing about when the next one comes.
     pub(super) fn take(&mut self, now_ns: u64, counts: bool, has_waited: bool) {
         if let Some(last_ns) = self.last_ns.filter(|_| counts) {
             self.sum_ns += now_ns - last_ns;
@@ -183,22 +185,22 @@ impl Paced {
         self.last_ns = (!has_waited).then_some(now_ns);
     }
 
-    /// The board has answered its host: a report that was due had to wait.
+    /// The board has answered its host, so a report that was due had to wait.
     pub(super) fn answered(&mut self) {
         self.answers += u64::from(self.last_ns.is_some());
     }
 
-    /// What comes next says nothing about its distance from what came before.
+    /// The next interval says nothing about the pace.
     pub(super) fn interrupt(&mut self) {
         self.last_ns = None;
     }
 
-    /// From one report to the next on average.
+    /// The average time from one report to the next.
     pub(super) fn mean_ns(&self) -> Option<u64> {
         (self.times >= TIMES_MIN).then(|| self.sum_ns / self.times.max(1))
     }
 
-    /// Whether that is another pace.
+    /// The finding if the measured pace is not the expected one.
     pub(super) fn differs(&self, now_ns: u64, pace: &Pace, may_be_slow: bool) -> Option<Wrong> {
         let got_ns = self.mean_ns()?;
         let jitter_ns = pace.jitter_ns / self.times.max(1);
@@ -215,7 +217,7 @@ impl Paced {
         (is_slow || is_fast).then(|| Wrong {
             at_ns: now_ns,
             finding: Finding::Pace { expected_ns, got_ns },
-            // It explains values that are too old, and not the other way round.
+            // A wrong pace explains values that are too old, but not the other way round.
             off: 1_000.0 * ratio.max(1.0 / ratio),
         })
     }

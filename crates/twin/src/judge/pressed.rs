@@ -1,7 +1,7 @@
-//! What a contact is for only a little longer than it must last: it must be told now and then.
+//! Changes of a contact that last only a little longer than its debounce time: some of them must be reported.
 //!
-//! In: the values that came. Out: how often the world has such a moment, where none of them was ever told. A contact
-//! that must last for longer in the firmware than in the file never sees them, and nothing else shows it.
+//! In: the reported values. Out: how often the world has such a change, if none of them was ever reported. A contact
+//! whose debounce time in the firmware is longer than in the file never sees them, and nothing else shows that.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
@@ -13,7 +13,7 @@ use crate::arith::number;
 use crate::parts::line::{Spikes, levels};
 use crate::truth::Subject;
 
-/// So many must be seen by the file for it to be wrong that none is.
+/// It is a finding that no change is reported only if at least this many must be seen according to the file.
 const SEEN_MIN: f64 = 4.0;
 
 /// The values of a contact.
@@ -21,16 +21,16 @@ const SEEN_MIN: f64 = 4.0;
 pub(super) struct Pressed {
     lasting_ns: u64,
     spikes: Spikes,
-    /// From one look at its wire to the next; 0 where its edges interrupt.
+    /// The time from one sample of its wire to the next; 0 if its edges interrupt.
     look_ns: u64,
-    /// From one value to the next; 0 where each change is told.
+    /// The time from one value to the next; 0 if each change is reported.
     delay_ns: u64,
-    /// Since when each element is what it is, on or off.
+    /// For each element, its changes so far: the time, and whether it was on from then.
     told: Vec<Vec<(u64, bool)>>,
 }
 
 impl Pressed {
-    /// The one of a contact that must last; none of others.
+    /// The state for a contact with a debounce time; `None` for any other device.
     pub(super) fn of(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Self> {
         let device: &Device = one.device;
         let own = device.kind.digital()?;
@@ -60,7 +60,8 @@ impl Pressed {
         }
     }
 
-    /// Whether none was told of all that ought to be seen from a time on, each within so much time.
+    /// The finding if none of the changes that should be seen in a span was reported; each must be within the given
+    /// age.
     pub(super) fn differs(
         &self,
         subject: &Subject,
@@ -92,7 +93,7 @@ impl Pressed {
         (seen >= SEEN_MIN).then_some(Wrong { at_ns: now_ns, finding, off: 1_000.0 })
     }
 
-    /// Whether a level lasts for longer than it must, and not for twice as long; nothing disturbs it.
+    /// Whether a level lasts longer than the debounce time but less than twice as long, and nothing disturbs it.
     fn is_short(&self, start_ns: u64, end_ns: u64) -> bool {
         let for_ns = end_ns - start_ns;
         let is_long_enough = for_ns > self.lasting_ns + self.lasting_ns / 20 + self.look_ns;
@@ -102,7 +103,7 @@ impl Pressed {
         is_long_enough && for_ns < 2 * self.lasting_ns && !is_disturbed
     }
 
-    /// How likely it is that a level of that length meets a value.
+    /// The probability that a level of that length coincides with a value.
     fn share(&self, for_ns: u64) -> f64 {
         let sure_ns = for_ns - self.look_ns.min(for_ns);
         number(sure_ns) / number(self.delay_ns.max(sure_ns).max(1))

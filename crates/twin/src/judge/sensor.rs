@@ -1,4 +1,4 @@
-//! The judge of one sensor: its values against the world, and its silences.
+//! The judge of a single sensor: its values and its silences against the world.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
@@ -19,54 +19,54 @@ use crate::bench::Bench;
 use crate::range::{is_counter, raw_range};
 use crate::truth::{Subject, real};
 
-/// What a value waits for beside its device: two cycles of the reporter and its way over a link.
+/// The delay of a value after the device has measured it: two cycles of the reporter, and the way over a link.
 const SLACK_NS: u64 = 40 * MS;
-/// How long a board may take to start before it must report.
+/// The longest time until a board that has started must report.
 const START_NS: u64 = 2 * SECOND;
-/// How long a bus is left alone at most after something held it, and a chip takes to start again.
+/// The longest time for which a bus is left alone after something held it, and which a chip takes to restart.
 const RECOVERY_NS: u64 = 1_500 * MS;
-/// A low-pass is as good as there after so many of its time constants.
+/// A low-pass has practically settled after this many of its time constants.
 const SETTLED: u64 = 8;
 
 #[derive(Clone, Debug)]
 pub(super) struct SensorJudge {
     pub(super) subject: Subject,
     pub(super) judged: Judged,
-    /// In raw numbers.
+    /// The tolerance in raw numbers.
     tolerance: f64,
-    /// How often it ought to report; none where the world gives it nothing to measure.
+    /// How often it should report; `None` if the world gives it nothing to measure.
     pace: Option<Pace>,
     paced: Paced,
-    /// How late it is told, where it is told when it changes.
+    /// How late its values are, for a device that is reported when it changes.
     counted: Option<Counted>,
-    /// What was told of a contact that must last.
+    /// The values reported for a contact with a debounce time.
     pressed: Option<Pressed>,
     reasons: Reasons,
-    /// Until when a board may not be up yet.
+    /// The time until which a board need not be up.
     start_ns: u64,
-    /// Messages that may have been heard from the middle on.
+    /// The number of messages that the board may have received only in part.
     halves: u16,
-    /// What was reported last, where it says something about what comes next.
+    /// The last reported value, as far as it tells anything about the next one.
     last: Vec<f64>,
-    /// Its filters, and for how long they remember.
+    /// Its filters, and how long they remember.
     shape: Shape,
     filtered: Vec<Filtered>,
     fed_since_ns: Option<u64>,
     memory_ns: u64,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
-    /// What it may be whatever the world says, because it tells what else is in a frame.
+    /// The values that it may have whatever the world says, because it selects what else is in a frame.
     selections: Vec<f64>,
-    /// Where it was before the board was up is unknown.
+    /// Whether its position before the board was up is unknown.
     is_anywhere: bool,
-    /// What a count may have begun with, less what the world had: from, to.
+    /// The range, from and to, of the count at the start minus that of the world.
     bases: Vec<Option<(f64, f64)>>,
     last_ns: Option<u64>,
-    /// When a value may have been measured at the earliest, because no host was there to take it before.
+    /// The earliest time at which a value may have been measured, because no host was there to take it before.
     waits_from_ns: Option<u64>,
 }
 
-/// What the frames of a CAN bus say that a value is which selects what else is in them.
+/// The values that a CAN frame's selector can have: a selector determines what else is in the frame.
 fn selections(job: &BoardJob<'_>, own: &Device) -> Vec<f64> {
     let selected = job.devices.iter().filter_map(|one| {
         let mux = one.device.kind.can()?.mux.as_ref()?;
@@ -150,7 +150,7 @@ impl SensorJudge {
         let raw: Vec<f64> = elements.iter().map(|one| real(*one)).collect();
         if self.is_excused(now_ns) {
             self.judged.excused += 1;
-            // A board that has started again counts anew.
+            // A board that has restarted counts from the beginning.
             self.bases.iter_mut().for_each(|base| *base = None);
             self.waits_from_ns = Some(now_ns);
             self.forget_filters(now_ns);
@@ -189,7 +189,7 @@ impl SensorJudge {
         self.judged.note(worst);
     }
 
-    /// Whether a value should not have been reported at all.
+    /// The finding if a value should not have been reported at all.
     fn unfiltered(&self, now_ns: u64, before_ns: u64, raw: &[f64]) -> Option<Wrong> {
         let filter = &self.reasons.filter;
         let is_raw = filter.median < 2 && filter.smooth_ms == 0;
@@ -199,7 +199,7 @@ impl SensorJudge {
         if let Some(raw) = raw.iter().find(is_invalid).filter(|_| is_raw) {
             return wrong(Finding::Invalid(self.subject.scale.shown(*raw)));
         }
-        // Who hears a board first hears what there is.
+        // The first values that a host receives from a board need not be changes.
         let is_known = self.last.len() == raw.len() && before_ns > self.start_ns;
         let after_ns = now_ns - before_ns;
         if let Some(counted) = &self.counted
@@ -221,13 +221,14 @@ impl SensorJudge {
         wrong(Finding::Unchanged { got, before })
     }
 
-    /// What the filters have seen is unknown.
+    /// Forgets what the filters have seen.
     fn forget_filters(&mut self, now_ns: u64) {
         self.filtered.iter_mut().for_each(Filtered::forget);
         self.fed_since_ns = Some(now_ns);
     }
 
-    /// The raw numbers that an element can have had when what arrives now was measured, and by how much they can be off.
+    /// The range of raw numbers that an element can have had when the value that arrives now was measured, and the
+    /// tolerance.
     fn expected(&mut self, now_ns: u64, element: usize) -> (f64, f64, f64) {
         let shape = &self.shape;
         if !shape.is_plain()
@@ -256,7 +257,7 @@ impl SensorJudge {
             .then(|| self.wrong(now_ns, element, (least, greatest), (got, off)))
     }
 
-    /// What a counter counted before is unknown, but it must be the same for all reports.
+    /// The start of a count is unknown, but it must be the same for all reports.
     fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
         let (least, greatest, tolerance) = self.expected(now_ns, element);
         let found = (got - greatest - tolerance, got - least + tolerance);
@@ -280,7 +281,7 @@ impl SensorJudge {
         Some(self.wrong(now_ns, element, expected, (got, both.0 - both.1)))
     }
 
-    /// In the device's own unit.
+    /// A finding, in the device's own unit.
     fn wrong(
         &self,
         at_ns: u64,
@@ -294,7 +295,7 @@ impl SensorJudge {
         Wrong { at_ns, finding, off: off / self.tolerance.max(0.5) }
     }
 
-    /// By how much a count may be off because the board was not up: less or more.
+    /// By how much a count may be off, down and up, because the board was not up.
     fn lost(&self, now_ns: u64, element: usize) -> (f64, f64) {
         let Some(signal) = self.subject.signals.get(element) else { return (0.0, 0.0) };
         let before = now_ns.min(START_NS + self.judged.age_ns);
@@ -310,7 +311,7 @@ impl SensorJudge {
         self.excuses.iter().any(hits)
     }
 
-    /// Whether nothing came for too long.
+    /// Reports a silence that lasts too long.
     fn silence(&mut self, now_ns: u64) {
         let Some(pace) = self.pace else { return };
         let gap_ns = self.last_ns.map_or(pace.first_gap_ns(), |_| pace.gap_ns());
@@ -335,7 +336,7 @@ impl SensorJudge {
         }
     }
 
-    /// The board has said how the device is.
+    /// The board has reported the health of the device.
     pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
         let reasons = &self.reasons;
         let is_over = |&(at, until): &(u64, u64)| now_ns < at || until + 2 * RECOVERY_NS < now_ns;
@@ -352,7 +353,7 @@ impl SensorJudge {
         self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
     }
 
-    /// A device that has never reported: each silence alone may have a reason, but not all of them together.
+    /// Judges a device that has never reported: each silence by itself may have a reason, but not all of them together.
     fn mute(&mut self, now_ns: u64) {
         let has_reported = self.judged.reports + self.judged.excused + self.judged.wrong > 0;
         let Some(pace) = self.pace.filter(|_| !has_reported) else { return };
@@ -362,7 +363,7 @@ impl SensorJudge {
         };
         let span = (self.start_ns, now_ns);
         let silent_ns = self.reasons.reportable_ns(&self.subject, span, &faults);
-        // A median may want several values before it has one.
+        // A median may need several values before it has one.
         let cycles = 2 + u64::from(self.reasons.filter.median);
         if silent_ns > cycles * pace.most_ns + self.judged.age_ns {
             let finding = Finding::Silence(crate::bench::seconds(now_ns));
@@ -370,7 +371,7 @@ impl SensorJudge {
         }
     }
 
-    /// The run is over.
+    /// Ends the run.
     pub(super) fn finish(&mut self, now_ns: u64) {
         self.silence(now_ns);
         self.mute(now_ns);

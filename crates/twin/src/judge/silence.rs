@@ -1,8 +1,8 @@
-//! Silences, and what in the world explains them.
+//! Silences, and the events in the world that explain them.
 //!
-//! A device keeps silent where the world gives it nothing to report: a value that is `invalid`, one that has not
-//! changed by `change`, a capture without pulses, a fault. All of it is computed from the world, a piece of time after
-//! the other; what is left over must not be longer than a few cycles.
+//! A device is silent if the world gives it nothing to report: a value that is `invalid` or has not changed by
+//! `change`, a capture without pulses, a fault. All this is computed from the world, piece by piece; the silence that
+//! remains must not be longer than a few cycles.
 
 use sensedsl_model::kind::icu::Icu;
 use sensedsl_model::protocol::Filter;
@@ -11,25 +11,26 @@ use super::MS;
 use crate::parts::pulses;
 use crate::truth::Subject;
 
-/// Into so many pieces a gap is cut.
+/// The number of pieces that a gap is cut into.
 const PIECES: u64 = 4;
-/// Pieces that are looked at, at most.
+/// The greatest number of pieces that are checked.
 const PIECES_MAX: u64 = 4_000;
 
-/// What can explain a silence.
+/// The possible explanations of a silence.
 #[derive(Clone, Debug)]
 pub(super) struct Reasons {
     pub(super) filter: Filter,
-    /// Of a capture that is not counting.
+    /// The settings of a capture that does not count.
     pub(super) icu: Option<Icu>,
-    /// By how much a right value can be off.
+    /// By how much a correct value can be off.
     pub(super) tolerance: f64,
-    /// How old a value may be.
+    /// The greatest age of a value.
     pub(super) age_ns: u64,
 }
 
 impl Reasons {
-    /// Since when a device is silent that reported last at `from_ns`, without what the world explains.
+    /// The time since which a device that last reported at `from_ns` has been silent, without the silence that the
+    /// world explains.
     pub(super) fn unexplained_since(
         &self,
         subject: &Subject,
@@ -72,7 +73,7 @@ impl Reasons {
         sum_ns
     }
 
-    /// Whether what is measured in a span may be nothing that is reported.
+    /// Whether it may be that nothing measured in a span is reported.
     pub(super) fn is_mute(&self, subject: &Subject, (from_ns, to_ns): (u64, u64)) -> bool {
         let early_ns = from_ns.saturating_sub(self.age_ns);
         let has_no_pulses = self
@@ -82,7 +83,7 @@ impl Reasons {
         has_no_pulses || self.may_be_invalid(subject, early_ns, to_ns)
     }
 
-    /// Whether an element may have had a raw number that is none.
+    /// Whether an element may have had an invalid raw number.
     pub(super) fn may_be_invalid(&self, subject: &Subject, from_ns: u64, to_ns: u64) -> bool {
         !self.filter.invalid.is_empty()
             && (0..subject.signals.len()).any(|element| {
@@ -94,7 +95,7 @@ impl Reasons {
             })
     }
 
-    /// Whether all elements may have stayed so near to what was reported last that it is not reported again.
+    /// Whether all elements may have stayed so close to the last reported value that it is not reported again.
     fn is_still(
         &self,
         subject: &Subject,

@@ -1,4 +1,4 @@
-//! By how much a right value can be off.
+//! The tolerance of a correct value.
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
@@ -43,7 +43,7 @@ pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subje
     }
 }
 
-/// What one tick, and a microsecond of the edges, make of the highest frequency.
+/// The error that one tick, and a microsecond in each edge, cause at the highest frequency.
 fn frequency_step(icu: &Icu, subject: &Subject) -> f64 {
     let bounds = subject.signals.iter().filter_map(Signal::bounds);
     let most = bounds.map(|(_, greatest)| subject.scale.raw(greatest)).fold(1.0, f64::max);

@@ -1,10 +1,10 @@
-//! What disagrees, in words.
+//! Findings in words.
 
 use super::{Finding, Judged, MS};
 use crate::bench::seconds;
 
 impl Judged {
-    /// The worst disagreement of the device; empty where there is none.
+    /// The worst finding about the device; empty if there is none.
     #[must_use]
     pub fn words(&self) -> String {
         let Some(worst) = &self.worst else { return String::new() };
@@ -66,7 +66,7 @@ fn time(ns: u64) -> String {
     }
 }
 
-/// A number with four digits behind the point at most.
+/// A number with at most four decimals.
 fn short(number: f64) -> String {
     let text = format!("{number:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

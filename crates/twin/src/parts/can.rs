@@ -1,4 +1,4 @@
-//! Other stations of a CAN bus, which send frames by themselves.
+//! The other stations on a CAN bus, which send frames by themselves.
 
 use sensedsl_model::words::Words;
 
@@ -8,25 +8,25 @@ use sensedsl_surroundings::CanFrame;
 
 /// The longest time between two frames.
 const PERIOD_NS_MAX: u64 = 50_000_000;
-/// And the shortest.
+/// The shortest time between two frames.
 const PERIOD_NS_MIN: u64 = 2_000_000;
 
 /// A value in a frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
-    /// Index of the subject.
+    /// The index of the subject.
     pub(crate) subject: usize,
-    /// Where it begins.
+    /// The byte at which it starts.
     pub(crate) byte: u8,
-    /// How it is coded.
+    /// The coding of the value.
     pub(crate) words: Words,
-    /// It is in the frame only where these bits of it are so; byte 0 of the frame has the lowest.
+    /// The frame has this value only if these bits of it (the mask) are so (the value); byte 0 is the lowest.
     pub(crate) select: Option<(u64, u64)>,
-    /// Bytes of the frame, where they are known.
+    /// The length of the frame in bytes, if it is known.
     pub(crate) length: Option<u8>,
 }
 
-/// A frame that somebody sends again and again.
+/// A frame that a station sends again and again.
 #[derive(Clone, Debug)]
 pub(crate) struct Sender {
     pub(crate) id: u32,
@@ -34,7 +34,7 @@ pub(crate) struct Sender {
     pub(crate) fields: Vec<Field>,
     pub(crate) period_ns: u64,
     next_ns: u64,
-    /// What selects what else is in the frame, each once, and which of them is next: a frame has one of them.
+    /// The selections for multiplexed fields, each once, and the index of the next one: a frame has one of them.
     selections: Vec<(u64, u64)>,
     turn: usize,
 }
@@ -46,12 +46,12 @@ impl Sender {
         Self { id, is_extended, fields, period_ns, next_ns, selections, turn: 0 }
     }
 
-    /// From one frame with all of its values to the next.
+    /// The time from one frame with all of its values to the next.
     pub(crate) fn round_ns(&self) -> u64 {
         self.period_ns * self.selections.len().max(1) as u64
     }
 
-    /// A further value, for a device of that cycle.
+    /// Adds a value, for a device with that cycle.
     pub(crate) fn add(&mut self, field: Field, delay_ns: u64) {
         if let Some(select) = field.select
             && !self.selections.contains(&select)
@@ -59,12 +59,12 @@ impl Sender {
             self.selections.push(select);
         }
         self.fields.push(field);
-        // Each selection comes as often as a frame without any.
+        // Each selection comes as often as a frame without selections would.
         let turns = self.selections.len().max(1) as u64;
         self.period_ns = self.period_ns.min((delay_ns / 2 / turns).max(PERIOD_NS_MIN));
     }
 
-    /// The frame, when it is due. What was due in the meantime is lost where `is_cut`.
+    /// The frame, if it is due. If `is_cut`, all frames that were due in the meantime are lost.
     pub(crate) fn next(
         &mut self,
         subjects: &[Subject],
@@ -98,7 +98,7 @@ impl Sender {
             bits = bits & !mask | u64::from_le_bytes(data) & mask;
             length = length.max(field.length.unwrap_or(0).into());
         }
-        // The value that selects is what this frame says, whatever the world says of it.
+        // The selecting value is the one of this frame, whatever the world says about it.
         if let Some((mask, selected)) = select {
             bits = bits & !mask | selected;
         }

@@ -1,40 +1,40 @@
-//! From physical quantities to what a part with a formula has in its registers.
+//! Conversion of physical quantities to the register contents of a part that needs a formula.
 //!
-//! The formulas are those that the data sheets print for floating point. The board computes with integers, so the two
-//! share nothing; what it makes of the bytes is near to what was wanted, and [`step`] says how near.
+//! The formulas are those that the data sheets give for floating point. The board computes with integers, so the two
+//! share nothing. The board's result is close to the wanted quantity, and [`step`] tells how close.
 
 use sensedsl_model::protocol::Formula;
 
 use crate::arith::{ln, number};
 use crate::truth::halved;
 
-/// The calibration that a BME280 or BMP280 of this bench has: that of the BMP280's data sheet, and humidity as most
-/// parts have it. As it is read from 0x88 on, then 0xA1, then from 0xE1 on.
+/// The calibration of a BME280 or BMP280 on this bench: that of the BMP280 data sheet, with humidity constants that
+/// most parts have. The order is that of the registers: from 0x88 on, then 0xA1, then from 0xE1 on.
 const CALIBRATION: [u8; 32] = [
     0x70, 0x6B, 0x43, 0x67, 0x18, 0xFC, 0x7D, 0x8E, 0x43, 0xD6, 0xD0, 0x0B, 0x27, 0x0B, 0x8C, 0x00,
     0xF9, 0xFF, 0x8C, 0x3C, 0xF8, 0xC6, 0x70, 0x17, 0x4B, 0x6B, 0x01, 0x00, 0x13, 0x2D, 0x03, 0x1E,
 ];
-/// The same in numbers.
+/// The calibration as numbers.
 const T: [f64; 3] = [27_504.0, 26_435.0, -1_000.0];
 const P: [f64; 9] =
     [36_477.0, -10_685.0, 3_024.0, 2_855.0, 140.0, -7.0, 15_500.0, -14_600.0, 6_000.0];
 const H: [f64; 6] = [75.0, 363.0, 0.0, 317.0, 50.0, 30.0];
 
-/// What is not among the devices of a part: 20 degrees, 1013.25 hPa, half saturated air.
+/// Values for outputs that are not among the devices of a part: 20 degrees, 1013.25 hPa, 50 % relative humidity.
 const USUAL_AIR: [f64; 3] = [2_000.0, 101_325.0 * 256.0, 50.0 * 1_024.0];
 
-/// What the converter of the board reads at full scale.
+/// The reading of the board's converter at full scale.
 const FULL: f64 = 4_095.0;
 const KELVIN: f64 = 273.15;
 const T25: f64 = 298.15;
 
-/// Channel 1 of a TSL2561 for each count of channel 0: daylight has about that much infrared.
+/// The counts of channel 1 of a TSL2561 for each count of channel 0: about the share of infrared in daylight.
 const INFRARED: f64 = 0.2;
-/// The formula's piece for it: what channels 0 and 1 count for, in 2^-14 lux.
+/// The formula's piece for that ratio: the weights of channels 0 and 1, in 2^-14 lux.
 const TSL_B: f64 = 532.0;
 const TSL_M: f64 = 721.0;
 
-/// The bytes of the calibration registers, one read after the other.
+/// The bytes of the calibration registers, in the order in which they are read.
 pub(crate) fn calibration(formula: Formula) -> &'static [u8] {
     match formula {
         Formula::Bme280 => &CALIBRATION,
@@ -43,7 +43,7 @@ pub(crate) fn calibration(formula: Formula) -> &'static [u8] {
     }
 }
 
-/// The raw bytes from which the board computes these outputs; an output that is not asked for has its usual value.
+/// The raw bytes from which the board computes these outputs; an output that is not given has its usual value.
 pub(crate) fn raw(formula: Formula, parameters: &[i32], wanted: [Option<f64>; 3]) -> Vec<u8> {
     let [first, second, third] = wanted;
     match formula {
@@ -72,7 +72,7 @@ pub(crate) fn raw(formula: Formula, parameters: &[i32], wanted: [Option<f64>; 3]
     }
 }
 
-/// By how much an output changes from one raw number to the next, near a value: what the board may be off by.
+/// By how much an output near a value changes from one raw number to the next: the error that the board may have.
 pub(crate) fn step(formula: Formula, parameters: &[i32], output: u8, near: f64) -> f64 {
     match (formula, output) {
         (Formula::Bmp280 | Formula::Bme280, 0) => {
@@ -95,7 +95,7 @@ pub(crate) fn step(formula: Formula, parameters: &[i32], output: u8, near: f64) 
             let [above, below] = [level + 1.0, level - 1.0].map(|at| thermistor(parameters, at));
             (above - below).abs()
         }
-        // A count of either channel, and the constants have nine bits.
+        // A count of either channel; the constants have nine bits.
         (Formula::Tsl2561, _) => {
             near.abs() * 0.004 + 2.0 * 1_000.0 * TSL_M / 16_384.0 * gain(parameters)
         }
@@ -108,7 +108,7 @@ fn fine(raw: f64) -> f64 {
     (raw / 16_384.0 - t1 / 1_024.0) * t2 + near * near * t3
 }
 
-/// In hundredths of a degree.
+/// The temperature in hundredths of a degree.
 fn temperature(fine: f64) -> f64 {
     fine / 51.2
 }
@@ -117,7 +117,7 @@ fn temperature_raw(wanted: f64) -> u32 {
     least_raw(|raw| temperature(fine(raw)) < wanted)
 }
 
-/// In 1/256 Pa.
+/// The pressure in 1/256 Pa.
 fn pressure(raw: f64, fine: f64) -> f64 {
     let [p1, p2, p3, p4, p5, p6, p7, p8, p9] = P;
     let from = fine / 2.0 - 64_000.0;
@@ -132,7 +132,7 @@ fn pressure_raw(wanted: f64, fine: f64) -> u32 {
     least_raw(|raw| pressure(raw, fine) > wanted)
 }
 
-/// In 1/1024 percent.
+/// The relative humidity in 1/1024 per cent.
 fn humidity(raw: f64, fine: f64) -> f64 {
     let [h1, h2, h3, h4, h5, h6] = H;
     let from = fine - 76_800.0;
@@ -145,7 +145,7 @@ fn humidity_raw(wanted: f64, fine: f64) -> u32 {
     least_raw(|raw| humidity(raw, fine) < wanted).min(0xFFFF)
 }
 
-/// The least raw number of 20 bits before which the condition does not hold.
+/// The least 20-bit raw number for which the condition does not hold.
 fn least_raw(is_before: impl Fn(f64) -> bool) -> u32 {
     let (mut from, mut to) = (1_u32, 0xF_FFFE_u32);
     while from < to {
@@ -156,11 +156,11 @@ fn least_raw(is_before: impl Fn(f64) -> bool) -> u32 {
             to = middle;
         }
     }
-    // Nothing was converted where the raw number is this one.
+    // This raw number stands for a skipped conversion.
     if from == 0x8_0000 { from + 1 } else { from }
 }
 
-/// 20 bits in the upper bits of three bytes.
+/// A 20-bit number in the upper bits of three bytes.
 fn word20(raw: u32) -> Vec<u8> {
     (raw << 4).to_be_bytes().get(1..).unwrap_or_default().to_vec()
 }
@@ -174,14 +174,14 @@ fn whole(real: f64, most: f64) -> u16 {
     real.round().clamp(0.0, most.min(65_535.0)) as u16
 }
 
-/// In hundredths of a degree, of a level of the converter.
+/// The temperature, in hundredths of a degree, for a reading of the converter.
 fn thermistor(parameters: &[i32], level: f64) -> f64 {
     let [beta, r25, series] = three(parameters);
     let ratio = series * level / (r25 * (FULL - level));
     (1.0 / (1.0 / T25 + ln(ratio) / beta) - KELVIN) * 100.0
 }
 
-/// The warmer, the lower the level.
+/// The reading for a temperature: the warmer, the lower.
 fn thermistor_level(parameters: &[i32], wanted: f64) -> u16 {
     let level = halved(1.0, FULL - 1.0, |level| thermistor(parameters, level) > wanted);
     whole(level, FULL - 1.0)
@@ -192,7 +192,7 @@ fn three(parameters: &[i32]) -> [f64; 3] {
     [all.next(), all.next(), all.next()].map(|one| one.unwrap_or(1.0))
 }
 
-/// What a count of a TSL2561 is worth, compared with 402 ms and a gain of 16.
+/// The weight of a TSL2561 count, relative to 402 ms and a gain of 16.
 fn gain(parameters: &[i32]) -> f64 {
     let time: f64 = match parameters.first() {
         Some(13) => number(0x7517) / 1_024.0,
@@ -202,7 +202,7 @@ fn gain(parameters: &[i32]) -> f64 {
     if parameters.get(1) == Some(&1) { time * 16.0 } else { time }
 }
 
-/// Counts of channel 0, of millilux.
+/// The counts of channel 0 for an illuminance in millilux.
 fn light_counts(parameters: &[i32], millilux: f64) -> f64 {
     let each = (TSL_B - TSL_M * INFRARED) / 16_384.0 * 1_000.0 * gain(parameters);
     let end = match parameters.first() {

@@ -1,7 +1,7 @@
 //! Levels and edges on single wires: switches, wheels, servo pulses, pulse trains.
 //!
-//! A line says its level now and its next edge. What moves slowly is asked when it crosses the next step, by halving
-//! spans of time in which it must have done so; what sends pulses knows when they come.
+//! A line gives its present level and its next edge. For a quantity that moves slowly, the time at which it crosses the
+//! next step is found by halving spans of time; for pulses, their times are known.
 
 use sensedsl_model::kind::icu::{self, Icu};
 
@@ -9,46 +9,46 @@ use crate::arith::{nanoseconds, number};
 use crate::truth::Subject;
 use crate::world::Signal;
 
-/// No edge is looked for further ahead.
+/// How far ahead an edge is searched for.
 const HORIZON_NS: u64 = 3_600_000_000_000;
-/// Edges are told to that precision.
+/// The precision of the times of edges.
 const PRECISION_NS: u64 = 1_000;
-/// From one pulse to the next, where nothing else says so: that of model receivers.
+/// The time from one pulse to the next if nothing else determines it: that of model receivers.
 const PULSES_NS: u64 = 20_000_000;
-/// Between the longest pulse and the next one.
+/// The pause between the longest pulse and the next one.
 const REST_NS: u64 = 5_000_000;
-/// The period whose active part is measured.
+/// The period whose duty cycle is measured.
 pub(crate) const DUTY_NS: u64 = 10_000_000;
-/// From a trigger's end to the echo.
+/// The time from the end of a trigger to the echo.
 const ECHO_NS: u64 = 450_000;
-/// The pulse between two channels of a train.
+/// The length of the pulse between two channels of a train.
 const MARK_NS: u64 = 300_000;
-/// The longest channel of a train, and the pause after all of them.
+/// The longest channel of a train, and the pause after the last one.
 const CHANNEL_NS: u64 = 2_100_000;
 const TRAIN_REST_NS: u64 = 6_000_000;
-/// Spikes on the wire of a contact: by how much they are shorter than what counts, at least and in per cent; how long
-/// they are at least; how often they come.
+/// Spikes on the wire of a contact: by how much they are shorter than the debounce time, as a time and in per cent;
+/// their shortest length; the time between them.
 const SPIKE_LESS_NS: u64 = 500_000;
 const SPIKE_LESS_PERCENT: u64 = 10;
 const SPIKE_MIN_NS: u64 = 500_000;
 const SPIKES_NS: u64 = 171_000_000;
-/// How long a signal without a frequency is left alone.
+/// The time after which a signal without a frequency is evaluated again.
 const IDLE_NS: u64 = 10_000_000;
 
-/// What happens on a wire.
+/// The signal on a wire.
 #[derive(Clone, Debug)]
 pub(crate) enum Line {
-    /// A level: on or off, with spikes that are too short to count.
+    /// A level, on or off, with spikes that are too short to count.
     Level { subject: usize, element: usize, is_active_low: bool, spikes: Spikes },
-    /// So many edges since the start.
+    /// A number of edges since the start.
     Count { subject: usize, element: usize, edges: Edges },
     /// A track of an encoder.
     Track { subject: usize, element: usize, is_second: bool },
     /// Pulses of a measured width at a fixed pace.
     Width { subject: usize, element: usize, tick_ns: f64, period_ns: u64, is_low: bool },
-    /// A pulse of a measured width after a trigger.
+    /// A pulse of a measured width that follows a trigger.
     Echo { subject: usize, element: usize, tick_ns: f64, is_low: bool, pulse: Option<(u64, u64)> },
-    /// Pulses whose distance is what is measured.
+    /// Pulses whose period or frequency is the measured quantity.
     Period {
         subject: usize,
         element: usize,
@@ -57,13 +57,13 @@ pub(crate) enum Line {
         began_ns: u64,
         period_ns: Option<u64>,
     },
-    /// The active part of a fixed period.
+    /// A fixed period whose duty cycle is measured.
     Duty { subject: usize, element: usize, is_low: bool },
-    /// All channels of a model receiver.
+    /// The pulse train with all channels of a model receiver.
     Train { subject: usize, tick_ns: f64, is_low: bool },
 }
 
-/// What a contact's wire catches: the other level for a moment, now and then.
+/// Interference on a contact's wire: now and then, the opposite level for a moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Spikes {
     every_ns: u64,
@@ -71,7 +71,7 @@ pub(crate) struct Spikes {
 }
 
 impl Spikes {
-    /// Those that a contact which must last so long is not to see; none where any level counts.
+    /// The spikes that a contact with this debounce time must ignore; no spikes if the time is 0.
     pub(crate) const fn below(lasting_ns: u64) -> Self {
         let less_ns = lasting_ns / 100 * SPIKE_LESS_PERCENT;
         let less_ns = if less_ns > SPIKE_LESS_NS { less_ns } else { SPIKE_LESS_NS };
@@ -81,17 +81,18 @@ impl Spikes {
         Self { every_ns, for_ns: if for_ns < SPIKE_MIN_NS { 0 } else { for_ns } }
     }
 
-    /// From one to the next.
+    /// The time from one spike to the next.
     pub(crate) const fn every_ns(&self) -> u64 {
         self.every_ns
     }
 
-    /// Where in its period a moment is: a spike is at the end of it, and away from what a world does at whole multiples.
+    /// The phase of a moment in the spikes' period. A spike is at the end of the period, away from whole multiples, at
+    /// which a world's events happen.
     const fn phase_ns(&self, now_ns: u64) -> u64 {
         now_ns.saturating_add(self.every_ns / 2)
     }
 
-    /// Whether there is one in a span of time.
+    /// Whether there is a spike in a span of time.
     pub(crate) fn is_within(&self, from_ns: u64, to_ns: u64) -> bool {
         self.is_there(from_ns) || self.next(from_ns).is_some_and(|at_ns| at_ns <= to_ns)
     }
@@ -100,7 +101,7 @@ impl Spikes {
         self.for_ns > 0 && self.phase_ns(now_ns) % self.every_ns >= self.every_ns - self.for_ns
     }
 
-    /// The first beginning or end of one after a moment.
+    /// The first start or end of a spike after a moment.
     fn next(&self, after_ns: u64) -> Option<u64> {
         if self.for_ns == 0 {
             return None;
@@ -112,7 +113,7 @@ impl Spikes {
     }
 }
 
-/// Which edges count.
+/// The edges that count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edges {
     Rising,
@@ -120,17 +121,17 @@ pub(crate) enum Edges {
     Both,
 }
 
-/// In what a distance of pulses is given.
+/// The unit in which the distance of pulses is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Unit {
-    /// Ticks of so many nanoseconds.
+    /// Ticks, each of this many nanoseconds.
     Ticks(f64),
     /// Pulses a second.
     Hertz,
 }
 
 impl Line {
-    /// What is on the wire of a capture.
+    /// The line on a capture's wire.
     pub(crate) fn of_capture(icu: &Icu, subject: usize, element: usize, of: &Subject) -> Self {
         let tick_ns = 1e9 / f64::from(icu.tick_hz.max(1));
         let is_low = icu.edge == icu::Edge::Falling;
@@ -171,7 +172,7 @@ impl Line {
         }
     }
 
-    /// The trigger wire of the part was let go.
+    /// The part's trigger was released.
     pub(crate) fn triggered(&mut self, subjects: &[Subject], now_ns: u64) {
         if let Self::Echo { subject, element, tick_ns, pulse, .. } = self
             && pulse.is_none_or(|(_, end)| end <= now_ns)
@@ -207,7 +208,7 @@ impl Line {
         }
     }
 
-    /// The first edge after a moment, and the level from then on.
+    /// The first edge after a moment, and the level after it.
     pub(crate) fn next_edge(&mut self, subjects: &[Subject], after_ns: u64) -> Option<(u64, bool)> {
         match self {
             Self::Level { subject, element, spikes, .. } => {
@@ -262,7 +263,7 @@ impl Line {
         }
     }
 
-    /// Goes on to the pulse that a moment is in, where each begins where the one before ends.
+    /// Goes on to the pulse at a moment; each pulse starts where the one before ends.
     fn follow(&mut self, subjects: &[Subject], now_ns: u64) {
         let Self::Period { subject, element, unit, began_ns, period_ns, .. } = self else { return };
         loop {
@@ -280,7 +281,7 @@ impl Line {
         }
     }
 
-    /// The pulse of a moment: its start and end, and the start of the next one.
+    /// The pulse at a moment: its start and end, and the start of the next one.
     fn pulse(&self, subjects: &[Subject], now_ns: u64) -> (u64, u64, Option<u64>) {
         match self {
             Self::Level { .. } | Self::Count { .. } | Self::Track { .. } => (0, 0, None),
@@ -298,7 +299,7 @@ impl Line {
                     let next = began_ns.saturating_add(*length);
                     (*began_ns, began_ns.saturating_add(length / 2), Some(next))
                 }
-                // Perhaps it turns again then.
+                // The signal may have a frequency again by then.
                 None => (0, 0, None),
             },
             Self::Duty { subject, element, .. } => {
@@ -312,13 +313,13 @@ impl Line {
     }
 }
 
-/// From one train of so many channels to the next.
+/// The time from one train with this many channels to the next.
 pub(crate) fn frame_ns(channels: usize) -> u64 {
     let count = u64::try_from(channels).unwrap_or(0);
     PULSES_NS.max(count * CHANNEL_NS + TRAIN_REST_NS)
 }
 
-/// The mark of a train that a moment is in or behind.
+/// The last mark of a train that starts before a moment.
 fn train(
     subjects: &[Subject],
     subject: usize,
@@ -344,7 +345,7 @@ fn raw(subjects: &[Subject], subject: usize, element: usize, now_ns: u64) -> f64
     subjects.get(subject).map_or(0.0, |one| one.raw(element, now_ns))
 }
 
-/// The levels of an element of a contact in a span of time: since when it is on or off, the first from the beginning on.
+/// The levels of a contact's element in a span of time, each with its start; the first one starts with the span.
 pub(crate) fn levels(
     subject: &Subject,
     element: usize,
@@ -368,7 +369,7 @@ fn is_on(raw: f64) -> bool {
     raw >= 0.5
 }
 
-/// Changes of the level so far: two for each edge where only one of both counts.
+/// The number of level changes so far: two for each edge if only one kind of edge counts.
 fn steps(edges: Edges, raw: f64) -> f64 {
     match edges {
         Edges::Both => raw.floor(),
@@ -376,18 +377,18 @@ fn steps(edges: Edges, raw: f64) -> f64 {
     }
 }
 
-/// The level after so many changes.
+/// The level after that many changes.
 fn counted(edges: Edges, steps: f64) -> bool {
     let is_odd = steps.rem_euclid(2.0) == 1.0;
     match edges {
         Edges::Both => is_odd,
-        // The edge that counts comes with each whole number, the other one half way to the next.
+        // The edge that counts comes with each whole number, the other one halfway to the next.
         Edges::Rising => !is_odd && steps >= 2.0,
         Edges::Falling => is_odd || steps < 2.0,
     }
 }
 
-/// Up, the first track comes first.
+/// The level of a track. As the position rises, the first track leads.
 fn track(is_second: bool, position: f64) -> bool {
     let phase = position.rem_euclid(4.0);
     if is_second { phase >= 2.0 } else { (1.0..3.0).contains(&phase) }
@@ -403,7 +404,7 @@ pub(crate) fn distance(unit: Unit, raw: f64) -> Option<u64> {
     (2 * PRECISION_NS..HORIZON_NS).contains(&length).then_some(length)
 }
 
-/// When a function of a quantity first has another value after a moment, and which.
+/// The first moment after another one at which a function of a quantity has a new value, and that value.
 fn crossing(
     subjects: &[Subject],
     subject: usize,
@@ -433,7 +434,7 @@ fn crossing(
     None
 }
 
-/// The first moment of a span at which something differs.
+/// The first moment in a span at which something differs.
 fn search(
     from: u64,
     to: u64,
@@ -450,7 +451,7 @@ fn search(
     search(from, middle, may_differ, differs).or_else(|| search(middle, to, may_differ, differs))
 }
 
-/// The first moment, to the nanosecond: whoever asks again from just before it must get it again.
+/// The first moment, to the nanosecond: a search from just before it must find it again.
 fn first(from: u64, to: u64, differs: &impl Fn(u64) -> bool) -> u64 {
     let (mut from, mut to) = (from, to);
     while to - from > 1 {

@@ -8,21 +8,21 @@ use super::words::{bytes, crc8};
 use crate::arith::rounded;
 use crate::truth::Subject;
 
-/// The longest time between two messages: what satellite receivers keep.
+/// The longest time between two messages: that of satellite receivers.
 const PERIOD_NS_MAX: u64 = 100_000_000;
 
 /// A value in the messages of a part.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
-    /// Index of the subject.
+    /// The index of the subject.
     pub(crate) subject: usize,
-    /// Where a binary value begins behind the start.
+    /// The byte, counted from the end of the start bytes, at which a binary value starts.
     pub(crate) byte: u16,
-    /// How a binary value is coded.
+    /// The coding of a binary value.
     pub(crate) words: Option<Words>,
-    /// How it is written in a text.
+    /// The format in a text.
     pub(crate) text: Option<TextField>,
-    /// Of degrees: whether the sign is told by north and south.
+    /// For degrees: whether the sign is given as north and south.
     pub(crate) is_latitude: bool,
 }
 
@@ -31,13 +31,13 @@ pub(crate) struct Field {
 pub(crate) struct Talker {
     uart: Uart,
     fields: Vec<Field>,
-    /// From one message to the next.
+    /// The time from one message to the next.
     period_ns: u64,
-    /// The bytes of the message that is on the wire, and when it began.
+    /// The bytes of the message on the wire, and the time at which it started.
     message: Vec<u8>,
     began_ns: u64,
     sent: usize,
-    /// Messages begun so far.
+    /// The number of messages started so far.
     number: u64,
 }
 
@@ -52,14 +52,14 @@ impl Talker {
             sent: 0,
             number: 0,
         };
-        // Fields get longer and shorter with their values.
+        // Text fields get longer and shorter with their values.
         let longest_ns =
             2 * talker.byte_ns() * u64::try_from(talker.compose(subjects, 0).len()).unwrap_or(0);
         talker.period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
         talker
     }
 
-    /// From one message to the next.
+    /// The time from one message to the next.
     pub(crate) const fn period_ns(&self) -> u64 {
         self.period_ns
     }
@@ -68,7 +68,7 @@ impl Talker {
     pub(crate) fn next(&mut self, subjects: &[Subject], now_ns: u64) -> Option<u8> {
         let begins_ns = self.period_ns.saturating_mul(self.number + 1);
         if self.sent >= self.message.len() && now_ns >= begins_ns {
-            // What was not taken in the meantime is lost, as it is in a receiver.
+            // Bytes that were not taken in the meantime are lost, as they are in a receiver.
             self.number = now_ns / self.period_ns;
             self.began_ns = self.period_ns.saturating_mul(self.number);
             self.message = self.compose(subjects, self.began_ns);
@@ -84,7 +84,7 @@ impl Talker {
         Some(byte)
     }
 
-    /// Drops what is on the wire: the cable is torn.
+    /// Drops the message on the wire: the cable is torn.
     pub(crate) fn torn(&mut self) {
         self.message.clear();
         self.sent = 0;
@@ -96,7 +96,7 @@ impl Talker {
         bits * 1_000_000_000 / u64::from(self.uart.baud.max(1))
     }
 
-    /// One message of each sentence, or the one that there is.
+    /// One message of each sentence, or the only message.
     fn compose(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
         let is_text = self.fields.iter().any(|field| field.text.is_some());
         if !is_text {
@@ -155,7 +155,7 @@ impl Talker {
                 }
             }
         }
-        // A receiver that has a position says so.
+        // A receiver that has a position fix says so.
         if sentence == Some("RMC")
             && let Some(status) = columns.get_mut(1).filter(|status| status.is_empty())
         {
@@ -170,7 +170,7 @@ impl Talker {
     }
 }
 
-/// A message: its body with start, checksum and end.
+/// A message: its start, body, checksum and end.
 pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
     let mut all = [&uart.start, body].concat();
     let summed = all.get(usize::from(uart.checksum_from)..).unwrap_or_default();
@@ -189,7 +189,7 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
     all
 }
 
-/// A number as a text has it; for degrees, the next column as well.
+/// A number as it is written in a text; for degrees, the next column as well.
 fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
     match text.format {
         Format::Hex => vec![format!("{:X}", rounded(raw).max(0))],
@@ -198,7 +198,7 @@ fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
             let whole = rounded(raw);
             let size = whole.unsigned_abs();
             let (degrees, rest) = (size / 10_000_000, size % 10_000_000);
-            // A minute has 1/60 of a degree, and five digits behind its point.
+            // Minutes are written with five decimals; one is 1/60 of a degree.
             let minutes = (rest * 60 + 50) / 100;
             let side = match (is_latitude, whole < 0) {
                 (true, false) => "N",

@@ -1,4 +1,4 @@
-//! What is behind a board's pins: parts that answer as the library's drivers describe them, with the world's values.
+//! The parts behind a board's pins, which answer with the world's values as the library's drivers describe.
 
 pub(crate) mod can;
 pub(crate) mod formula;

@@ -1,4 +1,4 @@
-//! How far apart the pulses are that a world sends to a capture.
+//! The time between the pulses that a world sends to a capture.
 
 use sensedsl_model::kind::icu::{Icu, Mode};
 
@@ -6,13 +6,13 @@ use super::line::{DUTY_NS, Line, Unit, distance, frame_ns};
 use crate::arith::nanoseconds;
 use crate::truth::Subject;
 
-/// A shorter pulse is none.
+/// The length of the shortest pulse that counts.
 const SHORTEST_NS: u64 = 2_000;
-/// The timers that capture have 16 bits at least, and measure nothing that is longer.
+/// The timers that capture have at least 16 bits, and nothing longer is measured.
 const TICKS_MAX: f64 = 65_535.0;
 
-/// The shortest and the longest time from one measurement to the next in a span of time; none where there may be no
-/// pulses that a timer can measure. With a trigger both are 0: the board says when.
+/// The shortest and the longest time from one measurement to the next in a span of time; `None` if there may be no
+/// pulses that a timer can measure. With a trigger both are 0: the board decides when to measure.
 pub(crate) fn apart(icu: &Icu, subject: &Subject, from_ns: u64, to_ns: u64) -> Option<(u64, u64)> {
     let mut all: Option<(u64, u64)> = None;
     for element in 0..subject.signals.len() {

@@ -1,10 +1,10 @@
-//! Parts whose registers say how many counts they give for a unit, and how often they measure.
+//! Parts whose registers determine how many counts they give for a unit, and how often they measure.
 //!
-//! `ranges.csv` has, for a reading of a driver of the library: the register that sets its range, the bits that count,
-//! what the register is after power came, and the counts for one unit of each code. A code that is not in the list
+//! For each reading of a driver of the library, `ranges.csv` has the register that sets its range, the bits that count,
+//! the register's value after power-up, and the counts for one unit under each code. A code that is not in the list
 //! gives 0: the data sheet reserves it, or the part does not measure with it. `rates.csv` has measurements a second in
-//! the same form. Both are written from the data sheets. What a driver writes is compared with what the design says it
-//! writes: with the same codes the part gives the numbers that the design's `scale` expects.
+//! the same form. Both are written from the data sheets. The codes that a board writes are compared with those that the
+//! design says it writes: if they are the same, the part gives the numbers that the design's `scale` expects.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use crate::arith::nanoseconds;
 
 const RANGES: &str = include_str!("ranges.csv");
 const RATES: &str = include_str!("rates.csv");
-/// Stands for all readings of a driver.
+/// The name that stands for all readings of a driver.
 const ALL: &str = "*";
 
-/// A register, and what each of its codes stands for.
+/// A register, and the meaning of each of its codes.
 #[derive(Clone, Debug, PartialEq)]
 struct Setting {
     register: u16,
@@ -26,7 +26,7 @@ struct Setting {
     codes: Vec<(u8, f64)>,
 }
 
-/// The settings of a reading, and what the design says is written to them.
+/// The settings for a reading, and the register values that the design writes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ranges {
     ranges: Vec<Setting>,
@@ -35,7 +35,7 @@ pub(crate) struct Ranges {
 }
 
 impl Setting {
-    /// Those of a reading in a table.
+    /// The settings for a reading in a table.
     fn of(table: &str, driver: &str, reading: Option<&str>) -> Vec<Self> {
         let own = table.lines().skip(1).filter_map(|line| {
             let mut cells = line.split(',');
@@ -59,7 +59,7 @@ impl Setting {
         Some(Self { register, mask, reset, codes })
     }
 
-    /// What the registers say; 0 for a code that is not known.
+    /// The setting in the registers; 0 for an unknown code.
     fn value(&self, written: &BTreeMap<u16, u8>) -> f64 {
         let code = written.get(&self.register).copied().unwrap_or(self.reset) & self.mask;
         self.codes.iter().find(|(own, _)| *own == code).map_or(0.0, |(_, value)| *value)
@@ -71,13 +71,13 @@ fn hexadecimal(text: &str) -> Option<u16> {
 }
 
 impl Ranges {
-    /// Those of a reading of a driver's part, which is set up as the protocol says.
+    /// The ranges of a reading of a driver's part that is set up as the protocol says.
     pub(crate) fn of(driver: &str, reading: Option<&str>, protocol: &Protocol) -> Self {
         let [ranges, rates] = [RANGES, RATES].map(|table| Setting::of(table, driver, reading));
         Self { ranges, rates, planned: planned(protocol) }
     }
 
-    /// How many counts the part gives in place of one that the design expects; 0 where it measures nothing.
+    /// How many counts the part gives for each one that the design expects; 0 if it does not measure.
     pub(crate) fn factor(&self, written: &BTreeMap<u16, u8>) -> f64 {
         let is_still = |one: &Setting| one.value(&self.planned) > 0.0 && one.value(written) == 0.0;
         if self.rates.iter().any(is_still) {
@@ -90,19 +90,19 @@ impl Ranges {
         each.product()
     }
 
-    /// From one measurement to the next; none where that is not known, or always.
+    /// The time from one measurement to the next; `None` if it is not known, or if the part always measures.
     pub(crate) fn period_ns(&self, written: &BTreeMap<u16, u8>) -> Option<u64> {
         let slowest = self.rates.iter().map(|one| one.value(written)).reduce(f64::min)?;
         (slowest > 0.0).then(|| nanoseconds(1e9 / slowest))
     }
 
-    /// The same as the design has it.
+    /// The time from one measurement to the next according to the design; 0 if there is none.
     pub(crate) fn planned_ns(&self) -> u64 {
         self.period_ns(&self.planned).unwrap_or(0)
     }
 }
 
-/// What is in the registers after a part was set up.
+/// The contents of the registers after a part was set up.
 fn planned(protocol: &Protocol) -> BTreeMap<u16, u8> {
     let width = usize::from(protocol.register_bytes.clamp(1, 2));
     let mut registers = BTreeMap::new();
@@ -142,7 +142,7 @@ mod tests {
         let ranges = Ranges::of("mpu6050", Some("acceleration"), &protocol);
         let factor = |code: u8| ranges.factor(&BTreeMap::from([(0x1C, code)]));
         assert_eq!([factor(0x08), factor(0x10), factor(0x00)], [1.0, 0.5, 2.0]);
-        // What was never written is what it is after power came.
+        // A register that was never written has its power-up value.
         assert_eq!(ranges.factor(&BTreeMap::new()), 2.0);
         let none = Ranges::of("mpu6050", Some("temperature"), &protocol);
         assert_eq!(none.factor(&BTreeMap::from([(0x1C, 0x18)])), 1.0);

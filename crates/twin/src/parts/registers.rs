@@ -1,7 +1,8 @@
-//! A part with registers on I2C or SPI: what it answers, byte by byte, as its driver describes it.
+//! A part with registers on I2C or SPI: its answers, byte by byte, as its driver describes them.
 //!
-//! What is written is kept and can be read back. Registers of values have the world's; where the driver knows an
-//! identity or a calibration, it is there. A trigger starts a measurement; the part does not answer until it is done.
+//! Written values are kept and can be read back. The registers of readings have the world's values, and those of an
+//! identity or a calibration have what the driver gives. A trigger starts a measurement; the part does not answer until
+//! it is done.
 
 mod odd;
 mod rest;
@@ -19,33 +20,33 @@ use super::waits::Waits;
 use super::{formula, words};
 use crate::truth::Subject;
 
-/// Bytes that a read goes on for at most.
+/// The greatest number of bytes in one read.
 const READ_BYTES_MAX: usize = 2_112;
 
 /// A value of the part.
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
-    /// Index of the subject.
+    /// The index of the subject.
     pub(crate) subject: usize,
-    /// Written to start its measurement; empty for none.
+    /// The bytes that start its measurement; empty for none.
     pub(crate) trigger: Vec<u8>,
-    /// How long that lasts.
+    /// The length of a measurement.
     pub(crate) wait_ns: u64,
     /// Its register; `None` if it is read without one.
     pub(crate) register: Option<u16>,
-    /// Sent before it is read, on SPI.
+    /// The bytes sent before it is read, on SPI.
     pub(crate) select: Vec<u8>,
-    /// Sent while it is read, on SPI.
+    /// The bytes sent while it is read, on SPI.
     pub(crate) exchange: Vec<u8>,
-    /// Where its bytes begin behind the register.
+    /// The byte, counted from the register, at which it starts.
     pub(crate) byte: u16,
-    /// Bytes of a transfer that reads it.
+    /// The number of bytes in a transfer that reads it.
     pub(crate) length: u16,
-    /// How it is coded; none where the formula makes it.
+    /// The coding; `None` if the formula gives it.
     pub(crate) words: Option<Words>,
-    /// Which output of the formula it is.
+    /// The output of the formula that it is.
     pub(crate) output: Option<u8>,
-    /// What the part's registers make of it.
+    /// The ranges and rates that the part's registers set for it.
     pub(crate) ranges: Ranges,
 }
 
@@ -55,7 +56,7 @@ struct Measurement {
     trigger: Vec<u8>,
     began_ns: u64,
     ready_ns: u64,
-    /// How long it lasts, until it was taken.
+    /// How long it lasts; `None` once it was read.
     wait_ns: Option<u64>,
 }
 
@@ -65,25 +66,25 @@ pub(crate) struct Registers {
     protocol: Protocol,
     readings: Vec<Reading>,
     written: BTreeMap<u16, u8>,
-    /// What wakes it, and all that was written, triggers included.
+    /// The register that wakes it, and everything that was written, including triggers.
     sleep: Option<Sleep>,
     controls: BTreeMap<u16, u8>,
-    /// What the master has sent in this transfer.
+    /// The bytes that the master has sent in this transfer.
     sent: Vec<u8>,
     pointer: Option<u16>,
     measurement: Option<Measurement>,
-    /// What is read in this transfer.
+    /// The bytes that are read in this transfer.
     answer: Vec<u8>,
     at: usize,
     began_ns: u64,
-    /// Its identity was read; something else was.
+    /// Whether its identity was read, and whether anything else was.
     is_asked: bool,
     is_used: bool,
-    /// How much of what sets it up was written, and what the board has done that its driver does not say.
+    /// The number of setup writes so far, and the first thing the board did that the driver does not describe.
     begun: usize,
     odd: Option<String>,
     waits: Waits,
-    /// Until when it is to be left alone.
+    /// The pause that it needs.
     rest: Rest,
 }
 
@@ -110,7 +111,7 @@ impl Registers {
         }
     }
 
-    /// The supply was gone.
+    /// The supply was lost.
     pub(crate) fn reset(&mut self) {
         let readings = std::mem::take(&mut self.readings);
         let (is_asked, is_used, odd) = (self.is_asked, self.is_used, self.odd.take());
@@ -118,13 +119,13 @@ impl Registers {
         *self = Self { is_asked, is_used, odd, waits: self.waits, rest: self.rest.again(), ..new };
     }
 
-    /// From one measurement to the next, as the design sets it up.
+    /// The time from one measurement to the next, as the design sets it up.
     pub(crate) fn held_ns(&self) -> u64 {
         self.readings.iter().map(|one| one.ranges.planned_ns()).max().unwrap_or(0)
     }
 
-    /// Whether it measures and does not answer. A part that is set up first, or is asked for several things, has a
-    /// processor of its own for its bus.
+    /// Whether it is measuring and does not answer meanwhile. A part that needs initialisation or has several triggers
+    /// has separate logic for its bus, and always answers.
     pub(crate) fn is_busy(&self, now_ns: u64) -> bool {
         let first = self.readings.first().map(|one| &one.trigger);
         let is_simple = self.protocol.init.is_empty()
@@ -218,7 +219,7 @@ impl Registers {
             self.taken(now_ns);
             self.answer = self.answer(subjects, now_ns);
         }
-        // Whoever writes gets bytes as well, which mean nothing.
+        // A write also returns bytes, which mean nothing.
         let first = self.sent.first().copied().unwrap_or(0);
         if first & self.protocol.read_mask != 0 || self.protocol.read_mask == 0 {
             self.note(place - width - 1);
@@ -226,12 +227,12 @@ impl Registers {
         self.answer.get(place - width - 1).copied().unwrap_or(0)
     }
 
-    /// Bytes of a register's number.
+    /// The number of bytes in a register's number.
     fn width(&self) -> usize {
         usize::from(self.protocol.register_bytes.clamp(1, 2))
     }
 
-    /// What the bytes that were written mean: a trigger, or a register and what it is to hold.
+    /// Handles the written bytes: a trigger, or a register and its new contents.
     fn take_sent(&mut self, now_ns: u64) {
         let sent = std::mem::take(&mut self.sent);
         if sent.is_empty() {
@@ -245,7 +246,7 @@ impl Registers {
         let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
         self.controls.extend((first..=u16::MAX).zip(sent.iter().skip(width).copied()));
         if let Some(one) = self.readings.iter().find(|one| one.trigger == sent) {
-            // A driver names the longest time; parts are a little faster.
+            // A driver gives the longest time; parts are a little faster.
             let ready_ns = now_ns.saturating_add(one.wait_ns - one.wait_ns / 50);
             let wait_ns = Some(one.wait_ns);
             self.measurement =
@@ -272,7 +273,7 @@ impl Registers {
             && self.live().all(|one| one.register.is_none())
             && !self.is_known(pointer)
         {
-            // A part without registers: what was written says nothing of what is read.
+            // A part without registers: the bytes written do not affect the bytes read.
             let open: Vec<&Reading> = self.live().collect();
             return merged(&self.bytes_of(&open, subjects, now_ns));
         }
@@ -313,7 +314,7 @@ impl Registers {
         bytes.map(|register| image.get(&register).copied().unwrap_or(0)).collect()
     }
 
-    /// Whether the driver says what a register holds.
+    /// Whether the driver describes a register's contents.
     fn is_known(&self, register: u16) -> bool {
         let is_identity =
             self.protocol.identity.as_ref().is_some_and(|one| one.register == register);
@@ -325,20 +326,20 @@ impl Registers {
         registers.map(|register| self.written.get(&register).copied().unwrap_or(0)).collect()
     }
 
-    /// The readings whose measurement was the last one, and those that need none.
+    /// The readings of the last measurement, and those that need none.
     fn live(&self) -> impl Iterator<Item = &Reading> {
         let last = self.measurement.as_ref().map(|one| &one.trigger);
         self.readings.iter().filter(move |one| one.trigger.is_empty() || Some(&one.trigger) == last)
     }
 
-    /// The bytes of readings, each with its place behind the register.
+    /// The bytes of readings, each with its offset from the register.
     fn bytes_of(
         &self,
         readings: &[&Reading],
         subjects: &[Subject],
         now_ns: u64,
     ) -> Vec<Vec<(usize, u8)>> {
-        // The registers of what a part that sleeps would measure hold 0.
+        // In a part that sleeps, the registers of measured values hold 0.
         if self.sleep.is_some_and(|sleep| sleep.is_asleep(&self.controls)) {
             return Vec::new();
         }
@@ -384,7 +385,7 @@ impl Registers {
     }
 }
 
-/// Bytes at their places in one piece.
+/// Bytes at their offsets, joined to one answer.
 fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
     let end = all.iter().flatten().map(|(place, _)| place + 1).max().unwrap_or(0);
     let mut bytes = vec![0; end];

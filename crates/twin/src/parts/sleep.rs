@@ -1,15 +1,15 @@
 //! Parts that measure nothing until they are woken, as their data sheets say.
 //!
-//! `sleep.csv` has, for a driver of the library: the register that wakes the part, the bits that count, what the register
-//! is after power came, and whether the part is awake while the bits are clear or while one of them is set. It is
-//! written from the data sheets and knows nothing of what the drivers write. A part that is not in it gives values
-//! without having been set up.
+//! For a driver of the library, `sleep.csv` has the register that wakes the part, the bits that count, the register's
+//! value after power-up, and whether the part is awake while the bits are clear or while one of them is set. It is
+//! written from the data sheets and knows nothing of what the drivers write. A part that is not in the table gives
+//! values without setup.
 
 use std::collections::BTreeMap;
 
 const TABLE: &str = include_str!("sleep.csv");
 
-/// What wakes a part.
+/// The register bits that wake a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sleep {
     register: u16,
@@ -19,7 +19,7 @@ pub(crate) struct Sleep {
 }
 
 impl Sleep {
-    /// The one of a driver's part.
+    /// The entry of a driver's part.
     pub(crate) fn of(driver: &str) -> Option<Self> {
         TABLE.lines().skip(1).find_map(|line| {
             let mut cells = line.split(',');

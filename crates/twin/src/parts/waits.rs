@@ -1,22 +1,22 @@
-//! How long a board waits for a part that measures, beside what its driver says.
+//! How long a board waits for a measuring part, compared with the time that the driver gives.
 
-/// So many measurements tell.
+/// The least number of measurements for a verdict.
 const TIMES_MIN: u32 = 3;
-/// What any wait takes beside its time: until the board's next millisecond, and the transfer.
+/// The time that any wait takes in addition: until the board's next millisecond, and for the transfer.
 const SLACK_NS: u64 = 5_000_000;
-/// What each part of a bus may take of it before this one's turn comes.
+/// The time that each part on a bus may take before this one's turn comes.
 const TURN_NS: u64 = 3_000_000;
 
 /// The measurements of a part that a board has taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Waits {
     times: u32,
-    /// The least that one was taken too late, and how long the driver says that it lasts.
+    /// The shortest delay of any of them, and the length of a measurement according to the driver.
     least: Option<(u64, u64)>,
 }
 
 impl Waits {
-    /// A measurement of that length, which began at some time, is taken now.
+    /// Takes a measurement of that length, started at the given time and read now.
     pub(crate) fn take(&mut self, wait_ns: u64, began_ns: u64, now_ns: u64) {
         let late_ns = now_ns.saturating_sub(began_ns.saturating_add(wait_ns));
         self.times += 1;
@@ -24,7 +24,7 @@ impl Waits {
         self.least = least.or(Some((late_ns, wait_ns)));
     }
 
-    /// What is wrong where each of them was taken much later than it was there. So many parts share the bus.
+    /// The error if each of them was read much too late. The bus is shared by this many parts.
     pub(crate) fn too_long(&self, parts: u64) -> Option<String> {
         let (late_ns, wait_ns) = self.least.filter(|_| self.times >= TIMES_MIN)?;
         let most_ns = SLACK_NS + TURN_NS * parts + wait_ns / 8;
@@ -61,7 +61,7 @@ mod tests {
             told,
             "it is read 130 ms after its trigger at the soonest, and measures for 65 ms"
         );
-        // Others had their turn, now and then.
+        // The other parts had their turn now and then.
         assert_eq!(waited(&[60, 2, 60, 60]).too_long(2), None);
         assert_eq!(waited(&[12, 14, 13]).too_long(2), None);
         assert_eq!(waited(&[65, 65]).too_long(2), None);

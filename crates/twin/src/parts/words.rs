@@ -1,4 +1,4 @@
-//! From numbers to the bytes that a part sends: the way back of what the board decodes.
+//! Conversion of numbers to the bytes that a part sends: the inverse of the board's decoding.
 
 use sensedsl_model::kind::i2c::ByteOrder;
 use sensedsl_model::protocol::Crc;
@@ -49,7 +49,7 @@ pub(crate) fn range(words: &Words) -> Option<(f64, f64)> {
     }
 }
 
-/// A word, most significant byte first, in the last bytes of eight.
+/// A word, most significant byte first, at the end of eight bytes.
 fn word(words: &Words, raw: f64) -> [u8; 8] {
     match words.code {
         Code::Float if words.word_bytes == 8 => raw.to_bits().to_be_bytes(),
@@ -62,19 +62,19 @@ fn word(words: &Words, raw: f64) -> [u8; 8] {
     }
 }
 
-/// The nearest number that the word holds.
+/// The nearest number that the word can hold.
 fn held(words: &Words, raw: f64) -> i64 {
     let bounded = range(words).map_or(raw, |(least, greatest)| raw.round().clamp(least, greatest));
     crate::arith::rounded(bounded)
 }
 
-/// Its lowest bits.
+/// The lowest bits of a number.
 fn masked(number: i64, bits: u8) -> u64 {
     let mask = if bits >= 64 { u64::MAX } else { (1 << bits) - 1 };
     u64::from_be_bytes(number.to_be_bytes()) & mask
 }
 
-/// Two decimal digits a byte.
+/// Two decimal digits in each byte.
 fn bcd(number: i64) -> u64 {
     let mut rest = number.unsigned_abs();
     let mut all = 0;
@@ -103,7 +103,7 @@ fn packed(words: &Words, raw: &[f64]) -> Vec<u8> {
     all
 }
 
-/// A CRC of 8 bits, most significant first.
+/// An 8-bit CRC, most significant bit first.
 pub(crate) fn crc8(bytes: &[u8], polynomial: u8, start: u8) -> u8 {
     bytes.iter().fold(start, |crc, byte| {
         (0..8).fold(

@@ -1,4 +1,4 @@
-//! Chips on I2C and SPI, serial parts, stations on CAN: the runtime says what to transfer, the bench answers.
+//! Chips on I2C and SPI, serial parts, stations on CAN: the runtime determines the transfers, the bench answers them.
 
 use sense_rt::{
     Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
@@ -13,28 +13,28 @@ use super::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Surroundings as _};
 
-/// Transfers that a chip makes in a millisecond at most, so that nothing goes on for ever.
+/// The most transfers that a chip makes in a millisecond, so that no loop is endless.
 const TRANSFERS_MAX: usize = 1_000;
 
-/// One chip with its way to it.
+/// A chip and the way to reach it.
 pub(super) struct Bus {
     table: &'static ChipTable,
     schema: &'static Schema,
     chip: Box<Chip<[u8; 16_384]>>,
     unit: u8,
-    /// Of a chip on SPI: the connection whose chip select it has.
+    /// For a chip on SPI, the connection that has its chip select.
     selected: Option<ConnectionIndex>,
     start_ms: u32,
-    /// When it is looked after again.
+    /// The time of its next step.
     wakes_ms: u64,
-    /// What the host has set and the chip has not got.
+    /// The values that the host has set and the chip has not received yet.
     owed: Vec<Option<Vec<u8>>>,
     starts: u32,
     set: Vec<Option<Vec<u8>>>,
 }
 
 impl Bus {
-    /// As at the start of the board.
+    /// The same chip in its state at the start of the board.
     pub(super) fn anew(&self) -> Self {
         let commands = self.table.commands.len();
         Self {
@@ -81,7 +81,7 @@ impl Bus {
         self.command(bench, now_ns);
     }
 
-    /// Writes what the host has set; all of it again after a chip had to be started anew.
+    /// Writes the values that the host has set; all of them again after the chip was restarted.
     fn command(&mut self, bench: &mut Bench, now_ns: u64) {
         if self.chip.counts().starts != self.starts {
             self.starts = self.chip.counts().starts;
@@ -105,7 +105,7 @@ impl Bus {
 
 type Way = (u8, u8, Option<ConnectionIndex>);
 
-/// One transfer: bytes out, then bytes in.
+/// A transfer: bytes out, then bytes in.
 fn transfer(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
     let (address, unit, selected) = way;
     if let Some(connection) = selected {
@@ -170,7 +170,7 @@ fn i2c(
     Outcome::Fresh
 }
 
-/// As many bytes in as out.
+/// A transfer with as many bytes in as out.
 fn exchange(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
     let (_, unit, selected) = way;
     let Some(connection) = selected else { return Outcome::Invalid };
@@ -227,15 +227,15 @@ pub(super) struct Port {
     stream: Box<MessageStream<[u8; 16_384]>>,
     unit: u8,
     cycle: Cycle,
-    /// The items that were told in this cycle.
+    /// The items reported in this cycle.
     told: Vec<usize>,
-    /// A silence that no message has in it, and how long the line has been silent.
+    /// The length of a silence that no message contains, and how long the line has been silent.
     pause_ms: u64,
     idle_ms: u64,
 }
 
 impl Port {
-    /// As at the start of the board.
+    /// The same part in its state at the start of the board.
     pub(super) fn anew(&self) -> Self {
         let stream = Box::new(MessageStream::new(self.table, self.schema));
         Self { stream, told: Vec::new(), idle_ms: 0, ..*self }
@@ -250,7 +250,7 @@ impl Port {
             self.idle_ms = 0;
             let told = &mut self.told;
             self.stream.feed(&[byte], &mut |item, outcome, value| {
-                // The first value of each kind in a cycle.
+                // Only the first value of each item in a cycle counts.
                 if !told.contains(&item) {
                     if outcome == Outcome::Fresh {
                         told.push(item);
@@ -289,7 +289,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
     all
 }
 
-/// What is heard on a CAN bus.
+/// The frames that the board takes from a CAN bus.
 #[derive(Clone)]
 pub(super) struct CanPeers {
     unit: u8,
@@ -299,7 +299,7 @@ pub(super) struct CanPeers {
 #[derive(Clone)]
 struct Heard {
     frame_id: (u32, bool),
-    /// It is in the frame only where these bits are so.
+    /// The frame has this value only if these bits of it (the mask) are so (the value).
     select: (u64, u64),
     item: usize,
     what: Item,

@@ -1,9 +1,9 @@
-//! A board's job without its MCU: what generated firmware does, done here, in virtual time.
+//! A board's job without its MCU: the work of generated firmware, done here in virtual time.
 //!
-//! It has the tables that the generator prints, and the runtime of firmware in Rust (`sense-rt`) works on them: chips
-//! are started, identified and read over their buses byte by byte, messages are taken apart, edges are measured, values
-//! filtered, reports put together. What stands in for hardware is here: converters, timers, ports and threads. So this
-//! proves wire, tables and coding of values, and nothing of registers, pads, interrupts, clocks, DMA or stacks.
+//! The board has the tables that the generator prints, and the runtime of firmware in Rust (`sense-rt`) works on them:
+//! it starts, identifies and reads chips over their buses byte by byte, parses messages, measures edges, filters values
+//! and composes reports. The stand-ins for hardware are here: converters, timers, ports and threads. So this proves the
+//! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
 mod outputs;
@@ -28,11 +28,11 @@ use sensors::{Captures, Contacts, Converter, Encoders};
 use tables::kept;
 
 const MS_NS: u64 = 1_000_000;
-/// How often the reporter looks, at most.
+/// The longest cycle of the reporter, unless the link sets its rate.
 const REPORT_MS: u32 = 10;
-/// Bytes that a link takes at once.
+/// The bytes that a link accepts at once.
 const QUEUE_BYTES: usize = 16_384;
-/// What a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
+/// The bytes that a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
 const USB_BYTES_A_MS: u64 = 1_000;
 
 type Values = Store<[u8; 16_384]>;
@@ -46,18 +46,18 @@ pub struct SoftBoard {
     state: State,
     now_ms: u64,
     link: Link,
-    /// What the host has set, with the time in milliseconds.
+    /// The values that the host has set: milliseconds, the device's place in the schema, the value's bytes.
     received: Vec<(u64, usize, Vec<u8>)>,
     starts: u32,
 }
 
-/// What stays the same when the board starts again.
+/// The parts of a board that stay the same when it restarts.
 struct Shape {
     schema: &'static Schema,
     cycles_ms: &'static [u32],
     filters: BTreeMap<usize, &'static FilterTable>,
     config: ReporterConfig,
-    /// Bytes that the link carries in a millisecond, in thousandths.
+    /// The bytes that the link carries in a millisecond, in thousandths.
     link_speed: u64,
     has_link: bool,
     buses: Vec<Bus>,
@@ -70,7 +70,7 @@ struct Shape {
     outputs: Outputs,
 }
 
-/// What a start begins anew.
+/// The parts of a board that a restart resets.
 struct State {
     core: Core,
     reporter: Box<Reporter<[u8; 65_536]>>,
@@ -82,12 +82,12 @@ struct State {
     contacts: Vec<Contacts>,
     encoders: Vec<Encoders>,
     outputs: Outputs,
-    /// What actuators are set to in this millisecond, by the host or because of its silence.
+    /// The values that actuators are set to in this millisecond, by the host or because of its silence.
     owed: Vec<(usize, Vec<u8>)>,
     began_ms: u64,
 }
 
-/// Values and how the devices are.
+/// The values and the health of the devices.
 struct Core {
     store: Box<Values>,
     health: Box<Records>,
@@ -108,9 +108,9 @@ struct Link {
     inbox: VecDeque<u8>,
     queue: VecDeque<u8>,
     sent: VecDeque<u8>,
-    /// Thousandths of a byte that the line may still carry.
+    /// The thousandths of a byte that the line may still carry.
     credit: u64,
-    /// The host has closed its port, and the link can tell.
+    /// Whether the host has closed its port, on a link that can tell.
     is_closed: bool,
 }
 
@@ -141,7 +141,7 @@ impl Channel for Link {
     }
 }
 
-/// What the reporter sees of the board.
+/// The board as the reporter sees it.
 struct Side<'a> {
     core: &'a mut Core,
     buses: &'a mut Vec<Bus>,
@@ -202,7 +202,7 @@ impl SoftBoard {
         self.now_ms * MS_NS
     }
 
-    /// What is around the board.
+    /// The surroundings of the board.
     #[must_use]
     pub fn bench(&self) -> &Bench {
         &self.bench
@@ -214,7 +214,7 @@ impl SoftBoard {
         self.link.inbox.extend(bytes.iter().take(room));
     }
 
-    /// The host opens its port, or closes it.
+    /// The host opens or closes its port.
     pub fn link_open(&mut self, is_open: bool) {
         self.link.is_closed = !is_open;
         if !is_open {
@@ -222,24 +222,25 @@ impl SoftBoard {
         }
     }
 
-    /// What has arrived at the host since the last call.
+    /// The bytes that have arrived at the host since the last call.
     pub fn link_read(&mut self) -> Vec<u8> {
         self.link.sent.drain(..).collect()
     }
 
-    /// What the host has set since the last call: milliseconds, the device's place in the schema, the value's bytes.
+    /// The values that the host has set since the last call: milliseconds, the device's place in the schema, the
+    /// value's bytes.
     pub fn received(&mut self) -> Vec<(u64, usize, Vec<u8>)> {
         std::mem::take(&mut self.received)
     }
 
-    /// Goes on to a time.
+    /// Runs until the given time.
     pub fn run_until(&mut self, until_ns: u64) {
         while self.now_ns() + MS_NS <= until_ns {
             self.step();
         }
     }
 
-    /// One millisecond.
+    /// Runs for one millisecond.
     fn step(&mut self) {
         self.now_ms += 1;
         let now_ns = self.now_ns();
@@ -263,7 +264,7 @@ impl SoftBoard {
         self.carry(now_ns);
     }
 
-    /// All threads but the reporter.
+    /// Runs all threads but the reporter.
     fn serve(&mut self, since_ms: u64, now_ns: u64) {
         let State {
             core, buses, ports, stations, converters, captures, contacts, encoders, ..
@@ -293,7 +294,7 @@ impl SoftBoard {
         outputs.repeat(&mut self.bench, now_ms * MS_NS);
     }
 
-    /// What the line carries in a millisecond.
+    /// Moves the bytes that the line carries in a millisecond.
     fn carry(&mut self, now_ns: u64) {
         let link = &mut self.link;
         link.credit =
@@ -376,7 +377,7 @@ impl State {
     }
 }
 
-/// Milliseconds as the runtime counts them.
+/// Milliseconds as the runtime counts them: they wrap at 32 bits.
 fn wrapped(ms: u64) -> u32 {
     u32::try_from(ms & u64::from(u32::MAX)).unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! What the host sets, on its way to pins, messages and frames: the runtime says what to put out, the bench takes it.
+//! The way of the host's values to pins, messages and frames: the runtime determines the outputs, the bench takes them.
 
 use std::collections::BTreeMap;
 
@@ -21,23 +21,23 @@ use sensedsl_surroundings::{CanFrame, Surroundings as _};
 const FULL_CODE: u64 = 4_095;
 const FULL_MV: f64 = 3_300.0 / 4_096.0;
 
-/// All actuators that are not on a bus with registers.
+/// All actuators except those on a bus with registers.
 #[derive(Clone)]
 pub(super) struct Outputs {
-    /// By place in the schema.
+    /// The outputs, by place in the schema.
     all: BTreeMap<usize, Output>,
     frames: Vec<Frame>,
-    /// Levels that no value changes.
+    /// The levels that no value changes.
     levels: Vec<(ConnectionIndex, bool)>,
-    /// By place in the schema: the value that is taken when the host is silent.
+    /// The values that are set when the host is silent, by place in the schema.
     safe: BTreeMap<usize, Vec<u8>>,
 }
 
-/// What a value goes to.
+/// The destination of a value.
 #[derive(Clone)]
 struct Output {
     item: Item,
-    /// What it begins with; none for what it has before anybody sets it.
+    /// The value set at the start; `None` if its wires stay at rest until somebody sets it.
     first: Option<Vec<u8>>,
     sink: Sink,
 }
@@ -47,17 +47,17 @@ enum Sink {
     Pins(Vec<Pin>),
     Bridge(Bridge, BridgeState, Vec<Pin>),
     Message(u8, Compose),
-    /// Of several contents of a frame a value may be in all.
+    /// A value may be in each of the contents of a multiplexed frame.
     Frames(Vec<InFrame>),
 }
 
-/// The frame that a value is in, where it begins in it, and how it is coded.
+/// The frame that has a value, the byte at which it starts there, and its coding.
 #[derive(Clone)]
 struct InFrame {
     place: usize,
     byte: usize,
     coding: Coding,
-    /// Its bits of the frame, byte 0 the lowest.
+    /// The bits that it has in the frame, byte 0 the lowest.
     mask: u64,
     is_quiet: bool,
 }
@@ -81,9 +81,9 @@ enum Drives {
 struct Frame {
     unit: u8,
     frame: CanFrame,
-    /// It is sent again so long after it was commanded; 0: never.
+    /// The interval at which it is sent again once it was commanded; 0 for never.
     resend_ns: u64,
-    /// When it was sent last, once it was commanded.
+    /// The time at which it was last sent, once it was commanded.
     sent_ns: Option<u64>,
 }
 
@@ -131,7 +131,7 @@ impl Outputs {
         }
     }
 
-    /// Sends what is to be repeated.
+    /// Sends the frames that must be repeated.
     pub(super) fn repeat(&mut self, bench: &mut Bench, now_ns: u64) {
         for Frame { unit, frame, resend_ns, sent_ns } in &mut self.frames {
             let due = sent_ns.filter(|_| *resend_ns > 0).map(|sent| sent + *resend_ns);
@@ -142,12 +142,12 @@ impl Outputs {
         }
     }
 
-    /// The host is silent: nothing is repeated until it is set again, by a failsafe or by the host.
+    /// The host is silent: a frame is not repeated until a failsafe or the host sets it again.
     pub(super) fn hush(&mut self) {
         self.frames.iter_mut().for_each(|frame| frame.sent_ns = None);
     }
 
-    /// What is set when the host is silent.
+    /// The values that are set when the host is silent.
     pub(super) fn safe(&self) -> impl Iterator<Item = (usize, &[u8])> {
         self.safe.iter().map(|(index, value)| (*index, value.as_slice()))
     }
@@ -191,7 +191,7 @@ impl Outputs {
 }
 
 impl Output {
-    /// What its wires have before anybody sets it.
+    /// Puts its wires into the state that they have before anybody sets it.
     fn rest(&self, bench: &mut Bench, now_ns: u64) {
         let (Sink::Pins(pins) | Sink::Bridge(_, _, pins)) = &self.sink else { return };
         for pin in pins {
@@ -207,7 +207,7 @@ impl Output {
 }
 
 impl InFrame {
-    /// Writes the value; whether the frame is now sent.
+    /// Writes the value, and returns whether the frame must be sent now.
     fn put(&self, item: &Item, value: &[u8], to: &mut Frame) -> bool {
         let mut coded = [0; 8];
         let room = coded.get_mut(self.byte..).unwrap_or_default();
@@ -243,7 +243,7 @@ impl Pin {
     }
 }
 
-/// The connections for which something holds, with their places in the design.
+/// The connections that satisfy a condition, with their places in the design.
 fn wires<'j, 'a>(
     job: &'j BoardJob<'a>,
     holds: impl Fn(&JobConnection<'a>) -> bool,
@@ -251,7 +251,7 @@ fn wires<'j, 'a>(
     job.connections.iter().filter(|one| holds(one)).map(|one| (one.index, one)).collect()
 }
 
-/// What pulses and voltages begin with.
+/// The value that pulses and voltages start with.
 fn begins(one: &JobDevice<'_>) -> Option<f64> {
     match &one.device.kind {
         Kind::Pwm(own) => own.failsafe,
@@ -313,12 +313,12 @@ fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
     Some(Pin { at, element: usize::from(wire.element()), what })
 }
 
-/// What goes into frames of CAN, by place in the schema.
+/// The values in CAN frames, by place in the schema.
 fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
     let mut all: BTreeMap<usize, Vec<InFrame>> = BTreeMap::new();
     let units = Units::new(job);
     for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
-        // By the board's name of it: a profile may have another one.
+        // The unit goes by the board's name for it: a profile may use another one.
         let unit = bus.first.unit.and_then(|name| units.number(name)).unwrap_or(0);
         for repeated in &bus.frames {
             for value in &repeated.values {

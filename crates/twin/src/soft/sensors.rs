@@ -1,4 +1,4 @@
-//! Converters, captures, contacts and encoders: what the MCU's own peripherals measure.
+//! Converters, captures, contacts and encoders: the measurements of the MCU's own peripherals.
 
 use sense_rt::{
     Capture, CaptureConfig, CaptureMode, Captured, Contact, ContactConfig, ContactTold, Edge,
@@ -16,17 +16,17 @@ use super::{Core, begins, tables, wrapped};
 use crate::arith::rounded;
 use crate::bench::{Bench, converted};
 
-/// A count that stands still is told again so often.
+/// The interval at which an unchanged count is reported again.
 const REPEAT_MS: u32 = 1_000;
-/// Without edges for so long, frequency and duty are 0.
+/// The time without edges after which frequency and duty are 0.
 const SILENT_MS: u32 = 1_000;
-/// Of a train of a model receiver.
+/// The shortest gap and the shortest pulse of a model receiver's train.
 const TRAIN_GAP_US: u64 = 2_700;
 const TRAIN_MIN_US: u64 = 500;
-/// How often counters are looked at.
+/// The interval at which counters are read.
 const LOOK_MS: u64 = 10;
 
-/// The sensors of the board that a kind fits, with their place in the schema.
+/// The sensors of the board, with their places in the schema.
 fn devices<'a>(job: &'a BoardJob<'a>) -> impl Iterator<Item = (usize, &'a JobDevice<'a>, Item)> {
     let items = tables::schema(job).items;
     let all = job.devices.iter().zip(items).enumerate();
@@ -95,12 +95,12 @@ impl Converter {
     }
 }
 
-/// The edges of one wire, as they come.
+/// The edges on one wire, in order.
 #[derive(Clone, Debug)]
 struct Edges {
     connection: ConnectionIndex,
     role: Role,
-    /// Up to here all edges were taken.
+    /// The time up to which all edges were taken.
     seen_ns: u64,
     next: Option<(u64, bool)>,
     is_known: bool,
@@ -111,7 +111,7 @@ impl Edges {
         Self { connection, role, seen_ns: 0, next: None, is_known: false }
     }
 
-    /// The next edge, not later than now.
+    /// The next edge, if it is not later than now.
     fn next(&mut self, bench: &mut Bench, now_ns: u64) -> Option<(u64, bool)> {
         if !self.is_known {
             self.next = bench.next_edge_at(self.connection, self.role, self.seen_ns);
@@ -131,7 +131,7 @@ impl Edges {
         }
     }
 
-    /// Edges that came before the board was up are gone.
+    /// Drops the edges that came before the board was up.
     fn begin(&mut self, now_ns: u64) {
         if self.seen_ns == 0 {
             self.seen_ns = now_ns.saturating_sub(1_000_000);
@@ -139,7 +139,7 @@ impl Edges {
     }
 }
 
-/// Captures: one device, a wire an element.
+/// Captures of one device, with a wire for each element.
 #[derive(Clone)]
 pub(super) struct Captures {
     index: usize,
@@ -149,7 +149,7 @@ pub(super) struct Captures {
     tick_hz: u32,
     is_falling: bool,
     is_both: bool,
-    /// The wait after a pulse.
+    /// The wait after a trigger pulse.
     wait_ms: Option<u64>,
     wires: Vec<Wire>,
     elements: Elements,
@@ -219,7 +219,7 @@ impl Captures {
         }
     }
 
-    /// With pulses, one element measures after the other.
+    /// With trigger pulses, the elements measure one after another.
     fn trigger(&mut self, bench: &mut Bench, since_ms: u64, now_ns: u64) {
         let Some(wait_ms) = self.wait_ms else { return };
         let count = u64::try_from(self.wires.len()).unwrap_or(1);
@@ -247,7 +247,7 @@ impl Captures {
             tick_hz: self.tick_hz,
             silent_ms: SILENT_MS,
         };
-        // The reporter looks at captures in its cycles.
+        // The reporter reads captures in its cycles.
         if !since_ms.is_multiple_of(LOOK_MS) {
             return;
         }
@@ -285,7 +285,7 @@ impl Wire {
     fn edge(&mut self, tick_hz: u32, at: u64, is_active: bool, is_both: bool) {
         match (is_active, self.began_ns) {
             (true, began) => {
-                // A period counts its edge itself.
+                // A period counts its own edge.
                 match began {
                     Some(began) => self.captured.on_period(ticks(tick_hz, at - began)),
                     None => self.captured.on_edge(),
@@ -305,7 +305,7 @@ fn ticks(tick_hz: u32, time_ns: u64) -> u32 {
     u32::try_from(ticks & u128::from(u32::MAX)).unwrap_or(0)
 }
 
-/// Contacts: one device, a wire an element.
+/// Contacts of one device, with a wire for each element.
 #[derive(Clone)]
 pub(super) struct Contacts {
     index: usize,
@@ -386,7 +386,7 @@ impl Contacts {
     }
 }
 
-/// Without a time to last only edges that count interrupt, with it both.
+/// Whether an edge interrupts: without a debounce time only edges that count do, with one both do.
 fn interrupts(config: &ContactConfig, level: bool) -> bool {
     config.lasting > 0
         || match config.edge {
@@ -396,7 +396,7 @@ fn interrupts(config: &ContactConfig, level: bool) -> bool {
         }
 }
 
-/// Encoders: one device, two wires an element.
+/// Encoders of one device, with two wires for each element.
 #[derive(Clone)]
 pub(super) struct Encoders {
     index: usize,
@@ -452,14 +452,14 @@ impl Encoders {
 }
 
 impl Wheel {
-    /// Counts as a timer in encoder mode does: up when A comes before B.
+    /// Counts as a timer in encoder mode does: up if A leads B.
     fn step(&mut self, bench: &mut Bench, now_ns: u64) {
         self.a.begin(now_ns);
         self.b.begin(now_ns);
         let connection = self.a.connection;
         let mut read = |role| bench.level_at(connection, role, now_ns).unwrap_or(false);
         let Some((mut a, mut b)) = self.levels else {
-            // A timer does not know what was before it counted.
+            // A timer does not know the levels from before it started to count.
             self.levels = Some((read(Role::A), read(Role::B)));
             (self.a.seen_ns, self.b.seen_ns) = (now_ns, now_ns);
             return;
@@ -488,7 +488,7 @@ impl Wheel {
     }
 }
 
-/// Where two levels stand in the order that they have when a wheel turns forwards.
+/// The place of two levels in the order that they have when a wheel turns forwards.
 const fn place(a: bool, b: bool) -> u8 {
     match (a, b) {
         (false, false) => 0,

@@ -1,7 +1,8 @@
-//! The tables of a board's parts for the runtime: what a generator prints as constants, made while the program runs.
+//! The tables of a board's parts for the runtime: they are built while the program runs, whereas a generator prints
+//! them as constants.
 //!
-//! The runtime takes tables that live for ever, as constants do. They are a few kilobytes a board, and are never given
-//! back.
+//! The runtime takes tables that live for ever, as constants do. They take a few kilobytes for each board and are never
+//! freed.
 
 use sense_rt::{
     Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat,
@@ -19,7 +20,7 @@ use sensedsl_model::protocol::{self, Format};
 use sensedsl_model::words::{self, Words};
 use sensedsl_wire::{Direction, ScalarType};
 
-/// Something that lives as long as the program.
+/// A value that lives as long as the program.
 pub(super) fn kept<T>(one: T) -> &'static T {
     Box::leak(Box::new(one))
 }
@@ -28,7 +29,7 @@ fn all<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
     items.into_iter().collect::<Vec<T>>().leak()
 }
 
-/// The wire of a board.
+/// The schema of a board's link.
 pub(super) fn schema(job: &BoardJob<'_>) -> Schema {
     let items = job.schema.items.iter().map(|item| {
         let count = u16::try_from(item.value.count()).unwrap_or(u16::MAX);
@@ -74,7 +75,7 @@ fn item(job: &BoardJob<'_>, name: &str) -> u16 {
     place.and_then(|place| u16::try_from(place).ok()).unwrap_or(u16::MAX)
 }
 
-/// The formula of a name.
+/// The runtime's formula of that name.
 pub(super) const fn formula(of: protocol::Formula) -> Formula {
     match of {
         protocol::Formula::Bmp280 => sense_rt::BMP280,
@@ -156,7 +157,7 @@ pub(super) fn coding(plan: &ValuePlan) -> Coding {
     }
 }
 
-/// A value in a frame of CAN.
+/// A value in a CAN frame.
 pub(super) fn in_frame(index: usize, device: &Device) -> Option<MessageField> {
     let can = device.kind.can()?;
     let value = coding(&ValuePlan::new(&Words::of(device)?));
@@ -223,7 +224,7 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
     }
 }
 
-/// A number as the type has it, most significant byte first; the model has seen to it that the type holds it.
+/// A number in its type, most significant byte first; the model has made sure that the type holds it.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
 pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
     match scalar {
@@ -245,7 +246,7 @@ pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
     }
 }
 
-/// What becomes of a value before it is reported.
+/// The processing of a value before it is reported.
 pub(super) fn filter(plan: &FilterPlan) -> FilterTable {
     let ranges = plan.invalid.iter();
     let ranges = ranges.map(|&(low, high)| Range { low: number(low), high: number(high) });

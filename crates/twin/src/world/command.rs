@@ -1,4 +1,4 @@
-//! What a world has the host set, and when: `[[command]]`.
+//! The values that a world has the host set, and their times: `[[command]]`.
 
 use sensedsl_diagnostics::codes::{
     e0540_world_unreadable as unreadable, e0541_world_unknown as unknown,
@@ -74,7 +74,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// What is on the wire for a value as a host shows it: one for all elements, or one for each.
+    /// The scalars on the wire for a value as a host shows it: one for all elements, or one for
+    /// each.
     fn elements(
         &self,
         device: &Device,

@@ -1,4 +1,4 @@
-//! What a world says of one quantity: a number, or a table that says how it moves.
+//! A world's description of one quantity: a number, or a table that tells how it moves.
 
 use sensedsl_diagnostics::codes::{
     e0540_world_unreadable as unreadable, e0541_world_unknown as unknown, e0542_world_value,
@@ -15,15 +15,15 @@ use super::samples;
 use super::signal::{Shape, Signal};
 use crate::arith::{nanoseconds, signed_number};
 
-/// The words that say how a quantity moves; each signal has exactly one.
+/// The keys that tell how a quantity moves; each signal has exactly one.
 const SHAPES: [&str; 7] = ["value", "ramp", "sine", "square", "rate", "steps", "csv"];
-/// The words beside them.
+/// The other keys of a signal.
 const BESIDE: [&str; 7] = ["over", "offset", "period", "start", "column", "noise", "hold"];
 
 type Value<'i> = Spanned<DeValue<'i>>;
 type Failed = Box<Diagnostic>;
 
-/// Reading one quantity.
+/// A reader of one quantity.
 pub(super) struct Entry<'a> {
     pub(super) file: FileId,
     pub(super) samples: &'a dyn Fn(&str) -> Result<String, String>,
@@ -31,7 +31,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl Entry<'_> {
-    /// What the quantity does.
+    /// The signal of the quantity.
     pub(super) fn signal(&self, value: &Value<'_>) -> Result<Signal, Failed> {
         if let Some(shown) = self.shown(value)? {
             return Ok(Signal::of(Shape::Constant(shown)));
@@ -194,7 +194,7 @@ impl Entry<'_> {
         Err(unreadable::wrong_sort(span, &format!("`{key}`"), wanted, example).into())
     }
 
-    /// A value as the device shows it; none where it is of another sort.
+    /// A value as the device shows it; `None` if it is not of that sort.
     fn shown(&self, value: &Value<'_>) -> Result<Option<f64>, Failed> {
         self.read(value, shown_of)
     }
@@ -220,10 +220,10 @@ impl Entry<'_> {
     }
 }
 
-/// How a text is read.
+/// The function that reads a text.
 type Read = fn(&str, &Device) -> Result<f64, NotGiven>;
 
-/// What stands where a quantity is asked for.
+/// The kind of value expected for a quantity.
 const NUMBER: &str = "a number, or a text with a unit";
 
 /// A value as the device shows it.
@@ -234,7 +234,7 @@ fn shown_of(text: &str, device: &Device) -> Result<f64, NotGiven> {
     })
 }
 
-/// A number, or a truth as 0 or 1.
+/// A number, or a truth value as 0 or 1.
 pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     if let Some(flag) = value.as_bool() {
         return Some(f64::from(u8::from(flag)));
@@ -257,7 +257,7 @@ pub(super) fn duration(file: FileId, value: &Value<'_>) -> Result<u64, Failed> {
         .ok_or_else(|| time::not_a_time(span, "this").into())
 }
 
-/// `1.5 s`
+/// Parses a time such as `1.5 s`.
 fn parsed(text: &str) -> Option<u64> {
     let text = text.trim();
     let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.' || c == '_');

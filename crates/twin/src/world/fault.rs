@@ -1,30 +1,30 @@
-//! What breaks, when, and for how long.
+//! Faults: what breaks, when, and for how long.
 
 use sensedsl_model::design::DeviceIndex;
 use sensedsl_model::kind::KindName;
 
-/// Something that breaks.
+/// A fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// What.
+    /// The kind of fault.
     pub kind: FaultKind,
-    /// Whose wires; none where it is the board or its link.
+    /// The device whose wires are affected; `None` if it is the board or its link.
     pub device: Option<DeviceIndex>,
-    /// From when.
+    /// The start.
     pub at_ns: u64,
-    /// Until when; the same as the beginning where it is one moment.
+    /// The end; the same as the start for a single moment.
     pub until_ns: u64,
 }
 
 impl Fault {
-    /// Whether it is there at a moment.
+    /// Whether it is present at a moment.
     #[must_use]
     pub const fn is_there(&self, now_ns: u64) -> bool {
         self.at_ns <= now_ns && now_ns < self.until_ns
     }
 }
 
-/// What can break.
+/// The kinds of faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
     /// A chip does not acknowledge.
@@ -35,9 +35,9 @@ pub enum FaultKind {
     Hang,
     /// The cable of a device is torn.
     Torn,
-    /// A device sends nothing any more.
+    /// A device no longer sends anything.
     Silent,
-    /// The supply breaks down, and the board starts again.
+    /// The supply fails, and the board restarts.
     Reset,
     /// Random bytes arrive on the link.
     Garbage,
@@ -55,7 +55,7 @@ impl FaultKind {
         Self::Garbage,
     ];
 
-    /// The word of a world.
+    /// The word for it in a world.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -69,13 +69,13 @@ impl FaultKind {
         }
     }
 
-    /// Whether it is the board's or its link's, not a device's.
+    /// Whether it affects the board or its link, not a device.
     #[must_use]
     pub const fn is_of_board(self) -> bool {
         matches!(self, Self::Reset | Self::Garbage)
     }
 
-    /// The kinds whose wires can have it, for people.
+    /// The kinds of devices that can have it, for people.
     #[must_use]
     pub const fn needs(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! From the text of a world to its signals and faults. Everything that is wrong is said with its place.
+//! Conversion of a world's text to signals and faults. Every error is reported with its place.
 
 use sensedsl_diagnostics::codes::{
     e0540_world_unreadable as unreadable, e0541_world_unknown as unknown,
@@ -19,16 +19,16 @@ use crate::arith::scrambled;
 use crate::range::{edges_a_second_max, is_counter, shown_range};
 use crate::truth::Scale;
 
-/// How long the board has no supply where a fault does not say it.
+/// How long the board is without supply if a fault does not give a time.
 const RESET_NS: u64 = 100_000_000;
-/// How long garbage arrives.
+/// How long garbage arrives if a fault does not give a time.
 const GARBAGE_NS: u64 = 20_000_000;
-/// Edges a second that are simulated.
+/// The most edges a second that are simulated.
 const EDGES_A_SECOND_MAX: f64 = 1_000_000.0;
 /// The shortest period that is simulated.
 const PERIOD_NS_MIN: u64 = 10_000;
 
-/// What a world is read for.
+/// The context that a world is read in.
 pub struct Scene<'a> {
     /// The design.
     pub design: &'a Design,
@@ -36,9 +36,9 @@ pub struct Scene<'a> {
     pub devices: &'a [DeviceIndex],
     /// How the board talks to its host.
     pub transport: Transport,
-    /// What chance begins with where the text says nothing, or instead of what it says.
+    /// The seed of the random numbers if the text has none; it also overrides one in the text.
     pub seed: Option<u64>,
-    /// The text of a file beside the world, or why it was not read.
+    /// Returns the text of a file beside the world, or the reason why it was not read.
     pub samples: &'a dyn Fn(&str) -> Result<String, String>,
 }
 
@@ -63,8 +63,9 @@ pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnost
     (reader.world, reader.said)
 }
 
-/// Where a text has more tables and lists than are read, which each take a hundred times their text. A bracket in a text
-/// or a comment counts as well, and a dot of a head, which makes a table of its own.
+/// The place at which a text exceeds the number of tables and lists that are read, each of which takes a hundred times
+/// the memory of its text. A bracket in a string or a comment counts as well, and so does a dot in a table's header,
+/// which makes another table.
 fn beyond(text: &str) -> Option<usize> {
     let mut left = WORLD_TABLES_MAX;
     let mut is_key = true;
@@ -84,7 +85,7 @@ fn beyond(text: &str) -> Option<usize> {
     None
 }
 
-/// Reading one text.
+/// The reader of one text.
 pub(super) struct Reader<'a> {
     pub(super) file: FileId,
     pub(super) scene: &'a Scene<'a>,
@@ -169,7 +170,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// What each element of a sensor does.
+    /// The signal of each element of a sensor.
     fn signals(
         &mut self,
         index: DeviceIndex,
@@ -285,13 +286,13 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What chance begins with for one quantity.
+/// The seed of the random numbers for one quantity.
 pub(crate) fn key(seed: u64, device: DeviceIndex, element: u64) -> u64 {
     let device = u64::try_from(device.0).unwrap_or(u64::MAX);
     scrambled(scrambled(seed ^ scrambled(device)) ^ element)
 }
 
-/// What counts edges goes from point to point and does not jump: nothing turns so fast.
+/// Makes the signal of an edge counter go straight from point to point and not jump: nothing turns that fast.
 fn turns(device: &Device, signal: &mut Signal) {
     if let Shape::Points { is_straight, .. } = &mut signal.shape {
         *is_straight |= is_turning(device);
@@ -302,7 +303,7 @@ fn is_turning(device: &Device) -> bool {
     device.kind.encoder().is_some() || is_counter(&device.kind, device)
 }
 
-/// Why a device cannot do what a signal wants.
+/// The reason why a device cannot follow a signal.
 fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
     if let Some(said) = too_fast(device, signal, span) {
@@ -334,7 +335,7 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     Some(value::out_of_range(span, name, &short(wrong), &range))
 }
 
-/// Why a signal cannot be followed: each edge is a step of the simulation.
+/// The reason why a signal is too fast to simulate: each edge is a step of the simulation.
 fn too_fast(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
     let most = short(EDGES_A_SECOND_MAX);
@@ -352,20 +353,20 @@ fn too_fast(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> 
     })
 }
 
-/// A number for people: six digits that count.
+/// A number for people, with up to six decimals.
 pub(super) fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text.is_empty() || text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A whole number from 0 on.
+/// A whole number that is not negative.
 fn whole(value: &DeValue<'_>) -> Option<u64> {
     let integer = value.as_integer()?;
     u64::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
-/// The time and value of points, which must go forwards.
+/// Checks that the times of points rise.
 pub(super) fn forwards(
     span: Span,
     times: impl IntoIterator<Item = u64>,
@@ -380,7 +381,7 @@ pub(super) fn forwards(
     Ok(())
 }
 
-/// A time for people.
+/// A time for people, in seconds.
 fn seconds(at_ns: u64) -> String {
     format!("{} s", short(crate::arith::number(at_ns) / 1e9))
 }

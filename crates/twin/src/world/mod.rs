@@ -1,8 +1,8 @@
-//! The world around a board: what its sensors have to measure, and what breaks when.
+//! The world around a board: the quantities for its sensors to measure, and the faults with their times.
 //!
 //! In: the text of a world and the design it is for. Out: a [`World`] with a signal for each element of each sensor
-//! that the text names, in the sensor's own unit, and the faults in the order of time; what is wrong with the text is
-//! diagnostics with places in it. What the text does not name does what is [usual](usual()).
+//! that the text names, in the sensor's own unit, and the faults in the order of time. Errors in the text become
+//! diagnostics with places. A sensor that the text does not name has its [usual](usual()) signal.
 
 mod command;
 mod entry;
@@ -23,15 +23,15 @@ pub use file::{Scene, read};
 pub use signal::{Shape, Signal, Visit};
 pub use usual::usual;
 
-/// What happens around a board.
+/// The events around a board.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
-    /// What chance begins with, where the text says it.
+    /// The seed of the random numbers, if the text gives one.
     pub seed: Option<u64>,
-    /// What each sensor that is named does, an element each.
+    /// The signals of each sensor that is named, one for each element.
     pub signals: BTreeMap<DeviceIndex, Vec<Signal>>,
-    /// What breaks, in the order of time.
+    /// The faults, in the order of time.
     pub faults: Vec<Fault>,
-    /// What the host sets, in the order of the text.
+    /// The host's commands, in the order of the text.
     pub commands: Vec<Command>,
 }

@@ -1,11 +1,11 @@
-//! Samples of a quantity in a CSV file: a line of names, then a time in seconds and numbers on each line.
+//! Samples of a quantity in a CSV file: a line of names, then lines with a time in seconds and numbers.
 
 use sensedsl_diagnostics::codes::e0545_world_samples as report;
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 
 use crate::arith::nanoseconds;
 
-/// The points of a column. `at` is where the world names the file.
+/// The points of a column. `at` is the place where the world names the file.
 pub(super) fn read(
     samples: &dyn Fn(&str) -> Result<String, String>,
     file: &str,
@@ -31,7 +31,7 @@ pub(super) fn read(
         let seconds = cells.first().and_then(|cell| cell.parse::<f64>().ok());
         let seconds = seconds.filter(|one| one.is_finite() && *one >= 0.0);
         let seconds = seconds.ok_or_else(|| bad("the first column is not a time in seconds"))?;
-        // An empty cell has no point.
+        // An empty cell is not a point.
         let Some(text) = cells.get(place + 1).filter(|cell| !cell.is_empty()) else { continue };
         let value = text.parse::<f64>().ok().filter(|one| one.is_finite());
         let value = value.ok_or_else(|| bad(&format!("`{text}` is not a number")))?;

@@ -1,9 +1,9 @@
-//! What a quantity of the world does over time: a value at each moment, and between which values it was in a span.
+//! A quantity of the world over time: its value at each moment, and its range in a span.
 
 use crate::arith::{TURN, chance, number, sine};
 
-/// The time in which noise goes from one value to the next: shorter than any cycle of a device. What turns cannot jump,
-/// and an encoder that did would miss steps.
+/// The time in which noise goes from one value to the next: shorter than any cycle of a device. The noise does not
+/// jump, because a wheel cannot and an encoder would miss steps.
 const NOISE_NS: u64 = 1_000_000;
 /// Nanoseconds of a second.
 const SECOND_NS: f64 = 1e9;
@@ -11,81 +11,82 @@ const SECOND_NS: f64 = 1e9;
 /// A quantity over time, in the device's own unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
-    /// What it does.
+    /// Its movement without noise.
     pub shape: Shape,
-    /// How far chance moves it up or down.
+    /// The greatest deviation caused by noise, up or down.
     pub noise: f64,
-    /// Which chance: different for each quantity and seed.
+    /// The key of its random numbers: different for each quantity and seed.
     pub key: u64,
 }
 
-/// What a quantity does without noise.
+/// The movement of a quantity without noise.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// It stays what it is.
+    /// It stays constant.
     Constant(f64),
-    /// It goes from one value to another, and stays there.
+    /// It goes from one value to another in a straight line, and stays there.
     Ramp {
         /// At the start.
         from: f64,
         /// At the end.
         to: f64,
-        /// How long that takes.
+        /// The time that this takes.
         over_ns: u64,
     },
-    /// It swings.
+    /// It follows a sine.
     Sine {
-        /// Around this.
+        /// The middle.
         offset: f64,
-        /// By so much to either side.
+        /// The amplitude to either side.
         amplitude: f64,
-        /// Of one swing.
+        /// The period.
         period_ns: u64,
     },
-    /// It is one value for half of a period, and the other for the other half.
+    /// It has one value for half of a period, and another one for the other half.
     Square {
-        /// At the start.
+        /// The value at the start.
         first: f64,
-        /// After half of a period.
+        /// The value after half of a period.
         second: f64,
-        /// Of both.
+        /// The period, with both values.
         period_ns: u64,
     },
-    /// It grows by the same in each second.
+    /// It grows at a constant rate.
     Rate {
-        /// At the start.
+        /// The value at the start.
         from: f64,
-        /// In a second.
+        /// The growth in a second.
         a_second: f64,
     },
-    /// Points in the order of time: the first value before the first one, the last after the last one.
+    /// It follows points in the order of time. Before the first point it has the value of that one, after the last
+    /// point of the last one.
     Points {
         /// Time and value.
         points: Vec<(u64, f64)>,
-        /// Whether it goes straight from one to the next, and does not jump.
+        /// Whether it goes straight from one point to the next instead of jumping.
         is_straight: bool,
     },
-    /// What another quantity does, with something else at the end of each period.
+    /// It follows another shape, and goes somewhere else at the end of each period.
     Visits {
-        /// The other.
+        /// The other shape.
         base: Box<Shape>,
-        /// From one visit to the next.
+        /// The time from one visit to the next.
         every_ns: u64,
-        /// How long each lasts.
+        /// The length of each visit.
         for_ns: u64,
-        /// Where it is meanwhile.
+        /// The value during a visit.
         to: Visit,
     },
 }
 
-/// Where a quantity goes for a while.
+/// The value that a quantity has during a visit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visit {
-    /// To this value.
+    /// This value.
     To(f64),
-    /// So far from where it would be.
+    /// The value of the other shape plus this.
     By(f64),
-    /// To this less where it would be: to the other one of two values whose sum this is.
+    /// This minus the value of the other shape: the other one of two values whose sum this is.
     Other(f64),
 }
 
@@ -100,7 +101,7 @@ impl Visit {
 }
 
 impl Signal {
-    /// Without noise.
+    /// A signal without noise.
     #[must_use]
     pub const fn of(shape: Shape) -> Self {
         Self { shape, noise: 0.0, key: 0 }
@@ -136,7 +137,7 @@ impl Signal {
         (least + below, greatest + above)
     }
 
-    /// The least and the greatest value that it ever has; none where it has no bounds.
+    /// The least and the greatest value that it ever has; `None` if it has no bounds.
     #[must_use]
     pub fn bounds(&self) -> Option<(f64, f64)> {
         match &self.shape {
@@ -151,7 +152,7 @@ impl Signal {
         }
     }
 
-    /// By how much it grows in a second where it grows most; none for what does not grow steadily.
+    /// The steepest growth in a second; `None` if it does not grow steadily.
     #[must_use]
     pub fn steepest(&self) -> Option<f64> {
         let a_second = |from: f64, to: f64, ns: u64| (to - from) * SECOND_NS / number(ns.max(1));
@@ -172,7 +173,7 @@ impl Signal {
         }
     }
 
-    /// The period of what repeats.
+    /// The period of a signal that repeats.
     #[must_use]
     pub const fn period_ns(&self) -> Option<u64> {
         match self.shape {
@@ -185,7 +186,7 @@ impl Signal {
         }
     }
 
-    /// By how much it changes in a second at most, up or down, jumps left out.
+    /// The fastest change in a second, up or down, without jumps.
     #[must_use]
     pub fn fastest(&self) -> f64 {
         let a_second = |from: f64, to: f64, ns: u64| ((to - from) / number(ns.max(1))).abs() * 1e9;
@@ -207,7 +208,7 @@ impl Signal {
         shape + a_second(0.0, 2.0 * self.noise, NOISE_NS)
     }
 
-    /// Whether it ever becomes less.
+    /// Whether it ever decreases.
     #[must_use]
     pub fn falls(&self) -> bool {
         match &self.shape {
@@ -292,7 +293,7 @@ impl Shape {
                 let start = points.partition_point(|point| point.0 < from_ns);
                 let end = points.partition_point(|point| point.0 <= to_ns);
                 points.get(start..end).unwrap_or_default().iter().for_each(|one| take(one.1));
-                // What jumps at a point had the value of the point before until then.
+                // A signal that jumps at a point has the value of the point before until then.
                 let before = start.checked_sub(1).and_then(|before| points.get(before));
                 before.into_iter().for_each(|one| {
                     if matches!(self, Self::Points { is_straight: false, .. }) {
@@ -309,7 +310,7 @@ fn ordered(one: f64, other: f64) -> (f64, f64) {
     if one <= other { (one, other) } else { (other, one) }
 }
 
-/// Where a moment is in its period, in 2^-32 of it.
+/// The phase of a moment in a period, in units of 2^-32.
 fn phase(now_ns: u64, period_ns: u64) -> u64 {
     let period = u128::from(period_ns.max(1));
     let share = (u128::from(now_ns) % period) * u128::from(TURN) / period;

@@ -1,5 +1,5 @@
-//! What sensors measure of which a world says nothing: something that moves within their range, each at a pace of its
-//! own, so that a board without a world shows live values, each different from the others.
+//! The signals of sensors that a world does not mention: each moves within the sensor's range at a pace of its own, so
+//! that a board without a world shows live values that differ from each other.
 
 use sensedsl_model::design::{Device, DeviceIndex};
 use sensedsl_model::kind::Kind;
@@ -17,20 +17,20 @@ use crate::truth::Scale;
 /// How often a sensor has nothing to measure, and for how long.
 const INVALID_EVERY_NS: u64 = 6_000_000_000;
 const INVALID_NS: u64 = 700_000_000;
-/// How often there is a value that a median takes away.
+/// The time from one spike that a median removes to the next.
 const SPIKE_EVERY_NS: u64 = 1_300_000_000;
-/// How long a low-pass has at least to follow a step.
+/// The shortest time that a low-pass has to follow a step.
 const STEP_NS: u64 = 1_500_000_000;
 
-/// How long a contact is the other way, in per cent of how long it must last, and once in how many spikes on its wire.
-/// One that must last twice as long never sees it.
+/// The length of a contact's press in per cent of its debounce time, and the number of its wire's spike periods from
+/// one press to the next. A contact with twice the debounce time never sees the press.
 const PRESS_PERCENT: u64 = 195;
 const PRESSES: u64 = 2;
 
-/// Raw numbers in a row are never further away from 0 than this without a reason.
+/// The bound for raw numbers from words, unless something else gives their range.
 const FAR: f64 = 30_000.0;
 
-/// What a sensor does of which a world says nothing.
+/// The signals of a sensor that a world does not mention.
 #[must_use]
 pub fn usual(index: DeviceIndex, device: &Device) -> Vec<Signal> {
     let elements = u64::try_from(device.value.value.count()).unwrap_or(1);
@@ -42,7 +42,7 @@ pub fn usual(index: DeviceIndex, device: &Device) -> Vec<Signal> {
     (0..elements).map(|element| Signal::of(shape(element))).collect()
 }
 
-/// What shows whether filters work: now and then a value that is none, or a jump.
+/// Adds visits that show whether filters work: an invalid value or a jump now and then.
 fn visits(device: &Device, base: Shape) -> Shape {
     let Shape::Sine { offset, amplitude, period_ns } = base else { return base };
     let half = amplitude / 2.0;
@@ -58,7 +58,7 @@ fn visits(device: &Device, base: Shape) -> Shape {
     } else {
         return base;
     };
-    // Both together stay within what is sound.
+    // Base and visits together stay in the sound range.
     let base = Box::new(Shape::Sine { offset, amplitude: half, period_ns });
     Shape::Visits { base, every_ns, for_ns, to }
 }
@@ -87,7 +87,7 @@ fn shape(device: &Device, place: u64) -> Shape {
         let edges = edges_a_second_max(device).map_or(edges, |most| edges.min(most / 2.0));
         return Shape::Rate { from: zero, a_second: each * edges };
     }
-    // A level lasts for longer than a contact is taken to bounce.
+    // A level lasts longer than the debounce time.
     let lasts_us = device.kind.digital().map_or(0, |own| own.debounce_us);
     let lasts_s = f64::from(lasts_us) / 1e6;
     let period_ns = nanoseconds((4.0 + 0.7 * pace + 8.0 * lasts_s) * 1e9);
@@ -96,13 +96,13 @@ fn shape(device: &Device, place: u64) -> Shape {
         return pressed(lasts_us, Shape::Square { first, second, period_ns: period_ns / 2 });
     }
     let (low, high) = sound_range(device, &scale);
-    // A width or a count of elements is a whole number, and what is near to the ends is least like a measurement.
+    // A width or a count of elements is a whole number, and the ends of the range are least like a measurement.
     let middle = low + (high - low) * (0.5 + 0.02 * (pace - 5.0));
     let (centre, reach) = (scale.shown(middle), scale.shown(high) - scale.shown(low));
     Shape::Sine { offset: centre, amplitude: reach * 0.3, period_ns }
 }
 
-/// A contact that must last for some time is now and then the other way for a little longer than that.
+/// A contact with a debounce time that is pressed now and then for a little longer than that.
 fn pressed(lasts_us: u32, base: Shape) -> Shape {
     let Shape::Square { first, second, .. } = base else { return base };
     if lasts_us == 0 {
@@ -118,7 +118,7 @@ fn is_one_bit(device: &Device) -> bool {
     Words::of(device).is_some_and(|words| words.bits == 1)
 }
 
-/// Raw numbers that are like those of a measurement, and none of which is invalid.
+/// A range of raw numbers as a measurement gives them, none of which is invalid.
 fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
     let (mut low, mut high) = likely_range(device);
     if let Some((least, greatest)) = raw_range(device) {
@@ -148,7 +148,7 @@ fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
     largest_piece((low, high), &device.filter.invalid)
 }
 
-/// What is usual of a quantity, in its unit, as people measure it in a room.
+/// The usual range of a quantity, in its unit, as people measure it in a room.
 fn named_range(device: &Device) -> Option<(f64, f64)> {
     match device.shown.quantity.as_deref()? {
         "cm" => Some((20.0, 250.0)),
@@ -164,7 +164,7 @@ fn named_range(device: &Device) -> Option<(f64, f64)> {
     }
 }
 
-/// The largest part of a range in which nothing is invalid.
+/// The largest part of a range that has nothing invalid.
 fn largest_piece(range: (f64, f64), invalid: &[(f64, f64)]) -> (f64, f64) {
     let mut holes = invalid.to_vec();
     holes.sort_by(|one, other| one.0.total_cmp(&other.0));

@@ -1,4 +1,4 @@
-//! Whole boards: all examples, as the world is when nobody says anything of it, and in the worlds that they come with.
+//! Whole boards: all examples, without a world and in the worlds that come with them.
 
 use std::fs;
 
@@ -18,14 +18,14 @@ fn every_sensor_of_every_example_reports_what_the_world_does() {
         let wrong = run.wrong();
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");
         for one in &run.judged {
-            // What comes once a minute has come twice at most.
+            // A value that comes once a minute has come at most twice.
             assert!(one.reports > 0, "{name}: {} reported nothing", one.name);
         }
         assert_eq!(run.dropped, 0, "{name}");
     }
 }
 
-/// Contacts without a world move no faster than they are debounced.
+/// Without a world, contacts do not change faster than their debounce time.
 #[test]
 fn contacts_last_as_long_as_they_must() {
     let contacts: String = (1..=11_u16)

@@ -1,5 +1,5 @@
-//! What the judge has to catch of actuators: boards of a design with another mistake each, before the judge of the
-//! right one.
+//! The mistakes that the judge of actuators must catch: boards of a design with one mistake each, checked by the judge
+//! of the correct design.
 
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::commands::{Commands, Tried};
@@ -27,7 +27,7 @@ const RIGHT: &str = "board STM32F407G_DISC1 {
     actuator Say accepts uint16 { id = 11; type = uart; baud = 9600; start = [0x55, 0xAA]; length = 2; checksum = xor8; end = [0x0D]; failsafe = 1; }
 }";
 
-/// Outputs of an expander, of which one board has each as a chip of its own: these do not know each other's bits.
+/// Outputs of an expander. In one of the boards each is a chip of its own, and these do not know each other's bits.
 const EXPANDER: &str = "board STM32F407G_DISC1 {
     link { transport = uart; unit = USART3; silence = 400 ms; }
     chip Pins {
@@ -39,7 +39,7 @@ const EXPANDER: &str = "board STM32F407G_DISC1 {
     }
 }";
 
-/// What is found out about the outputs of a board, before the judge of the right design.
+/// The findings about the outputs of a board with a mistake, by the judge of the correct design.
 fn tried(wrong: &str, world: &str) -> Vec<Tried> {
     tried_as(RIGHT, wrong, world)
 }
@@ -68,7 +68,7 @@ fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
     })
 }
 
-/// The names of what is amiss when a text of the design is another one.
+/// The names of the actuators with findings when a text of the design is replaced by another.
 fn amiss(from: &str, to: &str) -> Vec<String> {
     assert!(RIGHT.contains(from), "{from}");
     let all = tried(&RIGHT.replacen(from, to, 1), "");
@@ -139,7 +139,7 @@ fn each_mistake_is_noticed_where_it_is() {
     }
 }
 
-/// What is told at the same time is in one frame: a board that takes only the first value of a frame is wrong.
+/// Values that are sent at the same time are in one frame: a board that takes only the first value of a frame is wrong.
 #[test]
 fn several_actuators_are_told_at_once() {
     with_job(RIGHT, |job| {
@@ -180,7 +180,7 @@ fn a_world_has_a_script_of_its_own() {
                  [[command]]\ndevice = \"Servos\"\nat = \"1500 ms\"\nvalue = [0, 2000, 10000]\n";
     let all = tried(RIGHT, world);
     let of = |name: &str| all.iter().find(|one| one.name == name).unwrap();
-    // Once, and once again after the silence.
+    // Once, and again after the silence.
     for name in ["Thrust", "Servos"] {
         assert_eq!((of(name).commands, of(name).wrong), (2, 0), "{:#?}", of(name));
     }

@@ -1,4 +1,4 @@
-//! What the judge has to catch: reports that were tampered with.
+//! The mistakes that the judge must catch: reports that were tampered with.
 
 use sensedsl_job::JobDevice;
 use sensedsl_twin::bench::Bench;
@@ -103,7 +103,7 @@ fn swapped_devices_are_wrong() {
 
 #[test]
 fn old_values_are_wrong() {
-    // What was measured 300 ms ago.
+    // A value that was measured 300 ms ago.
     let mut queue: Vec<(u64, Vec<Scalar>)> = Vec::new();
     let late = move |now: u64, values: &mut Values| {
         for (_, elements) in values.iter_mut().filter(|(id, _)| *id == 1) {
@@ -115,7 +115,7 @@ fn old_values_are_wrong() {
         }
     };
     assert_eq!(with(late), ["Near"]);
-    // A value that stands still.
+    // A value that never changes.
     let mut first = None;
     let still = move |_: u64, values: &mut Values| {
         for (_, elements) in values.iter_mut().filter(|(id, _)| *id == 3) {
@@ -140,7 +140,7 @@ fn what_does_not_come_is_wrong() {
     assert!(matches!(worst.finding, Finding::Silence(_)), "{worst:?}");
 }
 
-/// A count is told when it has changed, and not with another value only; once a second it is told anew.
+/// A count must be reported when it has changed, not only together with another value, and is repeated once a second.
 #[test]
 fn a_count_that_is_told_late_or_again_is_wrong() {
     let words = |tamper: &mut dyn FnMut(u64, &mut Values)| {
@@ -150,7 +150,7 @@ fn a_count_that_is_told_late_or_again_is_wrong() {
     };
     let mut last = 0;
     let late = words(&mut |now, values| {
-        // Left out, until 60 ms have passed.
+        // The value is left out until 60 ms have passed.
         values.retain(|(id, _)| *id != 4 || now >= last + 60_000_000);
         last = if values.iter().any(|(id, _)| *id == 4) { now } else { last };
     });
@@ -166,7 +166,7 @@ fn a_count_that_is_told_late_or_again_is_wrong() {
     assert!(again.contains("though it had not changed"), "{again}");
 }
 
-/// What turns cannot jump: noise that did would cost an encoder steps.
+/// A wheel cannot jump: noise that did would cost an encoder steps.
 #[test]
 fn an_encoder_with_noise_agrees_with_its_world() {
     let board = "board STM32F407G_DISC1 { sensor Turns returns int32 { id = 1; type = encoder; } }";
@@ -205,7 +205,7 @@ fn wrong_names(judged: &[Judged]) -> Vec<&str> {
     judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect()
 }
 
-/// A board speaks of each of its devices once, and of no others.
+/// A board reports the health of each of its devices once, and of no others.
 #[test]
 fn health_of_other_devices_is_wrong() {
     with_job(CAR, |job| {

@@ -1,4 +1,4 @@
-//! Every driver of the library that measures: what its part is made to say by a world comes back through the tables and
+//! Every driver of the library that measures: the value that a world gives its part comes back through the tables and
 //! the runtime.
 
 use sensedsl_model::facts;
@@ -6,7 +6,7 @@ use sensedsl_wire::Direction;
 
 use crate::run::{plainly, with_job};
 
-/// Drivers that no single board of the examples carries with all its values are tried one by one.
+/// All drivers are tried one by one, because no single board of the examples has all of them with all their values.
 #[test]
 fn every_driver_reports_what_the_world_does() {
     let mut tried = 0;
@@ -33,7 +33,7 @@ fn every_driver_reports_what_the_world_does() {
     assert!(tried > 60, "{tried}");
 }
 
-/// A board with nothing but one part, and all of its values.
+/// A board with only one part, and all of its values, for each part.
 fn examples() -> Vec<String> {
     let parts = facts::all();
     parts.iter().map(board).collect()

@@ -1,4 +1,4 @@
-//! Boards that do their job in this program, and the judge that compares what they report with the world.
+//! Boards that do their job in this program, and the judge that compares their reports with the world.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! What the judge has to see of firmware with a mistake: the board does another file's job than the one it is judged by.
+//! The mistakes in firmware that the judge must see: the board does the job of another file than the one it is judged
+//! by.
 
 use sensedsl_twin::judge::Finding;
 
@@ -15,7 +16,7 @@ const ROVER: &str = "board STM32F407G_DISC1 {
     sensor Bumper returns bool { id = 8; type = digital; delay = 30 ms; }
 }";
 
-/// The names of those that disagree, with the words for it.
+/// The names of the devices with findings, and the findings in words.
 fn wrong(find: &str, with: &str, world: &str, seconds: u64) -> Vec<(String, String)> {
     assert!(ROVER.contains(find), "{find}");
     let run = mistaken(ROVER, &ROVER.replacen(find, with, 1), world, seconds);
@@ -33,7 +34,7 @@ fn a_board_without_a_mistake_is_right() {
     }
 }
 
-/// What is written in the file, what in the firmware, who is to be told of it, and with which words.
+/// The text in the file, the one in the firmware, the device with the finding, and a word of it.
 #[test]
 fn mistakes_of_firmware_are_seen() {
     let cases = [
@@ -97,7 +98,7 @@ fn mistakes_of_firmware_are_seen() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// What the world does not send is nobody's fault, and what it sends has to come.
+/// A value that the world does not send is not a mistake, and one that it sends must come.
 #[test]
 fn what_the_world_explains_is_right() {
     let mute = "[devices]\nRear = 0\nAngle = 1000\nSteering = 0\nLevel = 65535\n";
@@ -108,7 +109,7 @@ fn what_the_world_explains_is_right() {
     }
 }
 
-/// Three channels of a model receiver that nobody listens to.
+/// Three channels of a model receiver that are never reported.
 #[test]
 fn a_capture_that_does_not_come_is_wrong() {
     let lost = |_: u64, values: &mut crate::run::Values| values.retain(|(id, _)| *id != 6);
@@ -132,7 +133,7 @@ fn units_without_a_number_are_read() {
     assert!(run.judged.iter().all(|one| one.reports > 200), "{:#?}", run.judged);
 }
 
-/// A part that nobody wakes measures nothing, as its data sheet says.
+/// A part that is not woken measures nothing, as its data sheet says.
 #[test]
 fn a_part_that_is_not_woken_is_seen() {
     let board = |init: &str| {
@@ -160,7 +161,7 @@ fn a_contact_that_is_not_debounced_is_seen() {
     assert!(right.wrong().is_empty(), "{:#?}", right.wrong());
 }
 
-/// Its wire is the other way for a little less than `debounce`, which is not to be told, and for a little longer.
+/// The contact changes for a little less than `debounce`, which must not be reported, and for a little longer.
 #[test]
 fn a_contact_that_must_last_for_another_time_is_seen() {
     for edge in ["", "edge = both;"] {
@@ -182,7 +183,7 @@ fn a_contact_that_must_last_for_another_time_is_seen() {
     }
 }
 
-/// What a driver waits for while it sets its part up.
+/// A pause that a driver requires while it sets up its part.
 #[test]
 fn a_pause_that_is_left_out_is_seen() {
     let board = |pause: &str| {
@@ -201,7 +202,7 @@ fn a_pause_that_is_left_out_is_seen() {
     }
 }
 
-/// A board sends a report in each cycle of its reporter at most.
+/// A board sends at most one report in each cycle of its reporter.
 #[test]
 fn a_board_that_reports_too_often_is_seen() {
     let board = |rate: &str| {

@@ -1,4 +1,4 @@
-//! Registers of ranges and rates act on what a part gives, as its data sheet says.
+//! The registers of ranges and rates act on a part's values, as its data sheet says.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,7 @@ fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
-/// A driver of the library under another name, and with another text in it.
+/// A driver of the library with another name and a changed text.
 fn changed(driver: &str, find: &str, with: &str) -> String {
     let mut files: Vec<_> = fs::read_dir(root().join("crates/model/drivers"))
         .unwrap()
@@ -34,7 +34,7 @@ fn changed(driver: &str, find: &str, with: &str) -> String {
     text.replacen(&head, "driver mistaken_part for ", 1).replacen(find, with, 1)
 }
 
-/// The values that disagree when a part is set up in another way.
+/// The values with findings when a part is set up in another way.
 fn wrong(driver: &str, find: &str, with: &str, world: &str) -> Vec<String> {
     let board = |driver: &str| {
         format!("board STM32F407G_DISC1 {{ chip Part {{ driver = {driver}; delay = 20 ms; }} }}")
@@ -66,7 +66,7 @@ fn another_range_is_seen() {
     }
 }
 
-/// A board that was built from a driver without `identity` reads the part and not who it is.
+/// A board built from a driver without `identity` reads the part but not its identity.
 #[test]
 fn an_identity_that_is_not_read_is_seen() {
     let board = |driver: &str| {
@@ -88,8 +88,8 @@ fn another_rate_is_seen() {
     assert_eq!(found.len(), 1, "{found:?}");
 }
 
-/// The table and the library have the same numbers from different sources: with what a driver writes, a unit has as many
-/// counts as its scale says.
+/// The table and the library have the same numbers from different sources: with the registers that a driver writes, a
+/// unit has as many counts as its scale says.
 #[test]
 fn the_scales_of_the_library_are_those_of_the_table() {
     let table = fs::read_to_string(root().join("crates/twin/src/parts/ranges.csv")).unwrap();
@@ -119,7 +119,7 @@ fn the_scales_of_the_library_are_those_of_the_table() {
     assert!(compared > 20, "{compared}");
 }
 
-/// What a driver leaves in the registers of its part.
+/// The register contents that a driver leaves in its part.
 fn init(part: &facts::PartFacts) -> BTreeMap<u16, u8> {
     let text = facts::example(part);
     with_job(&text, |job| {

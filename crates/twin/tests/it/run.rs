@@ -1,4 +1,4 @@
-//! Simulating a text with a world, as the command does.
+//! Simulation of a text with a world, as the command does it.
 
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_job::{BoardJob, jobs};
@@ -12,14 +12,15 @@ use sensedsl_wire::{Decoder, Direction, Event, Scalar, encode_health_request};
 
 pub(crate) type Values = Vec<(u8, Vec<Scalar>)>;
 
-/// What came of a run.
+/// The results of a run.
 pub(crate) struct Run {
     pub(crate) bytes: Vec<u8>,
     pub(crate) reports: Vec<(u64, Values)>,
     pub(crate) judged: Vec<Judged>,
     pub(crate) dropped: u64,
     pub(crate) unasked: Vec<Unasked>,
-    /// What the board has done with parts on buses that their drivers do not say.
+    /// The parts on buses that the board has treated in a way that their drivers do not describe,
+    /// each with what happened.
     pub(crate) odd: Vec<(String, String)>,
 }
 
@@ -35,7 +36,7 @@ impl Run {
     }
 }
 
-/// Makes the board's job of a text and hands it on.
+/// Makes the board's job from a text and passes it on.
 pub(crate) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("board.sense", text);
@@ -68,7 +69,7 @@ pub(crate) fn read(job: &BoardJob<'_>, text: &str, seed: u64) -> (World, Vec<Dia
     world::read(file, text, &scene)
 }
 
-/// Runs a text with a world; the reports go through `tamper` before they are judged.
+/// Runs a text with a world; reports go through `tamper` before they are judged.
 pub(crate) fn simulate(
     text: &str,
     world: &str,
@@ -78,7 +79,8 @@ pub(crate) fn simulate(
     with_job(text, |job| run(job, job, world, seconds, tamper))
 }
 
-/// Runs the board of a text that has a mistake, in the world and before the judge of the right one.
+/// Runs the board of a text with a mistake in the world of the correct text, before that one's
+/// judge.
 pub(crate) fn mistaken(right: &str, wrong: &str, world: &str, seconds: u64) -> Run {
     with_job(right, |right| with_job(wrong, |wrong| run(right, wrong, world, seconds, |_, _| {})))
 }
@@ -134,7 +136,7 @@ fn run(
     }
 }
 
-/// The same without tampering.
+/// Runs a text with a world, without tampering.
 pub(crate) fn plainly(text: &str, world: &str, seconds: u64) -> Run {
     simulate(text, world, seconds, |_, _| {})
 }

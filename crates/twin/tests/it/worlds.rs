@@ -1,4 +1,4 @@
-//! Reading worlds, and what faults do.
+//! The reading of worlds, and the effects of faults.
 
 use crate::run::{plainly, read, with_job};
 
@@ -13,7 +13,7 @@ const BOARD: &str = "board STM32F4DiscoveryBoard {
     sensor Rain returns uint32 { id = 8; type = digital; edge = falling; debounce = 20 ms; delay = 50; }
 }";
 
-/// The codes and places of what is wrong with a world.
+/// The codes and places of the errors in a world.
 fn said(text: &str) -> Vec<(String, String)> {
     with_job(BOARD, |job| {
         let (_, said) = read(job, text, 1);
@@ -97,7 +97,7 @@ fn samples_are_joined_by_straight_lines() {
     });
 }
 
-/// Times at which a device was reported.
+/// The times at which a device was reported.
 fn times(world: &str, id: u8) -> Vec<u64> {
     let run = plainly(BOARD, world, 8);
     assert!(run.wrong().is_empty(), "{world}: {:#?}", run.wrong());

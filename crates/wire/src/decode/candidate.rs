@@ -1,4 +1,4 @@
-//! One place where a frame may start, and how far it has been looked at.
+//! A place where a frame may start, and how far its bytes have been checked.
 
 use super::leap::{Ids, Leap, Leaps};
 use super::memo::Memo;
@@ -9,30 +9,30 @@ use crate::schema::{
     ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
 };
 
-/// What the bytes at hand can be.
+/// What the available bytes can be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// No valid frame starts here.
     Invalid,
-    /// A valid frame may start here; more bytes will tell.
+    /// A valid frame may start here; more bytes are needed.
     Incomplete,
     /// A valid frame.
     Complete,
 }
 
-/// What is the same for all frames of a link in one direction.
+/// The facts that all frames of a link share in one direction.
 #[derive(Clone, Debug)]
 pub(super) struct Rules {
     pub(super) table: Table,
     pub(super) checksum: Checksum,
-    /// Of any payload, with its checksum.
+    /// Most bytes of any payload, including its checksum.
     payload_bytes_max: usize,
-    /// Of any payload but health; this and what follows is without the checksum.
+    /// Most bytes of any payload except health; like the following fields, without the checksum.
     short_bytes_max: usize,
     hello_bytes: usize,
-    /// Of the payload that begins with 255; 0 where there is none.
+    /// Bytes of a payload that begins with 255; 0 if there is none.
     health_bytes: usize,
-    /// Of the request for health; 0 where there is none.
+    /// Bytes of a request for health; 0 if there is none.
     health_request_bytes: usize,
     is_stamped: bool,
 }
@@ -56,35 +56,36 @@ impl Rules {
     }
 }
 
-/// What candidates that failed have left behind.
+/// Knowledge left by earlier candidates that failed.
 pub(super) struct Past<'m> {
-    /// Where the candidate's first byte stands in the stream.
+    /// The place of the candidate's first byte in the stream.
     pub(super) place: u64,
-    /// There when an earlier candidate has been through the same bytes.
+    /// Present if an earlier candidate has checked the same bytes.
     pub(super) memo: Option<&'m mut Memo>,
-    /// There when an earlier candidate has been through the same identifiers.
+    /// Present if an earlier candidate has passed the same identifiers.
     pub(super) leaps: Option<&'m mut Leaps>,
 }
 
-/// All places are counted from the candidate's first byte.
+/// A candidate for a frame. All places are counted from its first byte.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidate {
-    /// 0 as long as the length has not been read.
+    /// Where the payload starts; 0 until the length has been read.
     pub(super) payload_start: usize,
-    /// Where the checksum or the comma stands.
+    /// The place of the checksum or, if there is none, of the comma.
     pub(super) values_end: usize,
     pub(super) frame_bytes: usize,
-    /// Where the next identifier stands; 0 as long as the length has not been read.
+    /// The place of the next identifier; 0 until the length has been read.
     pub(super) at: usize,
-    /// Up to here values and checksum were gone through byte by byte.
+    /// Values and checksum have been checked byte by byte up to this place.
     pub(super) looked_at: usize,
     is_checksum_right: bool,
-    /// A bit for each identifier of this payload.
+    /// A bit for each identifier found in this payload.
     seen: Ids,
 }
 
 impl Candidate {
-    /// Another place, of which nothing is known; the rest is set when its length has been read.
+    /// Moves to another place, about which nothing is known; the other fields are set when its
+    /// length has been read.
     #[inline]
     pub(super) fn restart(&mut self) {
         self.payload_start = 0;
@@ -94,7 +95,7 @@ impl Candidate {
         self.is_checksum_right = false;
     }
 
-    /// Looks at the bytes from the candidate's first on, and at none twice.
+    /// Checks the bytes from the candidate's first one on, and no byte twice.
     #[inline]
     pub(super) fn look(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         if self.payload_start == 0 {
@@ -103,7 +104,7 @@ impl Candidate {
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
         }
-        // The cheapest first: most of what only looks like a frame ends wrong.
+        // The cheapest check first: most bytes that only look like a frame do not end with a comma.
         let comma = bytes.get(self.frame_bytes - 1).copied();
         if comma.is_some_and(|byte| byte != b',') {
             return Verdict::Invalid;
@@ -112,7 +113,7 @@ impl Candidate {
         if has_checksum && bytes.get(self.values_end).is_some_and(|&id| id != ID_CHECKSUM) {
             return Verdict::Invalid;
         }
-        // By sums the checksum costs less than a walk.
+        // With the sums, the checksum costs less than a walk.
         if has_checksum && comma.is_some() && past.memo.is_some() && !self.is_checksum_right {
             match self.compare_checksum(rules.checksum, bytes, past) {
                 Verdict::Complete => {}
@@ -159,7 +160,7 @@ impl Candidate {
         Verdict::Incomplete
     }
 
-    /// From identifier to identifier up to the end of the values.
+    /// Walks from identifier to identifier, up to the end of the values.
     #[inline]
     fn walk(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         if self.at == self.payload_start {
@@ -180,8 +181,8 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// What a payload is follows from its first byte, its length and the schema: passes over a stamp,
-    /// and over the whole of what is no report.
+    /// Determines the sort of payload from its first byte, its length and the schema. Skips a
+    /// stamp, and all of a payload that is not a report.
     #[inline]
     fn begin(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
         let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
@@ -211,7 +212,7 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// The same with the leaps of others, and leaves leaps for others.
+    /// Like [`Self::walk`], but uses leaps left by other candidates, and leaves leaps for others.
     fn leap(
         &mut self,
         rules: &Rules,
@@ -234,7 +235,7 @@ impl Candidate {
                 if !leap.see(&mut self.seen) {
                     return Verdict::Invalid;
                 }
-                // Else every candidate would make these few steps between two leaps.
+                // Otherwise every candidate would take these few steps between two leaps.
                 if is_behind_leap && steps.bytes() > 0 {
                     leaps.put(steps);
                 }
@@ -255,7 +256,7 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// To the next identifier.
+    /// Steps to the next identifier.
     #[inline]
     fn step(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
@@ -279,7 +280,7 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// The elements of the value before `end`, as many as are there.
+    /// Checks the elements of the value before `end`, as many as are available.
     fn look_at_bools(&mut self, bytes: &[u8], end: usize, past: &mut Past<'_>) -> Verdict {
         let from = self.looked_at.max(self.at + 1);
         let to = end.min(bytes.len());
@@ -309,7 +310,7 @@ impl Candidate {
             None => checksum.of(bytes.get(self.payload_start..self.values_end).unwrap_or_default()),
         };
         self.is_checksum_right = sent == crc;
-        // Values that have not been walked through may still hold what is not a bool.
+        // Values that have not been walked through may still contain an invalid bool.
         if !self.is_checksum_right || self.at == self.values_end {
             self.looked_at = self.values_end;
         }

@@ -1,16 +1,16 @@
-//! Several steps from identifier to identifier taken as one.
+//! Several steps from identifier to identifier, taken as one.
 //!
-//! Candidates for a frame overlap, and from where two of them come upon the same identifier they go
-//! the same way: which bytes are identifiers, whether they are known and whether values are bools
-//! depends on nothing but the place. Only what a candidate has seen before differs, so a leap keeps
-//! the identifiers that it passes over. A candidate then goes from leap to leap and steps only
-//! before the first and behind the last. It needs memory for one frame, and only after a candidate
-//! has failed and the next one went through many identifiers.
+//! Candidates for a frame overlap. When two of them reach the same identifier, they continue the
+//! same way, because only the place determines which bytes are identifiers, whether they are known
+//! and whether values are bools. Candidates differ only in the identifiers that they have already
+//! seen, so a leap records the identifiers that it passes. A candidate then goes from leap to leap,
+//! and steps only before the first and after the last one. Leaps need memory for one frame, and
+//! only after a candidate has failed and the next one has passed many identifiers.
 
 use alloc::vec::Vec;
 
-/// Steps of a leap. A candidate makes fewer than so many before it meets a leap, and fewer behind
-/// the last one; in between it leaps, in 254 steps as often as this is contained in them.
+/// Steps of a leap. A candidate takes fewer than this many steps before it meets a leap, and fewer
+/// after the last one; in between it leaps, at most 254 / `STEPS` times.
 const STEPS: u32 = 16;
 
 /// A bit for each identifier.
@@ -18,17 +18,17 @@ pub(super) type Ids = [u64; 4];
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Leap {
-    /// Of the identifier it starts at.
+    /// The place of the identifier that it starts at.
     place: u64,
     bytes: u32,
     steps: u32,
     ids: Ids,
-    /// Bit k: an identifier of it stands k bytes behind its place.
+    /// Bit k: one of its identifiers is k bytes after its place.
     stands: u64,
 }
 
 impl Leap {
-    /// One that ends where it starts.
+    /// A leap that ends where it starts.
     pub(super) fn new(place: u64) -> Self {
         Self { place, ..Self::default() }
     }
@@ -38,7 +38,7 @@ impl Leap {
         self.bytes as usize
     }
 
-    /// One step more. True when that is as far as a leap goes.
+    /// Adds a step. Returns true if the leap has reached its full length.
     #[inline]
     pub(super) fn add(&mut self, id: u8, bytes: usize) -> bool {
         if let Some(word) = self.ids.get_mut(usize::from(id / 64)) {
@@ -50,13 +50,13 @@ impl Leap {
         self.steps == STEPS
     }
 
-    /// Whether it is known that an item reaches past `bytes` bytes, fewer than it has.
+    /// Whether an item is known to extend past `bytes` bytes, which are fewer than the leap has.
     #[inline]
     pub(super) fn misses(&self, bytes: usize) -> bool {
         bytes < 64 && self.stands >> bytes & 1 == 0
     }
 
-    /// Adds its identifiers to `seen`. False when one of them is there already.
+    /// Adds its identifiers to `seen`. Returns false if one of them is already there.
     #[inline]
     pub(super) fn see(&self, seen: &mut Ids) -> bool {
         let mut twice = 0;
@@ -68,13 +68,14 @@ impl Leap {
     }
 }
 
-/// Leaps by the place in the stream they start at.
+/// Leaps, by the place in the stream where they start.
 #[derive(Clone, Debug)]
 pub(super) struct Leaps {
     frame_bytes_max: usize,
-    /// By place, a ring longer than a frame: where in the next list its leap is, if it is.
+    /// By place, in a ring longer than a frame: the index of the leap in `leaps`, if there is one.
     index: Vec<u16>,
-    /// The latest ones, a ring as well: side by side, as candidates go through them.
+    /// The latest leaps, also in a ring: next to each other, in the order in which candidates use
+    /// them.
     leaps: Vec<Leap>,
     put: usize,
 }
@@ -97,7 +98,7 @@ impl Leaps {
             self.index = alloc::vec![0; size];
             self.leaps = alloc::vec![Leap::default(); size / 8];
         }
-        // Where the end of a candidate has cut this one short there is a longer one.
+        // If the end of a candidate has cut this leap short, there is a longer one.
         if self.at(leap.place).is_some() {
             return;
         }

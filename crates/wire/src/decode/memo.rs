@@ -1,9 +1,9 @@
-//! What is known of every window of the stream once it has been gone through: its checksum, and
-//! whether all of it are bools.
+//! What is known of every window of the stream that has been checked: its checksum, and whether all
+//! its bytes are bools.
 //!
-//! Candidates for a frame overlap where one stands in the payload of another. Each would go through
-//! the same bytes again; with sums over everything since one place, a window costs the same
-//! whatever its length. It needs memory for one frame, and only after a candidate has failed.
+//! Candidates for a frame overlap where one is in the payload of another, and each would check the
+//! same bytes again. With sums over everything since one place, a window costs the same whatever
+//! its length. The sums need memory for one frame, and only after a candidate has failed.
 
 use alloc::vec::Vec;
 
@@ -11,22 +11,22 @@ use crate::schema::Checksum;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
-    /// The CRC's register of the bytes before this place, from a start of 0.
+    /// The CRC's register over the bytes before this place, from an initial value of 0.
     crc: u32,
-    /// How many bytes before this place are 0 or 1 without a gap.
+    /// The number of consecutive bytes before this place that are 0 or 1.
     bools: u32,
 }
 
-/// Sums by place in the stream.
+/// Sums, by place in the stream.
 #[derive(Clone, Debug)]
 pub(super) struct Memo {
     checksum: Checksum,
     frame_bytes_max: usize,
-    /// A ring, so that nothing moves when the stream goes on; longer than a frame.
+    /// A ring longer than a frame, so that nothing moves as the stream continues.
     sums: Vec<Sums>,
-    /// By a number of bytes: what that many zero bytes multiply a register by.
+    /// By number of bytes: the factor by which that many zero bytes multiply a register.
     powers: Vec<u32>,
-    /// Place behind the last byte that is in the sums.
+    /// The place after the last byte that is in the sums.
     frontier: u64,
 }
 
@@ -35,11 +35,11 @@ impl Memo {
         Self { checksum, frame_bytes_max, sums: Vec::new(), powers: Vec::new(), frontier: 0 }
     }
 
-    /// The CRC of `frame[from..to]`, where `frame` starts at `place`. Asked with places that never
-    /// go back, each byte is gone through once.
+    /// The CRC of `frame[from..to]`, where `frame` starts at `place`. If the places of successive
+    /// calls never go back, each byte is read only once.
     pub(super) fn crc(&mut self, place: u64, frame: &[u8], from: usize, to: usize) -> u32 {
         self.extend(place, frame, to);
-        // A CRC is linear: its start and what stood before the window shift through it.
+        // A CRC is linear: its initial value and the bytes before the window shift through it.
         let (start, end) = self.checksum.ends();
         let before = self.at(place, from).crc ^ start;
         let power = self.powers.get(to - from).copied().unwrap_or_default();

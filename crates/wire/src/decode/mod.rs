@@ -1,14 +1,15 @@
-//! Bytes to frames: any split of the stream, any garbage between frames.
+//! Bytes to frames: for any split of the stream, with any garbage between frames.
 //!
-//! A candidate for a frame that cannot become a valid one loses its first byte only, and the rest
-//! is looked at again: so the first valid frame is found wherever it starts. A frame that lies
-//! whole in the bytes of one call is read there; only what a call leaves unfinished is copied.
+//! When a candidate for a frame cannot become valid, only its first byte is dropped, and the rest
+//! is checked again, so that the first valid frame is found wherever it starts. A frame that is
+//! entirely in the bytes of one call is read in place; only what a call leaves unfinished is
+//! copied.
 //!
-//! The time is linear in the bytes, whatever they are and however long a frame may be: a candidate
-//! costs at most some dozens of steps. Its comma is looked at first, values are stepped over, and
-//! no identifier stands twice in a payload. Where checksums, arrays of bools or identifiers were
-//! gone through for a candidate that failed, the others do not go through them again: `memo`
-//! answers for the bytes in constant time, `leap` for sixteen identifiers at once.
+//! The time is linear in the number of bytes, whatever the bytes and however long a frame may be: a
+//! candidate costs at most a few dozen steps. Its comma is checked first, values are stepped over,
+//! and no identifier occurs twice in a payload. Checksums, arrays of bools and identifiers that
+//! were checked for a failed candidate are not checked again for the others: `memo` answers for the
+//! bytes in constant time, and `leap` for sixteen identifiers at once.
 
 mod candidate;
 mod leap;
@@ -25,21 +26,21 @@ use crate::frame::{Event, Frame, Report, Stamp};
 use crate::health::{HEALTH_VERSION, HealthFrame};
 use crate::schema::{Direction, ID_HEALTH, ID_HELLO, Schema};
 
-/// Decoder of one direction of one link.
+/// A decoder of one direction of one link.
 #[derive(Clone, Debug)]
 pub struct Decoder<'a> {
     schema: &'a Schema,
     rules: Rules,
-    /// The first bytes of a frame whose end has not come; the candidate starts at `start`.
+    /// The first bytes of a frame whose end has not arrived; the candidate starts at `start`.
     held: Vec<u8>,
     start: usize,
     candidate: Candidate,
-    /// Where the candidate stands in the stream.
+    /// The place of the candidate in the stream.
     place: u64,
-    /// Up to here a candidate that failed was gone through byte by byte.
+    /// Failed candidates were checked byte by byte up to this place.
     spent: u64,
     memo: Memo,
-    /// Up to here a candidate that failed went from identifier to identifier.
+    /// Failed candidates went from identifier to identifier up to this place.
     walked: u64,
     leaps: Leaps,
     frames: u64,
@@ -47,7 +48,7 @@ pub struct Decoder<'a> {
 }
 
 impl<'a> Decoder<'a> {
-    /// A decoder for what travels in `direction`.
+    /// A decoder for frames that travel in `direction`.
     #[must_use]
     pub fn new(schema: &'a Schema, direction: Direction) -> Self {
         let table = Table::new(schema, direction);
@@ -67,14 +68,14 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// Takes the next bytes of the stream and hands each whole frame to `on_event`, with values of
-    /// its own.
+    /// Takes the next bytes of the stream and passes each whole frame to `on_event`, with its own
+    /// copy of the values.
     pub fn feed(&mut self, bytes: &[u8], mut on_event: impl FnMut(Event)) {
         self.feed_frames(bytes, |frame| on_event(frame.into()));
     }
 
-    /// Takes the next bytes of the stream and hands each whole frame to `on_frame`, in place:
-    /// nothing is copied that arrived in one piece.
+    /// Takes the next bytes of the stream and passes each whole frame to `on_frame`, in place: a
+    /// frame that arrived in one piece is not copied.
     pub fn feed_frames(&mut self, bytes: &[u8], mut on_frame: impl FnMut(Frame<'_>)) {
         let mut taken = 0;
         while !self.held.is_empty() {
@@ -85,7 +86,7 @@ impl<'a> Decoder<'a> {
             self.held.extend(bytes.get(taken..taken + missing).unwrap_or_default());
             taken += missing;
             let held = core::mem::take(&mut self.held);
-            // What starts in the bytes of this call is looked for there.
+            // Frames that start in the bytes of this call are looked for in those bytes.
             let old_bytes = held.len().saturating_sub(taken);
             let end = self.run(&held, self.start, old_bytes, &mut on_frame);
             self.held = held;
@@ -103,25 +104,27 @@ impl<'a> Decoder<'a> {
         self.held.extend(rest.get(end..).unwrap_or_default());
     }
 
-    /// Frames delivered so far.
+    /// The number of frames delivered so far.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Bytes so far that belonged to no delivered frame.
+    /// The number of bytes so far that did not belong to a delivered frame.
     #[must_use]
     pub fn dropped_bytes(&self) -> u64 {
         self.dropped_bytes
     }
 
-    /// How many bytes the candidate in `held` lacks; while its length is read, one at a time.
+    /// How many bytes the candidate in `held` still needs; while its length is being read, one at a
+    /// time.
     fn missing_bytes(&self) -> usize {
         let frame_bytes = self.candidate.frame_bytes;
         if frame_bytes == 0 { 1 } else { frame_bytes.saturating_sub(self.held.len() - self.start) }
     }
 
-    /// Only when half of it is gone, so that a byte moves once on average.
+    /// Drops the used bytes only when they are more than half, so that a byte moves once on
+    /// average.
     fn drop_front(&mut self) {
         if self.start > self.held.len() / 2 {
             self.held.drain(..self.start);
@@ -129,8 +132,8 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// Looks for frames that start at `at` or behind it and before `limit`. Returns where the
-    /// candidate starts that lacks bytes, or where to go on.
+    /// Looks for frames that start from `at` up to, but not including, `limit`. Returns the start
+    /// of a candidate that needs more bytes, or the place to continue from.
     fn run(
         &mut self,
         bytes: &[u8],
@@ -169,7 +172,7 @@ impl<'a> Decoder<'a> {
         at
     }
 
-    /// A frame that is valid to its last byte.
+    /// Reads a frame that is valid to its last byte.
     fn read<'f>(&'f self, frame: &'f [u8]) -> Frame<'f> {
         let values = self.candidate.payload_start..self.candidate.values_end;
         match frame.get(values).unwrap_or_default() {

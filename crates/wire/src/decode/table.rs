@@ -1,17 +1,17 @@
-//! The items of one direction by their identifier, so that a look-up is one load.
+//! The items of one direction, by identifier, so that a look-up is a single load.
 
 use alloc::boxed::Box;
 
 use crate::scalar::ScalarType;
 use crate::schema::{Direction, Schema};
 
-/// What a decoder needs to know of an identifier.
+/// The facts that a decoder needs about an identifier.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Slot {
-    /// 0 for an identifier that does not travel in this direction.
+    /// Bytes of the value; 0 for an identifier that does not travel in this direction.
     value_bytes: u32,
     is_bool: bool,
-    /// In the schema's list; identifiers are unique, so there are at most 254.
+    /// Index in the schema's list; identifiers are unique, so there are at most 254.
     index: u8,
 }
 
@@ -57,7 +57,7 @@ impl Table {
 
     #[inline]
     pub(crate) fn slot(&self, id: u8) -> Slot {
-        // A byte is always below 256; the compiler sees it and checks nothing.
+        // A byte is always below 256, so the compiler drops the bounds check.
         self.0.get(usize::from(id)).copied().unwrap_or_default()
     }
 }

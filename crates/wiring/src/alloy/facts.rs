@@ -13,7 +13,7 @@ use sensedsl_certify::{Labels, holders};
 struct Taker {
     choice: Choice,
     holder: Holder,
-    /// What the holders of a pin agree on.
+    /// The signal on which the holders of a pin must agree.
     signal: u32,
 }
 
@@ -67,10 +67,10 @@ pub(super) fn write(out: &mut String, choices: &Choices<'_>, labels: &Labels) {
     streams(out, choices, labels);
 }
 
-/// That something is held once, or by one group.
+/// States that something is held once, or by one group.
 fn held(out: &mut String, name: Option<&String>, takers: &[Taker], is_pin: bool) {
     let alone = |taker: &Taker| taker.holder == Holder::Own;
-    // Which two of one device are not excluded anyway.
+    // Pairs of one device that do not exclude each other anyway.
     let pairs = || {
         takers
             .iter()
@@ -125,7 +125,7 @@ fn held(out: &mut String, name: Option<&String>, takers: &[Taker], is_pin: bool)
     }
 }
 
-/// Each DMA request of a peripheral in use is served by a stream of its own.
+/// States that each DMA request of a peripheral in use is served by a stream of its own.
 fn streams(out: &mut String, choices: &Choices<'_>, labels: &Labels) {
     let users = choices.problem.dma.iter().zip(&labels.dma).enumerate();
     let mut by_stream: BTreeMap<u32, Vec<String>> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What a wiring costs, part by part, and how wide integers have to be for it.
+//! The cost of a wiring, part by part, and the width of the integers that it needs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -9,12 +9,12 @@ use sensedsl_solve::problem::{Pin, RuleId};
 use super::{Choices, Known, atom, set, sigs};
 use sensedsl_certify::Labels;
 
-/// The atoms of one kind of things and what puts each into its set.
+/// The atoms of one kind of things, and the choices that put each into its set.
 struct Things<'a> {
     /// The letter of the atoms.
     letter: char,
     names: &'a [String],
-    /// By number the choices of which one is enough.
+    /// By number, the choices any one of which is enough.
     chosen: BTreeMap<usize, Vec<String>>,
 }
 
@@ -39,7 +39,7 @@ impl Things<'_> {
         }
     }
 
-    /// A function that counts a subset.
+    /// Writes a function that counts a subset.
     fn count(&self, out: &mut String, function: &str, name: &str) {
         let count = if self.chosen.is_empty() { "0".to_owned() } else { format!("#{name}") };
         let _ = writeln!(out, "fun {function} : Int {{ {count} }}");
@@ -109,7 +109,7 @@ fn rules<'a>(choices: &Choices<'_>, labels: &'a Labels) -> Things<'a> {
     rules
 }
 
-/// Pins of one cost are counted together.
+/// The sum of the costs. Pins of one cost are counted together.
 fn cost(table: &[Pin], pins: &Things<'_>) -> String {
     let mut alike: BTreeMap<u32, Vec<String>> = BTreeMap::new();
     for pin in pins.chosen.keys() {
@@ -125,7 +125,7 @@ fn cost(table: &[Pin], pins: &Things<'_>) -> String {
     sum.unwrap_or_else(|| "0".to_owned())
 }
 
-/// How many bits an integer needs for the greatest value of any part, with its sign.
+/// The number of bits that an integer needs for the greatest value of any part, with its sign.
 pub(super) fn width(choices: &Choices<'_>, known: Known) -> u32 {
     let problem = choices.problem;
     let used: std::collections::BTreeSet<usize> =

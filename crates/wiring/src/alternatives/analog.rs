@@ -1,4 +1,5 @@
-//! `analog`: an input of any converter, or of each one for itself where their streams count.
+//! `analog`: an input of any converter, or one alternative for each converter if their streams
+//! count.
 
 use sensedsl_board::signal::Function;
 use sensedsl_board::table::Usage;
@@ -25,7 +26,7 @@ impl Served for Analog {
     }
 }
 
-/// The inputs of the converters that fit; `only` where it is a single one.
+/// The inputs of the converters that fit; `only` if it is a single one.
 fn sampled(
     maker: &mut Maker<'_, '_>,
     fits: &dyn Fn(&str) -> bool,

@@ -11,11 +11,11 @@ use crate::names::{Group, Resource};
 
 /// How a device uses an instance of a peripheral.
 pub(super) struct Bus {
-    /// The instance, and the wire of it, that a usage is.
+    /// The instance to which a usage belongs, and which of its wires the usage is.
     pub(super) wire: fn(&Usage) -> Option<(&UnitName, Role)>,
-    /// The wires that any GPIO can be.
+    /// The wires for which any GPIO will do.
     pub(super) gpios: &'static [Role],
-    /// Whether devices share it.
+    /// How devices share it.
     pub(super) sharing: Sharing,
     /// The address that no other device on it may have.
     pub(super) address: Option<u8>,
@@ -25,12 +25,12 @@ pub(super) struct Bus {
 pub(super) enum Sharing {
     /// Not at all.
     Exclusive,
-    /// As a bus; the number is a setting they must agree on.
+    /// As a bus; the number is a setting on which they must agree.
     Bus(u32),
 }
 
 impl Maker<'_, '_> {
-    /// All instances that there are.
+    /// The alternatives on all instances.
     pub(super) fn units(&mut self, bus: &Bus) -> Vec<Alternatives> {
         let mut made = Vec::new();
         for unit in self.unit_names(bus) {

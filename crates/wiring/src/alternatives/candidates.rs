@@ -22,7 +22,7 @@ impl Maker<'_, '_> {
     ) -> (SolverRole, Vec<Chosen>) {
         let mut made: Vec<(Candidate, Chosen)> = Vec::new();
         let (offer, wanted) = (self.offer, self.wanted);
-        // A pin on an on-board bus is for devices that join the bus.
+        // A pin on an on-board bus is only for devices that join the bus.
         let joins_buses = wanted.kind.name().spec().sharing != Sharing::Own;
         for (index, pin) in offer.pins().filter(|(_, pin)| pin_fits(offer, wanted, role, pin)) {
             match need {
@@ -105,15 +105,15 @@ impl Maker<'_, '_> {
         (candidate, Chosen { pin: index, usage: None })
     }
 
-    /// The claim of a contact that the pin shares with others: one of them is in use.
+    /// The claim of a contact that the pin shares with others: only one of them can be in use.
     pub(super) fn pad(&mut self, pin: usize) -> Option<Claim> {
         let board = self.offer.index;
         let pad = Resource::Pad(board, self.offer.shared_pad(pin)?.to_owned());
         Some(self.builder.names.shared(pad, Group::Pad(board, pin)))
     }
 
-    /// The claims of a usage that is on its pin in some remap blocks of its peripheral alone: no
-    /// other may be where no such block is.
+    /// The claims of a usage that is on its pin only in some remap blocks of its peripheral: they
+    /// exclude usages that are in none of these blocks.
     pub(super) fn remap(&mut self, usage: &Usage) -> Vec<Claim> {
         let board = self.offer.index;
         let Some((unit, blocks)) = self.offer.blocks(usage) else { return Vec::new() };
@@ -131,7 +131,7 @@ impl Maker<'_, '_> {
     }
 }
 
-/// The signal that a usage takes: a channel and its complement have one width.
+/// The signal that a usage takes: a channel and its complement have one pulse width.
 fn claimed(usage: &Usage) -> &str {
     let name = usage.signal.name();
     match usage.signal.function() {
@@ -147,17 +147,17 @@ fn claimed(usage: &Usage) -> &str {
     }
 }
 
-/// What a role needs of a pin.
+/// The requirement of a role on a pin.
 pub(super) enum Need<'n> {
     /// A usage for which the function holds.
     Usage(&'n dyn Fn(&Usage) -> bool),
     /// Nothing: any pin that has a digital circuit.
     Gpio,
-    /// The same, and the interrupt line of its number.
+    /// Any pin that has a digital circuit, and the interrupt line of its number.
     Interrupt,
 }
 
-/// Whether the pin is where the device is bound to be.
+/// Whether the pin is where the device must be.
 pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
     let same = |wanted: Option<&str>, has: Option<&str>| {
         wanted.is_none_or(|wanted| has.is_some_and(|has| has.eq_ignore_ascii_case(wanted)))

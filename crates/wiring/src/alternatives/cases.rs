@@ -1,5 +1,5 @@
-//! From the choices of single wires to alternatives that keep what holds between the wires of one
-//! device.
+//! Makes alternatives from the choices of single wires, so that the rules between the wires of one
+//! device are kept.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::{Alternatives, Maker};
 use crate::formulate::{Chosen, Meaning, board_id};
 
 impl Maker<'_, '_> {
-    /// The alternative, unless one of its roles has no candidate; several where roles could meet on
+    /// The alternative, unless one of its roles has no candidate; several if roles could meet on
     /// one contact, or be in different remap blocks.
     pub(super) fn finish(
         &mut self,
@@ -42,8 +42,8 @@ impl Maker<'_, '_> {
     }
 
     /// The same choices with no two wires of the device on one contact. Claims keep devices apart,
-    /// not the wires of one device: where the first role may take a contact that a later one may
-    /// take as well, each such contact makes a case of its own, so that no choice is in two cases.
+    /// not the wires of one device: if the first role may take a contact that a later one may take
+    /// as well, each such contact makes a case of its own, so that no choice is in two cases.
     pub(super) fn apart(&self, mut roles: Vec<MadeRole>) -> Vec<Vec<MadeRole>> {
         if roles.iter().any(|(role, _)| role.candidates.is_empty()) {
             return Vec::new();
@@ -79,8 +79,8 @@ impl Maker<'_, '_> {
         apart
     }
 
-    /// The same choices with all wires of the device in one remap block of its peripheral: a case
-    /// for each choice of sets of blocks that have one in common.
+    /// The same choices with all wires of the device in one remap block of its peripheral: one case
+    /// for each combination of sets of blocks that have a block in common.
     pub(super) fn in_one_block(
         &self,
         mut roles: Vec<MadeRole>,
@@ -114,7 +114,7 @@ impl Maker<'_, '_> {
     }
 }
 
-/// A role's candidates and what they stand for.
+/// A role's candidates and their meanings.
 pub(super) type MadeRole = (SolverRole, Vec<Chosen>);
 
 /// The candidates for which the condition holds.

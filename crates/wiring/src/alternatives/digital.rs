@@ -1,4 +1,4 @@
-//! `digital`: a GPIO; as a sensor with an edge also the interrupt line of its number.
+//! `digital`: a GPIO; a sensor with an edge also takes the interrupt line of its number.
 
 use sensedsl_model::kind::digital::Digital;
 

@@ -1,4 +1,4 @@
-//! `encoder`: the first two channels of one timer, which is taken.
+//! `encoder`: the first two channels of one timer, which it takes.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;

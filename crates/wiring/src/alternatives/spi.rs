@@ -1,4 +1,4 @@
-//! `spi`: SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of each device.
+//! `spi`: SCK, MISO and MOSI of one unit, shared; a GPIO as chip select for each device.
 
 use sensedsl_board::signal::{Function, SpiLine, UnitName};
 use sensedsl_board::table::Usage;
@@ -20,7 +20,7 @@ fn wire(usage: &Usage) -> Option<(&UnitName, Role)> {
         SpiLine::Sck => Role::Sck,
         SpiLine::Miso => Role::Miso,
         SpiLine::Mosi => Role::Mosi,
-        // Any GPIO selects a chip.
+        // Any GPIO can select a chip.
         SpiLine::Nss => return None,
     };
     Some((unit, role))

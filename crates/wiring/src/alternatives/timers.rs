@@ -1,4 +1,4 @@
-//! Timers: whole ones where a driver takes them whole, channels in the pure pin model.
+//! Timers: whole timers if a driver takes them whole, channels in the pure pin model.
 
 use std::collections::BTreeSet;
 
@@ -14,13 +14,13 @@ use super::{Alternatives, Maker, served, unit_fits};
 use crate::names::{Group, Resource};
 use crate::wishes::Channels;
 
-/// What a device wants of a timer.
+/// A device's use of a timer.
 pub(super) struct TimerUse {
-    /// The wires that are channels, each with its number where only one will do.
+    /// The wires that are channels, each with its number if only one will do.
     pub(super) wires: &'static [(Role, Option<u8>)],
-    /// Whether a channel can be used, by what the silicon is able to and the facts of the timer.
+    /// Whether a channel can be used, given the ability of the silicon and the facts of the timer.
     pub(super) takes: fn(Option<&Ability>, Option<&Timer>, Channel<'_>) -> bool,
-    /// The frequency at which devices share the timer; none where one takes it alone.
+    /// The frequency at which devices share the timer; `None` if a device takes it alone.
     pub(super) shared_hz: Option<u32>,
 }
 
@@ -67,7 +67,7 @@ impl Maker<'_, '_> {
     fn timer(&mut self, using: &TimerUse, unit: &str, timer: Option<&Timer>) -> Vec<Alternatives> {
         let ability = served(self.wanted.kind).ability(self.offer.board);
         let on = |role: Role, wanted: Option<u8>| {
-            // A complement is there for whoever names its pin.
+            // A complementary output is only for a device that names its pin.
             let is_named = self.wanted.fixed(role).is_some();
             move |usage: &Usage| {
                 channel(usage).is_some_and(|channel| {
@@ -120,7 +120,7 @@ pub(crate) struct Channel<'a> {
 }
 
 impl Channel<'_> {
-    /// Whether it can be an input of the timer, as far as the silicon goes.
+    /// Whether it can be an input of the timer, as far as the silicon allows.
     pub(crate) fn captures(self, ability: Option<&Ability>) -> bool {
         let able = ability.is_none_or(|ability| ability.channels.contains(&self.number));
         able && self.line.is_input()

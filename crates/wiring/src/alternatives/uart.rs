@@ -1,4 +1,4 @@
-//! `uart`: TX and RX of one unit, which is taken; RX alone where nothing is sent.
+//! `uart`: TX and RX of one unit, which it takes; only RX if nothing is sent.
 
 use sensedsl_board::signal::{Function, UartLine, UnitName};
 use sensedsl_board::silicon::{self, Ability};
@@ -18,7 +18,7 @@ impl Served for Uart {
         maker.units(&Bus { wire, gpios: &[], sharing: Sharing::Exclusive, address: None })
     }
 
-    /// Ports that cannot invert their wires serve no device that wants that.
+    /// Ports that cannot invert their wires cannot serve a device that wants that.
     fn ability(&self, board: &Board) -> Option<&'static Ability> {
         board.mcu.as_deref().filter(|_| self.is_inverted).and_then(silicon::inversion)
     }

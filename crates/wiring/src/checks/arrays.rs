@@ -20,7 +20,7 @@ pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
     first.filter_map(|(_, one)| array(design, formulation, one)).collect()
 }
 
-/// Reports that wires of no peripheral are to be on one.
+/// Reports rules that want wires on one peripheral although they belong to none.
 pub(super) fn without_unit(wires: &Connection) -> Vec<Diagnostic> {
     if wires.element.is_none() || !matches!(wires.kind, Kind::Digital(_)) {
         return Vec::new();
@@ -34,20 +34,20 @@ pub(super) fn without_unit(wires: &Connection) -> Vec<Diagnostic> {
     hard.chain(soft.map(|one| report(one.span, "prefer together = unit"))).collect()
 }
 
-/// Where pins are that are wanted in one place.
+/// A place in which pins are wanted together.
 type Place = (BoardIndex, String);
 
-/// What a place has: a signal can be on several pins, and a pin can have several.
+/// The room in a place: a signal can be on several pins, and a pin can have several signals.
 #[derive(Default)]
 struct Room {
     pins: BTreeSet<usize>,
     signals: BTreeSet<String>,
-    /// The interrupt lines of the pins, where each element takes one.
+    /// The interrupt lines of the pins, if each element takes one.
     lines: BTreeSet<u8>,
 }
 
 impl Room {
-    /// No more elements than that find their wire there.
+    /// The most elements that can find their wires there.
     fn most(&self) -> usize {
         let signals = if self.signals.is_empty() { usize::MAX } else { self.signals.len() };
         let lines = if self.lines.is_empty() { usize::MAX } else { self.lines.len() };
@@ -59,7 +59,7 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
     let asked = design.connections_of(first.part).count();
     let offers = super::offers(formulation, first);
     let meanings = relaxed(design, &offers, first, |wanted| wanted.pins.clear());
-    // What has no way at all has another report.
+    // A device that cannot be connected at all gets another report.
     meanings.first()?;
     let device = design.device(first.device)?;
     let hard = first.placement.together.iter().map(|one| one.value);

@@ -1,4 +1,4 @@
-//! Wishes that speak of nothing that any board has.
+//! Wishes for things that no board has.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
         let on = std::slice::from_ref(of_board);
         found.extend(of_board.1.wishes.iter().filter_map(|wish| useless(wish, on)));
     }
-    // The connections of a part have their rules in common.
+    // The connections of a part share their rules.
     let mut told = BTreeSet::new();
     for wires in &design.connections {
         if told.insert(wires.part) {

@@ -1,5 +1,5 @@
-//! Devices that the silicon of no board in question can serve as they are placed: a device in, the
-//! report with the reason out.
+//! Devices that the silicon of no board in question can serve as they are placed: from a device,
+//! the report with the reason.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
@@ -12,7 +12,7 @@ use crate::alternatives::served;
 use crate::alternatives::timers::{Channel, channel};
 use crate::offer::Offer;
 
-/// The report for a kind that the silicon of no board in question can do.
+/// The report for a kind that the silicon of no board in question supports.
 pub(super) fn without_silicon(
     design: &Design,
     offers: &[&Offer<'_>],
@@ -29,7 +29,7 @@ pub(super) fn without_silicon(
     Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
 }
 
-/// Why a timer that a board has can do on no pin what the device needs.
+/// The reason why a timer that a board has cannot do what the device needs on any pin.
 pub(super) fn unit_lacks(
     offers: &[&Offer<'_>],
     wires: &Connection,
@@ -45,7 +45,7 @@ pub(super) fn unit_lacks(
     })
 }
 
-/// The report for a fixed pin that no digital signal can be at.
+/// The report for a fixed pin that cannot carry a digital signal.
 pub(super) fn analog_only(
     design: &Design,
     offers: &[&Offer<'_>],
@@ -63,7 +63,7 @@ pub(super) fn analog_only(
     Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
 }
 
-/// The report for a fixed pin on a channel that the silicon cannot use so.
+/// The report for a fixed pin on a channel that the silicon cannot use in this way.
 pub(super) fn by_silicon(
     design: &Design,
     offers: &[&Offer<'_>],

@@ -1,4 +1,4 @@
-//! Devices that are alike: what helps if it is done to one of them helps if it is done to another.
+//! Interchangeable devices: a change to one of them helps if the same change to another one does.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,17 +8,17 @@ use super::{Repair, Tried};
 use crate::formulate::{Asker, Formulation};
 use crate::solver;
 
-/// What devices have in common that can stand for each other: their choices, and what decides on
+/// The properties that interchangeable devices have in common: their choices, and what decides on
 /// their converters.
 type Likeness = (usize, u32, i8);
 
-/// What is done to a device that may be one of several that are alike: it goes to a board, or is left
-/// out. To do it to another of them helps as much.
+/// A change to a device that may be one of several interchangeable ones: it goes to a board, or is
+/// left out. The same change to another of them helps as much.
 pub(super) type Change = (Likeness, Option<BoardIndex>);
 
-/// What is known of changes to devices that are alike.
+/// The results of changes to interchangeable devices.
 pub(super) struct Alike {
-    /// For each device of the problem the first that is like it.
+    /// For each device of the problem, the first that is interchangeable with it.
     first: Vec<usize>,
     tried: BTreeMap<Change, Tried>,
     unknown: BTreeSet<Change>,
@@ -52,7 +52,7 @@ impl Alike {
         };
         let mut all = formulation.askers.iter().enumerate();
         let (number, connection) = all.find_map(|(at, asker)| Some((at, of_part(asker)?)))?;
-        // Several sets of wires are alike only as a whole.
+        // Several sets of wires are interchangeable only as a whole.
         if all.any(|(_, asker)| of_part(asker).is_some()) {
             return None;
         }
@@ -67,7 +67,7 @@ impl Alike {
         self.tried.get(&change).copied()
     }
 
-    /// What was too hard may be tried once more.
+    /// Lets changes that were too hard be tried once more.
     pub(super) fn begin_round(&mut self) {
         self.unknown.clear();
     }

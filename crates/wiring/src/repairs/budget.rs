@@ -1,4 +1,4 @@
-//! What may be spent on repairs, and what is learned for it.
+//! The budget for repairs, and the results of spending it.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -8,25 +8,25 @@ use sensedsl_model::design::Design;
 use super::Repair;
 use crate::{Cancel, Solved, Wiring};
 
-/// Steps of the search that a change is worth, in the first round and in the second.
+/// Steps of the search that a change may take, in the first round and in the second.
 pub(super) const SHARES: [u64; 2] = [400, 3_000];
 
-/// Steps that all changes are worth together.
+/// Steps that all changes may take together.
 const STEPS_MAX: u64 = 12_000;
 
-/// What is known of a change.
+/// The result of trying a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tried {
-    /// There is a wiring after it that costs so much.
+    /// There is a wiring after it that costs this much.
     Helps { cost: u32, is_best: bool },
-    /// There is none.
+    /// There is no wiring after it.
     IsNoHelp,
     /// It takes more than its share of the steps to tell.
     Unknown,
 }
 
-/// What may still be spent on repairs. It counts steps of the search, so that the same file gets the
-/// same repairs on every machine; the end of the command bounds it in addition.
+/// The budget that is left for repairs. It counts steps of the search, so that the same file gets
+/// the same repairs on every machine; the time limit of the command bounds it in addition.
 pub(super) struct Budget<'a> {
     steps: u64,
     cancel: Cancel<'a>,
@@ -47,7 +47,7 @@ impl<'a> Budget<'a> {
         })
     }
 
-    /// Whether it is soon known that the design has no wiring.
+    /// Whether it is quickly known that the design has no wiring.
     pub(super) fn is_impossible(&mut self, design: &Design) -> bool {
         let tried = self.spend(design, SHARES[0], |wiring| {
             if wiring.is_impossible() { Tried::IsNoHelp } else { Tried::Unknown }
@@ -62,7 +62,7 @@ impl<'a> Budget<'a> {
             return Tried::Unknown;
         }
         let spent = AtomicU64::new(0);
-        // What it takes to put the problem is no step.
+        // Putting the problem does not count as a step.
         let is_put = AtomicBool::new(false);
         let over = || {
             let counts = is_put.load(Ordering::Relaxed);

@@ -73,7 +73,7 @@ fn frequencies<'a>(
     others.into_iter()
 }
 
-/// Other links that the board could have; only none where the file asks for the one it has.
+/// Other links that the board could have; only `none` if the file asks for the one it has.
 fn links(board: &Board) -> impl Iterator<Item = Transport> {
     let has_usb = board.profile().is_some_and(|profile| profile.usb(None).is_some());
     let others = [(Transport::Usb, has_usb), (Transport::Uart, board.profile().is_some())];

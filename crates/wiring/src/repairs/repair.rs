@@ -1,4 +1,4 @@
-//! A change to a design: what it is called, and the design after it.
+//! A change to a design: its name, and the design after it.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
@@ -12,7 +12,7 @@ use crate::offer::roles;
 /// A change after which there is a wiring.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// Remove what the file fixes of the device's wiring.
+    /// Remove whatever the file fixes in the device's wiring.
     Free(PartIndex),
     /// Let the devices share a bus.
     Share(Vec<PartIndex>),
@@ -31,7 +31,7 @@ pub enum Repair {
 }
 
 impl Repair {
-    /// The word of the JSON output.
+    /// The word in the JSON output.
     #[must_use]
     pub const fn action(&self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Repair {
         }
     }
 
-    /// The device that is changed, where it is a single one.
+    /// The device that is changed, if it is a single one.
     #[must_use]
     pub const fn device(&self) -> Option<PartIndex> {
         match self {
@@ -95,7 +95,7 @@ impl Repair {
         }
     }
 
-    /// Whether it does something to devices alone, and nothing to a board.
+    /// Whether it changes only devices, and no board.
     pub(super) const fn is_of_devices(&self) -> bool {
         match self {
             Self::Free(_) | Self::Share(_) | Self::Retune(..) | Self::Move(..) | Self::Drop(_) => {
@@ -173,7 +173,7 @@ impl Repair {
     }
 }
 
-/// What the MCU needs a pin for that is named so.
+/// The purpose for which the MCU needs the pin of this name.
 fn needed(design: &Design, on: BoardIndex, pin: &str) -> Option<PinRole> {
     let pin = PinName::parse(pin)?;
     roles(design.board(on)?).get(&pin).copied()

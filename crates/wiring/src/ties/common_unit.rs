@@ -1,10 +1,10 @@
 //! One unit for all elements of an array whose candidates have sets of units: an alternative in, those
 //! that keep the tie out.
 //!
-//! Where sets that meet two by two always meet in one unit, each element need only agree with each
-//! other: claims say that. They do on all MCUs there are. A table may have inputs of ADC1 and 2, of
-//! 2 and 3, and of 1 and 3: there each element takes hold of the units that are left after the one
-//! before it, and of those that are left after itself.
+//! If sets that meet in pairs always meet in one unit, it is enough that elements agree in pairs,
+//! which claims express. This is so on all MCUs there are. A table may have inputs of ADC1 and 2,
+//! of 2 and 3, and of 1 and 3: then each element claims the units that are left after the one
+//! before it, and those that are left after itself.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::formulate::{Builder, Meaning};
 use crate::names::Group;
 
 impl Tier<'_> {
-    /// Whether the sets of a board meet in one unit wherever they meet two by two.
+    /// Whether the sets of a board meet in one unit wherever they meet in pairs.
     pub(super) fn is_told_by_pairs(&self, board: BoardIndex) -> bool {
         let sets: Vec<&Units> = self.sets_on(board).collect();
         meet_by_pairs(&sets)
@@ -64,7 +64,7 @@ impl Tier<'_> {
     }
 }
 
-/// All intersections of some of the sets that are not empty.
+/// All intersections of some of the sets, without the empty one.
 fn intersections(sets: &[&Units]) -> BTreeSet<Units> {
     let mut all: BTreeSet<Units> = BTreeSet::new();
     for set in sets {
@@ -76,8 +76,8 @@ fn intersections(sets: &[&Units]) -> BTreeSet<Units> {
     all
 }
 
-/// Whether sets of which each two meet have one unit in common, whichever they are: so it is if, of
-/// any three units, the sets that have two of them have one in common (Berge, *Hypergraphs*, 1989).
+/// Whether any sets that meet in pairs have one unit in common. This is so if, for any three units,
+/// the sets that have two of them have one in common (Berge, *Hypergraphs*, 1989).
 fn meet_by_pairs(sets: &[&Units]) -> bool {
     let units: Units = sets.iter().copied().flatten().cloned().collect();
     let units: Vec<&String> = units.iter().collect();
@@ -104,7 +104,7 @@ mod tests {
         words.iter().map(|word| word.chars().map(String::from).collect()).collect()
     }
 
-    /// Against its own words: whatever is chosen among the sets.
+    /// The definition itself: tries whatever can be chosen among the sets.
     fn by_trying(sets: &[&Units]) -> bool {
         (1..1_u32 << sets.len()).all(|mask| {
             let some: Vec<&Units> =

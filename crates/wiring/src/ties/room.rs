@@ -1,6 +1,6 @@
-//! Whether a wish for one unit can be kept at all: what the elements of an array can take in, the boards
-//! with a unit that may have room for all of them out. Where none has, the wish is given up before the
-//! search, which would have to find that out by trying.
+//! Whether a wish for one unit can be kept at all: finds the boards with a unit that may have room
+//! for all elements of an array. If there is none, the wish is given up before the search, which
+//! would have to find that out by trying.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,11 +9,11 @@ use sensedsl_solve::problem::{Candidate, Holder, PinId, ResourceId};
 
 use super::{Elements, Tie, Tier, Units};
 
-/// What candidates take for themselves.
+/// The pins and resources that candidates take for themselves.
 #[derive(Default)]
 struct Places {
     pins: BTreeSet<PinId>,
-    /// One resource of each candidate; nothing where it takes none.
+    /// One resource of each candidate; `None` if it takes none.
     resources: BTreeSet<Option<ResourceId>>,
     /// Whether several devices may hold one of the pins.
     shared: bool,
@@ -33,7 +33,7 @@ impl Places {
         self.shared |= other.shared;
     }
 
-    /// How many devices have a place of their own at most.
+    /// The most devices that can each have a place of their own.
     fn room(&self) -> usize {
         let all = if self.shared { usize::MAX } else { self.pins.len() };
         if self.resources.contains(&None) { all } else { all.min(self.resources.len()) }
@@ -41,8 +41,8 @@ impl Places {
 }
 
 impl Tier<'_> {
-    /// The boards on which some unit may have room for all elements: as many pins, and as many of what
-    /// each candidate takes for itself.
+    /// The boards on which some unit may have room for all elements: enough pins, and enough of the
+    /// resources that candidates take for themselves.
     pub(super) fn boards_with_room(&self, elements: &Elements<'_>) -> BTreeSet<BoardIndex> {
         let boards = elements.meanings.iter().flatten().map(|meaning| meaning.board);
         let all: BTreeSet<BoardIndex> = boards.collect();
@@ -55,7 +55,7 @@ impl Tier<'_> {
             let Some(board) = self.design.board(meaning.board) else { continue };
             let roles = alternative.roles.iter().zip(&meaning.roles);
             for (candidate, at) in roles.flat_map(|(r, c)| r.candidates.iter().zip(c)) {
-                // What serves without a unit fits everywhere.
+                // A candidate that needs no unit fits everywhere.
                 let Some(set) = self.set(board, at) else { return all };
                 places.entry((meaning.board, set)).or_default().add(candidate);
             }

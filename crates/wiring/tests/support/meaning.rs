@@ -1,4 +1,4 @@
-//! All wirings of a small case, by what the pages of the language say: every way is tried.
+//! All wirings of a small case, according to the pages of the language: every way is tried.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ pub struct Wire {
     pub usage: Option<usize>,
 }
 
-/// A wiring with what it is ordered by.
+/// A wiring with the values by which it is ordered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
     /// Violated rules, shared pins, cost, spare boards.
@@ -20,7 +20,7 @@ pub struct Found {
     /// Board and name of each wire's pin, in natural order.
     pub pins: Vec<(usize, Natural)>,
     pub signals: Vec<Natural>,
-    /// Connection by connection of the parts that were asked for.
+    /// Connection by connection of the parts in question.
     pub wires: Vec<Vec<Wire>>,
 }
 
@@ -53,12 +53,12 @@ struct Way {
 
 struct World<'c> {
     case: &'c Case,
-    /// Part and number within it of each connection.
+    /// The part of each connection, and its number within the part.
     of: Vec<(&'c Part, usize)>,
     ways: Vec<Vec<Way>>,
 }
 
-/// What two wires share: none, a bus with the wire's name.
+/// The owner of a pin or a signal. Wires that may share it have equal owners: those of a bus.
 type Owner = (Option<String>, usize, String);
 
 #[derive(Clone, Default)]
@@ -67,7 +67,7 @@ struct Taken {
     signals: BTreeMap<(usize, String), (Owner, usize)>,
 }
 
-/// The number of combinations that [`all`] tries at most.
+/// The most combinations that [`all`] tries.
 pub fn combinations(case: &Case) -> f64 {
     let world = World::new(case, &vec![true; case.parts.len()]);
     world.ways.iter().map(|ways| ways.len() as f64).product()
@@ -116,7 +116,7 @@ impl<'c> World<'c> {
         }
     }
 
-    /// Each pin once and each signal once, but for the wires of a bus.
+    /// Takes each pin once and each signal once, except for the wires of a bus.
     fn take(&self, taken: &mut Taken, connection: usize, way: &Way) -> bool {
         let (part, number) = self.of[connection];
         let is_bus = matches!(part.connections[number].0, Kind::I2c(_));
@@ -173,7 +173,7 @@ impl<'c> World<'c> {
                 continue;
             }
             let used = match kind {
-                // Everybody who runs it at one frequency has one number.
+                // Outputs at one frequency have the same number.
                 Kind::Pwm(hz) => Some((usize::MAX, hz)),
                 Kind::Icu | Kind::Encoder => Some((connection, 0)),
                 Kind::Analog | Kind::Digital(_) | Kind::I2c(_) => None,
@@ -200,7 +200,7 @@ impl<'c> World<'c> {
         })
     }
 
-    /// The parts with where their connections are.
+    /// The parts, each with the positions of its connections.
     fn parts<'s>(
         &'s self,
         _: &'s [usize],
@@ -209,7 +209,7 @@ impl<'c> World<'c> {
         firsts.map(|at| (self.of[at].0, at..at + self.of[at].0.connections.len()))
     }
 
-    /// The units that can serve a signal to the part: of an analog input several.
+    /// The units that can serve a signal to the part: several for an analog input.
     fn units(&self, part: &Part, way: &Way, wire: Wire) -> BTreeSet<String> {
         if let Some(unit) = &way.unit {
             return BTreeSet::from([unit.clone()]);
@@ -223,7 +223,7 @@ impl<'c> World<'c> {
         units.into_iter().filter(|unit| fixed.as_ref().is_none_or(|fixed| fixed == unit)).collect()
     }
 
-    /// Whether the elements of an array keep what ties them.
+    /// Whether the elements of an array keep a tie.
     fn ties(&self, part: &Part, rule: &Rule, ways: &[&Way]) -> bool {
         let rows = |way: &Way| -> Vec<_> {
             way.wires.iter().map(|wire| &self.case.boards[wire.board][wire.pin]).collect()
@@ -233,7 +233,7 @@ impl<'c> World<'c> {
             Rule::TogetherUnit => {
                 let sets = ways.iter().map(|way| self.units(part, way, way.wires[0]));
                 let common = sets.reduce(|one, other| &one & &other).unwrap_or_default();
-                // What has no unit has nothing to be kept together.
+                // Wires without a unit have nothing to be kept together.
                 !common.is_empty() || matches!(part.connections[0].0, Kind::Digital(_))
             }
             Rule::TogetherHeader => {
@@ -266,7 +266,7 @@ impl<'c> World<'c> {
             return false;
         }
         let board = ways[0].wires[0].board;
-        // Of a chip's connections those count that could have the unit.
+        // For a chip, only those connections count that could have the unit.
         let could = |kind: Kind, number: usize| match rule {
             Rule::Unit(unit) if part.chip.is_some() => {
                 let mut all = self::ways(self.case, part, number).into_iter();

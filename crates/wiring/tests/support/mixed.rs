@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 
-/// A small generator of its own, so that a seed means the same design for ever (splitmix64).
+/// A small generator (splitmix64), so that a seed always gives the same design.
 struct Rng(u64);
 
 impl Rng {
@@ -18,7 +18,7 @@ impl Rng {
         (z ^ (z >> 31)) % limit
     }
 
-    /// One of the words; nothing where there are none.
+    /// One of the words; empty if there are none.
     fn of<'a>(&mut self, words: &[&'a str]) -> &'a str {
         if words.is_empty() {
             return "";
@@ -27,7 +27,7 @@ impl Rng {
     }
 }
 
-/// A design as its files.
+/// A design as files.
 pub struct Text {
     pub sense: String,
     /// The target that it is for.
@@ -73,8 +73,8 @@ pub const FAMILIES: &[Family] = &[
 /// Boards of the catalog beside those with a table of their own.
 const BOARDS: &[&str] = &["STM32F4DiscoveryBoard", "NUCLEO_G474RE", "BLUEPILL_F103C8"];
 
-/// Two to four unequal boards, one to three devices of some kinds of buses, fixed to a board or
-/// floating, up to twelve floating devices with a pin or two.
+/// Two to four unequal boards; one to three devices of some kinds of buses, fixed to a board or
+/// floating; up to twelve floating devices with a pin or two.
 fn mixed(seed: u64) -> Text {
     let mut rng = Rng(seed.wrapping_mul(0x1234_5678_9ABC_DEF1) ^ 0x4D49_5845);
     let boards = 2 + rng.below(3);
@@ -136,10 +136,11 @@ const ROBOT_BOARDS: &[&str] = &[
     "BLACKPILL_F411CE",
 ];
 
-/// Those of them whose tables name no header.
+/// Robot boards whose tables name no header.
 const WITHOUT_HEADERS: &[&str] = &["STM32F407G_DISC1", "BLUEPILL_F103C8", "BLACKPILL_F411CE"];
 
-/// Parts of the library with the number of their devices, and addresses that each can have; none where it has no address.
+/// Parts of the library with the number of their devices, and the addresses that each can have;
+/// empty if it has no address.
 const CHIPS: &[(&str, u64, &[&str])] = &[
     ("gearmotor_tb6612", 2, &[]),
     ("gearmotor_tb6612", 2, &[]),
@@ -175,8 +176,8 @@ const SINGLES: &[&str] = &[
     "actuator NAME accepts uint16[COUNT] { type = pwm; frequency = 50 Hz; prefer together = unit; }",
 ];
 
-/// One to four boards, all alike in a third of the designs, and 4 to 43 parts of the library, single values and arrays:
-/// alone or several alike, on a board or floating.
+/// One to four boards, all equal in a third of the designs, and 4 to 43 parts of the library,
+/// single values and arrays: alone or several of a kind, on a board or floating.
 fn robot(seed: u64) -> Text {
     let mut rng = Rng(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ 0x524F_424F);
     let mut robot = Robot::new(&mut rng);
@@ -189,8 +190,8 @@ fn robot(seed: u64) -> Text {
     robot.text(seed)
 }
 
-/// The same robots with 4 to 40 devices, where each value of a chip and each element of an array is one. Arrays lie along
-/// a header only where all boards have one.
+/// The same robots with 4 to 40 devices, where each value of a chip and each element of an array is
+/// one. Arrays lie along a header only if all boards have one.
 fn small_robot(seed: u64) -> Text {
     let mut rng = Rng(seed.wrapping_mul(0x9E6C_63D0_876A_68DD) ^ 0x534D_414C);
     let mut robot = Robot::new(&mut rng);
@@ -230,7 +231,7 @@ impl Robot {
         self.boards.iter().all(|(board, _)| !WITHOUT_HEADERS.contains(board))
     }
 
-    /// Adds some parts alike, on one board or floating.
+    /// Adds some equal parts, on one board or floating.
     fn put(&mut self, rng: &mut Rng, part: &str, alike: u64) {
         let on = (rng.below(3) == 0).then(|| rng.below(self.boards.len() as u64) as usize);
         for _ in 0..alike {
@@ -291,7 +292,8 @@ fn device(number: u64, kind: &str) -> String {
     format!("{head} {{\n    id = {number};\n    type = {kind};\n    {more}\n}}\n")
 }
 
-/// A table with one to seven usages a pin, as random as those of small boards that people describe.
+/// A table with one to seven usages for each pin, as random as those of small boards that people
+/// describe.
 fn table(rng: &mut Rng, pins: u64) -> String {
     let mut text = "Pin,Usages\n".to_owned();
     let units = 1 + pins / 30;

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 
-/// A small generator of its own, so that a seed means the same case for ever (splitmix64).
+/// A small generator (splitmix64), so that a seed always gives the same case.
 pub struct Rng(u64);
 
 impl Rng {
@@ -27,7 +27,7 @@ impl Rng {
     }
 }
 
-/// A row of a table. Position and header come together.
+/// A row of a table. It has either both a position and a header, or neither.
 #[derive(Clone, Debug)]
 pub struct Row {
     pub name: String,
@@ -48,7 +48,7 @@ pub enum Kind {
     I2c(u8),
 }
 
-/// What may be said of a part's wires, softly or not.
+/// A hard or soft rule for a part's wires.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rule {
     Unit(String),
@@ -104,7 +104,7 @@ pub struct Case {
     pub spare: bool,
     pub board_wishes: Vec<Vec<Wish>>,
     pub parts: Vec<Part>,
-    /// Whether the drivers of ChibiOS count, on an STM32F407.
+    /// Whether the limits of ChibiOS's drivers apply, on an STM32F407.
     pub chibios: bool,
 }
 
@@ -153,7 +153,7 @@ driver probe {
 }
 ";
 
-/// The case of a number.
+/// The case for a seed.
 pub fn case(seed: u64) -> Case {
     let mut rng = Rng(seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ 0x5449_4544);
     let chibios = rng.one_in(3);
@@ -177,7 +177,7 @@ pub fn case(seed: u64) -> Case {
     });
     let board_wishes = board_wishes.collect();
     let spare = boards.len() > 1 && rng.one_in(3);
-    // Those on the boards stand first in the text.
+    // Parts on the boards come first in the text.
     parts.sort_by_key(|part| part.board.unwrap_or(usize::MAX));
     Case { boards, spare, board_wishes, parts, chibios }
 }
@@ -189,7 +189,7 @@ const SIDES: &[Option<&str>] = &[Some("left"), Some("right"), Some("left"), None
 fn table(rng: &mut Rng, pins: usize) -> Vec<Row> {
     let mut names = NAMES.to_vec();
     let mut rows = Vec::new();
-    // Positions are mixed; two pins may be on one contact.
+    // Positions are in random order; two pins may be on one contact.
     let mut positions: Vec<usize> = (1..=12).collect();
     for _ in 0..pins {
         let name = names.remove(rng.below(names.len())).to_owned();
@@ -298,7 +298,7 @@ fn own_kind(kind: Kind, number: usize) -> Kind {
     }
 }
 
-/// Leaves fixed pins that the board has.
+/// Keeps only the fixed pins that the board has.
 pub fn sound(case: &mut Case) {
     for part in &mut case.parts {
         let rows = part.board.map(|board| &case.boards[board]);
@@ -351,7 +351,7 @@ impl Text {
         Self { sense, tables, target }
     }
 
-    /// None where a rule names what no pin of the board has.
+    /// `None` if a rule names something that no pin of the board has.
     pub fn design(&self) -> Option<Design> {
         let (path, text, target) = ("tied.sense", self.sense.as_str(), Some(self.target));
         let resolved = resolve(&Request { path, text, board: None, target }, self);
@@ -363,7 +363,7 @@ impl Text {
         resolved.design
     }
 
-    /// Everything, to be shown.
+    /// All files as one text, for messages.
     pub fn all(&self) -> String {
         let tables = self.tables.iter().map(|(name, text)| format!("{name}\n{text}"));
         format!(

@@ -1,19 +1,20 @@
-//! Why two sources differ: the table of `differences.md` in, the class of a difference out.
+//! The reasons why two sources differ. In: the table of `differences.md`. Out: the class of a
+//! difference.
 
 use std::fmt;
 
 use anyhow::{Context as _, Result, ensure};
 
-/// Who has a fact.
+/// The sources that have a fact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Own,
     St,
-    /// Both, and they disagree.
+    /// Both have it, and they disagree.
     Both,
 }
 
-/// One fact in which they differ.
+/// A fact in which they differ.
 #[derive(Clone, Debug)]
 pub(crate) struct Difference {
     pub(crate) side: Side,
@@ -45,10 +46,10 @@ impl Side {
     }
 }
 
-/// A row of the table: what it fits, how often at most, and how often it did.
+/// A row of the table: its patterns, how often they may match, and how often they did.
 struct Class {
     side: String,
-    /// Patterns of which one has to fit.
+    /// The patterns, one of which must match.
     parts: Vec<String>,
     pins: Vec<String>,
     whats: Vec<String>,
@@ -84,7 +85,7 @@ impl Classes {
         Ok(Self(rows.map(class).collect::<Result<_>>()?))
     }
 
-    /// Counts a difference in the first class that it fits; false where there is none.
+    /// Counts a difference in the first class that it matches; returns false if there is none.
     pub(crate) fn count(&mut self, difference: &Difference) -> bool {
         let fits = |patterns: &[String], text: &str| patterns.iter().any(|p| glob(p, text));
         let class = self.0.iter_mut().find(|class| {
@@ -102,7 +103,7 @@ impl Classes {
         self.0.iter().map(line).collect()
     }
 
-    /// The classes with more in them than they may have.
+    /// The classes with more differences than allowed.
     pub(crate) fn grown(&self) -> Vec<String> {
         let grown = self.0.iter().filter(|class| class.found > class.most);
         grown.map(|class| format!("{class}: {} instead of {}", class.found, class.most)).collect()
@@ -116,7 +117,7 @@ impl fmt::Display for Class {
     }
 }
 
-/// Whether a pattern fits a text; `*` stands for any text.
+/// Whether a pattern matches a text; `*` stands for any text.
 fn glob(pattern: &str, text: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == text,

@@ -1,11 +1,10 @@
-//! `cargo xtask parts --compare FOLDER`: the parts table against ST's open pin data, which the
-//! folder holds.
+//! `cargo xtask parts --compare FOLDER`: compares the parts table with ST's open pin data in the
+//! folder.
 //!
 //! Both sides become sets of facts by part number: which pin carries which usage of the peripherals
-//! that device kinds ask for, with its alternate function or its remap
-//! blocks, and which contact each pin is on. A
-//! difference has to fall into a class that `crates/parts/data/differences.md` explains, no class
-//! may grow, and the usages have to agree in at least 99.5 % of all.
+//! that device kinds need, with its alternate function or its remap blocks, and which contact each
+//! pin is on. Each difference must belong to a class that `crates/parts/data/differences.md`
+//! explains, no class may grow, and at least 99.5 % of the usages must agree.
 
 mod classes;
 mod read;
@@ -19,12 +18,12 @@ use super::super::say;
 use classes::{Classes, Difference, Side};
 use read::{Chip, Facts};
 
-/// What has to be the same of a hundred usages.
+/// The least percentage of usages that must agree.
 const AGREEMENT_MIN: f64 = 99.5;
-/// So many differences that nothing explains are shown.
+/// The most unexplained differences that are shown.
 const SHOWN_MAX: usize = 40;
 
-/// What was counted.
+/// The counts of a comparison.
 #[derive(Default)]
 struct Tally {
     parts: BTreeSet<String>,
@@ -95,7 +94,7 @@ fn judge(tally: &Tally, classes: &Classes, unexplained: &[String], usages: u64) 
     Ok(())
 }
 
-/// One part number of ST's against the table's part with that number.
+/// Compares one of ST's part numbers with the table's part that has the same number.
 fn compare(chip: &Chip, number: &str, tally: &mut Tally) -> Result<()> {
     let found = sensedsl_parts::find(number);
     let Some(found) = found.filter(|found| found.mcu.len() == number.len()) else {
@@ -119,7 +118,7 @@ fn compare(chip: &Chip, number: &str, tally: &mut Tally) -> Result<()> {
     for ((pin, usage), theirs) in &st.usages {
         match (theirs, own.usages.get(&(pin.clone(), usage.clone()))) {
             (_, None) => differ(Side::St, pin, usage),
-            // Where ST's data do not tell it there is nothing to compare.
+            // If ST's data do not give it, there is nothing to compare.
             (theirs, Some(ours)) if theirs.is_known() && theirs != ours => {
                 differ(Side::Both, pin, &format!("{usage} {theirs} {ours}"));
             }
@@ -145,7 +144,7 @@ fn compare(chip: &Chip, number: &str, tally: &mut Tally) -> Result<()> {
     Ok(())
 }
 
-/// The contact of each pin.
+/// Compares the contact of each pin.
 fn positions(st: &Facts, own: &Facts, tally: &mut Tally, number: &str) {
     let mut on: BTreeMap<&str, u64> = BTreeMap::new();
     for position in st.positions.values() {

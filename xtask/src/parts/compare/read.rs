@@ -1,4 +1,4 @@
-//! A folder with ST's open pin data in, facts by part number out.
+//! ST's open pin data. In: a folder. Out: facts by part number.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,7 +14,7 @@ use sensedsl_import::{Format, Importer, Source, Unread};
 
 use super::super::sources::entries;
 
-/// Starts of the peripherals that are compared: those that device kinds ask for, and USB.
+/// The prefixes of the peripherals that are compared: those that device kinds need.
 const PERIPHERALS: [&str; 11] =
     ["I2C", "FMPI2C", "SPI", "USART", "UART", "LPUART", "TIM", "CAN", "FDCAN", "ADC", "DAC"];
 
@@ -25,7 +25,7 @@ pub(crate) struct Chip {
     pub(crate) facts: Facts,
 }
 
-/// The alternate function of a usage, or its remap blocks; neither where it has none.
+/// The alternate function of a usage, or its remap blocks; neither if it has none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Route {
     alternate: Option<u8>,
@@ -48,20 +48,20 @@ impl fmt::Display for Route {
     }
 }
 
-/// What a table says.
+/// The facts in a table.
 #[derive(Default)]
 pub(crate) struct Facts {
-    /// By pin and usage of one unit: how the pin is switched to it.
+    /// How the pin is switched to a usage, by pin and usage of one unit.
     pub(crate) usages: BTreeMap<(String, String), Route>,
-    /// By pin: its contact.
+    /// The contact of each pin.
     pub(crate) positions: BTreeMap<String, String>,
 }
 
-/// The tables of all MCUs, and what making them took.
+/// The tables of all MCUs, and the time that making them took.
 pub(crate) struct Imported {
     pub(crate) tables: Vec<String>,
     pub(crate) wall: Duration,
-    /// The work of all threads, where the system tells it: a busy machine does not change it.
+    /// The CPU time of all threads, if the system gives it: a busy machine does not change it.
     pub(crate) work: Option<Duration>,
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn import_all(folder: &Path) -> Result<Imported> {
     Ok(Imported { tables, wall, work })
 }
 
-/// How long this thread has worked.
+/// The CPU time of this thread.
 fn worked() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
@@ -143,7 +143,7 @@ pub(crate) fn facts(csv: &str) -> Result<Facts> {
     Ok(facts)
 }
 
-/// A usage of several converters as one of each; nothing for a usage that is not compared.
+/// The usages of single converters for a usage of several; empty for a usage that is not compared.
 fn single(function: &Function, name: &str) -> Vec<String> {
     if let Function::Adc { units, channel } = function {
         return units.iter().map(|unit| format!("ADC{unit}_IN{channel}")).collect();

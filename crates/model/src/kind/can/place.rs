@@ -1,4 +1,4 @@
-//! Where a value stands in a frame: `byte`, or `bit` and `bits` as a DBC file numbers them.
+//! The place of a value in a frame: `byte`, or `bit` and `bits` with the numbering of DBC files.
 
 use sensedsl_diagnostics::codes::e0239_outside_frame;
 use sensedsl_wire::{ScalarType, ValueType};
@@ -6,9 +6,9 @@ use sensedsl_wire::{ScalarType, ValueType};
 use crate::fields::Fields;
 use crate::kind::i2c::ByteOrder;
 
-/// Bytes of a frame.
+/// Bytes in a frame.
 pub const FRAME_BYTES: u8 = 8;
-/// Bits of a frame.
+/// Bits in a frame.
 const FRAME_BITS: u8 = 64;
 
 /// The bits of a value in a word of a frame.
@@ -16,9 +16,9 @@ const FRAME_BITS: u8 = 64;
 pub struct BitField {
     /// Bytes of the word, 1 to 8.
     pub word_bytes: u8,
-    /// The lowest bit that counts.
+    /// The lowest of the value's bits.
     pub low: u8,
-    /// How many count.
+    /// The number of bits.
     pub bits: u8,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn read(
     (byte, Some(field))
 }
 
-/// The number of a bit along the line: low bits first, or high bits first.
+/// The position of a bit in transmission order: low bits first, or high bits first.
 const fn first_in_line(bit: u8, order: ByteOrder) -> u8 {
     match order {
         ByteOrder::Little => bit,
@@ -63,7 +63,7 @@ const fn first_in_line(bit: u8, order: ByteOrder) -> u8 {
     }
 }
 
-/// Bits of a number; of a truth value one.
+/// Bits of a number; 1 for a truth value.
 fn width(scalar: ScalarType) -> u8 {
     if scalar == ScalarType::Bool {
         return 1;
@@ -72,8 +72,8 @@ fn width(scalar: ScalarType) -> u8 {
 }
 
 impl BitField {
-    /// The first byte and the bits in the word that begins there, of `bits` bits from `bit` on; none outside of a
-    /// frame.
+    /// The first byte of `bits` bits from `bit` on, and their place in the word that begins there;
+    /// none if they are not all in the frame.
     #[must_use]
     pub fn at(bit: u8, bits: u8, order: ByteOrder) -> Option<(u8, Self)> {
         let first = first_in_line(bit, order);
@@ -96,7 +96,7 @@ mod tests {
         Some((byte, field.word_bytes, field.low, field.bits))
     }
 
-    /// Worked out by hand on the picture of `docs/language.md`.
+    /// Worked out by hand from the picture in `docs/language.md`.
     #[test]
     fn bits_are_numbered_as_in_a_dbc_file() {
         assert_eq!(at(0, 16, ByteOrder::Little), Some((0, 2, 0, 16)));

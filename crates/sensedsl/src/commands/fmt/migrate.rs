@@ -1,7 +1,7 @@
-//! What an older file meant: its text in, the text that means the same today out.
+//! Migration of older files. In: the text of a file. Out: the text that means the same today.
 //!
-//! A bare number for a device with `scale`, `offset` or `curve` was its code; today it is the value that
-//! is shown, and a code stands behind `raw`.
+//! A bare number for a device with `scale`, `offset` or `curve` used to be its code; today it is the value that is
+//! shown, and a code has `raw` before it.
 
 use std::ops::Range;
 use std::path::Path;
@@ -12,10 +12,10 @@ use sensedsl_session::Snapshot;
 use super::input;
 use crate::cli::{FmtArgs, On, Reach};
 
-/// More than the passes that a file needs: codes that are no shown values, then all others.
+/// More than the passes that a file needs: one for codes that are not shown values, one for all others.
 const PASSES: usize = 4;
 
-/// The text with `raw` before the numbers that were codes; the snapshot of a text with other mistakes.
+/// The text with `raw` before the numbers that were codes; the snapshot if a text has other errors.
 pub(super) fn migrated(path: &Path, text: &str, args: &FmtArgs) -> Result<String, Box<Snapshot>> {
     let mut text = text.to_owned();
     for _ in 0..PASSES {
@@ -35,12 +35,12 @@ pub(super) fn migrated(path: &Path, text: &str, args: &FmtArgs) -> Result<String
 }
 
 fn snapshot(path: &Path, text: &str, reach: &Reach) -> Snapshot {
-    // What a system can do says nothing about values.
+    // The abilities of a system do not matter for values.
     let on = On { board: None, target: Some("none".to_owned()), reach: reach.clone() };
     input::of_text(path, text.to_owned(), &on)
 }
 
-/// The numbers that are no values as they are shown, without a unit: they can only be codes.
+/// The numbers without a unit that are not valid as shown values: they can only be codes.
 fn refused(now: &Snapshot, text: &str) -> Vec<(Range<usize>, String)> {
     let file = now.trees().first().map(|(file, _)| *file);
     let wrong = now.diagnostics().iter().filter(|one| {

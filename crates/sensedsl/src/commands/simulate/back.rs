@@ -1,4 +1,5 @@
-//! A host that closes its port and opens it again, after a judge's run: it must be greeted, and be told everything anew.
+//! A host that closes its port and opens it again, after a judge's run: it must be greeted, and must receive all values
+//! again.
 
 use std::collections::BTreeSet;
 
@@ -8,16 +9,16 @@ use sensedsl_model::design::Transport;
 use super::run::{MS, Session};
 use crate::Status;
 
-/// What reported in so long before the host left must do so in so long after it is back.
+/// A device that reported in such a time before the host left must report in such a time after its return.
 const LOOK_NS: u64 = 1_000 * MS;
-/// How long it is away.
+/// How long the host is away.
 const AWAY_NS: u64 = 300 * MS;
-/// How long a shell may take until it listens.
+/// The longest time until a shell listens.
 const SHELL_NS: u64 = 100 * MS;
-/// How soon it must be greeted.
+/// The longest time until the board must greet the host.
 const GREETING_NS: u64 = 200 * MS;
 
-/// Who has reported, and when last.
+/// The devices that have reported, each with the time of its last report.
 #[derive(Default)]
 pub(super) struct Reporters(std::collections::BTreeMap<u8, u64>);
 
@@ -32,7 +33,7 @@ impl Reporters {
 }
 
 impl Session<'_> {
-    /// Leaves, comes back, and tells the judge what is missing. A world with faults is left alone.
+    /// Leaves, comes back, and tells the judge what is missing. Does nothing in a world with faults.
     pub(super) fn come_back(&mut self) -> Result<Status> {
         let is_usb = self.scenery.job.board.link.transport == Transport::Usb;
         if !is_usb || self.is_disturbed {
@@ -45,7 +46,7 @@ impl Session<'_> {
         self.is_known = false;
         self.board.link_open(true);
         if self.has_shell {
-            // Closing the port has brought it back.
+            // Closing the port has brought the shell back.
             self.pass(SHELL_NS)?;
             self.ask_now();
         }

@@ -1,4 +1,4 @@
-//! The board that is simulated: its job in this program, or an image of firmware on an emulated MCU.
+//! The simulated board: its job in this program, or a firmware image on an emulated MCU.
 
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
@@ -6,35 +6,36 @@ use sensedsl_twin::bench::{Bench, Unasked};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::soft::SoftBoard;
 
-/// What a board does, whatever it is.
+/// A board, however it is simulated.
 pub(super) trait Board {
-    /// Goes on to a time.
+    /// Runs until the given time.
     fn run_until(&mut self, until_ns: u64);
     /// The host sends bytes.
     fn link_write(&mut self, bytes: &[u8]);
-    /// The host opens its port, or closes it, over a link that can tell.
+    /// The host opens or closes its port, over a link that can tell.
     fn link_open(&mut self, is_open: bool);
-    /// What has arrived at the host since the last call.
+    /// The bytes that have arrived at the host since the last call.
     fn link_read(&mut self) -> Vec<u8>;
-    /// What the host has set since the last call: the device's place in the schema, and the bytes of its value.
+    /// The values that the host has set since the last call: the device's place in the schema, and the value's bytes.
     fn received(&mut self) -> Vec<(usize, Vec<u8>)>;
-    /// What comes out of it.
+    /// The outputs of the board.
     fn outputs(&self) -> Outputs;
-    /// Where and why the firmware does not run any more.
+    /// The address at which the firmware is stuck, and the reason.
     fn halted(&self) -> Option<(u64, String)>;
-    /// What the firmware has done wrong since the last call, told of the file.
+    /// The firmware's errors since the last call, reported at a place in the file.
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic>;
-    /// What a user wants to hear of since the last call.
+    /// The events since the last call that matter to a user.
     fn news(&mut self) -> Vec<String>;
-    /// The parts on buses that it has read without asking who they are.
+    /// The parts on buses that the board has read without asking for their identity.
     fn unasked(&self) -> Vec<Unasked>;
-    /// The parts on buses with which it has done something that their drivers do not say, and what.
+    /// The parts on buses that the board has treated in a way that their drivers do not describe, each with what
+    /// happened.
     fn odd_transfers(&self) -> Vec<(String, String)>;
-    /// For how long its processor has worked so far, where that is known.
+    /// The time that its processor has worked so far, if it is known.
     fn worked_ns(&self) -> Option<u64>;
-    /// Instructions that the firmware has executed, where they are counted.
+    /// The number of instructions that the firmware has executed, if they are counted.
     fn instructions(&self) -> Option<u64>;
-    /// What has come out of the MCU, where it is written down.
+    /// The log of everything that has left the MCU, if one is kept.
     fn log(&self) -> Option<String>;
 }
 

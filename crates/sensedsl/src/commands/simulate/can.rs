@@ -1,4 +1,4 @@
-//! The CAN buses of a simulated board as adapters on pseudo-terminals, one a bus.
+//! The CAN buses of a simulated board as adapters on pseudo-terminals, one for each bus.
 
 use anyhow::Result;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use super::pty::Pty;
 use super::slcan::Slcan;
 use crate::terminal::Terminal;
 
-/// All buses, and who is on them.
+/// All adapters, and the peer that is connected through them.
 pub(super) struct Adapters {
     peer: Peer,
     all: Vec<Adapter>,
@@ -22,7 +22,7 @@ struct Adapter {
 }
 
 impl Adapters {
-    /// Opens a pseudo-terminal for each bus, and says where they are.
+    /// Opens a pseudo-terminal for each bus, and prints its name.
     pub(super) fn open(peer: &Peer, terminal: &Terminal) -> Result<Self> {
         let mut all = Vec::new();
         for unit in peer.units() {
@@ -39,7 +39,7 @@ impl Adapters {
         Ok(Self { peer: peer.clone(), all })
     }
 
-    /// Moves frames between the board and who is on its buses.
+    /// Moves frames between the board and the programs on its buses.
     pub(super) fn turn(&mut self) {
         for Adapter { unit, pty, line } in &mut self.all {
             let is_connected = pty.wait(Duration::ZERO);

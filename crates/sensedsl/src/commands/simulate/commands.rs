@@ -1,4 +1,4 @@
-//! What the judge says of actuators: a table, and what was amiss first.
+//! The judge's verdict on actuators: a table, and the first failure.
 
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0552_command_not_done as not_done;
@@ -8,7 +8,7 @@ use sensedsl_twin::commands::{Amiss, Tried};
 use super::Simulation;
 use crate::commands::table::table;
 
-/// Prints what was found out; false where something was amiss.
+/// Prints the findings; returns false if there was a failure.
 pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool> {
     if tried.is_empty() {
         return Ok(true);
@@ -28,7 +28,7 @@ pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool>
     if let Some(left) = left(tried) {
         scenery.terminal.aside(&left)?;
     }
-    // What the host sets says more than a level that it does not.
+    // A failure of an actuator that the host sets is more telling than one of a constant level.
     let worst = amiss.iter().find(|(one, _)| one.is_set).or(amiss.first());
     let Some((one, first)) = worst else {
         let commands: u64 = tried.iter().map(|one| one.commands).sum();
@@ -56,13 +56,13 @@ fn cells(one: &Tried) -> [String; 5] {
     [one.name.clone(), set, looks, excused, wrong]
 }
 
-/// What is amiss, when, after what.
+/// A failure in words.
 fn words(one: &Amiss) -> String {
     let Amiss { at_ns, wire, after, expected, got, .. } = one;
     format!("{wire}: at {:.3} s, {after}: {got} and not {expected}", seconds(*at_ns))
 }
 
-/// What there was no time for.
+/// The values that there was no time for.
 fn left(tried: &[Tried]) -> Option<String> {
     let short: Vec<&Tried> = tried.iter().filter(|one| one.left > 0).collect();
     let left: u64 = short.iter().map(|one| one.left).sum();

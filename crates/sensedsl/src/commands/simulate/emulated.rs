@@ -1,4 +1,4 @@
-//! An image of firmware on an emulated MCU, as a board of the simulator.
+//! A firmware image on an emulated MCU, as a board of the simulator.
 
 use sensedsl_diagnostics::codes::e0550_pad_not_as_planned::not_as_planned;
 use sensedsl_diagnostics::codes::e0553_no_watchdog::no_watchdog;

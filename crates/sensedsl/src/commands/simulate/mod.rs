@@ -40,10 +40,10 @@ use crate::files::{Disk, read_bytes, read_text, shown};
 use crate::terminal::Terminal;
 use board::Board;
 
-/// What chance begins with where nobody says it.
+/// The seed of the random numbers if none is given.
 const SEED: u64 = 1;
 
-/// What each way proves and does not, 80 columns wide.
+/// What each way proves and does not prove, in lines of at most 80 columns.
 const SOFT: [&str; 4] = [
     "Running the board's job in this program: the tables of the firmware on the",
     "runtime that firmware in Rust has. This proves the wire, how values are coded,",
@@ -83,12 +83,12 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
     simulate(args, terminal, job, snapshot.sources())
 }
 
-/// Everything that the simulation is about.
+/// The context of the simulation.
 struct Simulation<'a> {
     args: &'a SimulateArgs,
     terminal: &'a Terminal,
     job: &'a BoardJob<'a>,
-    /// The place of what concerns the whole, and its text.
+    /// The place for diagnostics that concern the whole, and its text.
     at: Span,
     sources: &'a SourceMap,
 }
@@ -131,7 +131,7 @@ fn simulate(
     }
 }
 
-/// What the run proves; a judge's verdict is read by programs as well.
+/// Prints what the run proves; as an aside, because programs also read a judge's verdict.
 fn explain(scenery: &Simulation<'_>, lines: &[&str]) -> Result<()> {
     for line in lines {
         scenery.terminal.aside(line)?;
@@ -173,7 +173,7 @@ fn machine(
     Err(e0547_no_machine::no_machine(scenery.at).into())
 }
 
-/// Reads the world and what is set beside it; none where something is wrong with them, which has been said.
+/// Reads the world, and the values set on the command line; `None` if they have errors, which have been reported.
 fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
     let mut sources = SourceMap::default();
     let (name, text) = match &args.world {
@@ -209,7 +209,8 @@ fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result
     Ok((!has_errors(&said)).then_some(world))
 }
 
-/// The line of a world for `NAME=VALUE`. What is neither a number nor a list or table is a text there: `20 cm`.
+/// The line of a world for `NAME=VALUE`. A value that is neither a number nor a list or table becomes a string:
+/// `20 cm`.
 fn line(set: &str) -> String {
     let Some((name, value)) = set.split_once('=') else { return set.to_owned() };
     let (name, value) = (name.trim(), value.trim());

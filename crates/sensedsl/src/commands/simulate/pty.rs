@@ -1,4 +1,4 @@
-//! A pseudo-terminal: for a host application it is the device that a board would be.
+//! A pseudo-terminal: to a host application, it looks like the device of a board.
 
 use std::collections::VecDeque;
 use std::fs::OpenOptions;
@@ -11,7 +11,7 @@ use rustix::fs::{OFlags, fcntl_setfl};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 
-/// Bytes that wait for a host that does not read.
+/// The most bytes that wait for a host that does not read.
 const WAITING_MAX: usize = 1 << 16;
 
 /// The board's end.
@@ -29,7 +29,7 @@ impl Pty {
         grantpt(&board).context(failed)?;
         unlockpt(&board).context(failed)?;
         let name = ptsname(&board, Vec::new()).context(failed)?.to_string_lossy().into_owned();
-        // Opened once: from then on the system tells whether somebody else has it open. The settings stay.
+        // Opening it once makes the system report whether another program has it open. The settings stay.
         let host = OpenOptions::new().read(true).write(true).open(&name).context(failed)?;
         let mut settings = tcgetattr(&host).context(failed)?;
         settings.make_raw();
@@ -38,18 +38,18 @@ impl Pty {
         Ok(Self { board, name, waiting: VecDeque::new() })
     }
 
-    /// What a host application opens.
+    /// The name under which a host application opens it.
     pub(super) fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether somebody has it open; waits for news for a while.
+    /// Whether a program has it open; waits a while for something to happen.
     pub(super) fn wait(&self, pause: Duration) -> bool {
         let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
         let most = Timespec { tv_sec: 0, tv_nsec: pause.subsec_nanos().into() };
         match poll(&mut wanted, Some(&most)) {
             Ok(_) if wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP)) => true,
-            // That nobody has it open is news at every moment, and no reason to hurry.
+            // While no program has it open, poll returns at once, so the pause has to be made here.
             Ok(_) => {
                 std::thread::sleep(pause);
                 false
@@ -58,7 +58,7 @@ impl Pty {
         }
     }
 
-    /// What the host has sent.
+    /// The bytes that the host has sent.
     pub(super) fn read(&self) -> Vec<u8> {
         let mut bytes = vec![0; 4_096];
         let count = rustix::io::read(&self.board, &mut bytes).unwrap_or(0);
@@ -66,7 +66,7 @@ impl Pty {
         bytes
     }
 
-    /// Sends as much as the host takes; the rest follows. Nobody hears what is sent to nobody.
+    /// Sends as much as the host takes; the rest follows later. Without a host, everything is dropped.
     pub(super) fn write(&mut self, bytes: &[u8], is_connected: bool) {
         if !is_connected || self.waiting.len() + bytes.len() > WAITING_MAX {
             self.waiting.clear();

@@ -1,4 +1,4 @@
-//! Running a board: at the pace of the clock behind a pseudo-terminal, or as fast as possible before a judge.
+//! The simulation loop: at the pace of the clock on a pseudo-terminal, or as fast as possible for a judge.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,15 +32,15 @@ use crate::commands::table::table;
 use crate::files::write_whole;
 
 pub(super) const MS: u64 = 1_000_000;
-/// How long a judge listens, and who writes lines, unless somebody says it.
+/// The length of a run with a judge or with lines, unless a time is given.
 const SECONDS: f64 = 10.0;
-/// How often a host of ours asks who the board is, until it answers.
+/// The interval at which our host asks for the board's identity until it answers.
 const ASK_NS: u64 = 500 * MS;
 /// The prompt of ChibiOS' shell.
 const SHELL: &[u8] = b"ch> ";
-/// How often the table is refreshed.
+/// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
-/// How long the board gets to answer how it is.
+/// The time that the board has to report its health.
 const HEALTH_NS: u64 = 500 * MS;
 
 pub(super) fn run(
@@ -81,34 +81,34 @@ pub(super) fn run(
     }
 }
 
-/// A board, and who listens to it.
+/// A board, and everything that listens to it.
 pub(super) struct Session<'a> {
     pub(super) scenery: &'a Simulation<'a>,
     pub(super) board: Box<dyn Board>,
     decoder: Decoder<'a>,
     pub(super) judge: Judge,
-    /// Whether what the board reports is compared with the world.
+    /// Whether the board's reports are compared with the world.
     pub(super) is_judged: bool,
-    /// Something in the world breaks.
+    /// Whether the world has faults.
     pub(super) is_disturbed: bool,
     pub(super) reporters: Reporters,
-    /// What sets actuators, before a judge.
+    /// The host that sets actuators, in a run with a judge.
     commands: Option<Commands<'a>>,
     screen: Screen,
-    /// Who is on the CAN buses, where it is not the world.
+    /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
     frames: Vec<u8>,
     pub(super) now_ns: u64,
-    /// The board has said who it is.
+    /// Whether the board has identified itself.
     pub(super) is_known: bool,
-    /// A shell has the link until a host asks for frames: a development build.
+    /// Whether a shell has the link until a host asks for frames: a development build.
     pub(super) has_shell: bool,
-    /// What came before the board has said who it is.
+    /// The bytes that came before the board identified itself.
     greeting: Vec<u8>,
     is_stranger: bool,
     last: Option<Health>,
     reports: u64,
-    /// The firmware has done something that the plan does not say.
+    /// Whether the firmware has done something that is not in the plan.
     is_wrong: bool,
 }
 
@@ -143,13 +143,13 @@ impl<'a> Session<'a> {
         session
     }
 
-    /// How long the run lasts, in virtual time; none for as long as nobody stops it.
+    /// The length of the run in virtual time; `None` if it lasts until it is stopped.
     fn end_ns(&self, usual: Option<f64>) -> Option<u64> {
         let seconds = self.scenery.args.seconds.or(usual)?;
         Some(Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX))
     }
 
-    /// One millisecond. Gives the bytes that the host gets.
+    /// Runs for a millisecond. Returns the bytes that the host receives.
     pub(super) fn step(&mut self, mut line: Option<&mut String>) -> Result<Vec<u8>> {
         self.now_ns += MS;
         self.board.run_until(self.now_ns);
@@ -201,7 +201,7 @@ impl<'a> Session<'a> {
         Ok(bytes)
     }
 
-    /// A prompt before the board has said who it is.
+    /// Looks for the shell's prompt before the board has identified itself.
     fn look_for_shell(&mut self, bytes: &[u8]) {
         if !self.is_known && !self.has_shell {
             self.greeting.extend_from_slice(bytes);
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Shows what the host has set.
+    /// Shows the value that the host has set.
     fn set(&mut self, index: usize, value: &[u8]) {
         let Some(item) = self.scenery.job.schema.items.get(index) else { return };
         let elements = value.chunks_exact(item.value.scalar.size_bytes());
@@ -217,7 +217,7 @@ impl<'a> Session<'a> {
         self.screen.take(self.now_ns, &[(item.id, scalars)], Direction::Actuator);
     }
 
-    /// Asks who the board is, as a host does.
+    /// Asks for the board's identity, as a host does.
     fn ask(&mut self) {
         if !self.is_known && self.now_ns.is_multiple_of(ASK_NS) {
             self.ask_now();
@@ -236,14 +236,14 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Compares what comes out of the board, when it is time.
+    /// Compares the board's outputs if it is time.
     fn look(&mut self) {
         if let Some(commands) = self.commands.as_mut().filter(|all| all.looks(self.now_ns)) {
             commands.look(self.now_ns, &self.board.outputs());
         }
     }
 
-    /// Why the run ends here; none where it goes on.
+    /// The reason to end the run here; `None` if it goes on.
     pub(super) fn trouble(&self) -> Result<Option<Status>> {
         if self.is_stranger {
             let name = self.scenery.args.firmware.as_deref().map(crate::files::shown);
@@ -258,7 +258,7 @@ impl<'a> Session<'a> {
         Ok(Some(Status::Wrong))
     }
 
-    /// As fast as possible; lines where they are wanted.
+    /// Runs as fast as possible; prints lines if they are wanted.
     fn hurry(&mut self, has_lines: bool) -> Result<Status> {
         let end_ns = self.end_ns(Some(SECONDS)).unwrap_or(0);
         while self.now_ns < end_ns {
@@ -277,7 +277,7 @@ impl<'a> Session<'a> {
         Ok(Status::Done)
     }
 
-    /// At the pace of the clock, with the table where somebody sees it.
+    /// Runs at the pace of the clock, and shows the table if people can see it.
     #[cfg(unix)]
     fn pace(&mut self) -> Result<Status> {
         let terminal = self.scenery.terminal;
@@ -344,10 +344,10 @@ impl<'a> Session<'a> {
         self.scenery.job.board.link.transport != Transport::None
     }
 
-    /// Asks the board how it is; the judge hears the answer as well.
+    /// Asks the board for its health; the judge receives the answer as well.
     fn ask_health(&mut self) -> Result<Option<Health>> {
         self.last = None;
-        // The answer may have met garbage: a host asks again.
+        // Garbage may have hit the answer: a host asks again.
         for _ in 0..2 {
             if self.last.is_some() {
                 break;
@@ -366,7 +366,7 @@ impl<'a> Session<'a> {
         Ok(self.last.clone())
     }
 
-    /// Asks the board how it is, and prints the answer.
+    /// Asks the board for its health, and prints the answer.
     fn health(&mut self) -> Result<()> {
         let Some(health) = self.ask_health()? else { bail!("the board did not say how it is") };
         let text = format!(
@@ -398,7 +398,7 @@ impl<'a> Session<'a> {
         Ok(self.scenery.terminal.result(&format!("{text}{}", table(heads, &rows)))?)
     }
 
-    /// What the judge has found out.
+    /// Prints the judge's findings.
     fn verdict(self, now_ns: u64) -> Result<Status> {
         let Self { scenery, board, mut judge, commands, reports, is_wrong, .. } = self;
         judge.transfers(now_ns, &board.odd_transfers());
@@ -450,7 +450,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// Names the parts whose identity the board has not read; false where it should have.
+/// Names the parts whose identity the board has not read; returns false if it should have read one.
 fn identities(scenery: &Simulation<'_>, unasked: &[Unasked]) -> Result<bool> {
     let names = |is_known: bool| -> Vec<&str> {
         let own = unasked.iter().filter(|one| one.is_known == is_known);
@@ -487,7 +487,7 @@ fn cells(one: &Judged) -> [String; 6] {
     [one.name.clone(), reports, excused, wrong, every, age]
 }
 
-/// Set by the first Ctrl-C; the second one ends the program.
+/// A flag that the first Ctrl-C sets; the second one ends the program.
 #[cfg(unix)]
 fn interruption() -> Result<Arc<AtomicBool>> {
     use signal_hook::consts::SIGINT;

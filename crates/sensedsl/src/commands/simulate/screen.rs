@@ -1,4 +1,4 @@
-//! What a board reports, for people: a table that is refreshed in place, and lines.
+//! A board's reports, for people: a table that is refreshed in place, and lines.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use sensedsl_wire::{Direction, Scalar, ScalarType};
 
 use crate::commands::table::table;
 
-/// Letters of one value; arrays are longer.
+/// The most characters shown of a value; arrays can be longer.
 const VALUE_CHARS: usize = 40;
 
 /// The latest value of each device.
@@ -35,7 +35,7 @@ impl Screen {
         Self { rows, lines: 0 }
     }
 
-    /// Takes a report, or what the host has set.
+    /// Takes a report, or values that the host has set.
     pub(super) fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)], direction: Direction) {
         let new: BTreeMap<u8, &Vec<Scalar>> = values.iter().map(|(id, one)| (*id, one)).collect();
         for row in self.rows.iter_mut().filter(|row| row.direction == direction) {
@@ -46,7 +46,7 @@ impl Screen {
         }
     }
 
-    /// The table, over the one before it.
+    /// The table, printed over the previous one.
     pub(super) fn refreshed(&mut self, now_ns: u64) -> String {
         let text = self.table(now_ns);
         let lines: Vec<String> = text.lines().map(|line| format!("{line}\x1b[K\n")).collect();
@@ -55,7 +55,7 @@ impl Screen {
         format!("{up}{}", lines.concat())
     }
 
-    /// The latest values.
+    /// The table of the latest values.
     pub(super) fn table(&self, now_ns: u64) -> String {
         let rows: Vec<[String; 5]> = self.rows.iter().map(|row| row.cells(now_ns)).collect();
         let heads =
@@ -64,7 +64,7 @@ impl Screen {
         format!("{head}{}", table(heads, &rows))
     }
 
-    /// One report in a line.
+    /// A report as one line.
     pub(super) fn line(&self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) -> String {
         let shown = values.iter().filter_map(|(id, value)| {
             let sensor = |row: &&Row| row.id == *id && row.direction == Direction::Sensor;
@@ -123,7 +123,7 @@ impl Row {
     }
 }
 
-/// A number with as many digits as its steps deserve.
+/// A number with as many digits as its step justifies.
 pub(super) fn digits(number: f64, step: f64, scalar: ScalarType) -> String {
     let is_real = matches!(scalar, ScalarType::Float32 | ScalarType::Float64);
     if !is_real && step.fract() == 0.0 && number.fract() == 0.0 {

@@ -1,7 +1,9 @@
-//! CAN adapters on a serial line, as python-can (`slcan`) and Linux (`slcand`) know them: frames as lines of text.
+//! CAN adapters on a serial line, with frames as lines of text, as python-can (`slcan`) and Linux (`slcand`) expect
+//! them.
 //!
-//! `t1232AABB` is a frame with 11 bits of identifier, two bytes long; `T0000012321234` one with 29; `r` and `R` ask for a
-//! frame. A line ends with a carriage return. `O` opens the bus, `C` closes it, and each command is answered.
+//! `t1232AABB` is a two-byte frame with an 11-bit identifier; `T0000012321234` is one with a 29-bit identifier; `r` and
+//! `R` are remote frames. A line ends with a carriage return. `O` opens the bus, `C` closes it, and each command is
+//! answered.
 
 use sensedsl_surroundings::CanFrame;
 
@@ -18,7 +20,7 @@ pub(super) struct Slcan {
 }
 
 impl Slcan {
-    /// Takes bytes of the host. Gives the frames that it sends, and adds to what it is answered.
+    /// Takes bytes from the host. Returns the frames that it sends, and appends the answers.
     pub(super) fn feed(&mut self, bytes: &[u8], answer: &mut Vec<u8>) -> Vec<CanFrame> {
         let mut frames = Vec::new();
         for byte in bytes {
@@ -27,7 +29,7 @@ impl Slcan {
                     let line = std::mem::take(&mut self.line);
                     frames.extend(self.command(&line, answer));
                 }
-                // Lines may also end with `\n` behind the carriage return.
+                // Lines may also end with `\n` after the carriage return.
                 b'\n' => {}
                 _ if self.line.len() < LINE_MAX => self.line.push(*byte),
                 _ => {}
@@ -41,7 +43,7 @@ impl Slcan {
             [] => {}
             [b'O' | b'L'] => self.is_open = true,
             [b'C'] => self.is_open = false,
-            // Bit rates, time stamps, filters: the bus is the same whatever is chosen.
+            // Bit rates, time stamps, filters: none of the settings changes anything on this bus.
             [b'S' | b's' | b'Z' | b'M' | b'm' | b'X' | b'W' | b'U', ..] => {}
             [b'V'] => answer.extend_from_slice(b"V1013"),
             [b'N'] => answer.extend_from_slice(b"NSENS"),
@@ -56,7 +58,7 @@ impl Slcan {
         None
     }
 
-    /// Adds a frame that the board has sent, where somebody listens.
+    /// Appends a frame that the board has sent, if somebody listens.
     pub(super) fn show(&self, frame: &CanFrame, to: &mut Vec<u8>) {
         if !self.is_open {
             return;
@@ -74,7 +76,7 @@ impl Slcan {
     }
 }
 
-/// A frame as it is written; none where it is not one.
+/// Parses a frame; `None` if it is not one.
 fn frame(line: &[u8]) -> Option<CanFrame> {
     let (extended, remote) = match line.first()? {
         b't' => (false, false),
@@ -93,7 +95,7 @@ fn frame(line: &[u8]) -> Option<CanFrame> {
     for (place, pair) in data.iter_mut().zip(rest.chunks(2)).take(count) {
         *place = u8::try_from(number(pair).filter(|_| pair.len() == 2)?).ok()?;
     }
-    // Four digits of a time stamp may follow.
+    // A time stamp of four digits may follow.
     let is_whole = rest.len() == 2 * count || rest.len() == 2 * count + 4;
     is_whole.then_some(CanFrame { id, extended, remote, length, data })
 }

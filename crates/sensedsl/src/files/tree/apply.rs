@@ -1,5 +1,5 @@
-//! From one tree to another within a folder: staged files take their places, files that are no
-//! longer made go. Whoever is stopped in the middle begins again and ends with the same.
+//! The way from one tree to another within a folder: staged files take their places, and files that are no longer
+//! needed are removed. A run that is stopped in the middle can start again, with the same result.
 
 use std::fs;
 use std::io;
@@ -10,16 +10,16 @@ use super::layout::{self, Kind, LIST, is_there, link_above, listed, not_ours_abo
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 
-/// The folder of a working folder with the files that are on their way.
+/// The subfolder of a working folder with the staged files.
 const FILES: &str = "files";
 
-/// The list of the new tree; it stays until all is done.
+/// The list of the new tree; it stays until everything is done.
 pub(super) const NEW_LIST: &str = "list";
 
-/// What is no longer made. It is the run's own: the folder's list may be a stranger's.
+/// The list of files that are no longer needed. It is the run's own, because the folder's list may be a stranger's.
 const STALE: &str = "stale";
 
-/// Writes the files of a tree that change, except those, and its list into a working folder.
+/// Writes the changed files of a tree, without the exceptions, and its list into a working folder.
 pub(super) fn stage(
     ops: &Ops,
     work: &Path,
@@ -38,22 +38,22 @@ pub(super) fn stage(
         ops.create(&to, file.bytes, Some(&root.join(file.path)))?;
     }
     ops.create(&files.join(LIST), new.list.as_bytes(), None)?;
-    // With the folders, as a name is on the disk only when its folder is.
+    // The folders are included, because a name is on disk only if its folder is.
     let mut all: Vec<PathBuf> =
         walk_all(&files)?.iter().map(|(path, _)| files.join(path)).collect();
     all.extend([files, work.join(NEW_LIST), work.join(STALE), work.to_path_buf()]);
     ops::sync(&all)
 }
 
-/// Where a file is while it is on its way.
+/// The path of a staged file.
 pub(super) fn staged(work: &Path, path: &Path) -> PathBuf {
     work.join(FILES).join(path)
 }
 
-/// Lets a folder hold what is staged for it, and waits until it does.
+/// Moves everything that is staged into a folder, and waits until that is on disk.
 pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
     let files = work.join(FILES);
-    // First, as a file may have been where a folder will be.
+    // This comes first, because a file may have been where a folder will be.
     for stale in listed(&work.join(STALE))? {
         remove(ops, root, Path::new(&stale))?;
     }
@@ -61,23 +61,23 @@ pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
     for (path, kind) in walk_all(&files)? {
         let from = files.join(&path);
         match kind {
-            // It has gone with its folder.
+            // It has been moved with its folder.
             _ if !is_there(&from) => {}
-            // A folder goes as a whole where there is none: no room is needed for a new one.
+            // A folder is moved as a whole if there is none: no space is needed for a new one.
             Kind::Folder if !is_there(&root.join(&path)) => ops.rename(&from, &root.join(&path))?,
             Kind::Folder => {}
             _ if path == Path::new(LIST) => last = Some(from),
             Kind::File | Kind::Link => put(ops, &from, root, &path)?,
         }
     }
-    // With the list goes the memory of what was there before, so it comes last.
+    // Replacing the list loses the record of the earlier files, so it comes last.
     if let Some(list) = last {
         put(ops, &list, root, Path::new(LIST))?;
     }
     sync_folders(root)
 }
 
-/// Waits until the names in all folders of ours are on the disk.
+/// Waits until the names in all folders of ours are on disk.
 pub(super) fn sync_folders(root: &Path) -> io::Result<()> {
     let ours = |path: &Path| !path.file_name().is_some_and(layout::is_not_ours);
     let mut folders = vec![root.to_path_buf()];
@@ -90,7 +90,7 @@ pub(super) fn sync_folders(root: &Path) -> io::Result<()> {
     ops::sync(&folders)
 }
 
-/// Removes what a working folder holds; its lock stays.
+/// Removes the contents of a working folder, except its lock.
 pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
     ops.remove_all(&work.join(FILES))?;
     for name in more.iter().chain(&[NEW_LIST, STALE]) {
@@ -99,18 +99,18 @@ pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
     Ok(())
 }
 
-/// Puts one file into its place.
+/// Moves one file into its place.
 fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
     let to = root.join(path);
     never_through_a_link(root, path)?;
     let theirs =
         not_ours_above(path).is_some() || path.file_name().is_some_and(layout::is_not_ours);
     if theirs && is_there(&to) {
-        // The user was quicker; it is the user's in any case.
+        // The user has just made it; it belongs to the user in any case.
         return ops.remove_file(from);
     }
     match ops.rename(from, &to) {
-        // A folder of the user's may be on another disk.
+        // A user's folder may be on another disk.
         Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
             write_whole(&to, &layout::read_file(from)?).map_err(io::Error::other)?;
             ops.remove_file(from)
@@ -119,31 +119,32 @@ fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
     }
 }
 
-/// Refuses what would end elsewhere. Before anything is changed such folders are refused by name, so
-/// this one has been changed since.
+/// Refuses a path that leads elsewhere. Such folders are refused by name before anything is changed, so this one has
+/// been changed since then.
 pub(super) fn never_through_a_link(root: &Path, path: &Path) -> io::Result<()> {
     let Some(link) = link_above(root, path) else { return Ok(()) };
     Err(io::Error::other(format!("{} is a link", root.join(link).display())))
 }
 
-/// Removes a file and the folders that are empty without it.
+/// Removes a file, and the folders that are empty without it.
 fn remove(ops: &Ops, root: &Path, path: &Path) -> io::Result<()> {
     never_through_a_link(root, path)?;
     if fs::symlink_metadata(root.join(path)).is_ok_and(|found| found.is_dir()) {
-        // What is a folder by now is not the file that was generated.
+        // If it is a folder by now, it is not the file that was generated.
         return Ok(());
     }
     ops.remove_file(&root.join(path))?;
     for folder in path.ancestors().skip(1).filter(|folder| *folder != Path::new("")) {
         if ops.remove_folder(&root.join(folder)).is_err() {
-            // Not empty: something else lives there.
+            // The folder is not empty: something else is in it.
             break;
         }
     }
     Ok(())
 }
 
-/// As [`walk`], with the folders that are the user's elsewhere: here all is the program's.
+/// Walks a folder like [`walk`], including folders that would otherwise be the user's: here everything is the
+/// program's.
 fn walk_all(root: &Path) -> io::Result<Vec<(PathBuf, Kind)>> {
     layout::walk_into(root, &|_| true)
 }

@@ -1,8 +1,8 @@
-//! Where the path of an output folder leads through links.
+//! The place to which the path of an output folder leads through links.
 //!
 //! A link that the user made is followed. One that came with a project must not lead the output out
-//! of it, and the two look alike: so a link within the project, or within the folder that the
-//! program runs in, has to stay below the folder that it stands in.
+//! of it. The two look alike, so a link within the project, or within the program's working folder,
+//! must stay below the folder that contains it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub(crate) struct Away {
     pub(crate) target: PathBuf,
 }
 
-/// The first link on the way to an output folder that leads out of the folder that it stands in.
+/// The first link on the way to an output folder that leads out of its own folder.
 pub(super) fn leads_away(output: &Path, project: &Path) -> Option<Away> {
     let within = [real_folder(Path::new("")), real_folder(project)];
     let mut ways: Vec<&Path> = output.ancestors().filter(|way| *way != Path::new("")).collect();

@@ -1,8 +1,8 @@
-//! What belongs to whom in an output folder, and the names of what stands there for a while.
+//! The owners of the entries in an output folder, and the names of temporary entries.
 //!
-//! The list [`LIST`] names all generated files with what was in them, so that what is no longer made
-//! can be removed and what is foreign can be told. It may be a stranger's, so what it says of a file
-//! counts only for who knows the list, or where the file is still what the list says.
+//! The list [`LIST`] names all generated files with digests of their contents, so that files which are no longer needed
+//! can be removed, and foreign files recognised. The list may be a stranger's, so an entry counts only if this machine
+//! knows the list, or if the file still matches it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -14,16 +14,16 @@ use std::path::{Path, PathBuf};
 pub(crate) const LIST: &str = ".sensedsl-files";
 const LIST_HEAD: &str = "# Files that `sensedsl generate` made here and may replace or remove.\n";
 
-/// Folders that belong to the user or to build tools.
+/// The folders that belong to the user or to build tools.
 const NOT_OURS: &[&str] = &["user", "build", ".dep", ".git", "target", "__pycache__", ".venv"];
 
-/// What one run needs while it writes, in the folder itself.
+/// The working folder of a run, in the output folder itself.
 pub(crate) const WORK: &str = ".sensedsl-work";
 
 /// The most bytes of a list that are read.
 const LIST_BYTES_MAX: u64 = 16 << 20;
 
-/// How many digits a file's SHA-256 has.
+/// The number of digits in a file's SHA-256.
 const DIGEST_DIGITS: usize = 64;
 
 /// Whether a folder of that name belongs to the user or to build tools.
@@ -31,7 +31,7 @@ pub(crate) fn is_not_ours(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| NOT_OURS.contains(&name))
 }
 
-/// The link that a path below a folder leads through, its last name apart.
+/// The outermost link on a path below a folder; its last component is not checked.
 pub(crate) fn link_above(root: &Path, path: &Path) -> Option<PathBuf> {
     let is_link = |folder: &&Path| {
         fs::symlink_metadata(root.join(folder)).is_ok_and(|found| found.is_symlink())
@@ -40,14 +40,14 @@ pub(crate) fn link_above(root: &Path, path: &Path) -> Option<PathBuf> {
     above.filter(is_link).last().map(Path::to_path_buf)
 }
 
-/// The folder of the user's, or of a build tool's, that a path leads through.
+/// The folder of the user's, or of a build tool, that a path leads through.
 pub(crate) fn not_ours_above(path: &Path) -> Option<&Path> {
     let name = |one: &&Path| one.file_name().is_some_and(is_not_ours);
-    // The outermost one, which hides those within.
+    // The outermost one hides those within it.
     path.ancestors().skip(1).filter(name).last()
 }
 
-/// The list of those generated files, with the SHA-256 of each where there is one.
+/// The list of these generated files, with the SHA-256 of those that have one.
 pub(crate) fn list(files: &BTreeMap<String, Option<String>>) -> String {
     let mut text = LIST_HEAD.to_owned();
     for (path, digest) in files {
@@ -57,12 +57,12 @@ pub(crate) fn list(files: &BTreeMap<String, Option<String>>) -> String {
     text
 }
 
-/// The generated files according to a list, none where there is no list.
+/// The generated files according to a list; empty if there is no list.
 pub(crate) fn listed(list: &Path) -> io::Result<BTreeSet<String>> {
     Ok(entries(&read_list(list)?).into_keys().collect())
 }
 
-/// The text of a list. Whatever else stands there, only a file is read.
+/// The text of a list. It is only read if it is a file.
 pub(crate) fn read_list(list: &Path) -> io::Result<Vec<u8>> {
     match fs::metadata(list) {
         Ok(found) if found.is_file() && found.len() <= LIST_BYTES_MAX => fs::read(list),
@@ -76,8 +76,8 @@ pub(crate) fn read_list(list: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// The files that a list names, with the SHA-256 that it gives. A line that leaves the folder, or
-/// names what is not ours, is not believed.
+/// The files that a list names, with the SHA-256 that it gives. A line is ignored if it leaves the folder or names
+/// something that is not ours.
 pub(crate) fn entries(list: &[u8]) -> BTreeMap<String, Option<String>> {
     let text = String::from_utf8_lossy(list);
     let ours = |(path, _): &(&str, Option<&str>)| {
@@ -100,7 +100,7 @@ fn split_digest(line: &str) -> Option<(&str, &str)> {
     is_digest.then_some((digest, path))
 }
 
-/// The bytes of a file; none where there is no file.
+/// The bytes of a file; empty if there is no file.
 pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     match fs::metadata(path) {
         Ok(found) if found.is_file() => fs::read(path),
@@ -110,23 +110,23 @@ pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// A path of the list.
+/// A path as the list has it.
 pub(crate) fn slashed(path: &Path) -> String {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     parts.join("/")
 }
 
-/// What stands beside the output folder while it is written.
+/// The temporary entries beside the output folder while it is written.
 #[derive(Clone, Debug)]
 pub(crate) struct Siblings {
-    /// The lock, the list of the new tree, and files on their way.
+    /// The lock, the list of the new tree, and the staged files.
     pub(crate) work: PathBuf,
     /// The other one of the two trees.
     pub(crate) tree: PathBuf,
 }
 
 impl Siblings {
-    /// None where nothing can stand beside the folder.
+    /// The entries beside a folder; `None` if there can be none.
     pub(crate) fn of(root: &Path) -> Option<Self> {
         let name = root.file_name()?;
         let named = |ending: &str| {
@@ -139,7 +139,7 @@ impl Siblings {
     }
 }
 
-/// What an entry of a folder is; links are not followed.
+/// The kind of an entry in a folder; links are not followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// A folder.
@@ -150,13 +150,13 @@ pub(crate) enum Kind {
     File,
 }
 
-/// Everything below a folder by its path in it, a folder before what it holds; nothing where there
-/// is no such folder. What is in folders that are not ours is left out.
+/// Everything below a folder, with paths relative to it, a folder before its contents; empty if there is no such
+/// folder. The contents of folders that are not ours are left out.
 pub(crate) fn walk(root: &Path) -> io::Result<Vec<(PathBuf, Kind)>> {
     walk_into(root, &|name| !is_not_ours(name) && name != WORK)
 }
 
-/// As [`walk`], into the folders that `enter` names.
+/// Everything below a folder as in [`walk`], including the contents of the folders that `enter` accepts.
 pub(crate) fn walk_into(
     root: &Path,
     enter: &dyn Fn(&OsStr) -> bool,
@@ -186,7 +186,7 @@ pub(crate) fn walk_into(
     Ok(found)
 }
 
-/// Whether anything has that name, even a link that leads nowhere.
+/// Whether anything has that name, even a dangling link.
 pub(crate) fn is_there(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }

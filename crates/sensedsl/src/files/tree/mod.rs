@@ -1,24 +1,23 @@
 //! An output folder: it holds the old tree or the new one, whatever happens while it is written.
 //!
-//! What is promised:
+//! Guarantees:
 //!
-//! - One run at a time writes a folder. A second one waits, and gives up after `lock::WAIT`.
-//! - On Linux, whoever looks into the folder by its name finds the old tree or the new one, also
-//!   after a kill, a full disk or a power failure (`switch`). Elsewhere, on file systems that
-//!   cannot exchange two names, and where the folder is a mount point or nothing can be made beside
-//!   it, the same holds as long as no run is stopped within the few milliseconds in which files
-//!   take their places; then the next run completes them (`journal`).
-//! - What a run leaves behind that is stopped, the next one completes or removes by itself.
-//! - The user's folders are neither moved nor copied nor written to, but for files that are to be
-//!   made once and are missing. For some milliseconds of a switch, and until the next run where one
-//!   is stopped within them, the folder shows them through symbolic links.
+//! - Only one run at a time writes a folder. A second one waits, and gives up after `lock::WAIT`.
+//! - On Linux, a program that opens the folder by its name finds the old tree or the new one, even after a kill, a full
+//!   disk or a power failure (`switch`). On other systems, on file systems that cannot exchange two names, and if the
+//!   folder is a mount point or nothing can be created beside it, the same holds unless a run is stopped within the few
+//!   milliseconds in which files take their places; then the next run completes them (`journal`).
+//! - Anything that a stopped run leaves behind is completed or removed by the next one.
+//! - The user's folders are neither moved nor copied nor written to, except for missing files that are created only
+//!   once. For some milliseconds of a switch, and until the next run if one is stopped within them, the folder shows
+//!   them through symbolic links.
 //! - A run that fails before the switch leaves the folder as it was.
-//! - Only what a run of this machine left is completed or removed (`seal`). The folder may be a
-//!   stranger's: nothing is written or removed through a link in it (`apply`), nor where the folder
-//!   itself is a link that leads elsewhere (`away`).
+//! - Only work that a run on this machine left is completed or removed (`seal`). The folder may be a stranger's:
+//!   nothing is written or removed through a link in it (`apply`), or if the folder itself is a link that leads
+//!   elsewhere (`away`).
 //!
-//! What is not: a process whose working folder is within the output folder sees files change one by
-//! one, and so does one that reads several files by their paths while a run is at it.
+//! Not guaranteed: a process whose working folder is within the output folder sees files change one by one, and so does
+//! one that reads several files by their paths during a run.
 
 mod apply;
 mod away;
@@ -42,29 +41,29 @@ use super::ops::{self, Ops};
 pub(crate) use away::Away;
 use layout::{Siblings, WORK, is_there};
 
-/// What a folder is to hold.
+/// The new contents of a folder.
 pub(crate) struct NewTree<'a> {
     /// All files.
     pub(crate) files: Vec<NewFile<'a>>,
-    /// The text of the list of those that are generated.
+    /// The text of the list of generated files.
     pub(crate) list: String,
-    /// Generated files that are no longer made.
+    /// Generated files that are no longer needed.
     pub(crate) stale: Vec<String>,
 }
 
 /// One file of a [`NewTree`].
 pub(crate) struct NewFile<'a> {
-    /// Where it is, with `/`.
+    /// The path, with `/`.
     pub(crate) path: &'a str,
-    /// What is in it.
+    /// The contents.
     pub(crate) bytes: &'a [u8],
-    /// Whether it is the user's once it is there.
+    /// Whether it belongs to the user once it is there.
     pub(crate) once: bool,
-    /// Whether it is missing or has other bytes.
+    /// Whether it is missing or has different bytes.
     pub(crate) changes: bool,
 }
 
-/// Why a tree was not written, or not cleanly.
+/// The reason why a tree was not written, or not completely.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The folder is as it was.
@@ -73,22 +72,22 @@ pub(crate) enum Failure {
     After(io::Error),
 }
 
-/// Why a folder cannot be written at all.
+/// The reason why a folder cannot be written at all.
 #[derive(Debug)]
 pub(crate) enum Trouble {
-    /// Another run writes it.
+    /// Another run is writing it.
     Busy,
-    /// The disk is full, or does not let anything be written there.
+    /// The disk is full, or does not allow writing there.
     Unwritten(io::Error),
-    /// What an earlier run left here has lost what it belongs to.
+    /// An earlier run left something here that no longer belongs to anything.
     Orphan(PathBuf),
-    /// What stands there looks like an unfinished run, and is not one of this machine's.
+    /// It looks like an unfinished run, but not one of this machine.
     Strange(PathBuf),
     /// The folder is reached through a link that leads elsewhere.
     Linked(Away),
-    /// What an earlier run left behind can be neither completed nor removed now.
+    /// Something that an earlier run left can be neither completed nor removed now.
     Unrecovered(io::Error),
-    /// The machine is wrong.
+    /// Something is wrong with the machine.
     Failed(anyhow::Error),
 }
 
@@ -108,13 +107,13 @@ impl From<anyhow::Error> for Trouble {
     }
 }
 
-/// An output folder that this run alone may write to.
+/// An output folder that only this run may write to.
 #[derive(Debug)]
 pub(crate) struct Output {
     root: PathBuf,
-    /// None where nothing can stand beside the folder.
+    /// `None` if nothing can be created beside the folder.
     beside: Option<Siblings>,
-    /// Beside the folder, within, or both.
+    /// The locks beside the folder, within it, or both.
     locks: Vec<Lock>,
     /// Whether the folder was made by this run.
     is_new: bool,
@@ -122,8 +121,8 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Takes a folder for this run, made if needed, and puts right what an earlier run has left. The
-    /// project is the folder of the file, which may be a stranger's.
+    /// Takes a folder for this run, creates it if necessary, and repairs what an earlier run has left. The project is
+    /// the folder of the file, which may be a stranger's.
     pub(crate) fn take(
         output: &Path,
         project: &Path,
@@ -152,7 +151,7 @@ impl Output {
                     seal::vet(&place.work, Some(&place.tree))?;
                     locks.push(lock);
                 }
-                // Then everything has to happen within the folder.
+                // Then everything must happen within the folder.
                 Err(NoLock::Failed(error)) if ops::is_unsupported(&error) => beside = None,
                 Err(why) => return Err(why.into()),
             }
@@ -172,12 +171,12 @@ impl Output {
         Ok(taken)
     }
 
-    /// Where the folder is, without links.
+    /// The path of the folder, without links.
     pub(crate) fn root(&self) -> &Path {
         &self.root
     }
 
-    /// Makes the folder hold a tree.
+    /// Writes a tree to the folder.
     pub(crate) fn write(&mut self, new: &NewTree<'_>) -> Result<(), Failure> {
         match self.switch(new) {
             Err(Failure::Before(error)) if ops::is_unsupported(&error) => {}
@@ -253,18 +252,18 @@ impl Drop for Output {
         if let Some(beside) = &self.beside {
             seal::give_back(&beside.work);
         }
-        // The last one taken is within the folder.
+        // The lock that was taken last is within the folder.
         while self.locks.len() > usize::from(self.beside.is_some()) {
             self.locks.pop();
         }
         if self.is_new {
-            // Nothing was written to it, or it is not empty.
+            // This only succeeds if nothing was written to it.
             let _ = fs::remove_dir(&self.root);
         }
     }
 }
 
-/// The folder itself, where a path leads to it through links.
+/// The real path of the folder, without links.
 fn resolve(output: &Path) -> Result<PathBuf> {
     let shown = output.display();
     match fs::metadata(output) {
@@ -287,7 +286,7 @@ fn resolve(output: &Path) -> Result<PathBuf> {
     }
 }
 
-/// Whether the folder is on another disk than what is beside it.
+/// Whether the folder is on another disk than its parent.
 #[cfg(unix)]
 fn is_mount_point(root: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;

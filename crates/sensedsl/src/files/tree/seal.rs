@@ -1,5 +1,5 @@
-//! Telling what a run of this machine left from what somebody put there: a folder with the work of a
-//! run has a seal in it, made before anything else and removed after all else.
+//! Seals tell work that a run on this machine left from anything that somebody else put there. A folder with the work
+//! of a run has a seal in it, which is made before anything else and removed after everything else.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -14,12 +14,12 @@ use crate::files::state::State;
 
 const NAME: &str = "seal";
 
-/// Why a working folder cannot be used.
+/// The reason why a working folder cannot be used.
 #[derive(Debug)]
 pub(super) enum Unclaimed {
-    /// It is not a run's of this machine.
+    /// It is not from a run on this machine.
     Strange(PathBuf),
-    /// The machine is wrong.
+    /// Something is wrong with the machine.
     Failed(io::Error),
 }
 
@@ -38,8 +38,8 @@ impl From<Unclaimed> for Trouble {
     }
 }
 
-/// Refuses a working folder with something in it that no run of this machine left. Its lock is held.
-/// `tree` is what belongs to that work.
+/// Refuses a working folder with contents that no run on this machine left. Its lock is held. `tree` is the tree that
+/// belongs to that work.
 pub(super) fn vet(work: &Path, tree: Option<&Path>) -> Result<(), Unclaimed> {
     if is_sealed(work)? {
         return Ok(());
@@ -50,13 +50,13 @@ pub(super) fn vet(work: &Path, tree: Option<&Path>) -> Result<(), Unclaimed> {
     if holds_nothing(work)? { Ok(()) } else { Err(Unclaimed::Strange(work.to_path_buf())) }
 }
 
-/// Seals a working folder that was vetted, and waits until the seal is on the disk.
+/// Seals a working folder that was vetted, and waits until the seal is on disk.
 pub(super) fn set(ops: &Ops, work: &Path) -> io::Result<()> {
     if is_sealed(work)? {
         return Ok(());
     }
     let seal = work.join(NAME);
-    // A run was stopped while it made the seal, and had made nothing else.
+    // An incomplete seal is from a run that was stopped while it made the seal, and had made nothing else.
     ops.remove_file(&seal)?;
     ops.create(&seal, State::of_user().seal(work)?.as_bytes(), None)?;
     ops::sync(&[seal, work.to_path_buf()])
@@ -69,15 +69,15 @@ fn is_sealed(work: &Path) -> io::Result<bool> {
     Ok(may_be && fs::read(&seal)? == own.as_bytes())
 }
 
-/// Removes the seal of a working folder in which nothing is left.
+/// Removes the seal of a working folder in which nothing else is left.
 pub(super) fn give_back(work: &Path) {
     if holds_nothing(work).unwrap_or(false) {
-        // If that fails the next run finds its own seal.
+        // If that fails, the next run finds its own seal.
         let _ = fs::remove_file(work.join(NAME));
     }
 }
 
-/// Whether a working folder has nothing in it but its lock and its seal.
+/// Whether a working folder has nothing in it except its lock and its seal.
 fn holds_nothing(work: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(work)? {
         let name = entry?.file_name();

@@ -1,12 +1,12 @@
-//! The way to a new tree in one moment: two names change places.
+//! The way to a new tree in one moment: two names are exchanged.
 //!
-//! A complete new tree is written beside the old one. Where a folder of the user's is, it has a
-//! symbolic link, so that there is only one such folder at any time. When all is on the disk the
-//! names of the two trees are exchanged, and every reader sees the new one. The old tree, which now
-//! stands beside, is changed into the new one as well, and the names are exchanged once more: so
-//! the folder remains what it was for a shell that works in it, and the user's folders have never
-//! been moved, copied or opened. Whatever moment a run is stopped at, the next one finds in these
-//! names alone what is to be done.
+//! A complete new tree is written beside the old one. In place of the user's folders it has
+//! symbolic links, so that there is only ever one such folder. When everything is on disk, the
+//! names of the two trees are exchanged, and every reader sees the new one. The old tree, which is
+//! now the one beside it, is also changed into the new one, and the names are exchanged once more.
+//! So the folder remains the same one for a shell that works in it, and the user's folders have
+//! never been moved, copied or opened. At whatever moment a run is stopped, these names alone tell
+//! the next one what to do.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -22,10 +22,10 @@ use super::{Failure, NewTree, seal};
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 
-/// In the working folder: files of the new tree that will be the user's.
+/// The file in the working folder that lists those files of the new tree that will be the user's.
 const ONCE: &str = "once";
 
-/// An output folder and what stands beside it.
+/// An output folder and the entries beside it.
 #[derive(Clone, Copy)]
 pub(super) struct Switch<'a> {
     pub(super) ops: &'a Ops,
@@ -34,28 +34,28 @@ pub(super) struct Switch<'a> {
 }
 
 impl Switch<'_> {
-    /// Makes the folder hold a tree.
+    /// Writes a tree to the folder.
     pub(super) fn write(&self, new: &NewTree<'_>) -> Result<(), Failure> {
         let Siblings { work, tree } = self.beside;
         let ready = seal::set(self.ops, work)
             .and_then(|()| self.prepare(new))
             .and_then(|()| self.ops.exchange(tree, self.root));
         if let Err(error) = ready {
-            // What cannot be removed now is removed by the next run.
+            // Anything that cannot be removed now is removed by the next run.
             let _ = self.dismantle().and_then(|_| clear(self.ops, work, &[ONCE]));
             return Err(Failure::Before(error));
         }
         self.settle().map_err(Failure::After)
     }
 
-    /// Completes what an earlier run has begun, or removes it. What is told back stands in the way
-    /// and is not ours to remove.
+    /// Completes what an earlier run has started, or removes it. Returns an entry that is in the
+    /// way and not ours to remove.
     pub(super) fn recover(&self) -> io::Result<Option<PathBuf>> {
         let Siblings { work, tree } = self.beside;
         if self.is_switched() {
             self.settle()?;
         } else if fs::symlink_metadata(tree.join(LIST)).is_ok_and(|found| found.is_file()) {
-            // The old tree, with the user's folders, and its successor is gone.
+            // This is the old tree, with the user's folders, and the one that replaced it is gone.
             if is_there(self.root) {
                 return Ok(Some(tree.clone()));
             }
@@ -67,10 +67,10 @@ impl Switch<'_> {
         Ok(None)
     }
 
-    /// Writes the new tree beside the old one, until it is on the disk.
+    /// Writes the new tree beside the old one, and waits until it is on disk.
     fn prepare(&self, new: &NewTree<'_>) -> io::Result<()> {
         let Siblings { work, tree } = self.beside;
-        // A user's file in a folder that is there already can only be made in that folder.
+        // A user's file in an existing folder can only be created in that folder.
         let at_once = |path: &str| {
             not_ours_above(Path::new(path)).is_none_or(|folder| is_there(&self.root.join(folder)))
         };
@@ -97,8 +97,8 @@ impl Switch<'_> {
         sync_above(tree)
     }
 
-    /// Folders of the user's that are not there yet: the links that change places with them later
-    /// are made now, while the disk may still be full.
+    /// Makes the links for user's folders that do not exist yet. The links are exchanged with the
+    /// folders later; they are made now, while the disk may still be full.
     fn stage_links(&self, once: &BTreeSet<String>) -> io::Result<()> {
         let Siblings { work, tree } = self.beside;
         for folder in once.iter().filter_map(|path| not_ours_above(Path::new(path))) {
@@ -111,7 +111,7 @@ impl Switch<'_> {
         Ok(())
     }
 
-    /// Makes the new tree of what is staged and of what stays.
+    /// Builds the new tree from the staged files and from those that stay.
     fn build(&self, new: &NewTree<'_>, at_once: &dyn Fn(&str) -> bool) -> io::Result<()> {
         let Siblings { work, tree } = self.beside;
         self.ops.make_folders(tree)?;
@@ -138,14 +138,15 @@ impl Switch<'_> {
             match from.map(|from| self.ops.link(&from, &to)) {
                 Some(Ok(())) => {}
                 Some(Err(error)) if !ops::is_unsupported(&error) => return Err(error),
-                // Not every file may have a second name.
+                // Some file systems do not allow a second name for a file.
                 Some(Err(_)) | None => self.ops.create(&to, file.bytes, None)?,
             }
         }
         Ok(())
     }
 
-    /// The new tree has the folder's name: the old one becomes the same and takes it back.
+    /// The new tree has the folder's name: changes the old one into the same tree, and gives it its
+    /// name back.
     fn settle(&self) -> io::Result<()> {
         let Siblings { work, tree } = self.beside;
         sync_above(self.root)?;
@@ -160,8 +161,8 @@ impl Switch<'_> {
         clear(self.ops, work, &[ONCE])
     }
 
-    /// What is the user's in the new tree goes to the old one: folders that were not there before,
-    /// and what was made since the names changed places.
+    /// Passes everything in the new tree that is the user's to the old one: folders that were not
+    /// there before, and anything made since the names were exchanged.
     fn hand_over(&self) -> io::Result<()> {
         let Siblings { work, tree } = self.beside;
         let list = listed(&work.join(NEW_LIST))?;
@@ -175,7 +176,7 @@ impl Switch<'_> {
                         self.ops.make_folders(above)?;
                         self.ops.symlink(&self.link_to(&path, &to), &to)?;
                     }
-                    // The folder and the link to it change places, so it is always there.
+                    // The folder and the link to it are exchanged, so it is always there.
                     if fs::symlink_metadata(&to)?.is_symlink() {
                         self.ops.exchange(&from, &to)?;
                     }
@@ -194,13 +195,13 @@ impl Switch<'_> {
         Ok(())
     }
 
-    /// Removes the tree beside, which is the new one, and nothing that is not ours.
+    /// Removes the tree beside the folder, which is the new one, but nothing that is not ours.
     fn dismantle(&self) -> io::Result<Option<PathBuf>> {
         let Siblings { work, tree } = self.beside;
         let list = listed(&work.join(NEW_LIST))?;
         for path in listed(&work.join(ONCE))? {
             let path = Path::new(&path);
-            // Never through a link: behind it is the user's own.
+            // Never through a link: it leads to the user's own folder.
             if not_ours_above(path).is_some_and(|folder| is_folder(&tree.join(folder))) {
                 self.ops.remove_file(&tree.join(path))?;
                 self.remove_empty(path.ancestors().skip(1))?;
@@ -222,7 +223,8 @@ impl Switch<'_> {
         Ok(is_there(tree).then(|| tree.clone()))
     }
 
-    /// Moves what somebody else put into the tree beside to where it was meant to be.
+    /// Moves an entry that somebody else put into the tree beside the folder to the place where it
+    /// was meant to be.
     fn rescue(&self, path: &Path) -> io::Result<()> {
         let to = self.root.join(path);
         if is_there(&to) || link_above(self.root, path).is_some() {
@@ -232,12 +234,12 @@ impl Switch<'_> {
         self.ops.rename(&self.beside.tree.join(path), &to)
     }
 
-    /// Removes those folders of the tree beside that are empty.
+    /// Removes the empty ones of these folders in the tree beside.
     fn remove_empty<'a>(&self, folders: impl IntoIterator<Item = &'a Path>) -> io::Result<()> {
         for folder in folders.into_iter().map(|path| self.beside.tree.join(path)) {
             let removed = if is_folder(&folder) { self.ops.remove_folder(&folder) } else { Ok(()) };
             match removed {
-                // Something else lives there.
+                // Something else is in it.
                 Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => {}
                 done => done?,
             }
@@ -245,13 +247,13 @@ impl Switch<'_> {
         Ok(())
     }
 
-    /// Whether the new tree has the folder's name: its list is a link.
+    /// Whether the new tree has the folder's name: then its list is a link.
     fn is_switched(&self) -> bool {
         let list = self.link_to(Path::new(LIST), &self.beside.work.join(NEW_LIST));
         fs::read_link(self.root.join(LIST)).is_ok_and(|found| found == list)
     }
 
-    /// The link at a path of a tree that leads to something beside it.
+    /// The target of a link at a path of a tree that leads to something beside the tree.
     fn link_to(&self, path: &Path, target: &Path) -> PathBuf {
         let up: PathBuf = path.components().map(|_| "..").collect();
         let parent = self.root.parent().unwrap_or(self.root);
@@ -263,7 +265,7 @@ fn is_folder(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| found.is_dir())
 }
 
-/// Waits until a name is on the disk.
+/// Waits until a name is on disk.
 fn sync_above(path: &Path) -> io::Result<()> {
     path.parent().map_or(Ok(()), |parent| ops::sync(&[parent.to_path_buf()]))
 }

@@ -1,5 +1,6 @@
-//! A run is stopped after each single change, or a single change fails, and so is the run that
-//! puts it right: the folder holds the old tree or the new one, and what is the user's is there.
+//! A run is stopped after each single change, or a single change fails, and so does the run that
+//! repairs it: the folder always holds the old tree or the new one, and the user's files are still
+//! there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,7 +11,7 @@ use super::layout::{LIST, WORK, listed};
 use super::*;
 use crate::files::fault::Fault;
 
-/// A folder of a test's own.
+/// A folder for one test.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -45,7 +46,7 @@ fn take(out: &Path, wait: Duration, waiting: &mut dyn FnMut()) -> Result<Output,
 
 type Tree = BTreeMap<String, String>;
 
-/// All files as whoever goes by their names sees them, but for the work of a run.
+/// All files as they are found by their names, except the work of a run.
 fn seen(root: &Path) -> Tree {
     let mut files = Tree::new();
     let mut folders = vec![root.to_path_buf()];
@@ -65,7 +66,7 @@ fn seen(root: &Path) -> Tree {
     files
 }
 
-/// What a run is to write: generated files, and those that are the user's once they are there.
+/// The files that a run writes: generated ones, and those that are the user's once they are there.
 const OLD: &[(&str, &str)] =
     &[("a", "old a"), ("fw/A/Makefile", "same"), ("fw/A/gen/x.c", "old x"), ("host/old/y", "y")];
 const OLD_ONCE: &str = "fw/A/user/user.c";
@@ -78,7 +79,7 @@ fn list(paths: &BTreeSet<String>) -> String {
     layout::list(&paths.iter().map(|path| (path.clone(), None)).collect())
 }
 
-/// What a list names that is no longer made.
+/// The files that a list names and that are no longer needed.
 fn stale(out: &Path, generated: &BTreeSet<String>) -> Vec<String> {
     listed(&out.join(LIST)).unwrap().difference(generated).cloned().collect()
 }
@@ -112,7 +113,7 @@ fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bo
     (done, output.ops.fault.has_struck())
 }
 
-/// A folder with the old tree and things of the user's.
+/// A folder with the old tree and some files of the user's.
 fn before() -> (Scratch, Tree) {
     let scratch = Scratch::new();
     let out = scratch.out();
@@ -128,7 +129,7 @@ fn before() -> (Scratch, Tree) {
     (scratch, seen)
 }
 
-/// The tree after a run that nothing stops.
+/// The tree after a run that is not stopped.
 fn after(old: &Tree) -> Tree {
     let mut tree = old.clone();
     tree.retain(|name, _| !OLD.iter().any(|(path, _)| name == path));
@@ -139,7 +140,7 @@ fn after(old: &Tree) -> Tree {
     tree
 }
 
-/// What no run may ever touch, by inode where there are such.
+/// The entries that no run may ever touch, by inode if there are inodes.
 #[cfg(unix)]
 fn identity(out: &Path) -> Vec<(u64, i64, u64)> {
     use std::os::unix::fs::MetadataExt as _;
@@ -258,7 +259,7 @@ fn what_the_user_does_between_a_kill_and_the_next_run_is_kept() {
         let out = scratch.out();
         let (_, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
         let switched = out.join("fw/B").exists();
-        // Some editors write in place, others put a new file into the place of the old one.
+        // Some editors write in place, others replace the old file by a new one.
         fs::write(out.join(OLD_ONCE), "edited").unwrap();
         fs::write(out.join("fw/A/user/new.c"), "new").unwrap();
         fs::rename(out.join("fw/A/user/new.c"), out.join("fw/A/user/deep/more.h")).unwrap();
@@ -319,7 +320,7 @@ fn a_journal_is_completed_by_the_next_run() {
         let now = seen(&out);
         between += usize::from(now != old && now != after(&old));
         assert_eq!(done, !struck);
-        // Whoever comes next finds it, whichever way that run takes.
+        // The next run repairs it, in whichever way it works.
         assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false), "{n}");
         assert_eq!(seen(&out), after(&old), "{n}");
         clean(&scratch);
@@ -332,7 +333,7 @@ fn a_journal_is_completed_by_the_next_run() {
 
 #[test]
 fn where_nothing_can_stand_beside_the_folder_there_is_a_journal() {
-    // A name that cannot become longer.
+    // A name that cannot become any longer.
     let scratch = Scratch::new();
     let out = scratch.0.join("x".repeat(250));
     for _ in 0..2 {

@@ -1,4 +1,4 @@
-//! Covers: facilities and their capacities in, how many of which must be open out.
+//! Covers: from facilities and their capacities, the number of them that must be open.
 //!
 //! These are the cover inequalities of capacitated facility location (K. Aardal, Y. Pochet and
 //! L. A. Wolsey, *Capacitated facility location: valid inequalities and facets*, 1995). Without
@@ -11,18 +11,19 @@ use crate::problem::{DeviceId, ResourceId};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Facilities of which so many must be open.
+/// Facilities of which at least `need` must be open.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cover {
     pub(crate) members: Vec<FacilityId>,
     pub(crate) need: usize,
-    /// The others among which the devices choose.
+    /// The other facilities that the devices can choose.
     pub(crate) small: Vec<FacilityId>,
     pub(crate) devices: Vec<DeviceId>,
 }
 
 impl Dualized {
-    /// Finds facilities that the same devices choose from, and how many they need at least.
+    /// Finds facilities that the same devices choose from, and the least number of them that is
+    /// needed.
     pub(super) fn find_covers(&mut self, model: &Model) {
         let limited = self.limited();
         let family = self.families(model, &limited);
@@ -41,7 +42,7 @@ impl Dualized {
         }
     }
 
-    /// Whether a facility has something that each of its users takes for itself.
+    /// For each facility, whether it has something that each of its users takes for itself.
     fn limited(&self) -> IdVec<FacilityId, bool> {
         let mut limited = IdVec::same(false, self.facilities.len());
         for (_, tie) in &self.ties {
@@ -52,8 +53,8 @@ impl Dualized {
         limited
     }
 
-    /// The facility in which an alternative takes a place: its only one, or the first that is limited.
-    /// The others say what it has in common with others of its part.
+    /// The facility in which an alternative takes a place: its only one, or the first that is
+    /// limited. Its other facilities express what it shares with the other connections of its part.
     fn serving(&self, alt: AltId, limited: &IdVec<FacilityId, bool>) -> Option<FacilityId> {
         match &self.alt_facilities[alt] {
             [facility] => Some(*facility),
@@ -61,7 +62,7 @@ impl Dualized {
         }
     }
 
-    /// The first facility of those among which the same devices choose, for each facility.
+    /// For each facility, the first of those that the same devices choose from.
     fn families(
         &self,
         model: &Model,
@@ -81,8 +82,9 @@ impl Dualized {
         family
     }
 
-    /// Where the small facilities have no room for all devices, some of the larger ones must be open.
-    /// Adds a cover for each size at which more of them are needed; each cover contains the last.
+    /// If the small facilities have no room for all devices, some of the larger ones must be open.
+    /// Adds a cover for each size at which more of them are needed; each cover contains the one
+    /// before.
     fn add_covers(&mut self, devices: &[DeviceId], mut room: Vec<(usize, FacilityId)>) {
         room.sort_by_key(|&(room, facility)| (Reverse(room), facility));
         let mut last = 0;
@@ -110,8 +112,8 @@ impl Dualized {
         }
     }
 
-    /// The resources that limit how many a facility can serve: of what each user has for itself there,
-    /// the one that [`Self::capacity`] counts.
+    /// The resources that limit how many devices a facility can serve: of those that each user
+    /// holds alone, the ones that [`Self::capacity`] counts.
     pub(crate) fn slots(&self, model: &Model, number: FacilityId) -> Vec<ResourceId> {
         let facility = &self.facilities[number];
         let tied: BTreeMap<PriceId, ResourceId> = self
@@ -137,8 +139,8 @@ impl Dualized {
         slots.into_iter().collect()
     }
 
-    /// Most devices that a facility can serve: as many as its links, and as many as there are pins
-    /// for the first wire that each of them needs of its own.
+    /// The most devices that a facility can serve: no more than it has links, and no more than
+    /// there are pins for the first unshared wire that each of them needs.
     fn capacity(&self, model: &Model, facility: FacilityId) -> usize {
         let facility = &self.facilities[facility];
         let link = |prices: &[PriceId]| facility.links.iter().find(|l| prices.contains(&l.0));

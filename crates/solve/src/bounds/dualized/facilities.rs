@@ -1,5 +1,5 @@
-//! Facilities: a model in, what is opened once for all who use it out, with the wires and DMA
-//! streams that the opening costs.
+//! Facilities: finds everything in a model that is opened once for all its users, with the wires
+//! and DMA streams that the opening costs.
 
 use super::{Dualized, Link, Request};
 use crate::index::{AltId, FacilityId, IdVec, PriceId, WireId};
@@ -10,18 +10,18 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Something that is opened for all who use it together: a bus, a timer at one frequency.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Facility {
-    /// Price of what it occupies.
+    /// Price of the resource that it occupies.
     pub(crate) resource: Option<PriceId>,
     pub(crate) wires: Vec<WireId>,
     pub(crate) links: Vec<Link>,
     pub(crate) requests: Vec<Request>,
-    /// Whose requests these are.
+    /// The DMA users whose requests these are.
     pub(crate) users: Vec<DmaUserId>,
-    /// Whoever takes one of these uses the facility.
+    /// The alternatives that use the facility.
     pub(crate) alts: Vec<AltId>,
 }
 
-/// What makes a facility.
+/// The origin of a facility.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     /// A resource held by a group.
@@ -31,7 +31,7 @@ enum Key {
 }
 
 impl Dualized {
-    /// Makes the facilities and tells those of each alternative.
+    /// Makes the facilities and returns those of each alternative.
     pub(super) fn find_facilities(
         &mut self,
         model: &Model,
@@ -95,8 +95,9 @@ impl Dualized {
         }
     }
 
-    /// A bus pays for its streams if everybody on it uses them, and nobody else does at the same
-    /// time. That is so if there is nobody else, or if all users claim one resource.
+    /// A bus pays for its streams if every device on it uses them and no other device does so at
+    /// the same time. That is the case if there is no other user, or if all users claim one
+    /// resource.
     fn add_shared_requests(
         &mut self,
         model: &Model,
@@ -125,8 +126,8 @@ impl Dualized {
     }
 }
 
-/// The facility of each shared wire: that of a group which is there whenever the wire is, or one
-/// of its own.
+/// The facility of each shared wire: that of a group that is present whenever the wire is, or one
+/// of the wire's own.
 fn wire_keys(model: &Model) -> IdVec<WireId, Key> {
     let mut common: IdVec<WireId, Option<BTreeSet<Claim>>> = IdVec::same(None, model.wires.len());
     let mut group_size: BTreeMap<Claim, usize> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The nodes of the flow network: demands, gates and pins in, one number for each out.
+//! The nodes of the flow network: numbers for demands, gates and pins.
 
 use crate::index::{DemandId, GateId, Id, NodeId, WireId};
 use crate::problem::PinId;
@@ -6,7 +6,7 @@ use crate::problem::PinId;
 /// How nodes are numbered: demands, then two for each gate, then pins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layout {
-    /// Demands of devices; those of shared wires follow.
+    /// Number of demands of devices; those of shared wires follow.
     pub(super) device_demands: usize,
     pub(super) demands: usize,
     pub(super) gates: usize,

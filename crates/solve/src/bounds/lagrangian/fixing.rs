@@ -8,8 +8,8 @@ use crate::index::SlotId;
 use crate::model::{Holding, Model};
 
 impl Lagrangian {
-    /// Removes what no answer below the limit can use, as last assessed. Returns whether anything
-    /// was removed.
+    /// Removes what no answer below the limit can use according to the last assessment. Returns
+    /// whether anything was removed.
     pub(crate) fn fix(
         &mut self,
         dualized: &Dualized,
@@ -40,7 +40,7 @@ impl Lagrangian {
         option: &Choosable,
         (margin, room): (i64, i64),
     ) -> Result<(), Pruned> {
-        // Where devices spread over the ways, each way stands for itself.
+        // Where devices spread over the ways, each way is judged by itself.
         let spread = group.spread && !option.once;
         let over = if spread {
             option.cost - self.subproblems.cheapest[option.slots.at(0)] - margin
@@ -103,7 +103,8 @@ impl Lagrangian {
         Ok(())
     }
 
-    /// Rules that would cost too much are kept, those that save too much are paid.
+    /// Closes rules that would cost too much to violate, and pays those whose violation saves too
+    /// much.
     fn fix_penalties(
         &self,
         dualized: &Dualized,

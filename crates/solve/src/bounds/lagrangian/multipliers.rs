@@ -1,5 +1,5 @@
-//! What the prices mean: the subproblems as last assessed in, multipliers out from which anybody
-//! can compute the bound device by device.
+//! The meaning of the prices: multipliers from which anyone can recompute the bound as last
+//! assessed, device by device.
 
 use super::Lagrangian;
 use crate::bounds::dualized::{Dualized, Tie};
@@ -59,8 +59,8 @@ impl Lagrangian {
         by
     }
 
-    /// Alike devices cannot all take what is cheapest: what some of them pay for the rest makes the
-    /// cheap ways dearer, until all cost what the last device pays.
+    /// Interchangeable devices cannot all take the cheapest way: a surcharge makes the cheap ways
+    /// dearer until all cost what the last device pays.
     fn rents(
         &self,
         dualized: &Dualized,
@@ -104,9 +104,9 @@ impl Lagrangian {
         }
     }
 
-    /// What an open facility saves for each of its covers: as much as the dearest one that is open
-    /// only because the cover needs it. Covers that contain each other stand in a row, the smallest
-    /// first.
+    /// The amount that an open facility saves for each of its covers: the cost of the dearest one
+    /// that is open only because the cover needs it. Covers that contain each other are adjacent,
+    /// the smallest first.
     fn savings(&self, dualized: &Dualized) -> Vec<(usize, i64)> {
         let openings = &self.subproblems.openings;
         let mut open: IdVec<_, bool> = openings.iter().map(|o| o.forced || o.cost < 0).collect();

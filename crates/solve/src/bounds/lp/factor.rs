@@ -2,14 +2,14 @@
 //!
 //! A left-looking sparse LU decomposition (J. R. Gilbert and T. Peierls, *Sparse partial pivoting
 //! in time proportional to arithmetic operations*, 1988, but without their symbolic step). It takes
-//! slack columns and singletons first, which leaves little to eliminate in these problems. Later exchanges of one variable go
-//! into an eta file (G. B. Dantzig and W. Orchard-Hays, *The product form for the inverse in the
-//! simplex method*, 1954).
+//! slack columns and singletons first, which leaves little to eliminate in these problems. Later
+//! exchanges of one variable go into an eta file (G. B. Dantzig and W. Orchard-Hays, *The product
+//! form for the inverse in the simplex method*, 1954).
 
 use super::matrix::{Matrix, Variable};
 use crate::index::{ColumnId, IdVec, RowId, Rows, StepId, VarId};
 
-/// Smaller pivots count as none.
+/// Smaller pivots are rejected.
 const TINY: f64 = 1e-9;
 
 /// Smaller entries of a factor are dropped.
@@ -18,7 +18,7 @@ const DROPPED: f64 = 1e-13;
 /// A vector with an entry for each row.
 pub(crate) type Dense = IdVec<RowId, f64>;
 
-/// The variable that has its pivot in each row, as far as the elimination has come.
+/// The variable that has its pivot in each row, as far as the elimination has got.
 type Pivots = IdVec<RowId, Option<VarId>>;
 
 /// The factors of one basis.
@@ -27,10 +27,10 @@ pub(crate) struct Factor {
     /// Pivot rows in the order of elimination.
     order: IdVec<StepId, RowId>,
     diagonal: IdVec<RowId, f64>,
-    /// Columns of L beside their pivot row.
+    /// Columns of L without their pivot rows.
     lower: Rows<StepId, (RowId, f64)>,
     lower_row: IdVec<StepId, RowId>,
-    /// Columns of U in the order of elimination, and its rows by row.
+    /// Columns of U in the order of elimination, and the rows of U by row.
     upper: Rows<StepId, (RowId, f64)>,
     upper_rows: Rows<RowId, (RowId, f64)>,
     /// Exchanges: pivot row, pivot, column.
@@ -45,8 +45,8 @@ pub(crate) struct Factor {
 }
 
 impl Factor {
-    /// Decomposes the basis. `basic` holds its variables and comes back ordered by pivot row; what
-    /// is linearly dependent is replaced by slacks.
+    /// Decomposes the basis. `basic` holds its variables and comes back ordered by pivot row;
+    /// linearly dependent variables are replaced by slacks.
     pub(crate) fn decompose(&mut self, matrix: &Matrix, basic: &mut IdVec<RowId, VarId>) {
         self.begin(matrix);
         let mut pivots: Pivots = IdVec::same(None, basic.len());
@@ -103,7 +103,8 @@ impl Factor {
         self.upper.close();
     }
 
-    /// Takes columns with one row left, and rows with one column left, as long as there are any.
+    /// Pivots on columns with one row left, and on rows with one column left, as long as there are
+    /// any.
     fn singletons(&mut self, matrix: &Matrix, columns: &[ColumnId], pivots: &mut Pivots) {
         let single = |f: &Self, c: &ColumnId| f.column_count[*c] == 1;
         let mut ready: Vec<ColumnId> =
@@ -247,7 +248,7 @@ impl Factor {
         self.upper_rows = Rows::collect(rows, &entries);
     }
 
-    /// Exchanges since the decomposition.
+    /// Number of exchanges since the decomposition.
     pub(crate) fn updates(&self) -> usize {
         self.eta_row.len()
     }
@@ -257,7 +258,7 @@ impl Factor {
         self.etas.items().len() > 3 * (self.upper.items().len() + self.lower.items().len()) + 2000
     }
 
-    /// The variable in `row` gives way to one whose column in terms of the basis is `column`.
+    /// Replaces the variable in `row` by one whose column in terms of the basis is `column`.
     pub(crate) fn exchange(&mut self, row: RowId, column: &Dense, nonzeros: &[RowId]) {
         for &r in nonzeros {
             if r != row && column[r].abs() > DROPPED {

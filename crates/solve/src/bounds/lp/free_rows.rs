@@ -1,7 +1,7 @@
 //! The rows of a matrix without the columns that are fixed at zero.
 //!
 //! Deep in a search most columns are fixed, and no step of the simplex method needs them. Each row
-//! keeps the entries of free columns first, so a change of a bound moves as many entries as the
+//! keeps the entries of free columns first, so changing a bound moves only as many entries as the
 //! column has.
 
 use super::matrix::Matrix;
@@ -11,10 +11,10 @@ use crate::index::{Blocks, ColumnId, EntryId, Id, IdVec, Ids, PlaceId, RowId, Ro
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FreeRows {
     entries: IdVec<PlaceId, Entry>,
-    /// Where each row begins, and where its free columns end.
+    /// The start of each row, and the end of its free columns.
     start: IdVec<RowId, PlaceId>,
     end: IdVec<RowId, PlaceId>,
-    /// Where each entry of a column stands.
+    /// The place of each entry of a column.
     place: IdVec<EntryId, PlaceId>,
     of_column: Blocks<ColumnId, EntryId>,
     is_free: IdVec<ColumnId, bool>,
@@ -29,7 +29,7 @@ pub(crate) struct Entry {
 }
 
 impl FreeRows {
-    /// All columns are free at first.
+    /// Starts with all columns free.
     pub(crate) fn new(matrix: &Matrix) -> Self {
         let (mut of_column, mut pairs) = (Blocks::default(), Vec::new());
         for column in matrix.columns() {

@@ -1,4 +1,4 @@
-//! A sparse matrix: columns in one by one, columns and rows out.
+//! A sparse matrix: built column by column, read by column or by row.
 //!
 //! Each row has a slack variable that equals the row. Variables are numbered columns first, then
 //! slacks.
@@ -12,7 +12,7 @@ pub(crate) struct Matrix {
     by_row: Rows<RowId, (ColumnId, f64)>,
 }
 
-/// What a variable is.
+/// The kind of a variable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Variable {
     Column(ColumnId),
@@ -39,7 +39,7 @@ impl Matrix {
         self.by_column.push([])
     }
 
-    /// Makes the rows, of which there are so many.
+    /// Makes the rows; `rows` is their number.
     pub(crate) fn finish(&mut self, rows: usize) {
         let mut entries = Vec::with_capacity(self.by_column.items().len());
         for column in self.columns() {

@@ -1,7 +1,8 @@
 //! Linear programs: a matrix with bounds and costs in, prices of its rows out.
 //!
-//! All of this is in floating point and none of it is believed: prices only say where the exact
-//! bound of [`crate::bounds::lagrangian`] is to look, and values only which branch is tried first.
+//! All of this is in floating point and none of it is trusted: prices only suggest where the exact
+//! bound of [`crate::bounds::lagrangian`] looks, and values only suggest which branch is tried
+//! first.
 
 mod factor;
 mod free_rows;

@@ -1,14 +1,14 @@
-//! The dual simplex method for variables with bounds: a basis that prices in, a better one out.
+//! The dual simplex method for variables with bounds: goes from one basis to a better one.
 //!
 //! Minimises `cost x` where `matrix x` lies within the bounds of the rows and `x` within its own.
-//! Each row has a slack variable that equals the row. The basis outlives changes of bounds, so a
+//! Each row has a slack variable that equals the row. The basis survives changes of bounds, so a
 //! node of a search starts where its parent ended.
 //!
-//! Three things keep the number of steps low: steepest-edge pricing (J. J. Forrest and
-//! D. Goldfarb, *Steepest-edge simplex algorithms for linear programming*, 1992), a ratio test that
-//! flips bounds on its way (I. Maros, *A generalized dual phase-2 simplex algorithm*, 2003), and
-//! slightly perturbed costs (A. Charnes, *Optimality and degeneracy in linear programming*, 1952),
-//! which whoever makes the program sees to.
+//! Three things keep the number of steps low: steepest-edge pricing (J. J. Forrest and D. Goldfarb,
+//! *Steepest-edge simplex algorithms for linear programming*, 1992), a ratio test that flips bounds
+//! on its way (I. Maros, *A generalized dual phase-2 simplex algorithm*, 2003), and slightly
+//! perturbed costs (A. Charnes, *Optimality and degeneracy in linear programming*, 1952), which are
+//! left to whoever makes the program.
 
 mod basis;
 mod kept;
@@ -22,28 +22,28 @@ use crate::index::{ColumnId, IdVec, Ids, RowId, VarId};
 
 /// How far outside its bounds a value may lie.
 const FEASIBLE: f64 = 1e-7;
-/// Smaller entries are no pivots.
+/// Smaller entries are not used as pivots.
 const PIVOT: f64 = 1e-7;
-/// Exchanges before the basis is decomposed anew.
+/// Number of exchanges after which the basis is decomposed again.
 const UPDATES: usize = 60;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Status {
-    /// The prices are the best.
+    /// The prices are optimal.
     Optimal,
     /// The value has reached the cutoff.
     Cutoff,
-    /// No more steps were allowed, the caller gave up, or numbers went astray.
+    /// No more steps were allowed, the caller gave up, or the numbers became unreliable.
     Unfinished,
 }
 
-/// Which variables are basic, and all that is computed from it.
+/// The basic variables, and everything that is computed from them.
 #[derive(Clone, Debug)]
 struct Basis {
-    /// Variable that is basic in a row.
+    /// The variable that is basic in a row.
     basic: IdVec<RowId, VarId>,
-    /// Row in which a variable is basic.
+    /// The row in which a variable is basic.
     place: IdVec<VarId, Option<RowId>>,
     value: IdVec<VarId, f64>,
     /// Reduced costs; those of columns that are fixed at zero are out of date.
@@ -64,7 +64,7 @@ pub(crate) struct Simplex {
     upper: IdVec<VarId, f64>,
     now: Basis,
     kept: Option<Box<Kept>>,
-    /// Rows of all steps since the work was last asked for.
+    /// Rows of all steps since the work was last taken.
     work: u64,
     // Work space.
     rho: Dense,
@@ -130,12 +130,12 @@ impl Simplex {
         self.now.value[Matrix::of_column(column)]
     }
 
-    /// What one more unit of a row's bound would cost (at most 0) or save.
+    /// The price of a row: what one more unit of its bound would cost (at most 0) or save.
     pub(crate) fn price(&self, row: RowId) -> f64 {
         self.now.reduced[self.matrix.slack(row)]
     }
 
-    /// Runs until the prices are the best, the value reaches `cutoff`, so many steps are done or the
+    /// Runs until the prices are optimal, the value reaches `cutoff`, `steps` steps are done or the
     /// caller gives up.
     pub(crate) fn solve(&mut self, cutoff: f64, steps: usize, cancel: Cancel<'_>) -> Status {
         self.find_free();
@@ -175,7 +175,7 @@ impl Simplex {
                         anew = true;
                         continue;
                     }
-                    // The value grows without end along this ray.
+                    // The value grows without bound along this ray.
                     let far = ((cutoff - self.objective()).max(0.0) + 1.0) / slope * 1.01;
                     self.move_prices(row, over, far.min(1e12));
                     self.now.ready = false;
@@ -195,7 +195,7 @@ impl Simplex {
         Status::Unfinished
     }
 
-    /// The work since the last call: steps, times the rows that each goes through.
+    /// The work since the last call: the number of steps times the rows that each goes through.
     pub(crate) fn take_work(&mut self) -> u64 {
         std::mem::take(&mut self.work)
     }
@@ -206,7 +206,8 @@ impl Simplex {
         terms.map(|(d, x)| d * x).sum()
     }
 
-    /// The row whose variable lies farthest outside its bounds, and by how much above.
+    /// The row whose variable lies farthest outside its bounds, and by how much (negative if
+    /// below).
     fn leaving(&self) -> Option<(RowId, f64)> {
         let mut best = (0.0, None);
         for (row, &variable) in self.now.basic.enumerate() {
@@ -226,7 +227,7 @@ impl Simplex {
         best.1
     }
 
-    /// Computes a row of the inverse and of the table.
+    /// Computes a row of the inverse and of the tableau.
     fn price_row(&mut self, row: RowId) {
         for variable in self.touched.drain(..) {
             self.alpha[variable] = 0.0;
@@ -257,7 +258,8 @@ impl Simplex {
         }
     }
 
-    /// The variable that stops the price move, beyond those that only change their bound.
+    /// The variable that stops the prices from moving, after those that only flip to their other
+    /// bound.
     fn entering(&mut self, over: f64) -> Entering {
         let sign = over.signum();
         self.candidates.clear();
@@ -285,7 +287,7 @@ impl Simplex {
             number += 1;
         }
         let Some((flips, first)) = end else { return Entering::None(slope.max(FEASIBLE)) };
-        // Of those that stop it at nearly the same place, the largest pivot.
+        // Of those that stop it at nearly the same point, take the one with the largest pivot.
         let mut best = first;
         while let Some(candidate) = self.nearest(number).filter(|c| c.0 <= first.0 + 1e-9) {
             if candidate.1 > best.1 {
@@ -296,7 +298,8 @@ impl Simplex {
         Entering::Variable(best.2, flips)
     }
 
-    /// The candidate with so many before it. They are sorted some at a time, as most steps need few.
+    /// The candidate with `number` others before it. They are sorted a few at a time, as most steps
+    /// need only a few.
     fn nearest(&mut self, number: usize) -> Option<(f64, f64, VarId)> {
         const SOME: usize = 16;
         if number.is_multiple_of(SOME) {
@@ -352,7 +355,7 @@ impl Simplex {
         self.now.reduced[leaving] = -step;
     }
 
-    /// Exchanges the variable of a row; false when the pivot is not to be trusted.
+    /// Exchanges the variable of a row; false if the pivot cannot be trusted.
     fn exchange(&mut self, row: RowId, entering: VarId) -> bool {
         let leaving = self.now.basic[row];
         self.column.fill(0.0);
@@ -368,7 +371,7 @@ impl Simplex {
         {
             return false;
         }
-        // Flips may have carried the value to its bound: the sign of its price says to which.
+        // Flips may have carried the value to its bound: the sign of its price decides which.
         let value = self.now.value[leaving];
         let above = value > self.upper[leaving];
         let below = value < self.lower[leaving];
@@ -412,9 +415,9 @@ impl Simplex {
 }
 
 enum Entering {
-    /// Nothing stops the move; the value grows by so much for each unit.
+    /// Nothing stops the move; the value grows by this much per unit.
     None(f64),
-    /// The variable, and how many of the candidates before it change their bound.
+    /// The variable, and how many of the candidates before it flip to their other bound.
     Variable(VarId, usize),
 }
 

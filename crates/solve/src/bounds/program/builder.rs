@@ -1,5 +1,4 @@
-//! Makes the linear program column by column: groups of devices, facilities and rules in, the
-//! finished program out.
+//! Builds the linear program column by column from groups of devices, facilities and rules.
 
 use super::{Column, Program};
 use crate::bounds::dualized::{Dualized, Penalty, Request};
@@ -12,12 +11,13 @@ use crate::model::{Holding, Model};
 use crate::problem::DeviceId;
 use std::collections::BTreeMap;
 
-/// Costs are perturbed by at most this part of a unit, so that hardly two columns cost the same.
+/// Costs are perturbed by at most this fraction of a unit, so that hardly any two columns cost the
+/// same.
 const PERTURBATION: f64 = 2e-5;
 
 type Entries = Vec<(RowId, f64)>;
 
-/// One way to fill a role: the candidates that mean it, its cost and entries.
+/// One way to fill a role: its candidates, its cost and its entries.
 struct Way {
     ids: Vec<CandId>,
     cost: u64,
@@ -73,7 +73,7 @@ impl<'a> Builder<'a> {
 
     fn column(&mut self, cost: u64, entries: &[(RowId, f64)]) -> ColumnId {
         let column = self.matrix.add(entries);
-        // A fixed sequence that looks like chance.
+        // A fixed sequence that looks random.
         let chance = (u64::from(column.0) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
         let chance = chance as f64 / (1_u64 << 32) as f64;
         self.ceiling.push(self.ceiling_now);
@@ -82,7 +82,7 @@ impl<'a> Builder<'a> {
         column
     }
 
-    /// Entry in the row of a price, which is made when first needed.
+    /// The entry in the row of a price. The row is made when first needed.
     fn priced(&mut self, price: PriceId, times: f64) -> (RowId, f64) {
         let row = self.price_row[price].unwrap_or_else(|| {
             let most = if self.dualized.is_link(price) { 0.0 } else { 1.0 };
@@ -93,7 +93,7 @@ impl<'a> Builder<'a> {
         (row, times)
     }
 
-    /// The way of one place, which these candidates mean. They differ in the device alone.
+    /// The way that these candidates represent. They differ only in the device.
     fn way(&mut self, ids: Vec<CandId>, prices: &[PriceId]) -> Option<Way> {
         let c = &self.model.cand[*ids.first()?];
         let mut entries = vec![self.priced(Dualized::pin(c.pin), 1.0)];
@@ -144,7 +144,7 @@ impl<'a> Builder<'a> {
         column
     }
 
-    /// Devices that are alike and have the same choices left.
+    /// Adds a group: interchangeable devices that have the same choices left.
     pub(super) fn group(&mut self, devices: &[DeviceId]) {
         let model = self.model;
         let Some(&leader) = devices.first() else { return };
@@ -161,14 +161,14 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The same alternative of devices that are alike; `alt` is that of the first of them.
+    /// Adds the same alternative of interchangeable devices; `alt` is that of the first of them.
     fn alternative(&mut self, alt: AltId, twins: &[AltId], convexity: RowId, lone: bool) {
         let (model, dualized) = (self.model, self.dualized);
         let mut roles = Vec::new();
         for role in model.roles.of(alt) {
             match model.holding[role] {
                 Holding::Own => roles.push(self.ways(twins, role)),
-                // Nobody prices these.
+                // These have no price.
                 Holding::Irregular => {
                     let ways = self.ways(twins, role);
                     ways.into_iter().for_each(|way| self.merge(way.ids));
@@ -196,7 +196,7 @@ impl<'a> Builder<'a> {
         self.counted[alt].push(column);
     }
 
-    /// The ways of a role that some device of those alike has left.
+    /// The ways of a role that at least one of the interchangeable devices has left.
     fn ways(&mut self, twins: &[AltId], role: RoleId) -> Vec<Way> {
         let (model, dualized) = (self.model, self.dualized);
         let mut ways = Vec::new();
@@ -245,7 +245,7 @@ impl<'a> Builder<'a> {
         self.column(self.model.weights.rule, &entries)
     }
 
-    /// So many of some facilities must be open.
+    /// Requires that enough facilities of each cover are open.
     pub(super) fn covers(&mut self) {
         for cover in &self.dualized.covers {
             let row = self.row(cover.need as f64, f64::INFINITY);

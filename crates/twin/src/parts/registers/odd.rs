@@ -1,32 +1,33 @@
-//! What a board does with a part that the part's driver does not say: the transfers in, the first oddity out.
+//! Transfers of a board that a part's driver does not describe. In: the transfers. Out: the first such oddity.
 
 use sensedsl_model::protocol::InitStep;
 
 use super::Registers;
 
 impl Registers {
-    /// What the board has done first that the part's driver does not say; none where there is no such thing.
+    /// The first thing that the board did and the part's driver does not describe, if there is one.
     pub(crate) fn odd(&self) -> Option<&str> {
         self.odd.as_deref()
     }
 
-    /// What is wrong with how long the board waits for it; so many parts share its bus.
+    /// The error if the board waits too long for it, on a bus shared by this many parts.
     pub(crate) fn waits_too_long(&self, parts: u64) -> Option<String> {
         self.waits.too_long(parts)
     }
 
-    /// A pause of its driver that the board has not kept.
+    /// A pause required by its driver that the board has not kept.
     pub(crate) fn not_left_alone(&self) -> Option<String> {
         self.rest.broken()
     }
 
-    /// What sets a part up that was written to, and was never written. A part that is read tells it at once.
+    /// The missing setup write of a part that is only written to. For a part that is read, this is reported at the
+    /// first read.
     pub(crate) fn not_set_up(&self) -> Option<String> {
         let missing = self.init().nth(self.begun).filter(|_| !self.controls.is_empty())?;
         Some(format!("{} is never written, which sets it up", hex(missing)))
     }
 
-    /// A reading begins: it takes the measurement that was there last.
+    /// A read starts: it takes the last measurement.
     pub(super) fn taken(&mut self, now_ns: u64) {
         if let Some(measurement) = &mut self.measurement
             && let Some(wait_ns) = measurement.wait_ns.take()
@@ -35,7 +36,7 @@ impl Registers {
         }
     }
 
-    /// A value is read: what sets the part up must have been written.
+    /// A value is read: the part's setup must have been written.
     pub(super) fn used(&mut self) {
         self.is_used = true;
         let mut writes = self.init();
@@ -46,7 +47,8 @@ impl Registers {
         }
     }
 
-    /// The transfers that set it up. A part that is read while it is written has none that can be told from it.
+    /// The writes that set it up; none for a part that is read while it is written, where they cannot be told apart
+    /// from reads.
     pub(super) fn init(&self) -> impl Iterator<Item = &[u8]> {
         let is_told = self.readings.iter().all(|one| one.exchange.is_empty());
         self.protocol.init.iter().filter(move |_| is_told).filter_map(|step| match step {
@@ -61,9 +63,9 @@ impl Registers {
         }
     }
 
-    /// Behind which byte, from a register on, the driver says nothing; none where nothing is known of the register.
+    /// The number of bytes from a register on that the driver describes; `None` if it does not know the register.
     fn end_of(&self, pointer: Option<u16>) -> Option<u16> {
-        // Calibration is read block by block, whatever lies behind it.
+        // Calibration is read block by block, whatever is after it.
         let block = self.protocol.calibration.iter().find(|(first, _)| Some(*first) == pointer);
         if let Some((_, count)) = block {
             return Some(*count);
@@ -90,7 +92,7 @@ impl Registers {
         values.chain(identity).chain(calibration).max()
     }
 
-    /// Whether the driver says what its identity is, where the part was read and not asked for it.
+    /// For a part that was read without asking for its identity: whether its driver gives one.
     pub(crate) fn is_unasked(&self) -> Option<bool> {
         (self.is_used && !self.is_asked).then_some(self.protocol.identity.is_some())
     }

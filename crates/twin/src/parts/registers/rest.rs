@@ -1,29 +1,31 @@
-//! How long a part is to be left alone while it is set up: its driver's pauses in, the first that was not kept out.
+//! How long a part must be left alone while it is set up. In: its driver's pauses. Out: the first one that was not
+//! kept.
 
 use sensedsl_model::protocol::InitStep;
 
 const MS_NS: u64 = 1_000_000;
-/// What a pause may be short of, in per cent: a driver names the longest time.
+/// By how much a pause may be too short, in per cent: a driver gives the longest time.
 const PERCENT: u64 = 2;
-/// And in time: firmware counts from when it hands over the last byte, which is then on the bus for 90 us at 100 kHz.
+/// The further time by which a pause may be too short: firmware counts from the moment it hands over the last byte,
+/// which then takes 90 us on the bus at 100 kHz.
 const BYTE_NS: u64 = 100_000;
 
 /// The pause that a part is in.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rest {
-    /// Since when, how long in milliseconds, and after which bytes.
+    /// The start, the length in milliseconds, and the bytes written before it.
     now: Option<(u64, u64, Vec<u8>)>,
     /// The first pause that was not kept, in words.
     broken: Option<String>,
 }
 
 impl Rest {
-    /// So many of the writes that set the part up are done: the driver may want a pause after the last one.
+    /// That many setup writes are done: the driver may require a pause after the last one.
     pub(super) fn begin(&mut self, init: &[InitStep], writes: usize, now_ns: u64) {
         self.now = pause(init, writes).map(|(ms, bytes)| (now_ns, ms, bytes.to_vec()));
     }
 
-    /// The board speaks to the part.
+    /// The board addresses the part.
     pub(super) fn touch(&mut self, now_ns: u64) {
         let Some((since_ns, ms, bytes)) = self.now.take() else { return };
         let waited_ns = now_ns.saturating_sub(since_ns);
@@ -37,7 +39,7 @@ impl Rest {
         }
     }
 
-    /// The supply was gone: the part is no longer in a pause.
+    /// The supply was lost: the part is no longer in a pause.
     pub(super) fn again(&self) -> Self {
         Self { now: None, broken: self.broken.clone() }
     }
@@ -48,7 +50,7 @@ impl Rest {
     }
 }
 
-/// How long the driver waits after so many writes, in milliseconds, and the bytes of the last one.
+/// The pause that the driver requires after that many writes, in milliseconds, and the bytes of the last one.
 fn pause(init: &[InitStep], writes: usize) -> Option<(u64, &[u8])> {
     let is_write = |step: &InitStep| matches!(step, InitStep::Write(_));
     let places = init.iter().enumerate().filter(|(_, step)| is_write(step));

@@ -1,4 +1,4 @@
-//! A basis made anew: which variables are in it in, their values and all reduced costs out.
+//! Rebuilds a basis: computes the values and all reduced costs from the choice of basic variables.
 
 use super::{Matrix, Simplex, Variable};
 
@@ -79,7 +79,8 @@ impl Simplex {
         for (slack, &price) in self.matrix.slacks().iter().zip(&y) {
             self.now.reduced[slack] = if self.now.place[slack].is_none() { price } else { 0.0 };
         }
-        // A slack with one bound cannot follow a wrong sign.
+        // A slack with only one bound cannot move to the other when its reduced cost has the wrong
+        // sign.
         for slack in self.matrix.slacks() {
             let wrong = (self.lower[slack] == f64::NEG_INFINITY && self.now.reduced[slack] > 0.0)
                 || (self.upper[slack] == f64::INFINITY && self.now.reduced[slack] < 0.0);

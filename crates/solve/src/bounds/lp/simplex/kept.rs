@@ -1,4 +1,4 @@
-//! A basis that is kept: where several short runs start, each from the same place.
+//! A saved basis, from which several short runs start.
 
 use super::{Basis, Simplex};
 use crate::bounds::lp::matrix::Matrix;
@@ -13,7 +13,7 @@ pub(super) struct Kept {
 }
 
 impl Basis {
-    /// Becomes the other one, in the memory that it has.
+    /// Copies the other basis and reuses the memory.
     fn copy_from(&mut self, other: &Self) {
         self.basic.copy_from(&other.basic);
         self.place.copy_from(&other.place);
@@ -32,7 +32,7 @@ impl Simplex {
         self.kept = Some(Box::new(Kept { basis: self.now.clone(), is_free }));
     }
 
-    /// Takes the basis that was kept, if there is one.
+    /// Restores the basis that was kept, if there is one.
     pub(crate) fn go_back(&mut self) {
         let Some(kept) = self.kept.take() else { return };
         self.now.copy_from(&kept.basis);

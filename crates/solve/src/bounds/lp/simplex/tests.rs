@@ -3,14 +3,14 @@
 use super::*;
 use crate::index::Id;
 
-/// A small generator of its own (splitmix64), for numbers below `limit`.
+/// A small pseudo-random generator (splitmix64) for numbers below `limit`.
 fn below(state: &mut u64, limit: u64) -> u64 {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let z = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     ((z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB) >> 20) % limit
 }
 
-/// Choices that share things which are there once: the shape of the programs to come.
+/// Choices that share things that exist only once: the shape of the solver's programs.
 fn program(seed: u64) -> Simplex {
     let mut state = seed;
     let (groups, things) = (2 + below(&mut state, 8) as usize, 3 + below(&mut state, 9) as usize);
@@ -35,7 +35,8 @@ fn program(seed: u64) -> Simplex {
     Simplex::new(matrix, cost.into(), lower.into(), upper.into())
 }
 
-/// Values within bounds whose cost is what the prices prove: neither can be improved.
+/// Asserts that the values are within bounds and cost what the prices prove: neither can be
+/// improved.
 fn assert_optimal(simplex: &Simplex) {
     for (variable, &value) in simplex.now.value.enumerate() {
         assert!(value > simplex.lower[variable] - 1e-5, "{value}");
