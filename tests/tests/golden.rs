@@ -11,7 +11,7 @@ use sensedsl_tests::{Scratch, root, sensedsl, tree};
 
 /// What is the same whatever the design.
 fn is_runtime(path: &str) -> bool {
-    let folders = ["/uproxy/", "/include/sensedsl/", "/sense-rt/src/", "/src/rt/"];
+    let folders = ["/uproxy/", "/include/sensedsl/", "/sense-embassy/src/", "/sense-rt/src/"];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }
 

@@ -111,7 +111,6 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()>
     section.starts.push(Start::Make(format!(
         "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
     )));
-    section.runtime.insert("analog.rs");
     Ok(())
 }
 
@@ -184,7 +183,7 @@ fn rows(
     let mut text = format!("        for [{}] in samples.as_chunks_mut().0 {{\n", names.join(", "));
     for (name, wire) in names.iter().zip(&wired.wires) {
         text.push_str(&format!(
-            "            *{name} = {}.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            "            *{name} = {}.{call}(&mut {}, hal::adc::SampleTime::{time}){wait};\n",
             converters.own(lack::unit(wire)?),
             wire.ident
         ));
@@ -200,14 +199,14 @@ fn columns(
     time: &str,
     section: &mut Section,
 ) -> Printed<String> {
-    section.runtime.insert("again.rs");
+    section.features.insert("adc-repeat");
     let count = wired.wires.len();
     let columns = wired.wires.iter().enumerate().map(|(at, wire)| {
         let unit = lack::unit(wire)?;
         let hal = context.peripheral(unit);
         Ok(format!(
-            "        let first = {}.blocking_read(&mut {}, SampleTime::{time});\n        \
-             rt::again::fill(hal::pac::{hal}, first, samples.iter_mut().skip({at}).step_by({count}));\n",
+            "        let first = {}.blocking_read(&mut {}, hal::adc::SampleTime::{time});\n        \
+             rt::repeat::fill(hal::pac::{hal}, first, samples.iter_mut().skip({at}).step_by({count}));\n",
             converters.own(unit),
             wire.ident
         ))
@@ -234,7 +233,7 @@ fn read(
         AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
         AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
         AdcRead::Again => columns(context, converters, wired, &time, section)?,
-        AdcRead::Checked => rp::analog::rows(wired, section),
+        AdcRead::Checked => rp::analog::rows(wired),
     });
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
@@ -253,7 +252,7 @@ fn read(
         None => "rt::analog::Value::Mean".to_owned(),
     };
     let tell = format!(
-        "rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);",
+        "rt::analog::report(&BOARD, {filter}, tables::{upper}, {}, &{how}, &samples, {count}, &mut [0; {}]);",
         scalar(value.scalar),
         value.size_bytes(),
     );

@@ -42,7 +42,7 @@ fn identifier((identifier, is_extended): Identifier) -> String {
 fn keep(parameter: &str, name: &str) -> Keep {
     Keep {
         name: parameter.to_owned(),
-        type_: "rt::controller::Talk".to_owned(),
+        type_: "rt::can::Sender".to_owned(),
         from: format!("{name}_tx"),
     }
 }
@@ -71,7 +71,7 @@ fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Prin
         type_: format!("hal::can::{maker}<'static>"),
         make: format!("hal::can::{maker}::new{moved}(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
     });
-    section.runtime.extend(["can.rs", if has_banks { "can_banks.rs" } else { "can_fd.rs" }]);
+    section.features.insert(if has_banks { "can-banks" } else { "can-fd" });
     start(context, bus, &name, section)?;
     tables(bus, section);
     listen(context, bus, &name, section);
@@ -82,9 +82,7 @@ fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Prin
 /// What turns the bus on, and parts it into its halves.
 fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Printed<()> {
     let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
-    section
-        .items
-        .push(format!("static {upper}_KEPT: rt::controller::Kept = rt::controller::Kept::new();"));
+    section.items.push(format!("static {upper}_KEPT: rt::can::Memory = rt::can::Memory::new();"));
     let (banks, wanted) = if context.names.has_can_banks() {
         (banks(context, bus, section)?, bus.wanted())
     } else {
@@ -93,7 +91,7 @@ fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section
     // Where the identifiers are too many for the hardware it lets all through, and the task looks.
     let wanted: Vec<String> = wanted.unwrap_or_default().into_iter().map(identifier).collect();
     section.starts.push(Start::Make(format!(
-        "let ({name}_tx, {name}_rx) = rt::controller::start(\n        wiring.{name},\n        hal::pac::{hal},\n        \
+        "let ({name}_tx, {name}_rx) = rt::can::start(\n        wiring.{name},\n        hal::pac::{hal},\n        \
          {banks}&{upper}_KEPT,\n        {},\n        &[{}],\n    );",
         bit(context, bus)?,
         wanted.join(", ")
@@ -104,9 +102,7 @@ fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section
 /// Where the filters of a controller are: the second of two has those of the first, whose clock they need.
 fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<String> {
     let own = |first: &str, number: usize| {
-        format!(
-            "rt::controller::Banks {{ registers: hal::pac::{first}, first: {number} }},\n        "
-        )
+        format!("&rt::can::Banks {{ registers: hal::pac::{first}, first: {number} }},\n        ")
     };
     if bus.unit != SECOND {
         return Ok(own(&context.peripheral(bus.unit), 0));
@@ -130,7 +126,7 @@ fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Printed<String> {
     let bit = dividers.and_then(|dividers| can_bit(dividers, hz, bus.bitrate_hz));
     let bit = bit.ok_or_else(|| Missing::name(format!("dividers of {}", bus.unit)))?;
     Ok(format!(
-        "rt::can::Bit {{ divider: {}, before: {}, behind: {}, jump: {} }}",
+        "rt::can::Bit {{ divider: {}, before: {}, after: {}, jump: {} }}",
         bit.divider,
         bit.before,
         bit.behind,
@@ -178,13 +174,13 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
     let sent = bus.frames.iter().flat_map(|frame| &frame.values).filter(|one| !one.is_quiet);
     let sent: Vec<usize> = sent.map(|one| one.index).collect();
     section.items.push(format!(
-        "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::controller::Come) {{\n\
-         {filters}    let mut bus = rt::can::Bus {{\n        come,\n        schema: &SCHEMA,\n        \
+        "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::can::Receiver) {{\n\
+         {filters}    let mut bus = rt::can::Bus {{\n        receiver: come,\n        schema: &SCHEMA,\n        \
          values: tables::{upper}_VALUES,\n        sent: &{sent:?},\n        \
-         told_ms: &mut [None; tables::{upper}_VALUES.len()],\n        value: &mut [0; SCHEMA.value_bytes_max()],\n    }};\n    \
+         reported_ms: &mut [None; tables::{upper}_VALUES.len()],\n        value: &mut [0; SCHEMA.value_bytes_max()],\n    }};\n    \
          loop {{\n        let until = Instant::now() + Duration::from_millis({});\n        \
-         bus.hear(until, &mut |index: usize, outcome, value: &mut [u8]| \
-         BOARD.tell({pass}, index, outcome, value)).await;\n        \
+         bus.receive(until, &mut |index: usize, outcome, value: &mut [u8]| \
+         BOARD.report({pass}, index, outcome, value)).await;\n        \
          WATCH.beat(tables::{constant}, now_ms());\n    }}\n}}",
         bus.unit, bus.cycle.delay_ms
     ));
@@ -237,7 +233,7 @@ fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
         }
     }
     if bus.frames.iter().any(|frame| frame.resend_ms > 0) {
-        section.hushes.push(format!("rt::can::hush(&{upper}_FRAMES);"));
+        section.hushes.push(format!("rt::can::stop_repeats(&{upper}_FRAMES);"));
     }
     section.keeps.push(keep(&format!("mut {name}_tx"), name));
     section.polls.push(format!("rt::can::send(&mut {name}_tx, &{upper}_FRAMES);"));

@@ -64,38 +64,84 @@ fn timers(chip: &Chip) -> Option<&'static str> {
     }
 }
 
-/// How the manifest goes on behind the package.
-const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
+/// The features of `sense-embassy` that say which versions of the units an MCU has.
+const VERSIONS: [&str; 9] = [
+    "adc-repeat",
+    "can-banks",
+    "can-fd",
+    "gpio-v2",
+    "i2c-v1",
+    "i2c-v2",
+    "otg",
+    "usart-v1",
+    "usart-v3",
+];
 
-/// The manifest of a firmware.
-pub(super) fn manifest(context: &Context<'_>) -> String {
-    let hal = match context.names.hal {
-        Hal::Stm32 => {
-            let banks = if context.chip.banks { "\"dual-bank\", " } else { "" };
-            let timer =
-                context.timer.iter().map(|one| format!("\"time-driver-{}\", ", one.to_lowercase()));
-            let split = split(context.job).into_iter().map(|one| format!("\"{one}\", "));
-            format!(
-                "embassy-stm32 = {{ version = \"=0.6.0\", features = [\"{}\", {banks}{}\"exti\", \"memory-x\", \
-                 \"unstable-pac\"] }}",
-                context.chip.feature,
-                split.chain(timer).collect::<String>(),
-            )
+/// The manifests of a firmware and of the two crates in it.
+pub(super) struct Manifests {
+    pub(super) board: String,
+    /// The HAL, as its crate is called behind `embassy-`.
+    pub(super) hal: &'static str,
+    pub(super) hal_version: &'static str,
+    /// Features that the firmware needs of the HAL.
+    pub(super) hal_features: String,
+    /// Features that `sense-embassy` needs of the HAL.
+    pub(super) own_hal_features: String,
+    /// Features that the firmware needs of `sense-embassy`, and all that there are.
+    pub(super) features: String,
+    pub(super) all_features: Vec<&'static str>,
+    /// Features that the firmware needs of `sense-rt`, and all that there are.
+    pub(super) uses: String,
+    pub(super) all_uses: Vec<&'static str>,
+}
+
+impl Manifests {
+    /// `versions`: the features of `sense-embassy` that the units in use ask for.
+    pub(super) fn new(context: &Context<'_>, versions: &BTreeSet<&'static str>) -> Self {
+        let chip = context.chip.feature.clone();
+        let (hal, hal_version, hal_features) = match context.names.hal {
+            Hal::Stm32 => ("stm32", "0.6.0", stm32_features(context)),
+            Hal::Rp => {
+                ("rp", "0.10.0", vec![chip, "time-driver".to_owned(), "unstable-pac".to_owned()])
+            }
+        };
+        let own: &[&str] = match context.names.hal {
+            Hal::Stm32 => &["exti", "unstable-pac"],
+            Hal::Rp => &["unstable-pac"],
+        };
+        let features = ["runtime", hal].into_iter().chain(versions.iter().copied());
+        let used = features_of_values(context.job).filter(|(_, is_used)| *is_used);
+        Self {
+            board: context.job.board.name.value.clone(),
+            hal,
+            hal_version,
+            hal_features: quoted(hal_features.iter().map(String::as_str)),
+            own_hal_features: quoted(own.iter().copied()),
+            features: quoted(features),
+            all_features: ["rp", "stm32"].into_iter().chain(VERSIONS).collect(),
+            uses: quoted(used.map(|(name, _)| name)),
+            all_uses: features_of_values(context.job).map(|(name, _)| name).collect(),
         }
-        Hal::Rp => format!(
-            "embassy-rp = {{ version = \"=0.10.0\", features = [\"{}\", \"time-driver\", \"unstable-pac\"] }}",
-            context.chip.feature
-        ),
-    };
-    let more = match context.names.hal {
-        Hal::Stm32 => "embedded-can = \"=0.4.1\"\n",
-        Hal::Rp => "fixed = \"=1.31.0\"\n",
-    };
-    MANIFEST
-        .replace("{board}", &context.job.board.name.value)
-        .replace("{hal}", &hal)
-        .replace("{more}", more)
-        .replace("{uses}", &used(context).join(", "))
+    }
+}
+
+/// A list of TOML without its brackets: `"one", "two"`.
+fn quoted<'a>(all: impl Iterator<Item = &'a str>) -> String {
+    let quoted: Vec<String> = all.map(|one| format!("\"{one}\"")).collect();
+    quoted.join(", ")
+}
+
+/// What a firmware needs of `embassy-stm32`.
+fn stm32_features(context: &Context<'_>) -> Vec<String> {
+    let banks = context.chip.banks.then(|| "dual-bank".to_owned());
+    let timer = context.timer.iter().map(|one| format!("time-driver-{}", one.to_lowercase()));
+    let always = ["exti", "memory-x", "unstable-pac"].map(str::to_owned);
+    std::iter::once(context.chip.feature.clone())
+        .chain(banks)
+        .chain(split(context.job))
+        .chain(timer)
+        .chain(always)
+        .collect()
 }
 
 /// The features that part pins whose analog side is a pin of its own, `PA1_C`, from their digital sides.
@@ -105,26 +151,9 @@ fn split(job: &BoardJob<'_>) -> BTreeSet<String> {
     pins.map(|pin| format!("split-{}", pin.to_lowercase())).collect()
 }
 
-/// The features of the runtime, and whether the board needs them.
-fn features(job: &BoardJob<'_>) -> impl Iterator<Item = (&'static str, bool)> {
+/// The features of `sense-rt`, and whether the board's values need them.
+fn features_of_values(job: &BoardJob<'_>) -> impl Iterator<Item = (&'static str, bool)> {
     std::iter::once(("actuators", job.has_actuators())).chain(uses(job))
-}
-
-/// What the values need of the runtime.
-fn used(context: &Context<'_>) -> Vec<String> {
-    let used = features(context.job).filter(|(_, is_used)| *is_used);
-    used.map(|(name, _)| format!("\"{name}\"")).collect()
-}
-
-/// The manifest of the runtime in a project.
-pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
-    let mut text = "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\
-                    license = \"MIT OR Apache-2.0\"\npublish = false\n\n[features]\n"
-        .to_owned();
-    for (name, _) in features(context.job) {
-        text.push_str(&format!("{name} = []\n"));
-    }
-    text
 }
 
 /// The lock file of a firmware.

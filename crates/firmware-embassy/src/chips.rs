@@ -134,7 +134,7 @@ fn task(
     text.push_str(&filters);
     text.push_str(&format!(
         "    let timeout = Duration::from_millis({});\n    loop {{\n        let mut idle_ms = {};\n        \
-         let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell({pass}, index, outcome, value);\n",
+         let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report({pass}, index, outcome, value);\n",
         TIMEOUT_BASE_MS + bits_ms,
         cycle.delay_ms
     ));
@@ -150,7 +150,6 @@ fn task(
     section.starts.push(Start::Task(cycle.prio, call));
     let device = served.first().map_or(0, |one| context.id_of(one.wire));
     section.watched.push(Watched::new(constant, cycle, device));
-    section.runtime.insert("bus.rs");
     Ok(())
 }
 

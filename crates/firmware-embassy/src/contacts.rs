@@ -31,7 +31,6 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         if own.edge.is_some() {
             poll(context, &wired, own, &mut section);
         }
-        section.runtime.insert("contact.rs");
     }
     for (interrupt, statics) in lines {
         handler(&interrupt, &statics, &mut section);
@@ -86,12 +85,12 @@ fn input(
     } else {
         let make = format!("Input::new(p.{}, {})", context.pin(&pad.pin.name), pull(own));
         section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
-        ("rt::contact::Looked", "Input<'static>".to_owned(), make)
+        ("rt::edges::SampledInput", "Input<'static>".to_owned(), make)
     };
     section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     section.items.push(format!(
         "/// {}.\nstatic {kept}: {kind} =\n    \
-         rt::contact::Kept::new(sense_rt::ContactConfig {{ lasting: {}, edge: sense_rt::Edge::{edge} }});",
+         rt::contact::Watched::new(sense_rt::ContactConfig {{ lasting: {}, edge: sense_rt::Edge::{edge} }});",
         wire.place(),
         own.debounce_us
     ));
@@ -115,10 +114,9 @@ fn awaited(
     let line = format!("EXTI{line}");
     let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
     section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
-    section.runtime.insert("exti.rs");
     lines.entry(interrupt).or_default().push(kept);
     Ok((
-        "rt::exti::Awaited",
+        "rt::edges::InterruptInput",
         "hal::exti::ExtiInput<'static, hal::mode::Blocking>".to_owned(),
         format!(
             "hal::exti::ExtiInput::new_blocking(p.{pin}, p.{line}, {}, hal::exti::TriggerEdge::{trigger})",
@@ -150,7 +148,7 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, own: &Digital, section: &mut S
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let size = value.scalar.size_bytes();
     section.states.push(format!(
-        "let mut {ident}_told = [rt::contact::Told::NEW; {}];\nlet mut {ident}_repeat = Repeat::NEW;",
+        "let mut {ident}_told = [rt::contact::Reported::NEW; {}];\nlet mut {ident}_repeat = Repeat::NEW;",
         wired.wires.len()
     ));
     let takes = wired.wires.iter().enumerate().map(|(at, wire)| {
@@ -165,7 +163,7 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, own: &Digital, section: &mut S
     section.polls.push(format!(
         "let (mut value, mut is_news) = ([0; {}], false);\n{}\
          if {ident}_repeat.is_due(is_news, {}, now_ms()) {{\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+         BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
         value.size_bytes(),
         takes.collect::<String>(),
         wired.device.cycle.delay_ms,

@@ -41,14 +41,6 @@ impl Hal {
         }
     }
 
-    /// What starts the board anew.
-    pub(super) const fn restart(self) -> &'static str {
-        match self {
-            Self::Stm32 => "cortex_m::peripheral::SCB::sys_reset()",
-            Self::Rp => "rt::watchdog::restart()",
-        }
-    }
-
     /// What writes a program to a board without a debug probe, where its boot loader takes one over USB.
     pub(super) const fn loader(self) -> Option<&'static str> {
         match self {

@@ -8,14 +8,14 @@ use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
 use super::hal::Hal;
 use super::lack::{self, Printed};
+use super::rp;
 use super::section::{Field, Section};
-use super::{rp, stm32};
 use sensedsl_job::snake;
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let type_ = |unit: &UnitName| match context.names.hal {
-        Hal::Stm32 => "I2cBus".to_owned(),
+        Hal::Stm32 => "rt::i2c::I2cBus".to_owned(),
         Hal::Rp => rp::buses::i2c_type(unit),
     };
     for one in chips::buses(context, KindName::I2c, type_, diagnostics) {
@@ -47,7 +47,6 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<(
         Hal::Rp => rp::buses::i2c(context, bus, hz(context, bus), section)?,
     };
     bus.share(field, section);
-    section.runtime.insert("i2c.rs");
     chips::tasks(
         context,
         bus,
@@ -68,15 +67,16 @@ fn unit(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<
         let interrupt = context.interrupt(unit, signal)?;
         section.bind(interrupt, format!("hal::i2c::{handler}<{hal}>"));
     }
-    let reset = if context.names.has_old_buses() { "reset_old.rs" } else { "reset_new.rs" };
-    section.runtime.insert(reset);
-    section.helpers.insert(stm32::bus(context.names.has_pulls()));
+    section.features.insert(if context.names.has_old_buses() { "i2c-v1" } else { "i2c-v2" });
+    if context.names.has_pulls() {
+        section.features.insert("gpio-v2");
+    }
     Ok(Field {
         name: snake(unit),
         comment: format!("{unit} at {} and {}: {}", scl.pin.name, sda.pin.name, bus.titles()),
         type_: "hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>".to_owned(),
         make: format!(
-            "hal::i2c::I2c::new{}(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, bus({}))",
+            "hal::i2c::I2c::new{}(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, crate::rt::i2c::config({}))",
             context.generics(unit, &["_"; 3]),
             scl.pin.name,
             sda.pin.name,

@@ -47,7 +47,6 @@ fn captured(
         Some(train) => poll_train(context, wired, train, section),
         None => poll(context, wired, icu, section),
     }
-    section.runtime.extend(["capture.rs", "timer.rs"]);
     Ok(())
 }
 
@@ -106,7 +105,7 @@ fn input(
     let (static_, runs) = match train {
         Some(plan) => (
             format!(
-                "static {upper}_SEEN: rt::capture::SeenTrain = rt::capture::no_train();\n\
+                "static {upper}_SEEN: rt::capture::SharedTrain = rt::capture::new_train();\n\
                  const {upper}_TRAIN: sense_rt::TrainConfig =\n    \
                  sense_rt::TrainConfig {{ tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
                 plan.tick_hz, plan.gap_ticks, plan.min_ticks
@@ -116,7 +115,9 @@ fn input(
             ),
         ),
         None => (
-            format!("static {upper}_SEEN: Seen = rt::capture::nothing();"),
+            format!(
+                "static {upper}_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();"
+            ),
             run(icu, channel, &upper),
         ),
     };
@@ -190,7 +191,7 @@ pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section:
         section.polls.push(format!(
             "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\n{config}\nlet mut value = [0; {bytes}];\n\
              if {ident}.read(&config, &seen, false, now_ms(), {scalar}, &mut value) {{\n    \
-             BOARD.tell({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}"
+             BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}"
         ));
         return;
     }
@@ -211,7 +212,7 @@ pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section:
     section.states.push(format!("let mut {ident}_latest = [0; {bytes}];"));
     section.polls.push(format!(
         "{config}\n{}if {ident}_elements.are_due({count}, {is_complete}) {{\n    let mut value = {ident}_latest;\n    \
-         BOARD.tell({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}",
+         BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}",
         reads.collect::<String>()
     ));
 }
@@ -223,7 +224,7 @@ fn poll_train(context: &Context<'_>, wired: &Wired<'_>, plan: &TrainPlan, sectio
     section.polls.push(format!(
         "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\nlet mut value = [0; {}];\n\
          let outcome = seen.read(&{seen}_TRAIN, &mut {}_trains, &SCHEMA.items[{}], &mut value);\n\
-         BOARD.tell({filter}, tables::{}, outcome, &mut value);",
+         BOARD.report({filter}, tables::{}, outcome, &mut value);",
         wired.device.device.value.value.size_bytes(),
         plan.ident,
         wired.index,

@@ -72,7 +72,7 @@ fn digital(
         looks.push_str(&format!(
             "        let mut value = [0; {}];\n        for (at, level) in [{}].into_iter().enumerate() {{\n            \
              {}.store_at(u64::from(level), &mut value, at);\n        }}\n        \
-             BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n",
+             BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n",
             value.size_bytes(),
             levels.join(", "),
             scalar(value.scalar),
@@ -125,7 +125,7 @@ pub(super) fn poll_counts(
          if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
          for (at, count) in counts.into_iter().enumerate() {{\n        \
          store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+         BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
         steps.collect::<String>(),
         value.size_bytes(),
         scalar(value.scalar),

@@ -32,7 +32,6 @@ mod plan;
 mod pulse;
 mod render;
 mod rp;
-mod runtime;
 mod section;
 mod serial;
 mod spi;

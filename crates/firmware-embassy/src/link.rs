@@ -8,8 +8,8 @@ use sensedsl_model::kind::Role;
 
 use super::context::Context;
 use super::hal::Hal;
-use super::section::{Field, Keep, Section, Start};
-use super::{rp, stm32};
+use super::rp;
+use super::section::{Field, Keep, LinkPlan, Section, Start};
 use sensedsl_job::{BoardJob, Pad};
 
 /// The USB device of a board, whatever its system.
@@ -57,10 +57,10 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
         name: "link".to_owned(),
         comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
         type_: format!("crate::{type_}"),
-        make: format!("crate::rt::link_uart::Port::new({make}, crate::SAID)"),
+        make: format!("crate::rt::link_uart::Port::new({make}, crate::TX_BYTES)"),
     });
+    section.link = LinkPlan::Uart;
     section.keeps.push(Keep { name: "mut link".to_owned(), type_, from: "wiring.link".to_owned() });
-    section.runtime.insert("link_uart.rs");
     Some(())
 }
 
@@ -73,12 +73,12 @@ fn port(
     section: &mut Section,
 ) -> (String, String, String) {
     let hal = context.peripheral(unit);
-    section.helpers.extend([stm32::BAUD.to_owned(), stm32::PORT.to_owned()]);
+    section.features.extend(context.names.port_feature());
     (
         format!("hal::usart::BufferedInterruptHandler<{hal}>"),
         "hal::usart::BufferedUart<'static>".to_owned(),
         format!(
-            "port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, said, heard, Irqs, baud({})))",
+            "crate::rt::usart::port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, tx, rx, Irqs, crate::rt::usart::link({})))",
             context.generics(unit, &["_"]),
             rx.pin.name,
             tx.pin.name,
@@ -106,16 +106,16 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
         comment: format!("the link at {dm} (D-) and {dp} (D+)"),
         type_: format!("hal::usb::Driver<'static, {hal}>"),
         make: if is_otg {
-            format!("hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))")
+            format!("hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, rx, crate::rt::usb::config({vbus}))")
         } else {
             format!("hal::usb::Driver::new(p.{hal}, Irqs, p.{dp}, p.{dm})")
         },
     });
     usb_task(context, &format!("hal::usb::Driver<'static, {hal}>"), section);
     if is_otg {
-        section.helpers.insert(stm32::USB.to_owned());
+        section.features.insert("otg");
+        section.link = LinkPlan::Otg;
     }
-    section.is_otg = is_otg;
     Some(())
 }
 
@@ -126,8 +126,8 @@ pub(super) fn usb_task(context: &Context<'_>, driver: &str, section: &mut Sectio
         "/// The link's device.\n#[embassy_executor::task]\nasync fn link(device: {driver}) {{\n    \
          rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
     ));
+    section.link = LinkPlan::Usb;
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
-    section.runtime.extend(["link.rs", "link_usb.rs"]);
 }
 
 /// What a port must hold of what the host sends: twice what comes between two looks of the reporter.

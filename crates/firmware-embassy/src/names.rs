@@ -265,6 +265,12 @@ impl Names {
         matches!(self.usart.as_str(), "v1" | "v2")
     }
 
+    /// The feature of `sense-embassy` for the version of the serial ports; none where a HAL has one version.
+    pub(super) fn port_feature(&self) -> Option<&'static str> {
+        let version = if self.has_old_ports() { "usart-v1" } else { "usart-v3" };
+        (self.hal == Hal::Stm32).then_some(version)
+    }
+
     /// Whether the units for I²C lose their settings when they are to forget what they were doing.
     pub(super) fn has_old_buses(&self) -> bool {
         self.i2c == "v1"

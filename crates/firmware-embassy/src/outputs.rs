@@ -194,7 +194,6 @@ fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mu
             sets.push(release);
         }
     }
-    section.runtime.insert("pwm.rs");
 }
 
 /// The pin of a channel's complement. The HAL has it in a driver that turns each channel on with its complement, which
@@ -263,7 +262,7 @@ impl Pulse {
         let times = format!("[{min_us}, {max_us}, {period_us}]");
         match self.hal {
             Hal::Stm32 => format!(
-                "set_width(&mut outputs.{name}.ch{slot}(), {times}, {level}); {}",
+                "rt::pwm::set_width(&mut outputs.{name}.ch{slot}(), {times}, {level}); {}",
                 self.turn_on()
             ),
             Hal::Rp => format!("outputs.{name}.set({slot}, {times}, {level});"),

@@ -6,10 +6,11 @@ use sensedsl_board::catalog::ActivePin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_wire::{Checksum, Direction};
 
+use super::cargo::Manifests;
 use super::context::{Context, scalar};
 use super::hal::{Hal, Speed};
 use super::levels::{self, Level};
-use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
+use super::section::{Field, Handlers, Keep, LinkPlan, Peripheral, Section, Start, Watched};
 use super::{
     analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial,
     spi, stm32,
@@ -41,18 +42,14 @@ pub(super) struct Plan {
     pub(super) probe: String,
     /// The triple of the core.
     pub(super) target: String,
-    pub(super) manifest: String,
+    pub(super) manifests: Manifests,
     pub(super) lock: String,
-    pub(super) runtime_manifest: String,
     /// What `main.rs` and `wiring.rs` import of the HAL.
     pub(super) main_uses: &'static str,
     pub(super) wiring_uses: &'static str,
-    /// What starts the board anew.
-    pub(super) restart: &'static str,
+    /// What writes a program to the board without a debug probe, where its boot loader takes one over USB.
+    pub(super) loader: Option<&'static str>,
     pub(super) begin: Begin,
-    /// Functions of the wiring.
-    pub(super) helpers: BTreeSet<String>,
-    pub(super) hal: Hal,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
     pub(super) handlers: Vec<(String, String)>,
@@ -78,7 +75,6 @@ pub(super) struct Plan {
     /// By the constant of an item: the value that is sent when the host is silent.
     pub(super) fallbacks: Vec<(String, Vec<u8>)>,
     pub(super) watched: Vec<Watched>,
-    pub(super) runtime: BTreeSet<&'static str>,
     pub(super) report_ms: u32,
     pub(super) silence_ms: u32,
     /// The light, whether it shines when high, and what it is made of.
@@ -88,10 +84,6 @@ pub(super) struct Plan {
     pub(super) is_uart: bool,
     /// Of the queue of a serial port for what the host sends.
     pub(super) heard_bytes: u32,
-    /// Converters are told how long they sample.
-    pub(super) has_sample_times: bool,
-    /// Pulses are set at channels of timers.
-    pub(super) has_pulses: bool,
 }
 
 /// How a project begins, in the words of its HAL.
@@ -135,7 +127,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         section.append(peripheral(context, diagnostics));
     }
     let (board, hal) = (context.job.board, context.names.hal);
-    let is_usb = section.runtime.contains("link_usb.rs");
+    let is_usb = matches!(section.link, LinkPlan::Usb | LinkPlan::Otg);
     let report_ms = report_ms(context);
     let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
     let led = board.facts.as_ref().and_then(|facts| facts.led.as_ref());
@@ -151,18 +143,15 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         chip: context.chip.feature.clone(),
         probe: context.chip.probe.clone(),
         target: context.names.target.clone(),
-        manifest: cargo::manifest(context),
+        manifests: Manifests::new(context, &section.features),
         lock: cargo::firmware_lock(context),
-        runtime_manifest: cargo::runtime_manifest(context),
         main_uses: hal.main_uses(),
         wiring_uses: hal.wiring_uses(),
-        restart: hal.restart(),
+        loader: hal.loader(),
         begin: match hal {
             Hal::Stm32 => stm32::begin(context, is_usb),
             Hal::Rp => rp::begin(context),
         },
-        helpers: section.helpers,
-        hal,
         schema: schema(context),
         handlers: handlers(&section.handlers),
         has_actuators: context.job.has_actuators(),
@@ -175,11 +164,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| light(context, led)),
         is_usb,
-        is_otg: section.is_otg,
-        is_uart: section.runtime.contains("link_uart.rs"),
+        is_otg: section.link == LinkPlan::Otg,
+        is_uart: section.link == LinkPlan::Uart,
         heard_bytes: link::heard_bytes(board.link.baud, report_ms),
-        has_pulses: hal == Hal::Stm32 && section.runtime.contains("pwm.rs"),
-        has_sample_times: hal == Hal::Stm32 && section.runtime.contains("analog.rs"),
         fields: section.fields,
         outputs: section.outputs,
         items: section.items,
@@ -191,7 +178,6 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         polls: section.polls,
         hushes: section.hushes,
         fails: section.fails,
-        runtime: section.runtime,
     }
 }
 

@@ -53,6 +53,5 @@ fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Pr
     let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
     section.watched.push(Watched::new(constant, *cycle, *id));
-    section.runtime.insert("capture.rs");
     Ok(())
 }

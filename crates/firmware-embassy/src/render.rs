@@ -2,28 +2,29 @@
 
 use askama::Template;
 
+use super::cargo::Manifests;
 use super::plan::Plan;
-use super::runtime;
 use sensedsl_files::FileSet;
 use sensedsl_files::print;
 
 /// The user's file as it is made once.
 const USER: &str = include_str!("templates/user.rs.txt");
 
-/// Declares a template that prints a [`Plan`] under the name `b`.
+/// Declares templates that print a plan under a name.
 macro_rules! templates {
-    ($($name:ident = $path:literal;)*) => {
+    ($plan:ident: $type:ty; $($name:ident = $path:literal;)*) => {
         $(
             #[derive(Template)]
             #[template(path = $path, escape = "none")]
             struct $name<'a> {
-                b: &'a Plan,
+                $plan: &'a $type,
             }
         )*
     };
 }
 
 templates! {
+    b: Plan;
     Readme = "templates/README.md.txt";
     CargoConfig = "templates/config.toml.txt";
     Main = "templates/main.rs.txt";
@@ -31,11 +32,19 @@ templates! {
     Tables = "templates/tables.rs.txt";
 }
 
+templates! {
+    m: Manifests;
+    Firmware = "templates/Cargo.toml.txt";
+    Adapters = "templates/sense-embassy.toml.txt";
+    Runtime = "templates/sense-rt.toml.txt";
+}
+
 /// Prints everything.
 pub(super) fn render(b: &Plan) -> FileSet {
     let mut files = FileSet::default();
     files.add("README.md", print(&Readme { b }));
-    files.add("Cargo.toml", b.manifest.clone());
+    let m = &b.manifests;
+    files.add("Cargo.toml", print(&Firmware { m }));
     files.add("Cargo.lock", b.lock.clone());
     files.add(".cargo/config.toml", print(&CargoConfig { b }));
     files.add("src/main.rs", print(&Main { b }));
@@ -45,14 +54,12 @@ pub(super) fn render(b: &Plan) -> FileSet {
     if let Some(memory) = b.begin.memory {
         files.add("memory.x", memory);
     }
-    let always = runtime::always(b.hal);
-    let own = runtime::adapters(b.hal);
-    for (name, text) in own.filter(|(name, _)| always.contains(name) || b.runtime.contains(name)) {
-        files.add(format!("src/rt/{name}"), *text);
+    files.add("sense-embassy/Cargo.toml", print(&Adapters { m }));
+    for (name, text) in sense_embassy::sources::SOURCES {
+        files.add(format!("sense-embassy/src/{name}"), *text);
     }
-    files.add("src/rt/mod.rs", runtime::module(&b.runtime, always));
-    files.add("sense-rt/Cargo.toml", b.runtime_manifest.clone());
-    for (name, text) in runtime::RUNTIME {
+    files.add("sense-rt/Cargo.toml", print(&Runtime { m }));
+    for (name, text) in sense_rt::sources::SOURCES {
         files.add(format!("sense-rt/src/{name}"), *text);
     }
     files

@@ -37,12 +37,24 @@ pub(super) struct Section {
     pub(super) fails: Vec<String>,
     /// The cycles of the tasks, which the watchdog watches.
     pub(super) watched: Vec<Watched>,
-    /// The link is the USB peripheral that can be a host as well.
-    pub(super) is_otg: bool,
-    /// Functions of the wiring.
-    pub(super) helpers: BTreeSet<String>,
-    /// Files of the runtime.
-    pub(super) runtime: BTreeSet<&'static str>,
+    /// What the link goes over.
+    pub(super) link: LinkPlan,
+    /// Features of `sense-embassy`: the versions of units that are in use.
+    pub(super) features: BTreeSet<&'static str>,
+}
+
+/// What the link to the host goes over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum LinkPlan {
+    /// Nothing that is known yet.
+    #[default]
+    None,
+    /// A USB device.
+    Usb,
+    /// A USB device that can be a host as well.
+    Otg,
+    /// A serial port.
+    Uart,
 }
 
 /// A statement of `main`.
@@ -150,8 +162,9 @@ impl Section {
         self.hushes.append(&mut other.hushes);
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
-        self.is_otg |= other.is_otg;
-        self.helpers.append(&mut other.helpers);
-        self.runtime.append(&mut other.runtime);
+        if other.link != LinkPlan::None {
+            self.link = other.link;
+        }
+        self.features.append(&mut other.features);
     }
 }

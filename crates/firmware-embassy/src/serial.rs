@@ -8,7 +8,7 @@ use super::context::{Context, late};
 use super::hal::Hal;
 use super::lack::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
-use super::{filter, message, rp, stm32};
+use super::{filter, message, rp};
 use sensedsl_job::JobConnection;
 use sensedsl_job::kinds::serial::{self, QUEUE_BYTES};
 use sensedsl_job::part::MessagePlan;
@@ -30,18 +30,6 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         context.tell(wire.part, made, diagnostics);
     }
     section
-}
-
-/// What is known of the chip's ports: those of a chip are of one sort.
-fn ports(context: &Context<'_>, section: &mut Section) {
-    section.helpers.insert(stm32::PORT.to_owned());
-    section.runtime.insert("usart.rs");
-    if context.names.has_old_ports() {
-        section.runtime.insert("port_old.rs");
-    } else {
-        section.runtime.insert("port_new.rs");
-        section.helpers.insert(stm32::INVERTED.to_owned());
-    }
 }
 
 /// A port with its tasks.
@@ -68,13 +56,7 @@ fn port(
     let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
     let port = Port { wire, unit, uart, plan, said };
     section.tables.extend(message::tables(context, plan)?);
-    section.runtime.insert("serial.rs");
-    match context.names.hal {
-        Hal::Stm32 => ports(context, section),
-        Hal::Rp => {
-            section.runtime.insert("uart.rs");
-        }
-    }
+    section.features.extend(context.names.port_feature());
     port.wiring(context, section)?;
     port.say(context, section)?;
     if !plan.fields.is_empty() || !plan.init.is_empty() {
@@ -118,7 +100,7 @@ impl Port<'_> {
                 let config = format!(
                     "crate::rt::usart::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
                 );
-                if *is_inverted { format!("inverted({config})") } else { config }
+                if *is_inverted { format!("crate::rt::usart::inverted({config})") } else { config }
             }
             Hal::Rp => format!(
                 "crate::rt::uart::config({baud}, {data_bits}, hal::uart::Parity::{parity}, {stop_bits}, {is_inverted})"
@@ -152,7 +134,7 @@ impl Port<'_> {
             type_: port_type(context.names.hal, name),
             // The HAL of STM32 judges the rate.
             make: match context.names.hal {
-                Hal::Stm32 => format!("port({made})"),
+                Hal::Stm32 => format!("crate::rt::usart::port({made})"),
                 Hal::Rp => made,
             },
         });
@@ -203,9 +185,9 @@ impl Port<'_> {
         let told = self.plan.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
         let queue = (2 * longest).max(u32::try_from(told).unwrap_or(0)).max(16);
         section.items.push(format!(
-            "static {said}: rt::serial::Said<{queue}> = rt::serial::Said::new();\n\n/// {}: what it is sent.\n\
+            "static {said}: rt::serial::TxQueue<{queue}> = rt::serial::TxQueue::new();\n\n/// {}: what it is sent.\n\
              #[embassy_executor::task]\n\
-             async fn {ident}_say(port: {type_}) {{\n    rt::{}::say({port}, &{said}, {}).await;\n}}",
+             async fn {ident}_say(port: {type_}) {{\n    rt::{}::transmit({port}, &{said}, {}).await;\n}}",
             self.wire.place(),
             module(context.names.hal),
             self.uart.baud
@@ -272,7 +254,7 @@ impl Port<'_> {
         let interrupt = context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Heard"));
         let registers = if hal.starts_with("LPUART") {
-            format!("rt::usart::low_power(hal::pac::{hal}.as_ptr())")
+            format!("unsafe {{ rt::usart::low_power(hal::pac::{hal}.as_ptr()) }}")
         } else {
             format!("hal::pac::{hal}")
         };
@@ -282,7 +264,7 @@ impl Port<'_> {
             module(context.names.hal)
         ));
         Ok(format!(
-            "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
+            "static {upper}_HEARD: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();\n\n\
              /// The bytes of {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
              pub struct {upper}Heard;\n\n\
              impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
@@ -299,7 +281,7 @@ impl Port<'_> {
         Ok(format!(
             "    let mut stream: sense_rt::MessageStream<[u8; tables::{prefix}_MESSAGE.stream_bytes(&SCHEMA)]> =\n        \
              sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);\n    \
-             let mut device = rt::serial::Device {{\n        heard: &{upper}_HEARD,\n        stream: &mut stream,\n        \
+             let mut device = rt::serial::Device {{\n        queue: &{upper}_HEARD,\n        stream: &mut stream,\n        \
              gap_ms: {},\n        is_silent: false,\n        heard_ms: now_ms(),\n    }};\n    \
              const OWN: [usize; {}] = {:?};\n",
             serial::gap_ms(self.uart, self.plan),
@@ -327,12 +309,12 @@ impl Port<'_> {
         if has_fields {
             text.push_str(&format!(
                 "        if device.has_fault() {{\n            for index in OWN {{\n                \
-                 BOARD.tell(None, index, Outcome::BusError, &mut []);\n            }}\n        }}\n        \
+                 BOARD.report(None, index, Outcome::BusError, &mut []);\n            }}\n        }}\n        \
                  let mut told = sense_rt::Bits::NONE;\n        \
-                 device.hear(until, &mut |index: usize, outcome, value: &mut [u8]| {{\n            \
+                 device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {{\n            \
                  if outcome == Outcome::Fresh {{\n                if told.has(index) {{\n                    \
                  return;\n                }}\n                told.set(index);\n            }}\n            \
-                 BOARD.tell({pass}, index, outcome, value);\n        }}).await;\n"
+                 BOARD.report({pass}, index, outcome, value);\n        }}).await;\n"
             ));
         }
         text

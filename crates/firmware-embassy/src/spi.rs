@@ -18,7 +18,7 @@ use sensedsl_job::snake;
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let type_ = |unit: &UnitName| match context.names.hal {
-        Hal::Stm32 => "SpiBus".to_owned(),
+        Hal::Stm32 => "rt::spi::SpiBus".to_owned(),
         Hal::Rp => rp::buses::spi_type(unit),
     };
     for one in chips::buses(context, KindName::Spi, type_, diagnostics) {
@@ -91,7 +91,6 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<(
     for one in &bus.all {
         section.fields.push(select(context, one)?);
     }
-    section.runtime.insert("spi.rs");
     let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());
     let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
     chips::tasks(context, bus, hz, |served| reach(context, unit, served), section)

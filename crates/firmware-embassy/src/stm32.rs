@@ -1,27 +1,7 @@
-//! What a project on `embassy-stm32` begins with: clocks, watchdog, the cause of the last reset, and functions of the
-//! wiring.
+//! What a project on `embassy-stm32` begins with: clocks, watchdog, the cause of the last reset.
 
 use super::context::Context;
 use super::plan::{Begin, Watchdog};
-
-/// A port at a rate.
-pub(super) const BAUD: &str = include_str!("templates/stm32/baud.rs.txt");
-/// A port that could be made.
-pub(super) const PORT: &str = include_str!("templates/stm32/port.rs.txt");
-/// A port whose wires rest low.
-pub(super) const INVERTED: &str = include_str!("templates/stm32/inverted.rs.txt");
-/// A USB device that can be a host as well.
-pub(super) const USB: &str = include_str!("templates/stm32/usb.rs.txt");
-
-/// An I²C bus at a clock; on some chips its pins can be pulled up.
-pub(super) fn bus(has_pulls: bool) -> String {
-    let pulls = "    config.scl_pullup = true;\n    config.sda_pullup = true;\n";
-    let pulls = if has_pulls { pulls } else { "" };
-    format!(
-        "/// A bus at a clock.\nfn bus(clock_hz: u32) -> hal::i2c::Config {{\n    \
-         let mut config = hal::i2c::Config::default();\n    config.frequency = hz(clock_hz);\n{pulls}    config\n}}"
-    )
-}
 
 /// How a project begins.
 pub(super) fn begin(context: &Context<'_>, is_usb: bool) -> Begin {
@@ -61,10 +41,10 @@ fn config(clock: &[String]) -> String {
 fn start(context: &Context<'_>) -> Vec<String> {
     let mut lines = match &context.names.reset {
         Some(reset) => vec![
-            format!("LIFE.begin(hal::pac::RCC.{reset}().read().0);"),
+            format!("STATUS.begin(hal::pac::RCC.{reset}().read().0);"),
             format!("hal::pac::RCC.{reset}().modify(|flags| flags.set_rmvf(true));"),
         ],
-        None => vec!["LIFE.begin(0);".to_owned()],
+        None => vec!["STATUS.begin(0);".to_owned()],
     };
     // The MCU may have a second core, which is left alone.
     if context.chip.feature.contains("-cm") {

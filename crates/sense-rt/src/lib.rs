@@ -51,6 +51,10 @@ mod train;
 mod uses;
 mod watch;
 
+#[cfg(feature = "sources")]
+#[path = "../sources.rs"]
+pub mod sources;
+
 pub use bits::Bits;
 pub use capture::{Capture, CaptureConfig, CaptureMode, Captured};
 pub use checksum::{Checksum, crc8, crc16, crc32, sum8, sum16, xor8};

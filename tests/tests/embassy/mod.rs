@@ -106,10 +106,16 @@ fn a_project_is_whole() {
     let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
     let project = tree(&scratch.join("out/firmware/STM32F4DiscoveryBoard"));
     let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
-    for (path, bytes) in tree(&root().join("crates/sense-rt/src")) {
-        assert_eq!(project.get(&format!("sense-rt/src/{path}")), Some(&bytes), "{path}");
+    for name in ["sense-embassy", "sense-rt"] {
+        for (path, bytes) in tree(&root().join(format!("crates/{name}/src"))) {
+            let copy = project.get(&format!("{name}/src/{path}"));
+            assert_eq!(copy, Some(&bytes), "{name}: {path}: is it in sources.rs?");
+        }
+        features_are_those_of_the_crate(name, &text_of(&format!("{name}/Cargo.toml")));
     }
-    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 13);
+    let lock = text_of("Cargo.lock");
+    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &lock, 6);
+    versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 11);
     let wiring = text_of("src/wiring.rs");
     assert!(wiring.contains("ir_front: p.PB0,"), "{wiring}");
     assert!(
@@ -117,7 +123,6 @@ fn a_project_is_whole() {
         "{wiring}"
     );
     assert!(text_of("src/main.rs").contains("prediv: PllPreDiv::DIV8,"));
-    features_are_those_of_the_runtime(&text_of("sense-rt/Cargo.toml"));
     // What is the user's stays, and a second run finds the folder as it was left.
     let own = "out/firmware/STM32F4DiscoveryBoard/src/user/mod.rs";
     scratch.write(own, "// mine\n");
@@ -137,16 +142,18 @@ fn versions_are_those_of_the_lock_file(manifest: &str, lock: &str, crates: usize
     }
 }
 
-/// A project turns on what it uses, so its copy of the runtime must have each feature that the crate has.
-fn features_are_those_of_the_runtime(manifest: &str) {
+/// A project turns on the features it uses, so its copy of a crate must have each feature that the crate has.
+fn features_are_those_of_the_crate(name: &str, manifest: &str) {
     let features = |text: &str| -> Vec<String> {
-        let own = text.lines().filter_map(|line| line.strip_suffix(" = []"));
-        let mut own: Vec<String> = own.map(str::to_owned).collect();
+        let (_, rest) = text.split_once("[features]\n").unwrap();
+        let own = rest.lines().take_while(|line| !line.starts_with("[dep"));
+        let names = own.filter_map(|line| Some(line.split_once(" = [")?.0.to_owned()));
+        let mut own: Vec<String> = names.filter(|name| name != "default").collect();
         own.sort();
         own
     };
-    let ours = features(&text("crates/sense-rt/Cargo.toml"));
-    assert!(ours.len() > 10 && features(manifest) == ours, "{manifest}");
+    let ours = features(&text(&format!("crates/{name}/Cargo.toml")));
+    assert!(ours.len() > 10 && features(manifest) == ours, "{name}: {manifest}");
 }
 
 /// Wirings of the default target on boards of all families, judged as a user has them judged.

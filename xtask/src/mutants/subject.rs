@@ -200,11 +200,10 @@ impl<'a> Subject<'a> {
             let of = |folder: &str| draw::below(&board.join(folder), "c");
             return Ok([of("generated")?, of("uproxy")?]);
         }
-        let (runtime, own): (Vec<Site>, Vec<Site>) = draw::below(&board.join("src"), "rs")?
-            .into_iter()
-            .partition(|one| one.file.starts_with(board.join("src/rt")));
-        let shared = draw::below(&board.join("sense-rt/src"), "rs")?;
-        Ok([own, runtime.into_iter().chain(shared).collect()])
+        let own = draw::below(&board.join("src"), "rs")?;
+        let mut runtime = draw::below(&board.join("sense-embassy/src"), "rs")?;
+        runtime.extend(draw::below(&board.join("sense-rt/src"), "rs")?);
+        Ok([own, runtime])
     }
 
     /// The result for a mistake: a class, and the command's message.

@@ -3,7 +3,6 @@
 use sensedsl_board::pin::PinName;
 
 use crate::context::{Context, Wired};
-use crate::section::Section;
 
 /// The type of an input, and what it is made of.
 pub(crate) fn input(context: &Context<'_>, pin: &PinName) -> (String, String) {
@@ -15,8 +14,7 @@ pub(crate) fn input(context: &Context<'_>, pin: &PinName) -> (String, String) {
 }
 
 /// All inputs one right after the other, as often as there are samples.
-pub(crate) fn rows(wired: &Wired<'_>, section: &mut Section) -> String {
-    section.runtime.insert("converter.rs");
+pub(crate) fn rows(wired: &Wired<'_>) -> String {
     let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
     let mut text = format!(
         "        let mut is_whole = true;\n        for [{}] in samples.as_chunks_mut().0 {{\n",
@@ -35,6 +33,6 @@ pub(crate) fn rows(wired: &Wired<'_>, section: &mut Section) -> String {
 pub(crate) fn tell(constant: &str, tell: &str) -> String {
     format!(
         "        if is_whole {{\n            {tell}\n        }} else {{\n            \
-         BOARD.tell(None, tables::{constant}, Outcome::Invalid, &mut []);\n        }}\n"
+         BOARD.report(None, tables::{constant}, Outcome::Invalid, &mut []);\n        }}\n"
     )
 }

@@ -11,12 +11,12 @@ use sensedsl_job::snake;
 
 /// The runtime's type of an I²C bus.
 pub(crate) fn i2c_type(unit: &UnitName) -> String {
-    format!("I2cBus<{unit}>")
+    format!("rt::i2c::I2cBus<{unit}>")
 }
 
 /// The runtime's type of an SPI bus.
 pub(crate) fn spi_type(unit: &UnitName) -> String {
-    format!("SpiBus<{unit}>")
+    format!("rt::spi::SpiBus<{unit}>")
 }
 
 /// An I²C unit at a clock.

@@ -27,7 +27,10 @@ pub(crate) fn input(
         .begins
         .push(format!("{kept}.begin(rt::edges::Pad({}));", pin.trim_start_matches("PIN_")));
     section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
-    section.runtime.insert("edges.rs");
     let pull = contacts::pull(own);
-    ("rt::edges::Awaited", "Input<'static>".to_owned(), format!("Input::new(p.{pin}, {pull})"))
+    (
+        "rt::edges::InterruptInput",
+        "Input<'static>".to_owned(),
+        format!("Input::new(p.{pin}, {pull})"),
+    )
 }

@@ -20,7 +20,6 @@ pub(crate) fn device(
     icu: &Icu,
     section: &mut Section,
 ) -> Printed<()> {
-    section.runtime.extend(["capture.rs", "gate.rs"]);
     if icu.mode == Mode::Count {
         return count(context, wired, icu, section);
     }
@@ -55,7 +54,7 @@ fn gate(
     });
     let upper = ident.to_uppercase();
     section.items.push(format!(
-        "static {upper}_SEEN: Seen = rt::capture::nothing();\n\n/// {}.\n#[embassy_executor::task]\n\
+        "static {upper}_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();\n\n/// {}.\n#[embassy_executor::task]\n\
          async fn {ident}_edges(gate: rt::gate::Gate) {{\n    rt::gate::measure(gate, &{upper}_SEEN).await;\n}}",
         wire.place(),
     ));

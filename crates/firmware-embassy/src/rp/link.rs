@@ -39,13 +39,11 @@ pub(crate) fn port(
              interrupt::{interrupt}.pend();"
         ));
     }
-    section.runtime.insert("uart.rs");
-    section.runtime.insert("serial.rs");
     (
         format!("hal::uart::BufferedInterruptHandler<{hal}>"),
         "hal::uart::BufferedUart".to_owned(),
         format!(
-            "hal::uart::BufferedUart::new(p.{hal}, p.{}, p.{}, Irqs, said, heard, \
+            "hal::uart::BufferedUart::new(p.{hal}, p.{}, p.{}, Irqs, tx, rx, \
              crate::rt::uart::config({}, 8, hal::uart::Parity::ParityNone, 1, false))",
             context.pin(&tx.pin.name),
             context.pin(&rx.pin.name),

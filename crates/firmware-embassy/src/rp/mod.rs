@@ -58,7 +58,7 @@ pub(super) fn begin(context: &Context<'_>) -> Begin {
             .to_owned(),
         start: vec![
             format!("let cause = hal::pac::{register}.chip_reset().read();"),
-            format!("LIFE.begin(rt::watchdog::cause({power}, {run}));"),
+            format!("STATUS.begin(rt::watchdog::cause({power}, {run}));"),
             "let wiring = wiring::wire(hal::init(config()));".to_owned(),
         ],
         watchdog: Watchdog {

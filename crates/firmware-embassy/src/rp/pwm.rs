@@ -69,7 +69,6 @@ pub(crate) fn slice(
             section.fails.push(safe);
         }
     }
-    section.runtime.insert("pwm.rs");
     Ok(())
 }
 

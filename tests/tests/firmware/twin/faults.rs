@@ -175,7 +175,7 @@ fn a_task_that_hangs() {
     let beats: Vec<&str> =
         text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C1_100MS")).collect();
     let [beat] = beats[..] else { panic!("{beats:?}") };
-    let hang = "if now_ms() > 2_000 && LIFE.cause() != sense_rt::Cause::Watchdog {\n\
+    let hang = "if now_ms() > 2_000 && STATUS.cause() != sense_rt::Cause::Watchdog {\n\
                 core::future::pending::<()>().await;\n}\n";
     std::fs::write(&path, text.replacen(beat, &format!("{hang}{beat}"), 1)).unwrap();
     let program = std::fs::read(embassy::build(&board)).unwrap();

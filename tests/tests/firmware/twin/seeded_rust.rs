@@ -23,7 +23,7 @@ const SEEDS: &[Seed] = &[
     ("register of a chip", &[TABLES], "select: &[0x02]", "select: &[0x03]"),
     ("trigger of a chip", &[TABLES], "&[0x00, 0x51]", "&[0x00, 0x50]"),
     ("wait for a chip", &[TABLES], "wait_ms: 65", "wait_ms: 6"),
-    ("clock of a bus", &[WIRING], "bus(400000)", "bus(100000)"),
+    ("clock of a bus", &[WIRING], "i2c::config(400000)", "i2c::config(100000)"),
     ("mode of SPI", &[MAIN], "rt::spi::config(1, 656250)", "rt::spi::config(0, 656250)"),
     ("clock of SPI", &[MAIN], "rt::spi::config(1, 656250)", "rt::spi::config(1, 5250000)"),
     (

@@ -3,7 +3,6 @@
 #![no_main]
 #![allow(unused_imports, unused_macros, unused_variables, reason = "a project uses what its devices need")]
 
-mod rt;
 mod tables;
 mod user;
 mod wiring;
@@ -19,6 +18,7 @@ use embassy_sync::blocking_mutex::Mutex as Held;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
 use embassy_time::{Duration, Instant, Ticker, Timer};
+use sense_embassy as rt;
 use sense_rt::{
     BoardHealth, Capture, CaptureConfig, CaptureMode, Chip, Counter, Direction, Filter, Health, Host, Outcome, Repeat, Reporter,
     ReporterConfig, Scalar, Store, Watch, pulse_level, store_count,
@@ -26,36 +26,23 @@ use sense_rt::{
 use static_cell::StaticCell;
 
 use rt::bus::Written;
-use rt::i2c::I2cBus;
-use rt::spi::SpiBus;
-use rt::capture::Seen;
-use rt::life::Life;
+use rt::devices::{Devices, Report};
 use rt::link::{Link, Near};
-use rt::now_ms;
-use rt::shared::{Shared, Tell};
+use rt::{now_ms, start};
+use rt::status::BoardStatus;
 use tables::SCHEMA;
 use wiring::Outputs;
 use wiring::Wiring;
 
 const VALUES: usize = SCHEMA.values_bytes();
 const ITEMS: usize = SCHEMA.items.len();
-const SAID: usize = SCHEMA.frame_bytes(Direction::ToHost);
+const TX_BYTES: usize = SCHEMA.frame_bytes(Direction::ToHost);
 
-static BOARD: Shared<VALUES, ITEMS> = Shared::new(&SCHEMA, tables::CYCLES_MS);
-static LINK: Link<SAID> = Link::new();
+static BOARD: Devices<VALUES, ITEMS> = Devices::new(&SCHEMA, tables::CYCLES_MS);
+static LINK: Link<TX_BYTES> = Link::new();
 static WATCH: Watch<6> = Watch::new(&tables::WATCHED_MS);
-static LIFE: Life = Life::new();
+static STATUS: BoardStatus = BoardStatus::new();
 static OUTPUTS: Held<CriticalSectionRawMutex, RefCell<Option<Outputs>>> = Held::new(RefCell::new(None));
-
-/// Starts a task; there is one of each, so that there is always room.
-macro_rules! start {
-    ($spawner:ident, $task:expr) => {
-        match $task {
-            Ok(token) => $spawner.spawn(token),
-            Err(_) => rt::watchdog::restart(),
-        }
-    };
-}
 
 /// Runs the tasks of priority 2.
 static LEVEL_0: InterruptExecutor = InterruptExecutor::new();
@@ -93,9 +80,9 @@ async fn adc1_1000ms(
             is_whole &= rt::converter::read(&mut adc, &mut light, s0).await;
         }
         if is_whole {
-            rt::analog::tell(&BOARD, None, tables::LIGHT, Scalar::Uint16, rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
+            rt::analog::report(&BOARD, None, tables::LIGHT, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
         } else {
-            BOARD.tell(None, tables::LIGHT, Outcome::Invalid, &mut []);
+            BOARD.report(None, tables::LIGHT, Outcome::Invalid, &mut []);
         }
         let mut samples = [0; 64];
         let mut is_whole = true;
@@ -104,9 +91,9 @@ async fn adc1_1000ms(
             is_whole &= rt::converter::read(&mut adc, &mut pair_1, s1).await;
         }
         if is_whole {
-            rt::analog::tell(&BOARD, Some(&mut *pair_filter), tables::PAIR, Scalar::Uint16, rt::analog::Value::Mean, &samples, 2, &mut [0; 4]);
+            rt::analog::report(&BOARD, Some(&mut *pair_filter), tables::PAIR, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 2, &mut [0; 4]);
         } else {
-            BOARD.tell(None, tables::PAIR, Outcome::Invalid, &mut []);
+            BOARD.report(None, tables::PAIR, Outcome::Invalid, &mut []);
         }
         drop(adc);
         WATCH.beat(tables::ADC1_1000MS, now_ms());
@@ -114,41 +101,41 @@ async fn adc1_1000ms(
     }
 }
 
-static I2C0_BUS: StaticCell<I2cBus<I2C0>> = StaticCell::new();
+static I2C0_BUS: StaticCell<rt::i2c::I2cBus<I2C0>> = StaticCell::new();
 
 /// I2C0 1000 ms.
 #[embassy_executor::task]
-async fn i2c0_1000ms(bus: &'static I2cBus<I2C0>) {
+async fn i2c0_1000ms(bus: &'static rt::i2c::I2cBus<I2C0>) {
     let mut range_line = rt::i2c::I2cLine(bus, hal::pac::I2C0);
     let mut range: Chip<[u8; tables::RANGE_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::RANGE_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(11);
     loop {
         let mut idle_ms = 1000;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell(None, index, outcome, value);
+        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut range_line, &mut range, timeout, &mut tell).await);
         WATCH.beat(tables::I2C0_1000MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
 }
 
-static SPI0_BUS: StaticCell<SpiBus<SPI0>> = StaticCell::new();
+static SPI0_BUS: StaticCell<rt::spi::SpiBus<SPI0>> = StaticCell::new();
 
 /// SPI0 1000 ms.
 #[embassy_executor::task]
-async fn spi0_1000ms(bus: &'static SpiBus<SPI0>, gyro_select: Output<'static>) {
+async fn spi0_1000ms(bus: &'static rt::spi::SpiBus<SPI0>, gyro_select: Output<'static>) {
     let mut gyro_line = rt::spi::SpiLine { bus, select: gyro_select, config: rt::spi::config(0, 1000000) };
     let mut gyro: Chip<[u8; tables::GYRO_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::GYRO_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(10);
     loop {
         let mut idle_ms = 1000;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell(None, index, outcome, value);
+        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut gyro_line, &mut gyro, timeout, &mut tell).await);
         WATCH.beat(tables::SPI0_1000MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
 }
 
-static PLACE_HEARD: rt::serial::Heard<64> = rt::serial::Heard::new();
+static PLACE_HEARD: rt::serial::RxQueue<64> = rt::serial::RxQueue::new();
 
 /// The bytes of Place at GP0 (UART0_TX), GP1 (UART0_RX).
 #[allow(non_camel_case_types, reason = "it is called as the device")]
@@ -166,7 +153,7 @@ async fn place_listen(_port: hal::uart::Uart<'static, hal::uart::Blocking>) {
     let mut stream: sense_rt::MessageStream<[u8; tables::PLACE_MESSAGE.stream_bytes(&SCHEMA)]> =
         sense_rt::MessageStream::new(&tables::PLACE_MESSAGE, &SCHEMA);
     let mut device = rt::serial::Device {
-        heard: &PLACE_HEARD,
+        queue: &PLACE_HEARD,
         stream: &mut stream,
         gap_ms: 3,
         is_silent: false,
@@ -177,25 +164,25 @@ async fn place_listen(_port: hal::uart::Uart<'static, hal::uart::Blocking>) {
         let until = Instant::now() + Duration::from_millis(1000);
         if device.has_fault() {
             for index in OWN {
-                BOARD.tell(None, index, Outcome::BusError, &mut []);
+                BOARD.report(None, index, Outcome::BusError, &mut []);
             }
         }
         let mut told = sense_rt::Bits::NONE;
-        device.hear(until, &mut |index: usize, outcome, value: &mut [u8]| {
+        device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {
             if outcome == Outcome::Fresh {
                 if told.has(index) {
                     return;
                 }
                 told.set(index);
             }
-            BOARD.tell(None, index, outcome, value);
+            BOARD.report(None, index, outcome, value);
         }).await;
         WATCH.beat(tables::PLACE_LISTEN, now_ms());
         Timer::at(until).await;
     }
 }
 
-static STICK_SEEN: Seen = rt::capture::nothing();
+static STICK_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
 /// Stick at GP9 (PWM4_B).
 #[embassy_executor::task]
@@ -203,7 +190,7 @@ async fn stick_edges(gate: rt::gate::Gate) {
     rt::gate::measure(gate, &STICK_SEEN).await;
 }
 
-static NEAR_SEEN: Seen = rt::capture::nothing();
+static NEAR_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
 /// Near at GP13 (PWM6_B), GP3 (GPIO).
 #[embassy_executor::task]
@@ -229,12 +216,12 @@ async fn touch_edges(pin: Input<'static>) {
 }
 
 /// Touch at GP10 (GPIO).
-static TOUCH_KEPT: rt::edges::Awaited =
-    rt::contact::Kept::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static TOUCH_KEPT: rt::edges::InterruptInput =
+    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Bump at GP11 (GPIO).
-static BUMP_KEPT: rt::contact::Looked =
-    rt::contact::Kept::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
+static BUMP_KEPT: rt::edges::SampledInput =
+    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
 
 /// gpio 1000 ms.
 #[embassy_executor::task]
@@ -245,7 +232,7 @@ async fn gpio_1000ms() {
         for (at, level) in [BUMP_KEPT.level()].into_iter().enumerate() {
             Scalar::Bool.store_at(u64::from(level), &mut value, at);
         }
-        BOARD.tell(None, tables::BUMP, Outcome::Fresh, &mut value);
+        BOARD.report(None, tables::BUMP, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_1000MS, now_ms());
         ticker.next().await;
     }
@@ -294,7 +281,7 @@ impl Host for Board {
     }
 
     fn describe(&mut self, board: &mut BoardHealth) {
-        LIFE.describe(board);
+        STATUS.describe(board);
     }
 }
 
@@ -313,7 +300,7 @@ async fn reporter(
     let mut stick = Capture::NEW;
     let mut near_filter: Filter<[u8; tables::NEAR_FILTER.bytes(&SCHEMA.items[12])]> = Filter::new(&tables::NEAR_FILTER);
     let mut near = Capture::NEW;
-    let mut touch_told = [rt::contact::Told::NEW; 1];
+    let mut touch_told = [rt::contact::Reported::NEW; 1];
     let mut touch_repeat = Repeat::NEW;
     watchdog.unleash();
     loop {
@@ -326,7 +313,7 @@ async fn reporter(
                 for (at, count) in counts.into_iter().enumerate() {
                     store_count(Scalar::Uint32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
                 }
-                BOARD.tell(None, tables::WHEEL, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::WHEEL, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -334,7 +321,7 @@ async fn reporter(
             let config = CaptureConfig { mode: CaptureMode::Width, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 2];
             if stick.read(&config, &seen, false, now_ms(), Scalar::Uint16, &mut value) {
-                BOARD.tell(None, tables::STICK, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::STICK, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -342,14 +329,14 @@ async fn reporter(
             let config = CaptureConfig { mode: CaptureMode::Width, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 4];
             if near.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) {
-                BOARD.tell(Some(&mut *near_filter), tables::NEAR, Outcome::Fresh, &mut value);
+                BOARD.report(Some(&mut *near_filter), tables::NEAR, Outcome::Fresh, &mut value);
             }
         }
         {
             let (mut value, mut is_news) = ([0; 1], false);
             is_news |= TOUCH_KEPT.take(&mut touch_told[0], Scalar::Bool, false, &mut value[0..]);
             if touch_repeat.is_due(is_news, 1000, now_ms()) {
-                BOARD.tell(None, tables::TOUCH, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::TOUCH, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -359,7 +346,7 @@ async fn reporter(
         BOARD.with(|_, health| health.tick(now_ms()));
         match WATCH.hanging(now_ms()) {
             None => watchdog.pet(),
-            Some(task) => rt::life::blame(tables::WATCHED_DEVICES.get(task).copied().unwrap_or(0)),
+            Some(task) => rt::status::note_hang(tables::WATCHED_DEVICES.get(task).copied().unwrap_or(0)),
         }
         led.set_level(if now_ms() / 500 % 2 == 0 { Level::High } else { Level::Low });
         ticker.next().await;
@@ -374,7 +361,7 @@ fn config() -> hal::config::Config {
 #[embassy_executor::main]
 async fn main(spawner: Spawner) {
     let cause = hal::pac::VREG_AND_CHIP_RESET.chip_reset().read();
-    LIFE.begin(rt::watchdog::cause(cause.had_por(), cause.had_run()));
+    STATUS.begin(rt::watchdog::cause(cause.had_por(), cause.had_run()));
     let wiring = wiring::wire(hal::init(config()));
     OUTPUTS.lock(|all| *all.borrow_mut() = Some(wiring.outputs));
     interrupt::SWI_IRQ_0.set_priority(Priority::P3);
@@ -389,9 +376,9 @@ async fn main(spawner: Spawner) {
     start!(spawner, link(wiring.link));
     let adc1: &'static ADC1Unit = ADC1_UNIT.init(Mutex::new(wiring.adc1));
     start!(spawner, adc1_1000ms(adc1, wiring.light, wiring.pair_0, wiring.pair_1));
-    let i2c0: &'static I2cBus<I2C0> = I2C0_BUS.init(Mutex::new(wiring.i2c0));
+    let i2c0: &'static rt::i2c::I2cBus<I2C0> = I2C0_BUS.init(Mutex::new(wiring.i2c0));
     start!(spawner, i2c0_1000ms(i2c0));
-    let spi0: &'static SpiBus<SPI0> = SPI0_BUS.init(Mutex::new(wiring.spi0));
+    let spi0: &'static rt::spi::SpiBus<SPI0> = SPI0_BUS.init(Mutex::new(wiring.spi0));
     start!(spawner, spi0_1000ms(spi0, wiring.gyro_select));
     start!(spawner, place_listen(wiring.place));
     start!(spawner, stick_edges(wiring.stick));
@@ -406,6 +393,6 @@ async fn main(spawner: Spawner) {
 /// Whatever goes wrong in it, the board starts anew.
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    rt::life::halt();
-    rt::watchdog::restart()
+    rt::status::note_panic();
+    rt::restart()
 }

@@ -3,7 +3,6 @@
 #![no_main]
 #![allow(unused_imports, unused_macros, unused_variables, reason = "a project uses what its devices need")]
 
-mod rt;
 mod tables;
 mod user;
 mod wiring;
@@ -21,6 +20,7 @@ use embassy_sync::blocking_mutex::Mutex as Held;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
 use embassy_time::{Duration, Instant, Ticker, Timer};
+use sense_embassy as rt;
 use sense_rt::{
     BoardHealth, Capture, CaptureConfig, CaptureMode, Chip, Counter, Direction, Filter, Health, Host, Outcome, Repeat, Reporter,
     ReporterConfig, Scalar, Store, Watch, pulse_level, store_count,
@@ -28,43 +28,28 @@ use sense_rt::{
 use static_cell::StaticCell;
 
 use rt::bus::Written;
-use rt::i2c::I2cBus;
-use rt::spi::SpiBus;
-use rt::capture::Seen;
-use rt::pwm::set_width;
-use embassy_stm32::adc::SampleTime;
-use rt::life::Life;
-use rt::now_ms;
-use rt::shared::{Shared, Tell};
+use rt::devices::{Devices, Report};
+use rt::{now_ms, start};
+use rt::status::BoardStatus;
 use tables::SCHEMA;
 use wiring::Outputs;
 use wiring::Wiring;
 
 const VALUES: usize = SCHEMA.values_bytes();
 const ITEMS: usize = SCHEMA.items.len();
-const SAID: usize = SCHEMA.frame_bytes(Direction::ToHost);
+const TX_BYTES: usize = SCHEMA.frame_bytes(Direction::ToHost);
 
-static BOARD: Shared<VALUES, ITEMS> = Shared::new(&SCHEMA, tables::CYCLES_MS);
+static BOARD: Devices<VALUES, ITEMS> = Devices::new(&SCHEMA, tables::CYCLES_MS);
 static WATCH: Watch<7> = Watch::new(&tables::WATCHED_MS);
-static LIFE: Life = Life::new();
+static STATUS: BoardStatus = BoardStatus::new();
 static OUTPUTS: Held<CriticalSectionRawMutex, RefCell<Option<Outputs>>> = Held::new(RefCell::new(None));
-
-/// Starts a task; there is one of each, so that there is always room.
-macro_rules! start {
-    ($spawner:ident, $task:expr) => {
-        match $task {
-            Ok(token) => $spawner.spawn(token),
-            Err(_) => cortex_m::peripheral::SCB::sys_reset(),
-        }
-    };
-}
 
 /// Gives the outputs of Thrust what its value asks of each.
 fn drive_thrust(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {
     for write in tables::THRUST_BRIDGE.drive(&mut outputs.thrust_bridge, scalar, value).as_slice() {
         match write.output {
             0 if write.value == 0 => { hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, false)); outputs.tim9.ch1().set_duty_cycle(0); outputs.tim9.ch1().enable(); hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, true)); }
-            0 => { set_width(&mut outputs.tim9.ch1(), [0, 1, 1], write.value); outputs.tim9.ch1().enable(); }
+            0 => { rt::pwm::set_width(&mut outputs.tim9.ch1(), [0, 1, 1], write.value); outputs.tim9.ch1().enable(); }
             1 => outputs.drive_in1.set_level(if write.value != 0 { Level::High } else { Level::Low }),
             2 => outputs.drive_in2.set_level(if write.value != 0 { Level::High } else { Level::Low }),
             _ => {}
@@ -86,9 +71,9 @@ async fn adc1_20ms(
     loop {
         let mut adc = unit.lock().await;
         let mut samples = [0; 32];
-        let first = adc.blocking_read(&mut distance, SampleTime::CYCLES84);
-        rt::again::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
-        rt::analog::tell(&BOARD, Some(&mut *distance_filter), tables::DISTANCE, Scalar::Uint16, rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
+        let first = adc.blocking_read(&mut distance, hal::adc::SampleTime::CYCLES84);
+        rt::repeat::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
+        rt::analog::report(&BOARD, Some(&mut *distance_filter), tables::DISTANCE, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
         drop(adc);
         WATCH.beat(tables::ADC1_20MS, now_ms());
         ticker.next().await;
@@ -105,20 +90,20 @@ async fn adc1_100ms(
     loop {
         let mut adc = unit.lock().await;
         let mut samples = [0; 32];
-        let first = adc.blocking_read(&mut motor, SampleTime::CYCLES84);
-        rt::again::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
-        rt::analog::tell(&BOARD, None, tables::MOTOR, Scalar::Int16, rt::analog::Value::Computed(&sense_rt::NTC, 0, &[3950, 10000, 10000]), &samples, 1, &mut [0; 2]);
+        let first = adc.blocking_read(&mut motor, hal::adc::SampleTime::CYCLES84);
+        rt::repeat::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
+        rt::analog::report(&BOARD, None, tables::MOTOR, Scalar::Int16, &rt::analog::Value::Computed(&sense_rt::NTC, 0, &[3950, 10000, 10000]), &samples, 1, &mut [0; 2]);
         drop(adc);
         WATCH.beat(tables::ADC1_100MS, now_ms());
         ticker.next().await;
     }
 }
 
-static I2C3_BUS: StaticCell<I2cBus> = StaticCell::new();
+static I2C3_BUS: StaticCell<rt::i2c::I2cBus> = StaticCell::new();
 
 /// I2C3 20 ms.
 #[embassy_executor::task]
-async fn i2c3_20ms(bus: &'static I2cBus) {
+async fn i2c3_20ms(bus: &'static rt::i2c::I2cBus) {
     let mut heading_line = rt::i2c::I2cLine(bus, hal::pac::I2C3);
     let mut lamps_line = rt::i2c::I2cLine(bus, hal::pac::I2C3);
     let mut heading: Chip<[u8; tables::HEADING_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::HEADING_CHIP, &SCHEMA);
@@ -127,7 +112,7 @@ async fn i2c3_20ms(bus: &'static I2cBus) {
     let timeout = Duration::from_millis(11);
     loop {
         let mut idle_ms = 20;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell(None, index, outcome, value);
+        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut heading_line, &mut heading, timeout, &mut tell).await);
         idle_ms = idle_ms.min(rt::bus::serve(&mut lamps_line, &mut lamps, timeout, &mut tell).await);
         let value = &mut [0; SCHEMA.value_bytes_max()];
@@ -137,24 +122,24 @@ async fn i2c3_20ms(bus: &'static I2cBus) {
     }
 }
 
-static SPI3_BUS: StaticCell<SpiBus> = StaticCell::new();
+static SPI3_BUS: StaticCell<rt::spi::SpiBus> = StaticCell::new();
 
 /// SPI3 10 ms.
 #[embassy_executor::task]
-async fn spi3_10ms(bus: &'static SpiBus, angle_select: Output<'static>) {
+async fn spi3_10ms(bus: &'static rt::spi::SpiBus, angle_select: Output<'static>) {
     let mut angle_line = rt::spi::SpiLine { bus, select: angle_select, config: rt::spi::config(1, 656250) };
     let mut angle: Chip<[u8; tables::ANGLE_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::ANGLE_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(10);
     loop {
         let mut idle_ms = 10;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell(None, index, outcome, value);
+        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut angle_line, &mut angle, timeout, &mut tell).await);
         WATCH.beat(tables::SPI3_10MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
 }
 
-static AHEAD_HEARD: rt::serial::Heard<230> = rt::serial::Heard::new();
+static AHEAD_HEARD: rt::serial::RxQueue<230> = rt::serial::RxQueue::new();
 
 /// The bytes of Ahead at PD6 (USART2_RX).
 #[allow(non_camel_case_types, reason = "it is called as the device")]
@@ -173,7 +158,7 @@ async fn ahead_listen(_port: hal::usart::UartRx<'static, hal::mode::Blocking>) {
     let mut stream: sense_rt::MessageStream<[u8; tables::AHEAD_MESSAGE.stream_bytes(&SCHEMA)]> =
         sense_rt::MessageStream::new(&tables::AHEAD_MESSAGE, &SCHEMA);
     let mut device = rt::serial::Device {
-        heard: &AHEAD_HEARD,
+        queue: &AHEAD_HEARD,
         stream: &mut stream,
         gap_ms: 0,
         is_silent: false,
@@ -184,47 +169,47 @@ async fn ahead_listen(_port: hal::usart::UartRx<'static, hal::mode::Blocking>) {
         let until = Instant::now() + Duration::from_millis(20);
         if device.has_fault() {
             for index in OWN {
-                BOARD.tell(None, index, Outcome::BusError, &mut []);
+                BOARD.report(None, index, Outcome::BusError, &mut []);
             }
         }
         let mut told = sense_rt::Bits::NONE;
-        device.hear(until, &mut |index: usize, outcome, value: &mut [u8]| {
+        device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {
             if outcome == Outcome::Fresh {
                 if told.has(index) {
                     return;
                 }
                 told.set(index);
             }
-            BOARD.tell(match index { 9 => Some(&mut *ahead_filter), _ => None }, index, outcome, value);
+            BOARD.report(match index { 9 => Some(&mut *ahead_filter), _ => None }, index, outcome, value);
         }).await;
         WATCH.beat(tables::AHEAD_LISTEN, now_ms());
         Timer::at(until).await;
     }
 }
 
-static CAN1_KEPT: rt::controller::Kept = rt::controller::Kept::new();
+static CAN1_KEPT: rt::can::Memory = rt::can::Memory::new();
 
 /// CAN1: frames that come.
 #[embassy_executor::task]
-async fn can1_listen(come: rt::controller::Come) {
+async fn can1_listen(come: rt::can::Receiver) {
     let mut bus = rt::can::Bus {
-        come,
+        receiver: come,
         schema: &SCHEMA,
         values: tables::CAN1_VALUES,
         sent: &[11],
-        told_ms: &mut [None; tables::CAN1_VALUES.len()],
+        reported_ms: &mut [None; tables::CAN1_VALUES.len()],
         value: &mut [0; SCHEMA.value_bytes_max()],
     };
     loop {
         let until = Instant::now() + Duration::from_millis(20);
-        bus.hear(until, &mut |index: usize, outcome, value: &mut [u8]| BOARD.tell(None, index, outcome, value)).await;
+        bus.receive(until, &mut |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value)).await;
         WATCH.beat(tables::CAN1_LISTEN, now_ms());
     }
 }
 
 static CAN1_FRAMES: rt::can::Frames<1> = rt::can::frames([rt::can::Sent::new(crate::rt::can::extended(0x18FF1234), 2), ]);
 
-static SPEED_SEEN: Seen = rt::capture::nothing();
+static SPEED_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
 /// Speed at PA15 (TIM2_CH1).
 #[embassy_executor::task]
@@ -233,12 +218,12 @@ async fn speed_edges(timer: hal::timer::pwm_input::PwmInput<'static, TIM2>) {
 }
 
 /// Bumper at PC13 (GPIO).
-static BUMPER_KEPT: rt::contact::Looked =
-    rt::contact::Kept::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
+static BUMPER_KEPT: rt::edges::SampledInput =
+    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
 
 /// Drops at PD3 (GPIO).
-static DROPS_KEPT: rt::exti::Awaited =
-    rt::contact::Kept::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static DROPS_KEPT: rt::edges::InterruptInput =
+    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Edges on the lines of this interrupt.
 #[allow(non_camel_case_types, reason = "it is called as the interrupt")]
@@ -259,7 +244,7 @@ async fn gpio_50ms() {
         for (at, level) in [!BUMPER_KEPT.level()].into_iter().enumerate() {
             Scalar::Bool.store_at(u64::from(level), &mut value, at);
         }
-        BOARD.tell(None, tables::BUMPER, Outcome::Fresh, &mut value);
+        BOARD.report(None, tables::BUMPER, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_50MS, now_ms());
         ticker.next().await;
     }
@@ -289,7 +274,7 @@ impl Host for Board {
                 rt::can::set(&CAN1_FRAMES, 0, &tables::CAN1_SENT_11, &SCHEMA, 11, value, rt::can::Place::new(0), &BOARD);
             }
             tables::STEERING => {
-                set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default())); outputs.tim3.ch3().enable();
+                rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default())); outputs.tim3.ch3().enable();
             }
             tables::THRUST => {
                 drive_thrust(outputs, Scalar::Int16, value);
@@ -310,14 +295,14 @@ impl Host for Board {
         self.apply(tables::THRUST, &[0, 0]);
         self.apply(tables::LIGHT, &[0]);
         outputs(|outputs| {
-            set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable();
+            rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable();
             outputs.level.set(hal::dac::Value::Bit12Right(0));
             drive_thrust(outputs, Scalar::Int32, &0_i32.to_be_bytes());
         });
     }
 
     fn describe(&mut self, board: &mut BoardHealth) {
-        LIFE.describe(board);
+        STATUS.describe(board);
     }
 }
 
@@ -327,7 +312,7 @@ async fn reporter(
     mut watchdog: hal::wdg::IndependentWatchdog<'static, IWDG>,
     mut led: Output<'static>,
     mut link: rt::link_uart::Port<hal::usart::BufferedUart<'static>>,
-    mut can1_tx: rt::controller::Talk,
+    mut can1_tx: rt::can::Sender,
     turns_qei: hal::timer::qei::Qei<'static, TIM4>,
     drive_encoder_qei: hal::timer::qei::Qei<'static, TIM1>,
 ) {
@@ -335,7 +320,7 @@ async fn reporter(
     let mut reporter: Reporter<[u8; SCHEMA.reporter_bytes()]> = Reporter::new(config);
     let mut ticker = Ticker::every(Duration::from_millis(10));
     let mut speed = Capture::NEW;
-    let mut drops_told = [rt::contact::Told::NEW; 1];
+    let mut drops_told = [rt::contact::Reported::NEW; 1];
     let mut drops_repeat = Repeat::NEW;
     let mut turns_counters = [Counter::NEW; 1];
     let mut turns_repeat = Repeat::NEW;
@@ -351,7 +336,7 @@ async fn reporter(
             let config = CaptureConfig { mode: CaptureMode::Frequency, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 4];
             if speed.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) {
-                BOARD.tell(None, tables::SPEED, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::SPEED, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -361,7 +346,7 @@ async fn reporter(
             let (mut value, mut is_news) = ([0; 4], false);
             is_news |= DROPS_KEPT.take(&mut drops_told[0], Scalar::Uint32, false, &mut value[0..]);
             if drops_repeat.is_due(is_news, 1000, now_ms()) {
-                BOARD.tell(None, tables::DROPS, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::DROPS, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -373,7 +358,7 @@ async fn reporter(
                 for (at, count) in counts.into_iter().enumerate() {
                     store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
                 }
-                BOARD.tell(None, tables::TURNS, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::TURNS, Outcome::Fresh, &mut value);
             }
         }
         {
@@ -385,14 +370,14 @@ async fn reporter(
                 for (at, count) in counts.into_iter().enumerate() {
                     store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
                 }
-                BOARD.tell(None, tables::POSITION, Outcome::Fresh, &mut value);
+                BOARD.report(None, tables::POSITION, Outcome::Fresh, &mut value);
             }
         }
         reporter.cycle(Instant::now().as_micros(), &mut link, &mut Board);
         BOARD.with(|_, health| health.tick(now_ms()));
         match WATCH.hanging(now_ms()) {
             None => watchdog.pet(),
-            Some(task) => rt::life::blame(tables::WATCHED_DEVICES.get(task).copied().unwrap_or(0)),
+            Some(task) => rt::status::note_hang(tables::WATCHED_DEVICES.get(task).copied().unwrap_or(0)),
         }
         led.set_level(if now_ms() / 500 % 2 == 0 { Level::High } else { Level::Low });
         ticker.next().await;
@@ -414,11 +399,11 @@ fn config() -> hal::Config {
 
 #[embassy_executor::main]
 async fn main(spawner: Spawner) {
-    LIFE.begin(hal::pac::RCC.csr().read().0);
+    STATUS.begin(hal::pac::RCC.csr().read().0);
     hal::pac::RCC.csr().modify(|flags| flags.set_rmvf(true));
     let wiring = wiring::wire(hal::init(config()));
     OUTPUTS.lock(|all| *all.borrow_mut() = Some(wiring.outputs));
-    outputs(|outputs| { set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable(); });
+    outputs(|outputs| { rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable(); });
     outputs(|outputs| outputs.level.set(hal::dac::Value::Bit12Right(0)));
     outputs(|outputs| { drive_thrust(outputs, Scalar::Int32, &0_i32.to_be_bytes()); });
     rt::usart::listen(hal::pac::USART2);
@@ -431,17 +416,17 @@ async fn main(spawner: Spawner) {
     let adc1: &'static ADC1Unit = ADC1_UNIT.init(Mutex::new(wiring.adc1));
     start!(spawner, adc1_20ms(adc1, wiring.distance));
     start!(spawner, adc1_100ms(adc1, wiring.motor));
-    let i2c3: &'static I2cBus = I2C3_BUS.init(Mutex::new(wiring.i2c3));
+    let i2c3: &'static rt::i2c::I2cBus = I2C3_BUS.init(Mutex::new(wiring.i2c3));
     start!(spawner, i2c3_20ms(i2c3));
-    let spi3: &'static SpiBus = SPI3_BUS.init(Mutex::new(wiring.spi3));
+    let spi3: &'static rt::spi::SpiBus = SPI3_BUS.init(Mutex::new(wiring.spi3));
     start!(spawner, spi3_10ms(spi3, wiring.angle_select));
     start!(spawner, ahead_listen(wiring.ahead));
-    let (can1_tx, can1_rx) = rt::controller::start(
+    let (can1_tx, can1_rx) = rt::can::start(
         wiring.can1,
         hal::pac::CAN1,
-        rt::controller::Banks { registers: hal::pac::CAN1, first: 0 },
+        &rt::can::Banks { registers: hal::pac::CAN1, first: 0 },
         &CAN1_KEPT,
-        rt::can::Bit { divider: 6, before: 11, behind: 2, jump: 2 },
+        rt::can::Bit { divider: 6, before: 11, after: 2, jump: 2 },
         &[crate::rt::can::standard(0x120)],
     );
     start!(spawner, can1_listen(can1_rx));
@@ -454,6 +439,6 @@ async fn main(spawner: Spawner) {
 /// Whatever goes wrong in it, the board starts anew.
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    rt::life::halt();
-    cortex_m::peripheral::SCB::sys_reset()
+    rt::status::note_panic();
+    rt::restart()
 }

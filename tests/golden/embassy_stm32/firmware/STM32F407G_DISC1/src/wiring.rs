@@ -86,18 +86,18 @@ const WATCHDOG_US: u32 = 4_000_000;
 
 /// Hands each device its pins and units. Whatever is taken twice, or does not fit, does not compile.
 pub fn wire(p: Peripherals) -> Wiring {
-    static SAID: ConstStaticCell<[u8; crate::SAID]> = ConstStaticCell::new([0; crate::SAID]);
-    static HEARD: ConstStaticCell<[u8; 512]> = ConstStaticCell::new([0; 512]);
-    let (said, heard) = (SAID.take(), HEARD.take());
+    static TX: ConstStaticCell<[u8; crate::TX_BYTES]> = ConstStaticCell::new([0; crate::TX_BYTES]);
+    static RX: ConstStaticCell<[u8; 512]> = ConstStaticCell::new([0; 512]);
+    let (tx, rx) = (TX.take(), RX.take());
     Wiring {
-        link: crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new(p.USART3, p.PD9, p.PD8, said, heard, Irqs, baud(230400))), crate::SAID),
+        link: crate::rt::link_uart::Port::new(crate::rt::usart::port(hal::usart::BufferedUart::new(p.USART3, p.PD9, p.PD8, tx, rx, Irqs, crate::rt::usart::link(230400))), crate::TX_BYTES),
         adc1: hal::adc::Adc::new(p.ADC1),
         distance: p.PC1,
         motor: p.PC4,
-        i2c3: hal::i2c::I2c::new(p.I2C3, p.PA8, p.PC9, p.DMA1_CH4, p.DMA1_CH2, Irqs, bus(100000)),
+        i2c3: hal::i2c::I2c::new(p.I2C3, p.PA8, p.PC9, p.DMA1_CH4, p.DMA1_CH2, Irqs, crate::rt::i2c::config(100000)),
         spi3: hal::spi::Spi::new(p.SPI3, p.PC10, p.PC12, p.PB4, p.DMA1_CH5, p.DMA1_CH0, Irqs, Default::default()),
         angle_select: Output::new(p.PC5, Level::High, Speed::Medium),
-        ahead: port(hal::usart::UartRx::new_blocking(p.USART2, p.PD6, crate::rt::usart::config(115200, 8, hal::usart::Parity::ParityNone, 1))),
+        ahead: crate::rt::usart::port(hal::usart::UartRx::new_blocking(p.USART2, p.PD6, crate::rt::usart::config(115200, 8, hal::usart::Parity::ParityNone, 1))),
         can1: hal::can::Can::new(p.CAN1, p.PD0, p.PD1, Irqs),
         speed: hal::timer::pwm_input::PwmInput::new_ch1(p.TIM2, p.PA15, Irqs, Pull::None, hz(1000000)),
         bumper: Input::new(p.PC13, Pull::Up),
@@ -116,31 +116,5 @@ pub fn wire(p: Peripherals) -> Wiring {
         },
         led: Output::new(p.PD12, Level::Low, Speed::Low),
         watchdog: hal::wdg::IndependentWatchdog::new(p.IWDG, WATCHDOG_US),
-    }
-}
-
-/// A bus at a clock.
-fn bus(clock_hz: u32) -> hal::i2c::Config {
-    let mut config = hal::i2c::Config::default();
-    config.frequency = hz(clock_hz);
-    config.scl_pullup = true;
-    config.sda_pullup = true;
-    config
-}
-
-/// A port at a rate.
-fn baud(baudrate: u32) -> hal::usart::Config {
-    let mut config = hal::usart::Config::default();
-    config.baudrate = baudrate;
-    // Without a host the wire rests.
-    config.rx_pull = Pull::Up;
-    config
-}
-
-/// A port that could be made; its rate was checked when this was generated.
-fn port<T>(made: Result<T, hal::usart::ConfigError>) -> T {
-    match made {
-        Ok(port) => port,
-        Err(_) => cortex_m::peripheral::SCB::sys_reset(),
     }
 }

@@ -1,0 +1,67 @@
+//! The runtime of Rust firmware on Embassy: what lies between [`sense_rt`], which knows no hardware,
+//! and the drivers of a HAL.
+//!
+//! In: tables of constants and typed peripherals, both printed by a generator. Out: tasks' bodies,
+//! the link to the host, and how the board is. A program has one HAL, which a feature chooses; its
+//! folder has modules of the same names as the others, so that what is printed is the same for all:
+//!
+//! | feature | HAL | folder |
+//! | --- | --- | --- |
+//! | `stm32` | `embassy-stm32` | `src/stm32` |
+//! | `rp` | `embassy-rp` | `src/rp` |
+//!
+//! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
+//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-repeat`, `gpio-v2`, `otg`. The folders are compiled for
+//! MCUs only; everything else is compiled and tested on a computer as well.
+#![no_std]
+
+#[cfg(feature = "runtime")]
+pub mod analog;
+#[cfg(feature = "runtime")]
+pub mod bus;
+#[cfg(feature = "runtime")]
+pub mod capture;
+#[cfg(feature = "runtime")]
+pub mod contact;
+#[cfg(feature = "runtime")]
+pub mod devices;
+#[cfg(feature = "runtime")]
+pub mod link;
+#[cfg(feature = "runtime")]
+pub mod link_uart;
+#[cfg(feature = "runtime")]
+pub mod link_usb;
+#[cfg(feature = "runtime")]
+pub mod serial;
+#[cfg(target_os = "none")]
+pub mod status;
+
+#[cfg(all(feature = "rp", target_os = "none"))]
+mod rp;
+#[cfg(all(feature = "rp", target_os = "none"))]
+pub use rp::*;
+#[cfg(all(feature = "stm32", target_os = "none"))]
+mod stm32;
+#[cfg(all(feature = "stm32", target_os = "none"))]
+pub use stm32::*;
+
+#[cfg(feature = "runtime")]
+mod time;
+#[cfg(feature = "runtime")]
+pub use time::{now_ms, queue};
+
+#[cfg(feature = "sources")]
+#[path = "../sources.rs"]
+pub mod sources;
+
+/// Starts a task. There is one of each, so there is always room for it; a program that is wrong
+/// about that starts over.
+#[macro_export]
+macro_rules! start {
+    ($spawner:ident, $task:expr) => {
+        match $task {
+            Ok(token) => $spawner.spawn(token),
+            Err(_) => $crate::restart(),
+        }
+    };
+}

@@ -1,0 +1,49 @@
+//! Pulse widths.
+
+use embassy_rp::pwm::{Config, Pwm};
+use fixed::FixedU16;
+use sense_rt::LEVEL_FULL;
+
+/// A slice with its two outputs.
+pub struct Slice {
+    slice: Pwm<'static>,
+    config: Config,
+}
+
+/// A slice that counts from 0 to `top` with a step each `divider` clocks.
+pub fn config(divider: u8, top: u16) -> Config {
+    let mut config = Config::default();
+    config.divider = FixedU16::from_bits(u16::from(divider) << 4);
+    config.top = top;
+    config
+}
+
+impl Slice {
+    /// A slice that is set up as `config` says.
+    #[must_use]
+    pub fn new(slice: Pwm<'static>, config: Config) -> Self {
+        Self { slice, config }
+    }
+
+    /// Sets the pulse of a level at output 1 (A) or 2 (B), from the least to the greatest of `[least, greatest,
+    /// period]` in any unit. It is that from the period after [`Slice::apply`] on.
+    pub fn set(&mut self, output: u8, [least, greatest, period]: [u32; 3], level: u32) {
+        let full = u64::from(LEVEL_FULL);
+        let level = u64::from(level.min(LEVEL_FULL));
+        let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
+        let whole = u64::from(period.max(1)) * full;
+        let counts = u64::from(self.config.top) + 1;
+        let compare = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
+        let compare = u16::try_from(compare).unwrap_or(u16::MAX);
+        if output == 1 {
+            self.config.compare_a = compare;
+        } else {
+            self.config.compare_b = compare;
+        }
+    }
+
+    /// Hands the pulses of both outputs over at once.
+    pub fn apply(&mut self) {
+        self.slice.set_config(&self.config);
+    }
+}
