@@ -1,4 +1,4 @@
-//! How long each stage takes: the paper's example and the real car, from text to all files.
+//! The time that each stage takes for the paper's example and the real car, from text to all files.
 #![expect(clippy::disallowed_methods, reason = "a benchmark reads its data")]
 
 use divan::Bencher;
@@ -37,21 +37,21 @@ fn parse(bencher: Bencher<'_, '_>, example: &str) {
     bencher.bench(|| sensedsl_syntax::parse(&text));
 }
 
-/// Parsing included.
+/// Includes parsing.
 #[divan::bench(args = EXAMPLES)]
 fn resolve_design(bencher: Bencher<'_, '_>, example: &str) {
     let text = text(example);
     bencher.bench(|| design(&text));
 }
 
-/// Puts the problem to the solver, without solving.
+/// Formulates the problem for the solver, without solving it.
 #[divan::bench(args = EXAMPLES)]
 fn formulate(bencher: Bencher<'_, '_>, example: &str) {
     let design = design(&text(example));
     bencher.bench(|| drop(Wiring::new(&design, None)));
 }
 
-/// The search, the check of its answer and the way back to names.
+/// The search, the check of its answer and the mapping back to names.
 #[divan::bench(args = EXAMPLES)]
 fn solve(bencher: Bencher<'_, '_>, example: &str) {
     let design = design(&text(example));

@@ -1,16 +1,16 @@
 /*
- * The device code of the core as a program: a request a line on stdin, an answer a line on stdout. Bytes are in
- * hexadecimal, `-` is none. Buffers have exactly the size that the headers ask for, so that a sanitizer sees each byte
- * too far.
+ * The device code of the core as a program: each line on stdin is a request, each line on stdout an answer. Bytes are
+ * in hexadecimal; `-` means none. Buffers have exactly the size that the headers require, so that a sanitizer detects
+ * any access beyond them.
  *
  *   value CODE CRC WORD_BYTES LOW BITS SIGNED LITTLE WORDS TYPE COUNT ELEMENTS BYTES
- *     the result of decoding and the elements, then the bytes that encoding these makes
+ *     the result of decoding and the elements, then the bytes that encoding them gives
  *   crc8 POLYNOMIAL START BYTES
- *   median WINDOW TYPE BYTES         elements one behind the other; the medians likewise
+ *   median WINDOW TYPE BYTES         elements in sequence; the medians likewise
  *   number FORMAT DECIMALS TYPE TEXT HEMISPHERE
  *   formula NAME CALIBRATION RAW     validity and outputs
  *   stream START END LENGTH CHECKSUM FROM BYTES_MAX BYTES
- *     each message as its body with `;` behind it, then the bytes dropped, and `!` where feeding all at once differs
+ *     the body of each message followed by `;`, the number of bytes dropped, and `!` if feeding all at once differs
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -216,7 +216,7 @@ static void on_nothing(void *context, uint16_t field, up_result_t result, void *
   (void)value;
 }
 
-/* Each byte of the body is a field of its own; a message without any prints only its end. */
+/* Each byte of the body is a separate field; for a message without a body, only its end is printed. */
 static void answer_stream(void) {
   static up_field_t fields[BODY_MAX];
   static up_message_field_t places[BODY_MAX];

@@ -1,27 +1,27 @@
 /*
- * The tables of all drivers of the library with the core, as a program: a request a line on stdin. `tables.c` is
- * printed by the generator, and at its end the test lists the parts in it.
+ * The tables of all drivers of the library with the core, as a program: each line on stdin is a request. The generator
+ * prints `tables.c`; the test lists the parts at its end.
  *
- *   unit INDEX                        begins a case with a part that was never started
- *   registers SIZE MASK ALONE         bytes of a register's number, its read bit, whether registers do not run on
- *   register AT BYTES                 what stands in the part from there on
- *   after TRIGGER AT BYTES            the same, once TRIGGER was the last that was written
- *   answer TRIGGER BYTES              what is read without a register after TRIGGER; `-` for after anything
+ *   unit INDEX                        begins a case with a part that has not been started
+ *   registers SIZE MASK ALONE         bytes of a register address, its read bit, 1 if registers are not read in bursts
+ *   register AT BYTES                 the part's registers from AT on
+ *   after TRIGGER AT BYTES            like `register`, once TRIGGER was the last write
+ *   answer TRIGGER BYTES              bytes read without a register after TRIGGER; `-` means after any write
  *   exchange SENT RECEIVED
  *   run                               as many cycles as every reading needs
- *   faults SEED                       from now on some transfers fail, as numbers from SEED say; 0: none
- *   steps COUNT                       so many steps, too early and too late, with all that is sent, read and told
- *   trace ON                          whether all that is told is printed, before and after its filter
- *   later MS                          time goes by
- *   feed BYTES                        comes on the serial port
- *   raw FIELD NUMBER                  what the hardware has measured
- *   edges COUNT US...                 from one edge to the next
- *   frame FIELD BYTES                 comes in a frame of CAN that has the field
+ *   faults SEED                       from now on random transfers fail, determined by SEED; 0 means none
+ *   steps COUNT                       COUNT steps, some early or late; prints all that is sent, read and reported
+ *   trace ON                          whether every value is printed, before and after its filter
+ *   later MS                          lets time pass
+ *   feed BYTES                        bytes received on the serial port
+ *   raw FIELD NUMBER                  a measurement of the hardware
+ *   edges COUNT US...                 the times from one edge to the next
+ *   frame FIELD BYTES                 data of a received CAN frame that has the field
  *   command FIELD COUNT NUMBERS...    prints `written BYTES`, or `output NUMBER VALUE` for each
- *                                     write and `commanded`, or `frame BYTES`: eight of them
- *   end                               prints what became of each field, the fault, and `end`
+ *                                     write and `commanded`, or `frame BYTES` with eight bytes
+ *   end                               prints the outcome of each field, the fault, and `end`
  *
- * Bytes are hexadecimal, all other numbers decimal.
+ * Bytes are in hexadecimal, all other numbers in decimal.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -36,7 +36,7 @@
 #include "up_ppm.h"
 #include "up_value.h"
 
-/* What a device has beside the tables of its part; NULL where it has none. */
+/* The tables of a device besides those of its part; NULL if it has none. */
 typedef struct {
   const up_filter_t *filter;
   up_filter_state_t *filter_state;
@@ -79,7 +79,7 @@ typedef enum { REGISTER, ANSWER, EXCHANGE } entry_kind_t;
 
 typedef struct {
   entry_kind_t kind;
-  block_t trigger; /* or what is sent in an exchange */
+  block_t trigger; /* or the bytes sent in an exchange */
   uint32_t at;
   block_t block;
 } entry_t;
@@ -143,7 +143,7 @@ static bool is_same(const block_t *block, const uint8_t *bytes, size_t count) {
   return block->count == count && memcmp(block->bytes, bytes, count) == 0;
 }
 
-/* ---- chance: the other end draws the same numbers ---- */
+/* ---- randomness: the other end draws the same numbers ---- */
 
 static uint32_t draw(uint32_t limit) {
   test.seed = test.seed * 1664525U + 1013904223U;
@@ -154,7 +154,7 @@ static uint32_t now_ms(void) {
   return test.now_ms;
 }
 
-/* What a transfer comes to, how long it takes, and a line of the trace. */
+/* Determines the result and the duration of a transfer, and prints a line of the trace. */
 static up_bus_result_t fate(const char *what, const uint8_t *bytes, size_t count) {
   static const up_bus_result_t faults[] = {UP_NOT_ACKNOWLEDGED, UP_BUS_ERROR, UP_ARBITRATION_LOST, UP_TIMED_OUT};
   up_bus_result_t result = UP_BUS_DONE;
@@ -188,7 +188,7 @@ static entry_t *add(entry_kind_t kind) {
   return entry;
 }
 
-/* Whether the entry holds now: what was written last is what it waits for. */
+/* Whether the entry applies now: its trigger is the last write. */
 static bool holds(const entry_t *entry) {
   return entry->trigger.count == 0U || is_same(&entry->trigger, test.written.bytes, test.written.count);
 }
@@ -293,7 +293,7 @@ static const up_bus_t bus = {bus_write, bus_write_read, bus_exchange, NULL};
 
 /* ---- values ---- */
 
-/* A line of the trace: what a value came to, and its bits. */
+/* A line of the trace: the result for a value, and its bits. */
 static void trace_value(uint16_t index, up_result_t result, const uint8_t *value) {
   const up_field_t *field = &test.unit->schema->fields[index];
   size_t i;
@@ -362,7 +362,7 @@ static void store(const up_field_t *field, size_t element, int64_t number, uint6
 
 /* ---- requests ---- */
 
-/* What registers that commands share begin with, in each case anew. */
+/* The initial values of registers that commands share, restored for each case. */
 static void begin_kept(size_t unit, uint8_t *kept, size_t count) {
   static uint8_t first[sizeof units / sizeof units[0]][64];
   static bool is_known[sizeof units / sizeof units[0]];

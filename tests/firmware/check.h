@@ -1,14 +1,14 @@
-/* The smallest test harness that works on a host and on a bare Cortex-M with semihosting. */
+/* A minimal test harness that works on a host and on a bare Cortex-M with semihosting. */
 #ifndef CHECK_H
 #define CHECK_H
 
 #include <stdbool.h>
 
-/* Counts a failure and prints where; the run goes on. */
+/* Counts a failure and prints its place; the run continues. */
 void check_that(bool holds, const char *what, const char *file, int line);
 #define CHECK(condition) check_that((condition), #condition, __FILE__, __LINE__)
 
-/* Failures and checks so far. */
+/* The numbers of failures and checks so far. */
 unsigned check_failures(void);
 unsigned check_count(void);
 

@@ -1,6 +1,6 @@
 /*
- * The user's part of the emulated application with two buses. The registers of the first are memory that says
- * "busy" for ever; calls of the second's driver end here and answer with the number of bytes asked for.
+ * The user's file of the emulated application with two buses. The registers of the first bus are memory that always
+ * reads as "busy"; driver calls for the second bus end here, and answer with the number of bytes requested.
  */
 #include "sense_model.h"
 #include "up_rt.h"
@@ -26,7 +26,7 @@ msg_t __wrap_i2cMasterTransmitTimeout(I2CDriver *driver, i2caddr_t address, cons
   return MSG_OK;
 }
 
-/* The emulator raises no transmit interrupt, so a thread asks for it again and again. */
+/* The emulator raises no transmit interrupt, so a thread triggers it repeatedly. */
 static THD_FUNCTION(pump, argument) {
   (void)argument;
   for (;;) {
@@ -37,7 +37,7 @@ static THD_FUNCTION(pump, argument) {
   }
 }
 
-/* There is always something to report: the time. */
+/* The wheel always has something to report: the time. */
 static THD_FUNCTION(wheel, argument) {
   (void)argument;
   for (;;) {

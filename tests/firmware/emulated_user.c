@@ -1,6 +1,6 @@
 /*
- * The user's part of the emulated application. The emulator raises no transmit interrupt, so a thread asks for
- * it again and again; and the hooks leave traces that the test looks for.
+ * The user's file of the emulated application. The emulator raises no transmit interrupt, so a thread triggers it
+ * repeatedly. The hooks leave traces that the test looks for.
  */
 #include "sense_model.h"
 #include "up_rt.h"
@@ -21,12 +21,12 @@ void up_user_init(void) {
   (void)chThdCreateStatic(pump_stack, sizeof pump_stack, NORMALPRIO + 50, pump, NULL);
 }
 
-/* A wheel that stands still is told as 7. */
+/* A wheel at rest is reported as 7. */
 void sense_transform_Wheel(uint32_t *value) {
   *value += 7U;
 }
 
-/* What the host sets comes back one larger. */
+/* A value that the host sets comes back incremented. */
 void up_user_received(size_t field) {
   uint8_t lamp = 0U;
 

@@ -1,6 +1,6 @@
 /*
- * Runs the unit tests of the runtime's core, then every vector file of the command line.
- * Prints one summary line; the exit status is 0 only when every check held.
+ * Runs the unit tests of the runtime's core, then every vector file of the command line. Prints one summary line; the
+ * exit status is 0 only if every check passed.
  */
 #include <stdio.h>
 

@@ -75,7 +75,7 @@ static void on_value(void *context, uint16_t field, up_result_t result, void *va
   up_health_note(&rig->health, field, result, rig->now_ms);
 }
 
-/* The clock that the chips read. */
+/* The clock that the chips use. */
 static uint32_t step_ms;
 
 static uint32_t bus_now_ms(void) {
@@ -219,7 +219,7 @@ static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *ite
   rig->lost += (rig->has_counter && stamp->counter != rig->next_counter) ? 1U : 0U;
   rig->next_counter = (uint8_t)(stamp->counter + 1U);
   rig->has_counter = true;
-  /* The frame's own time on the line, and a cycle. */
+  /* The frame's own time on the line, plus a cycle. */
   rig->late_reports += (rig->now_ms - stamp_ms > ((rig->baud == 0U) ? 2U : 46U * 10000U / rig->baud + 2U)) ? 1U : 0U;
   if (rig->now_ms - rig->last_report_ms > rig->longest_gap_ms) {
     rig->longest_gap_ms = rig->now_ms - rig->last_report_ms;
@@ -264,7 +264,8 @@ static size_t command(rig_t *rig, int16_t motor, uint8_t *frame) {
   return up_encode_values(&rig_commands, NULL, due, &values, frame, RIG_COMMAND_FRAME_BYTES);
 }
 
-/* Torn, with one wrong bit, too long, of an unknown identifier, a lamp that is neither on nor off, or just noise. */
+/* Sends a command that is torn, has one wrong bit, is too long, has an unknown identifier or an invalid bool, or
+ * just noise. */
 static void send_rubbish(rig_t *rig) {
   static const uint8_t oversized[] = "9999:", unknown[] = "4:\x63\x01\x02\x03,", lamp[] = "2:\x06\x02,";
   uint8_t bytes[RIG_COMMAND_FRAME_BYTES];
@@ -311,7 +312,7 @@ static void run_host(rig_t *rig) {
     rig->commands++;
     send_bytes(rig, frame, command(rig, rig->commanded, frame));
   }
-  /* At 1200 baud health takes a second. */
+  /* At 1200 baud, health takes a second. */
   if (rig->now_ms % ((rig->baud == 0U) ? 1000U : 4000U) == 500U) {
     send_bytes(rig, frame, up_encode_health_request(&rig_commands, frame, sizeof frame));
   }
@@ -337,7 +338,7 @@ static void run_line(rig_t *rig) {
   memmove(rig->queue, &rig->queue[size], rig->queued);
 }
 
-/* ---- all of it ---- */
+/* ---- the whole rig ---- */
 
 void rig_start(rig_t *rig, const rig_fault_t *fault, uint32_t baud) {
   static const uint32_t cycles_ms[RIG_FIELDS] = {2U * RIG_CHIP_MS, RIG_CHIP_MS, 100U, RIG_LEVEL_MS, 0U, 0U};

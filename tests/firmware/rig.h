@@ -1,6 +1,7 @@
 /*
- * A whole board on a computer: two chips on a bus, a capture, a serial device, the reporter and its link, and the host at
- * the other end. Time is a number of milliseconds; what is measured is the time, so that a value tells its own age.
+ * A complete simulated board: two chips on a bus, a capture, a serial device, the reporter and its link, and the host
+ * at the other end. Time is a number of milliseconds; the measured values are the time, so that each value shows its
+ * own age.
  */
 #ifndef RIG_H
 #define RIG_H
@@ -21,13 +22,13 @@ enum { RANGE, AXES, WHEEL, LEVEL, MOTOR, LAMP, RIG_FIELDS };
 #define RIG_SILENCE_MS 500U
 #define RIG_QUEUE_BYTES 256U
 
-/* What is wrong, from one moment to another. */
+/* A fault that lasts from one time to another. */
 typedef struct {
   uint32_t from_ms, to_ms;
-  uint8_t address;       /* transfers to this chip fail; 0xFF: to all */
-  uint8_t phase;         /* from this one of a transfer on: 0 the address, 1 what is written, 2 what is read */
-  up_bus_result_t bus;   /* UP_BUS_DONE: the bus is well */
-  uint32_t hangs_ms;     /* a transfer that fails takes so long */
+  uint8_t address;       /* transfers to this chip fail; 0xFF: to all chips */
+  uint8_t phase;         /* the phase of a transfer from which on it fails: 0 address, 1 write, 2 read */
+  up_bus_result_t bus;   /* UP_BUS_DONE: the bus is not faulty */
+  uint32_t hangs_ms;     /* the time that a failing transfer takes */
   bool capture_is_silent;
   bool serial_is_garbage;
   bool serial_is_silent;

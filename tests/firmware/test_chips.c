@@ -1,4 +1,5 @@
-/* Chips on a bus that is a table of registers: starting, identity, calibration, transfers in their own time, faults. */
+/* Chips on a bus that is a table of registers: start, identity, calibration, transfers at their own intervals,
+ * faults. */
 #include <string.h>
 
 #include "check.h"
@@ -6,16 +7,16 @@
 
 /* ---- the world ---- */
 
-/* 256 registers; what is written first is the register. Fails when it is told to. */
+/* 256 registers; the first byte written is the register address. Transfers fail on request. */
 typedef struct {
   uint8_t registers[256];
-  uint8_t log[64]; /* what was written, transfer by transfer, each with its length in front */
+  uint8_t log[64]; /* the transfers written, each preceded by its length */
   size_t log_size;
   size_t transfers; /* so far */
-  size_t fails_at;  /* which one fails, from 1; 0: none */
+  size_t fails_at;  /* the number of the transfer that fails, from 1; 0: none */
   bool is_gone;
   up_bus_result_t failure;
-  uint32_t transfer_ms; /* that each transfer takes */
+  uint32_t transfer_ms; /* the time that each transfer takes */
 } world_t;
 
 static uint32_t world_ms;
@@ -59,7 +60,7 @@ static up_bus_result_t world_write_read(void *context, uint8_t address, const ui
   return result;
 }
 
-/* MCP3008: start, single-ended channel, and ten bits that come back behind them. */
+/* MCP3008: start, single-ended channel, and the ten bits of the answer after them. */
 static up_bus_result_t world_exchange(void *context, uint8_t address, const uint8_t *tx, uint8_t *rx, size_t count) {
   const up_bus_result_t result = happens(context, address, tx, count);
   const unsigned level = 1000U - (tx[1] >> 4);
@@ -72,7 +73,7 @@ static up_bus_result_t world_exchange(void *context, uint8_t address, const uint
   return result;
 }
 
-/* What the sink was told last of each field. */
+/* The last report to the sink for each field. */
 typedef struct {
   up_result_t results[4];
   unsigned told[4];
@@ -172,7 +173,7 @@ static void set_up_mpu(board_t *board) {
 
 static void test_start(void) {
   static const uint8_t written[] = {2U, 0x6BU, 0x80U, 2U, 0x6BU, 0x00U};
-  const uint32_t t0 = 0xFFFFFFD0U; /* the clock wraps in the pause */
+  const uint32_t t0 = 0xFFFFFFD0U; /* the clock wraps during the pause */
   board_t board;
 
   set_up_mpu(&board);
@@ -191,14 +192,14 @@ static void test_start(void) {
   CHECK(board.heard.told[0] == 1U);
   step(&board, &mpu, t0 + 111U);
   CHECK(board.heard.told[0] == 2U && board.state.fault == UP_NOTHING);
-  /* 9 ms and 11 ms in turn, as clocks of whole milliseconds round: none is left out, none comes twice. */
+  /* Alternating 9 ms and 11 ms, as clocks with whole milliseconds round: none is left out, none comes twice. */
   for (uint32_t i = 2U; i < 100U; i++) {
     step(&board, &mpu, t0 + 101U + 10U * i - i % 2U);
     CHECK(board.heard.told[0] == i + 1U);
   }
 }
 
-/* A pause is counted from the end of what is written before it, however long that takes on the bus. */
+/* A pause is counted from the end of the write before it, however long that takes on the bus. */
 static void test_slow_bus(void) {
   board_t board;
 
@@ -226,7 +227,7 @@ static void test_faults(void) {
   step(&board, &mpu, 10U);
   step(&board, &mpu, 111U);
   CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
-  /* A transfer fails: error now, then the whole start again, with its pause. */
+  /* A transfer fails: an error now, then the complete start again, with its pause. */
   board.world.fails_at = board.world.transfers + 1U;
   board.world.failure = UP_BUS_TIMED_OUT;
   board.world.log_size = 0U;
@@ -240,7 +241,7 @@ static void test_faults(void) {
   CHECK(board.heard.results[0] == UP_FRESH && board.state.counts.starts == 2U);
 }
 
-/* What a bus says is told of each value, and counted by itself. */
+/* The error of a bus is reported for each value, and counted separately. */
 static void test_causes(void) {
   static const up_bus_result_t cases[] = {UP_BUS_NOT_ACKNOWLEDGED, UP_BUS_ERROR, UP_BUS_ARBITRATION_LOST,
                                           UP_BUS_TIMED_OUT};
@@ -281,11 +282,11 @@ static void test_identity(void) {
       CHECK(board.world.log_size == before);
     }
   }
-  /* It was read, and seldom written to: each 16th time it is started, with a pause of ten cycles. */
+  /* It was read, and only seldom written to: every 16th time it is started again, with a pause of ten cycles. */
   CHECK(board.state.counts.causes[UP_FRESH] == 0U && board.state.counts.starts == 0U);
   CHECK(board.state.counts.causes[UP_WRONG_IDENTITY] == 57U && board.world.log_size == before + 3U * 6U);
   before = board.world.log_size;
-  board.world.registers[0x75] = 0xE9U; /* the bits that count are right */
+  board.world.registers[0x75] = 0xE9U; /* the significant bits are right */
   step(&board, &mpu, 1000U);
   CHECK(board.world.log_size == before + 3U);
   step(&board, &mpu, 1101U);
@@ -310,7 +311,7 @@ static void test_command(void) {
   CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_NOTHING);
 }
 
-/* ---- several triggered measurements of one converter, and a free one with a time of its own ---- */
+/* ---- several triggered measurements of one converter, and an untriggered one with its own interval ---- */
 
 static const uint8_t first_trigger[] = {0x01U, 0xC1U}, second_trigger[] = {0x01U, 0xD1U}, at0[] = {0x00U}, at9[] = {9U};
 static const up_chip_transfer_t ads_transfers[] = {
@@ -339,7 +340,7 @@ static void test_turns(void) {
   for (now_ms = 0U; now_ms < 80U; now_ms += 10U) {
     step(&board, &ads, now_ms);
     if (now_ms == 0U) {
-      /* One more than it needs: the millisecond in which it was triggered was not a whole one. */
+      /* One millisecond more than it needs, because it was triggered during a millisecond that had already begun. */
       CHECK(board.heard.told[2] == 0U && up_chip_idle_ms(&ads, &board.state, now_ms) == 10U);
     }
     if (now_ms == 20U) {
@@ -353,14 +354,14 @@ static void test_turns(void) {
     step(&board, &ads, now_ms);
   }
   CHECK(board.heard.told[2] == 50U && board.heard.told[3] == 50U && board.heard.told[1] == 20U);
-  /* A second without a step: what was missed is left out. */
+  /* A second without a step: the missed measurements are left out. */
   step(&board, &ads, 3000U);
   step(&board, &ads, 3010U);
   step(&board, &ads, 3020U);
   CHECK(board.heard.told[2] == 51U && board.heard.told[3] == 51U && board.heard.told[1] == 21U);
 }
 
-/* Called whenever there is something to do, a chip is as quick and as regular as its tables say. */
+/* If it is called whenever there is something to do, a chip is as fast and as regular as its tables state. */
 static void test_idle(void) {
   board_t board;
   uint32_t now_ms = 0U, steps = 0U;
@@ -377,7 +378,7 @@ static void test_idle(void) {
   CHECK(steps < 500U);
 }
 
-/* A transfer that is made a little early is not due earlier the next time: it keeps to its grid. */
+/* A transfer that is made slightly early does not make the next one due earlier: it stays on its grid. */
 static void test_early(void) {
   static const up_chip_transfer_t transfers[] = {{.select = at9, .select_count = 1U, .length = 2U, .cycle_ms = 100U}};
   static const up_chip_reading_t readings[] = {{.field = 2U, .value = {.word_bytes = 2U}}};
@@ -395,7 +396,7 @@ static void test_early(void) {
   }
 }
 
-/* A measurement that needs no time is triggered and read in one step. */
+/* A measurement without a conversion time is triggered and read in one step. */
 static void test_no_wait(void) {
   static const up_chip_transfer_t transfers[] = {{.trigger = first_trigger, .trigger_count = 2U, .length = 2U}};
   static const up_chip_reading_t readings[] = {{.field = 2U, .value = {.word_bytes = 2U}}};
@@ -465,7 +466,7 @@ static void test_exchange(void) {
 }
 
 static void test_formula(void) {
-  /* The data sheet's example of the BMP280, as it lies in the registers. */
+  /* The data sheet's example for the BMP280, as it is in the registers. */
   static const uint8_t trimming[] = {0x70U, 0x6BU, 0x43U, 0x67U, 0x18U, 0xFCU, 0x7DU, 0x8EU, 0x43U, 0xD6U, 0xD0U,
                                      0x0BU, 0x27U, 0x0BU, 0x8CU, 0x00U, 0xF9U, 0xFFU, 0x8CU, 0x3CU, 0xF8U, 0xC6U,
                                      0x70U, 0x17U};
@@ -499,8 +500,8 @@ static uint32_t failures_of(const up_chip_state_t *state) {
          state->counts.causes[UP_ARBITRATION_LOST] + state->counts.causes[UP_TIMED_OUT];
 }
 
-/* A bad wire: transfers fail at random, another part answers now and then, time jumps. A stranger gives no values, a
- * failure is told, and when the wire is good again the chip is soon back. */
+/* A bad wire: transfers fail at random, another part answers sometimes, time jumps. A wrong part gives no values,
+ * failures are reported, and once the wire is good again the chip soon recovers. */
 static void test_bad_wire(void) {
   board_t board;
   uint32_t seed = 11U, now_ms = 0xFFFF0000U, i, fresh = 0U;

@@ -1,6 +1,6 @@
 /*
- * A whole board with one thing wrong for four of ten seconds: whatever it is, reports go on at their rate, health tells
- * the cause, and nothing old is sent as new. On a line of 1200 baud and on USB.
+ * A complete board with one fault for four of ten seconds. Whatever the fault is, reports continue at their rate,
+ * health reports the cause, and no old value is sent as new. Tested on a line with 1200 baud and on USB.
  */
 #include <stdio.h>
 
@@ -10,23 +10,23 @@
 #define FROM_MS 2000U
 #define TO_MS 6000U
 #define END_MS 10000U
-/* A report of all that is due is 30 bytes; at 1200 baud it takes 250 ms. Health is 129 bytes and takes more than a
- * second, which it has to itself now and then. */
+/* A report with everything that is due has 30 bytes and takes 250 ms at 1200 baud. Health has 129 bytes and takes
+ * more than a second, during which it has the line to itself. */
 #define SLOW_BAUD 1200U
 #define SLOW_REPORTS_MIN 3U
 #define SLOW_REPORTS_OF_ALL 26U
 #define FAST_REPORTS_MIN 95U
-/* With nothing but what comes every 20 ms. */
+/* With only the values that come every 20 ms. */
 #define FEW_REPORTS_MIN 45U
 
 typedef struct {
   const char *name;
   rig_fault_t fault;
-  uint8_t field; /* health tells of it that it is so */
+  uint8_t field; /* the field whose health shows the fault */
   uint8_t status;
   uint8_t cause;      /* up_fault_t; UP_FAULTS: nothing is counted */
-  bool others_too;    /* other devices are not well, either */
-  bool reports_stop;  /* nobody is there to take them */
+  bool others_too;    /* other devices are affected too */
+  bool reports_stop;  /* nobody takes the reports */
 } case_t;
 
 #define ALWAYS FROM_MS, TO_MS
@@ -66,7 +66,7 @@ static bool is_well(const up_health_row_t *row, bool may_be_unused) {
   return row->status == UP_STATUS_GOOD || (may_be_unused && row->status == UP_STATUS_NEVER);
 }
 
-/* What the host was told while the fault lasted. */
+/* The health that the host received while the fault lasted. */
 static void check_health_in_fault(const case_t *one) {
   const up_health_row_t *row = &rig.rows[one->field];
   size_t i;
@@ -88,7 +88,7 @@ static void check_rate(const case_t *one, uint32_t baud) {
 
   for (second = 0U; second < 10U; second++) {
     const bool is_in_fault = second >= FROM_MS / 1000U && second < TO_MS / 1000U;
-    /* What was asked for meanwhile is answered first. */
+    /* Answers to requests from that time come first. */
     const bool is_ending = second == TO_MS / 1000U || (baud != 0U && second == TO_MS / 1000U + 1U);
     if (one->reports_stop && (is_in_fault || is_ending)) {
       CHECK(is_ending || rig.reports_in_second[second] <= 1U);
@@ -106,7 +106,7 @@ static void check_host(const case_t *one) {
   } else {
     CHECK(rig.failsafes == 0U);
   }
-  /* Each command that was sent whole came, once, and nothing else did. */
+  /* Each command that was sent completely arrived once, and nothing else did. */
   CHECK(rig.motor == rig.commanded && rig.applied == rig.commands && !rig.lamp);
   CHECK((rig.reporter.decoder.dropped_bytes > 0U) == one->fault.host_sends_rubbish);
 }

@@ -1,4 +1,4 @@
-/* What becomes of values on the board: invalid, median, smooth, change and heartbeat. */
+/* Filters for values on the board: invalid, median, smooth, change and heartbeat. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static up_result_t pass_u16(const up_filter_t *filter, up_filter_state_t *state,
   return up_filter_apply(filter, state, &u16_field, now_ms, value);
 }
 
-/* SRF08: 0 is no echo; a thermocouple: everything from 0x7FFC up; an int16 of -32768. */
+/* SRF08: 0 means no echo; a thermocouple: everything from 0x7FFC up; an int16 of -32768. */
 static void test_invalid(void) {
   static const up_range_t srf[] = {{.low = {.u = 0U}, .high = {.u = 0U}},
                                    {.low = {.u = 11000U}, .high = {.u = 65535U}}};
@@ -78,7 +78,7 @@ static void test_median(void) {
   CHECK(pair[0] == -6 && pair[1] == 8);
 }
 
-/* Against the exponential function of the C library. */
+/* Compared with the exponential function of the C library. */
 static void test_decay(void) {
   uint32_t seed = 1U, i;
 
@@ -109,7 +109,7 @@ static void test_step_response(void) {
     CHECK(pass_u16(&filter, &state, now_ms, &value) == UP_FRESH);
     CHECK(fabs((double)value - (11000.0 - 10000.0 * exp(-0.1 * i))) <= 0.51);
   }
-  /* Ten steps of 10 ms or one of 100 ms: the same. */
+  /* Ten steps of 10 ms and one of 100 ms give the same value. */
   value = 1000U;
   now_ms += 3000U;
   CHECK(pass_u16(&filter, &state, now_ms, &value) == UP_FRESH && value == 1000U);
@@ -118,7 +118,7 @@ static void test_step_response(void) {
   CHECK(pass_u16(&filter, &state, now_ms, &value) == UP_FRESH && value == 7321U);
 }
 
-/* However small the steps, a constant input is reached exactly, from above and from below, and held. */
+/* However small the steps, a constant input is reached exactly, from above and from below, and the value stays. */
 static void test_no_drift(void) {
   const up_filter_t filter = {.smooth_ms = 60000U};
   uint64_t memory[UP_FILTER_WORDS(1U, 8U, 0U, true, false)];
@@ -148,7 +148,7 @@ static void test_no_drift(void) {
   }
 }
 
-/* The mean of a noisy input is the input's mean: rounding goes neither way. */
+/* The mean of the output is the mean of a noisy input: rounding has no bias. */
 static void test_mean_of_noise(void) {
   const up_filter_t filter = {.smooth_ms = 500U};
   uint64_t memory[UP_FILTER_WORDS(1U, 8U, 0U, true, false)];
@@ -222,7 +222,7 @@ static void test_change(void) {
   CHECK(up_filter_apply(&filter, &state, &pair_field, 2U, pair) == UP_FRESH);
 }
 
-/* With 300 ms between values and a heartbeat of a second, the third is told, for the fourth is too late. */
+/* With 300 ms between values and a heartbeat of a second, the third is reported, because the fourth is too late. */
 static void test_heartbeat(void) {
   const up_filter_t filter = {.has_change = true, .change = {.f = 0.5F}, .heartbeat_ms = 1000U};
   const up_filter_t silent = {.has_change = true, .change = {.u = 1U}};
@@ -243,7 +243,7 @@ static void test_heartbeat(void) {
   CHECK(up_filter_apply(&silent, &state, &bool_field, 1000001U, &on) == UP_FRESH);
 }
 
-/* The whole width of 64 bits; and without its double part, a float64 is told each time. */
+/* The full width of 64 bits; and without its double part, a float64 is reported each time. */
 static void test_wide_change(void) {
   const up_filter_t filter = {.has_change = true, .change = {.u = UINT64_MAX}};
   const up_filter_t narrow = {.has_change = true, .change = {.d = 1.0}};
@@ -267,7 +267,8 @@ static void test_wide_change(void) {
   CHECK(up_filter_apply(&wide, &state, &f64_field, 0U, &real) == UP_FRESH);
 }
 
-/* All at once, each with its own memory: an outlier goes to the median, what is left is smoothed, and told seldom. */
+/* All filters at once, each with its own memory: the median removes outliers, the rest is smoothed and seldom
+ * reported. */
 static void test_together(void) {
   static const up_range_t zero[] = {{.low = {.u = 0U}, .high = {.u = 0U}}};
   const up_filter_t filter = {.invalid = zero, .invalid_count = 1U, .median = 15U, .smooth_ms = 50U,

@@ -1,4 +1,4 @@
-/* The formulas against the examples of data sheets and published tables. */
+/* The formulas compared with the examples of data sheets and published tables. */
 #include <string.h>
 
 #include "check.h"
@@ -15,8 +15,8 @@ static void put20(uint8_t *bytes, uint32_t number) {
   bytes[2] = (uint8_t)(number << 4);
 }
 
-/* The example of the BMP280's data sheet, section 3.12, and the humidity trimming of a BME280. The sheet prints
- * 25767236 for the pressure, which is what its formula in floating point comes to; the one in 64-bit integers comes to
+/* The example of the BMP280's data sheet, section 3.12, and the humidity trimming of a BME280. The data sheet prints
+ * 25767236 for the pressure, which is the result of its floating-point formula; the formula in 64-bit integers gives
  * 25767233, 0.01 Pa less. */
 static void bosch_image(uint8_t *calibration, uint8_t *raw) {
   static const int words[] = {27504, 26435, -1000, 36477, -10685, 3024, 2855, 140, -7, 15500, -14600, 6000};
@@ -49,7 +49,7 @@ static void test_bosch(void) {
   CHECK(outputs[0] == 2508 && outputs[1] == 25767233);
   CHECK(up_formula_bme280.calibration_bytes == 32U && up_formula_bme280.raw_bytes == 8U);
   CHECK(up_formula_bme280.compute(calibration, NULL, raw, outputs));
-  /* 73.6026 % (75369) by the data sheet's formula in floating point. */
+  /* 73.6026 % (75369) by the data sheet's floating-point formula. */
   CHECK(outputs[0] == 2508 && outputs[1] == 25767233 && outputs[2] > 75359 && outputs[2] < 75379);
   raw[6] = 0x80U;
   raw[7] = 0x00U;
@@ -61,7 +61,7 @@ static void test_bosch(void) {
   CHECK(!up_formula_bmp280.compute(calibration, NULL, raw, outputs));
 }
 
-/* Whatever a broken part or wire says, nothing overflows (a sanitizer watches) and nothing absurd comes out. */
+/* Whatever a broken part or wire sends, nothing overflows (a sanitizer checks) and no absurd value results. */
 static void test_bosch_noise(void) {
   uint8_t calibration[32], raw[8];
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX];
@@ -89,8 +89,9 @@ static void test_bosch_noise(void) {
   CHECK(valid > 100U);
 }
 
-/* The table of a bead of 10 kOhm with B(25/50) = 3950 K (AMWEI AMF58B-103F3950), in ohm. Real beads leave the beta
- * formula away from 25 degC: it is 2.4 K off at -20 degC, 0.6 K at 0, nothing at 30, 0.7 K at 80, 1.3 K at 100. */
+/* The table of a thermistor bead with 10 kOhm and B(25/50) = 3950 K (AMWEI AMF58B-103F3950), in ohm. Real beads
+ * deviate from the beta formula away from 25 degC: by 2.4 K at -20 degC, 0.6 K at 0, nothing at 30, 0.7 K at 80, 1.3
+ * K at 100. */
 static void test_ntc(void) {
   static const struct {
     int16_t degrees;
@@ -126,7 +127,7 @@ static void test_ntc(void) {
   CHECK(up_formula_ntc.compute(NULL, parameters, raw, &celsius) && celsius > 30000);
 }
 
-/* Without parameters it is 402 ms and a gain of 16. */
+/* The defaults are 402 ms and a gain of 16. */
 static void test_tsl2561_by_default(void) {
   static const uint8_t raw[] = {0x10U, 0x27U, 0xD0U, 0x07U};
   int64_t millilux = 0;

@@ -1,4 +1,4 @@
-/* What is told of devices and of a silent host: rules of the status, saturation, the clock's wrap. */
+/* Reports on devices and on a silent host: rules of the status, saturation, the clock's wrap. */
 #include <string.h>
 
 #include "check.h"
@@ -45,7 +45,7 @@ static void test_status(void) {
   CHECK(is(&board, 0U, 1180U, UP_STATUS_STALE, 180U));
   up_health_note(&board.health, 0U, UP_NOTHING, 1180U);
   CHECK(is(&board, 0U, 1180U, UP_STATUS_STALE, 180U));
-  /* What is read only when something happens is never stale. */
+  /* A device that is read only on events is never stale. */
   CHECK(is(&board, 1U, 1000000U, UP_STATUS_GOOD, 999000U));
   for (i = 0U; i < sizeof failures / sizeof failures[0]; i++) {
     const uint32_t now_ms = 1100U + 100U * (uint32_t)i;
@@ -92,7 +92,7 @@ static void test_counts(void) {
     up_health_note(&board.health, 1U, UP_FRESH, n);
     up_health_row(&board.health, 1U, n, &row);
     CHECK(row.counts[cases[i].fault] == 65535U && row.status == UP_STATUS_GOOD);
-    /* The neighbours are left alone. */
+    /* The neighbours are not affected. */
     CHECK(is(&board, 0U, n, UP_STATUS_NEVER, NEVER) && is(&board, 2U, n, UP_STATUS_NEVER, NEVER));
   }
 }
@@ -104,11 +104,11 @@ static void test_wrap(void) {
   set_up(&board);
   up_health_note(&board.health, 0U, UP_FRESH, 0xFFFFFFF0U);
   CHECK(is(&board, 0U, 0x10U, UP_STATUS_GOOD, 0x20U) && is(&board, 0U, 0x100U, UP_STATUS_STALE, 0x110U));
-  /* Somebody else's clock was looked at a little later. */
+  /* Another clock was read a little later. */
   up_health_tick(&board.health, 0xFFFFFFEFU);
   board.health.looked_at = 0U;
   CHECK(is(&board, 0U, 0xFFFFFFEFU, UP_STATUS_GOOD, 0U) && is(&board, 0U, 0x10U, UP_STATUS_GOOD, 0x20U));
-  /* A device that fell silent for good does not become young again after 49 days. */
+  /* A device that stays silent does not appear recent again after 49 days. */
   for (n = 0U, now_ms = 0x100U; n < 100U; n++, now_ms += 0x06000000U) {
     up_health_tick(&board.health, now_ms);
     up_health_row_t row;
@@ -129,7 +129,7 @@ static void test_silence(void) {
   CHECK(up_silence_step(&silence, 0xF4U) && !up_silence_step(&silence, 0xF5U) && silence.is_silent);
   up_silence_heard(&silence, 0x100U);
   CHECK(!silence.is_silent && !up_silence_step(&silence, 0x2F3U) && up_silence_step(&silence, 0x2F4U));
-  /* Told once for each silence, also when the clock comes round. */
+  /* Reported once for each silence, also when the clock wraps. */
   for (now_ms = 0x300U; now_ms < 0xFF000000U; now_ms += 0x00100000U) {
     told += up_silence_step(&silence, now_ms) ? 1U : 0U;
   }

@@ -1,4 +1,4 @@
-/* Serial devices: recorded and published messages, whole, cut, damaged and hidden in others. */
+/* Serial devices: recorded and published messages, intact, cut, damaged and hidden in others. */
 #include <string.h>
 
 #include "check.h"
@@ -71,7 +71,7 @@ static const up_message_t tfmini = {.start = yy, .start_count = 2U, .length = 6U
 /* The data sheet's example of a distance, 1000 = 0x03E8, with the sum of all bytes before it. */
 static void test_tfmini(void) {
   static const uint8_t frame[] = {0x59U, 0x59U, 0xE8U, 0x03U, 0x2CU, 0x01U, 0x00U, 0x00U, 0xCAU};
-  /* A distance and a strength that look like the start, with one more start in front. */
+  /* A distance and a strength that look like the start, preceded by one more start. */
   static const uint8_t hard[] = {0x59U, 0x59U, 0x59U, 0x59U, 0x59U, 0x59U, 0x59U, 0x00U, 0x00U, 0x16U};
   port_t port;
   size_t i;
@@ -99,7 +99,7 @@ static const up_message_field_t sbus_fields[] = {
 static const up_message_t sbus = {.start = sbus_start, .end = sbus_end, .start_count = 1U, .end_count = 1U,
                                   .length = 23U, .bytes_max = 25U, .fields = sbus_fields, .fields_count = 2U};
 
-/* Two published frames with the channels that other decoders found in them. */
+/* Two published frames, with the channels that other decoders found in them. */
 static void test_sbus(void) {
   static const uint8_t first[] = {0x0FU, 0xE0U, 0x03U, 0x1FU, 0x58U, 0xC0U, 0x07U, 0x16U, 0xB0U, 0x80U, 0x05U, 0x2CU,
                                   0x60U, 0x01U, 0x0BU, 0xF8U, 0xC0U, 0x07U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U, 0x03U,
@@ -117,7 +117,7 @@ static void test_sbus(void) {
   CHECK(memcmp(port.heard.channels, first_channels, sizeof first_channels) == 0 && port.heard.numbers[0] == 0);
   feed(&port, &sbus, second, sizeof second);
   CHECK(memcmp(port.heard.channels, second_channels, sizeof second_channels) == 0 && port.heard.numbers[0] == 3);
-  feed(&port, &sbus, first, 10U); /* the rest is lost; the line is silent, then all is well */
+  feed(&port, &sbus, first, 10U); /* the rest is lost; the line is silent, then everything is right again */
   up_message_gap(&port.state);
   feed(&port, &sbus, first, sizeof first);
   CHECK(port.state.messages == 3U && port.state.dropped_bytes == 10U);
@@ -181,7 +181,7 @@ static const up_message_t gps = {.start = dollar, .end = line_end, .start_count 
                                  .checksum = UP_CHECKSUM_NMEA, .bytes_max = 100U,
                                  .fields = gps_fields, .fields_count = 3U};
 
-/* Sentences of a u-blox module without and a receiver at sea with a position. */
+/* Sentences of a u-blox module without a position, and of a receiver at sea with one. */
 static void test_nmea(void) {
   port_t port;
 
@@ -197,12 +197,12 @@ static void test_nmea(void) {
   CHECK(port.heard.results[1] == UP_FRESH && port.heard.numbers[1] == -515085333);
   feed_text(&port, &gps, "$GPGGA,200000.00,1541.31248595,N,05130.51199976,W,2,06,1.5,8.8,M,-37.6,M,5.0,0138*7D\r\n");
   CHECK(port.heard.results[2] == UP_FRESH && port.heard.numbers[2] == 880 && port.state.messages == 5U);
-  /* Damaged; without its end; lower-case digits; a sentence of Galileo's talker. */
+  /* Damaged; without its end; with lower-case digits; a sentence of a Galileo talker. */
   feed_text(&port, &gps, "$GPGGA,200000.00,1541.31248595,N,05130.51199976,W,2,06,1.5,9.8,M,-37.6,M,5.0,0138*7D\r\n");
   feed_text(&port, &gps, "$GPGGA,2000$GPGGA,,,,,,0,00,99.99,,,,,,*48\r\n$GPGLL,,,,,,V,N*64\r\n"
                          "$GPGGA,,,,,,1,,,-5.006,,,,,*67\r\n");
   CHECK(port.state.wrong_checksum >= 2U && port.state.messages == 8U && port.heard.numbers[2] == -501);
-  /* Of the damaged ones that value is told which stands in them. */
+  /* Of the damaged sentences, only a value that is complete is reported. */
   CHECK(port.heard.told[2] == 6U && port.heard.told[0] == 2U);
 }
 
@@ -225,7 +225,7 @@ static void test_text(void) {
   CHECK(port.state.values == 3U);
   CHECK(port.heard.results[0] == UP_INVALID && port.state.invalid == 1U);
   set_up(&port);
-  feed_text(&port, &lines, "99;1\n1.25;fF\n"); /* what came first began before we listened */
+  feed_text(&port, &lines, "99;1\n1.25;fF\n"); /* the first line began before reception started */
   CHECK(port.state.messages == 1U && port.heard.numbers[0] == 13 && port.heard.numbers[1] == 255);
   feed_text(&port, &lines, "1234567890123;7\n-2 ;\n");
   CHECK(port.state.messages == 2U && port.heard.numbers[0] == -20 && port.heard.results[1] == UP_NOTHING);
@@ -234,7 +234,7 @@ static void test_text(void) {
   CHECK(port.state.messages == 3U && port.heard.numbers[0] == 40 && port.heard.results[1] == UP_NOTHING);
 }
 
-/* Without a start: a checksum finds messages, a gap finds blocks; nothing else does. */
+/* Without a start: a checksum finds messages, and a gap finds blocks; nothing else does. */
 static void test_without_start(void) {
   static const up_message_field_t words[] = {{.field = 0U, .value = {.word_bytes = 2U}}};
   static const up_message_t summed = {.length = 2U, .checksum = UP_CHECKSUM_XOR8, .bytes_max = 3U, .fields = words,
@@ -254,7 +254,7 @@ static void test_without_start(void) {
   CHECK(port.state.messages == 1U && port.heard.numbers[0] == 0x1234);
 }
 
-/* u-blox: a pause, two messages one behind the other, a pause, one more. */
+/* u-blox: a pause, two messages in a row, a pause, one more message. */
 static void test_setting_up(void) {
   static const uint8_t text[] = {'a', 'b', 'c'};
   static const up_message_init_t init[] = {{NULL, 0U, 200U}, {text, 3U, 0U}, {text, 2U, 50U}, {text, 1U, 0U}};
@@ -269,7 +269,7 @@ static void test_setting_up(void) {
   CHECK(up_message_start(init, 4U, &start, t0 + 252U) == NULL);
 }
 
-/* A buffer that no message fits into is not written to. */
+/* Nothing is written to a buffer that is too small for any message. */
 static void test_too_small(void) {
   static const uint8_t ends[] = {'a', 'b', 'c', 'd'};
   static const up_message_t lines = {.end = ends, .end_count = 4U, .bytes_max = 3U};
@@ -336,7 +336,7 @@ static void test_degrees(void) {
   const up_piece_t ninety_nine = {"99", 2U};
   uint64_t number = 0U;
 
-  /* The sentence that is in every text about NMEA. */
+  /* The example sentence that is in every text about NMEA. */
   CHECK(degrees("4807.038", "N", &angle) == UP_FRESH && angle == 481173000);
   CHECK(degrees("01131.000", "E", &angle) == UP_FRESH && angle == 115166667);
   CHECK(degrees("18000.0000", "W", &angle) == UP_FRESH && angle == -1800000000);
@@ -351,11 +351,11 @@ static void test_degrees(void) {
   CHECK(up_parse_hex(junk, UP_TYPE_UINT64, &number) == UP_INVALID);
 }
 
-/* ---- what is sent ---- */
+/* ---- messages that are sent ---- */
 
 #define COMPOSED_MAX 16U
 
-/* Composes in a buffer that ends with guards, and compares. */
+/* Composes into a buffer that ends with guard bytes, and compares. */
 static bool composes(const up_compose_t *how, uint8_t type, const void *value, const char *wanted, size_t count) {
   const up_field_t field = {"Sent", 1U, type, UP_TO_BOARD, true, 1U, 0U};
   uint8_t bytes[COMPOSED_MAX + 1U];
@@ -391,13 +391,13 @@ static void test_composing(void) {
   how.start_count = 2U;
   how.checksum = UP_CHECKSUM_SUM8;
   CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\xA5", 5U));
-  /* From the second byte on, and with an end behind the checksum. */
+  /* From the second byte on, and with an end after the checksum. */
   how.checksum = UP_CHECKSUM_XOR8;
   how.checksum_from = 1U;
   how.end = line_end;
   how.end_count = 2U;
   CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\x23\r\n", 7U));
-  /* A first byte behind the whole message: nothing is summed. */
+  /* A first byte after the whole message: nothing is summed. */
   how.checksum_from = 200U;
   CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\x00\r\n", 7U));
   how.checksum = UP_CHECKSUM_IBUS;

@@ -1,4 +1,4 @@
-/* Model receivers' pulse trains, and H-bridges. */
+/* The pulse trains of RC receivers, and H-bridges. */
 #include <string.h>
 
 #include "check.h"
@@ -8,7 +8,7 @@
 static const up_field_t six = {"Channels", 1U, UP_TYPE_UINT16, UP_TO_HOST, true, 6U, 0U};
 static const up_ppm_config_t ppm = {.tick_hz = 2000000U, .gap_ticks = 5400U, .min_ticks = 1000U};
 
-/* A train of `count` channels of 1000, 1100, 1200 ... us and the gap behind it, in ticks of half a microsecond. */
+/* A train of `count` channels of 1000, 1100, 1200 ... us and the gap after it, in ticks of half a microsecond. */
 static void train(up_ppm_raw_t *raw, uint32_t *time, uint32_t count) {
   uint32_t i;
 
@@ -28,7 +28,7 @@ static void test_ppm(void) {
   memset(&raw, 0, sizeof raw);
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING);
   up_ppm_on_edge(&ppm, &raw, time);
-  train(&raw, &time, 6U); /* it began before we listened: only its gap counts */
+  train(&raw, &time, 6U); /* it began before reception started: only its gap counts */
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING);
   train(&raw, &time, 8U);
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_FRESH && raw.channels_count == 8U);
@@ -38,15 +38,15 @@ static void test_ppm(void) {
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING);
   train(&raw, &time, 5U);
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_INVALID);
-  /* A disturbance: the train is left out, the next one counts. */
+  /* A disturbance: the train is discarded, the next one counts. */
   up_ppm_on_edge(&ppm, &raw, time + 100U);
   train(&raw, &time, 6U);
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING && raw.spoilt == 1U);
   train(&raw, &time, 6U);
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_FRESH);
-  train(&raw, &time, 17U); /* more than anybody has */
+  train(&raw, &time, 17U); /* more channels than any receiver has */
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING && raw.spoilt == 2U);
-  up_ppm_on_interval(&ppm, &raw, 20000U); /* silence is no train */
+  up_ppm_on_interval(&ppm, &raw, 20000U); /* silence is not a train */
   CHECK(up_ppm_read(&ppm, &raw, &seen, &six, channels) == UP_NOTHING && raw.trains == 3U);
 }
 
@@ -54,7 +54,7 @@ static void test_ppm(void) {
 
 typedef struct {
   uint32_t outputs[3];
-  bool was_wrong; /* both inputs at once, or a direction with another's strength */
+  bool was_wrong; /* both inputs at once, or a direction with the strength of the other */
 } bridge_t;
 
 static void drive_to(bridge_t *bridge, const up_drive_t *drive, up_drive_state_t *state, int16_t value) {
@@ -89,7 +89,7 @@ static void check_bridge(up_drive_mode_t mode, uint32_t pin) {
   static const int16_t values[] = {0, 500, 900, -200, -32768, 32767, 0, -1, 1, 0, 0, 1000, -1000};
   const up_drive_t drive = {.mode = (uint8_t)mode, .full = 1000U};
   up_drive_state_t state = {0, false};
-  /* What was there before the first value. */
+  /* The state before the first value. */
   bridge_t bridge = {{0U, pin, 0U}, false};
   size_t i;
 

@@ -1,4 +1,4 @@
-/* The reporter over a channel that takes little, tears, and closes. */
+/* The reporter over a channel that accepts little, tears frames, and closes. */
 #include <string.h>
 
 #include "check.h"
@@ -112,7 +112,7 @@ static void set_up(desk_t *desk, size_t room_max) {
   CHECK(up_reporter_init(&desk->reporter, &desk->config, 0U));
 }
 
-/* A cycle in which the line has sent all that it had; what has come to the host by then. */
+/* One cycle, in which the line sends all that it has; compares the bytes that the host then has received. */
 static bool cycle(desk_t *desk, uint32_t now_ms, const void *wanted, size_t size) {
   desk->out_size = 0U;
   up_reporter_cycle(&desk->reporter, (uint64_t)now_ms * 1000U);
@@ -137,7 +137,7 @@ static void test_turns(void) {
   skip_hello(&desk);
   CHECK(cycle(&desk, 10U, "2:\x13\x09,", 5U) && cycle(&desk, 20U, NULL, 0U));
   CHECK(desk.reporter.counts.reports_sent == 1U && desk.reporter.counts.reports_refused == 1U);
-  /* A host that asks again and again does not keep reports away. */
+  /* A host that repeats its request does not prevent reports. */
   memcpy(desk.in, "2:\0\1,2:\0\1,", 10U);
   desk.in_size = 10U;
   put_rear(&desk, 8U);
@@ -154,11 +154,11 @@ static void test_little_room(void) {
   CHECK(cycle(&desk, 0U, "5:\0", 3U) && cycle(&desk, 10U, desk.out, 3U) && cycle(&desk, 20U, desk.out, 2U));
   put_rear(&desk, 7U);
   CHECK(cycle(&desk, 30U, "2:\x13", 3U));
-  /* What came meanwhile is in the next one. */
+  /* Values that arrived in between are in the next report. */
   put_rear(&desk, 6U);
   CHECK(cycle(&desk, 40U, "\x07,", 2U) && desk.reporter.counts.reports_sent == 1U);
   CHECK(cycle(&desk, 50U, "2:\x13", 3U));
-  /* Closed in the middle of it: it is torn, and its value is due again. */
+  /* Closed in the middle of a frame: it is torn, and its value is due again. */
   desk.is_open = false;
   CHECK(cycle(&desk, 60U, NULL, 0U) && desk.reporter.counts.frames_torn == 1U);
   desk.is_open = true;
@@ -177,17 +177,17 @@ static void test_receiving(void) {
 
   set_up(&desk, 256U);
   skip_hello(&desk);
-  /* A `q` within a frame is a value. */
+  /* A `q` within a frame is part of a value. */
   memcpy(desk.in, "q3:\x28qq,q3:\x28\0\x05,2:\x28\0,", 19U);
   desk.in_size = 19U;
   CHECK(cycle(&desk, 10U, NULL, 0U) && desk.applied == 2U && desk.motor == 5 && desk.intercepted == 2U);
   CHECK(desk.reporter.decoder.dropped_bytes == 5U);
-  /* After digits nothing but a digit or a colon is of a frame. */
+  /* After digits, only a digit or a colon is part of a frame. */
   memcpy(desk.in, "12q", 3U);
   desk.in_size = 3U;
   CHECK(cycle(&desk, 11U, NULL, 0U) && desk.intercepted == 3U);
   CHECK(cycle(&desk, 109U, NULL, 0U) && desk.failsafes == 0U && cycle(&desk, 110U, NULL, 0U) && desk.failsafes == 1U);
-  /* Whoever has the channel, actuators fall back; a byte that somebody else has read counts. */
+  /* Actuators fall back whoever uses the channel; a byte that another reader has read counts. */
   CHECK(!up_reporter_peek(&desk.reporter, '1') && !up_reporter_peek(&desk.reporter, ':'));
   CHECK(!up_reporter_peek(&desk.reporter, 0U) && up_reporter_peek(&desk.reporter, ','));
   up_reporter_pause(&desk.reporter, 209999U);
@@ -212,7 +212,7 @@ static void test_old_values(void) {
   desk.room = 100U;
   up_reporter_cycle(&desk.reporter, 20000U);
   desk.room = 256U;
-  /* 41 ms are more than two cycles of the one, and less than one of the other. */
+  /* 41 ms are more than two cycles of one device, and less than one cycle of the other. */
   CHECK(cycle(&desk, 51U, "2:\x13\x09,", 5U) && desk.reporter.counts.values_dropped == 1U);
   up_store_put(&desk.store, 0U, &front);
   up_health_note(&desk.health, 0U, UP_FRESH, 60U);

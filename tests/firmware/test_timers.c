@@ -1,4 +1,4 @@
-/* Counts that outlast 16 bits, arrays measured one by one, contacts that bounce, widths of pulses. */
+/* Counts beyond 16 bits, arrays measured element by element, contacts that bounce, pulse widths. */
 #include <string.h>
 
 #include "check.h"
@@ -26,7 +26,7 @@ static void test_wraps(void) {
   memset(&count, 0, sizeof count);
   up_count_step(&count, 65535U);
   CHECK(up_count_total(&count) == -1);
-  /* Both ways and at any speed that 16 bits allow, against a count that never wraps. */
+  /* In both directions and at any speed that 16 bits allow, compared with a count that never wraps. */
   memset(&count, 0, sizeof count);
   for (i = 0U; i < 20000U; i++) {
     const int32_t moved = (int32_t)((i * 2654435761U) >> 16U) % 65536 - 32768;
@@ -36,7 +36,7 @@ static void test_wraps(void) {
     up_count_step(&count, hardware);
     CHECK(up_count_total(&count) == truth);
   }
-  /* At the end of 32 bits it goes on at the other one. */
+  /* At the end of 32 bits it continues at the other end. */
   count.total = 0x7FFFFFFFU;
   up_count_step(&count, (uint16_t)(hardware + 1U));
   CHECK(up_count_total(&count) == INT32_MIN);
@@ -109,13 +109,13 @@ static void test_bounces(void) {
   CHECK(contact.edges == 0U && !contact.level);
   up_contact_look(&config, &contact, true, now + 20U);
   CHECK(contact.edges == 1U && contact.level);
-  /* Falling does not count, but the level follows. */
+  /* Falling edges do not count, but the level follows. */
   up_contact_on_edge(&config, &contact, false, now + 30U);
   up_contact_look(&config, &contact, false, now + 50U);
   CHECK(contact.edges == 1U && !contact.level);
 }
 
-/* A pulse that lasted counts even where nobody looked while it did; one that did not last does not. */
+/* A pulse that lasted long enough counts even if nothing read the contact meanwhile; a shorter one does not. */
 static void test_unseen_pulses(void) {
   const up_contact_config_t config = {20U, UP_EDGE_BOTH};
   up_contact_t contact;
@@ -130,13 +130,13 @@ static void test_unseen_pulses(void) {
   up_contact_on_edge(&config, &contact, false, 219U);
   up_contact_look(&config, &contact, false, 260U);
   CHECK(contact.edges == 2U);
-  /* Without an interrupt a look begins it. */
+  /* Without an interrupt, reading the contact starts the time. */
   up_contact_look(&config, &contact, true, 300U);
   up_contact_look(&config, &contact, true, 319U);
   CHECK(contact.edges == 2U);
   up_contact_look(&config, &contact, true, 320U);
   CHECK(contact.edges == 3U && contact.level);
-  /* A glitch too short to be read still interrupts, and the time begins anew. */
+  /* A glitch too short to be read still interrupts, and the time starts again. */
   up_contact_look(&config, &contact, false, 400U);
   up_contact_on_edge(&config, &contact, false, 410U);
   up_contact_look(&config, &contact, false, 425U);
@@ -155,18 +155,18 @@ static void test_telling(void) {
   up_contact_look(&config, &contact, false, 0U);
   CHECK(up_contact_tell(&config, &contact, &told) && !told.level);
   CHECK(!up_contact_tell(&config, &contact, &told));
-  /* A pulse between two looks: first its level, then the one that is. */
+  /* A pulse between two readings: first its level is reported, then the current one. */
   up_contact_on_edge(&config, &contact, true, 1U);
   up_contact_look(&config, &contact, false, 2U);
   CHECK(contact.edges == 1U);
   CHECK(up_contact_tell(&config, &contact, &told) && told.level);
   CHECK(up_contact_tell(&config, &contact, &told) && !told.level);
   CHECK(!up_contact_tell(&config, &contact, &told));
-  /* A rise that stays is told once. */
+  /* A rise that stays is reported once. */
   up_contact_on_edge(&config, &contact, true, 3U);
   CHECK(up_contact_tell(&config, &contact, &told) && told.level);
   CHECK(!up_contact_tell(&config, &contact, &told));
-  /* A dip ends where it was: for who asked for rising edges it was nothing. */
+  /* A dip ends at the level where it was: for rising edges, nothing has happened. */
   up_contact_on_edge(&config, &contact, true, 4U);
   CHECK(!up_contact_tell(&config, &contact, &told) && told.level);
 }

@@ -185,7 +185,7 @@ static void test_link(void) {
   CHECK(up_encode_health_request(&model_commands, frame, 6U) == 5U && memcmp(frame, "2:\0\1,", 5U) == 0);
 }
 
-/* Random bytes never break the decoder's bounds (a sanitizer watches), and a frame behind them is found. */
+/* Random bytes never break the decoder's bounds (a sanitizer checks), and a frame after them is found. */
 static void test_noise(void) {
   const uint8_t frame[] = {'3', ':', 40U, 0x00U, 0x07U, ','};
   up_decoder_t decoder;
@@ -198,7 +198,7 @@ static void test_noise(void) {
       seed = seed * 1664525U + 1013904223U;
       noise[i] = (uint8_t)("13:,\x28\x00\xff"[(seed >> 16) % 7U]);
     }
-    noise[sizeof noise - 1U] = (uint8_t)'x'; /* whatever began cannot swallow the frame as its value */
+    noise[sizeof noise - 1U] = (uint8_t)'x'; /* nothing that began before can swallow the frame as its value */
     noise[sizeof noise - 2U] = (uint8_t)'x';
     noise[sizeof noise - 3U] = (uint8_t)'x';
     noise[sizeof noise - 4U] = (uint8_t)'x';
@@ -218,10 +218,10 @@ static void test_count(void) {
   up_capture_raw_t raw = {0U, 0U, 0U, 0U, 0U};
   uint32_t count = 99U;
 
-  /* A wheel that stands still counts 0: that is read, not assumed. */
+  /* A wheel at rest counts 0; this value is read, not assumed. */
   CHECK(up_capture_read(&config, &state, &raw, false, 5U, UP_TYPE_UINT32, &count) && count == 0U);
   CHECK(!up_capture_read(&config, &state, &raw, false, 15U, UP_TYPE_UINT32, &count));
-  /* The driver keeps the first edge to itself. */
+  /* The driver does not report the first edge. */
   CHECK(up_capture_read(&config, &state, &raw, true, 25U, UP_TYPE_UINT32, &count) && count == 1U);
   up_capture_on_period(&raw, 100U);
   up_capture_on_width(&raw, 50U, false);
@@ -263,7 +263,7 @@ static void test_captures(void) {
   CHECK(up_capture_read(&config, &state, &raw, true, 3020U, UP_TYPE_UINT16, &value) && value == 33U);
 }
 
-/* A pulse is told at its end: a ranger that answers once a cycle has no period the timer could hold. */
+/* A pulse is reported at its end: a ranger that answers once a cycle has no period that the timer could hold. */
 static void test_single_pulses(void) {
   const up_capture_config_t config = {UP_CAPTURE_WIDTH, false, 1000000U, 1000U};
   up_capture_state_t state = {0U, 0U, false, false};

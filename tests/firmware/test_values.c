@@ -18,7 +18,7 @@ static bool decodes(const up_value_t *how, const up_field_t *field, const uint8_
          memcmp(value, wanted, up_field_bytes(field)) == 0;
 }
 
-/* As CRC catalogues and Sensirion's data sheets state them. */
+/* Values from CRC catalogues and Sensirion's data sheets. */
 static void test_checksums(void) {
   static const uint8_t beef[] = {0xBEU, 0xEFU};
   static const uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
@@ -155,7 +155,7 @@ static void test_encoding(void) {
   CHECK(up_value_encode(&pca9685, &signed_field, &turn, bytes, 2U) == 2U && bytes[0] == 0U && bytes[1] == 0U);
 }
 
-/* Tables that make no sense decode nothing and read nothing that is not theirs. */
+/* Tables that make no sense decode nothing, and never read outside their own bytes. */
 static void test_senseless_tables(void) {
   static const uint8_t beyond[] = {3U};
   static const uint8_t bytes[8] = {0U};
@@ -174,7 +174,7 @@ static void test_senseless_tables(void) {
   }
 }
 
-/* What the conversion makes of integers and their ratios is what the machine makes of them. */
+/* The conversion of integers and their ratios gives the same as the machine's floating point. */
 static void check_real(uint64_t numerator, uint64_t denominator) {
   const double wide = (double)numerator / (double)denominator;
   const float narrow = (float)numerator;

@@ -1,9 +1,9 @@
 /*
- * The shared wire vectors: the same text files that every encoder and decoder of the project must pass; here the printed
- * codec of each schema.
+ * The shared wire vectors: the same text files that every encoder and decoder of the project must pass; here, they are
+ * run on the printed codec of each schema.
  *
- * Each decode case is fed byte by byte, all at once, and cut at every single place; with what is kept of failed
- * candidates and without; each must say the same.
+ * Each decode case is fed byte by byte, all at once, and cut at every single place; both with and without the memory of
+ * failed candidates. All runs must give the same result.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,7 +116,7 @@ static void begin_schema(const char *name) {
   abort();
 }
 
-/* The printed table must be what the file says. */
+/* The printed table must agree with the file. */
 static void add_item(const char *line) {
   char direction[16], name[64], type[32], text[160];
   const up_field_t *field = &vector.codec->schema->fields[vector.fields_count];
@@ -218,7 +218,7 @@ static void set_stamp_of(const char *line) {
   current.stamp.counter = (uint8_t)counter;
 }
 
-/* The definition, element by element, for what the printed code does in straight lines. */
+/* The definition, element by element, of what the printed code does in straight lines. */
 static void value_to_wire(const up_field_t *field, const void *value, uint8_t *bytes) {
   const size_t size = up_type_bytes(field->type);
   size_t element, byte;
@@ -231,7 +231,7 @@ static void value_to_wire(const up_field_t *field, const void *value, uint8_t *b
   }
 }
 
-/* One delivered or expected value in the form the two sides are compared in: identifier and bytes. */
+/* One delivered or expected value in the form in which both sides are compared: identifier and bytes. */
 static void append_value(char *text, const up_field_t *field, const uint8_t *bytes) {
   char part[8];
   size_t i;
@@ -282,7 +282,7 @@ static void check_frame(const char *line) {
 
   encode_cases++;
   CHECK(bytes == wanted_bytes && memcmp(frame, wanted, bytes) == 0);
-  /* A buffer one byte too small takes nothing. */
+  /* A buffer that is one byte too small takes nothing. */
   CHECK(encode(frame, UP_WIRE_FRAME_BYTES(wire()) - 1U) == 0U);
 }
 
@@ -320,7 +320,7 @@ static void set_device(const char *line) {
 
 /* ---- decode cases ---- */
 
-/* Of the delivered items: by their identifiers, and taken by the printed code; both must say the same. */
+/* Decodes the delivered items twice: by identifier, and with the printed code; both must agree. */
 static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
   static uint64_t memory_aligned[VALUES_MAX_BYTES / 8U];
   uint8_t *const memory = (uint8_t *)memory_aligned;
@@ -432,7 +432,7 @@ static void run_split(const up_wire_t *one, size_t first_bytes, size_t step_byte
   static uint8_t room[UP_DECODER_BYTES(STREAM_MAX_BYTES)];
   const size_t frame_bytes = UP_WIRE_FRAME_BYTES(one);
   const size_t buffer_bytes = (one->memo != NULL) ? UP_DECODER_BYTES(frame_bytes) : frame_bytes;
-  /* At the end of the room, so that a sanitizer sees each byte too far. */
+  /* At the end of the room, so that a sanitizer detects any access beyond it. */
   uint8_t *const buffer = &room[sizeof room - buffer_bytes];
   const up_sink_t sink = {on_values, on_hello, on_health, NULL};
   up_decoder_t decoder;
@@ -476,7 +476,7 @@ static void check_dropped(const char *line) {
   with_memo.memo = &up_memo;
   run_splits(&with_memo, wanted);
 #if !defined(__arm__)
-  /* An emulator is slow, and the other half is no other code. */
+  /* An emulator is slow, and the other half runs the same code. */
   run_splits(&plain, wanted);
 #endif
   if (check_failures() != failures_before) {

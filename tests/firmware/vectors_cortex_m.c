@@ -1,6 +1,6 @@
 /*
- * The vector table of the emulated Cortex-M4 that the tests run on: initial stack pointer and entry. Any fault
- * lands in the trap, which ends the emulator with a failure (semihosting SYS_EXIT_EXTENDED).
+ * The vector table of the emulated Cortex-M4 that the tests run on: initial stack pointer and entry point. Any fault
+ * ends in the trap, which ends the emulator with a failure (semihosting SYS_EXIT_EXTENDED).
  */
 #include <stdint.h>
 

@@ -1,10 +1,10 @@
-//! What all tests share: the program as users run it, folders of a test's own, tools that may be
-//! missing, seeded numbers.
+//! Helpers that all tests share: running the program as users do, scratch folders, tools that may
+//! be missing, seeded random numbers.
 //!
-//! [`sensedsl`] runs the real binary. It is built on first use with the profile of the tests, so a
-//! test never sees an old one; `SENSEDSL_BIN` names another binary to test instead (an installed
-//! one, say). A tool that is not here makes its test pass with `SKIPPED: …` on stderr, and fail
-//! where `SENSEDSL_REQUIRE_TOOLS=1`.
+//! [`sensedsl`] runs the real binary. It is built on first use, with the profile of the tests, so a
+//! test never sees a stale one; `SENSEDSL_BIN` names another binary to test instead, such as an
+//! installed one. If a tool is missing, its tests pass with `SKIPPED: …` on stderr; with
+//! `SENSEDSL_REQUIRE_TOOLS=1` they fail.
 #![expect(
     clippy::unwrap_used,
     clippy::panic,
@@ -25,19 +25,20 @@ mod random;
 
 pub use random::Random;
 
-/// Whether everything that tests are quick without is asked for too: `SENSEDSL_THOROUGH=1`, as CI does.
+/// Whether the cases that quick runs leave out are requested as well: `SENSEDSL_THOROUGH=1`, as in
+/// CI.
 #[must_use]
 pub fn is_thorough() -> bool {
     std::env::var("SENSEDSL_THOROUGH").is_ok_and(|level| level == "1" || level == "2")
 }
 
-/// Whether what takes many minutes is asked for too: `SENSEDSL_THOROUGH=2`.
+/// Whether cases that take many minutes are requested as well: `SENSEDSL_THOROUGH=2`.
 #[must_use]
 pub fn is_exhaustive() -> bool {
     std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("2")
 }
 
-/// The first few of them; all where everything is asked for.
+/// The first `count` items, or all of them in a thorough run.
 #[must_use]
 pub fn few<T>(all: &[T], count: usize) -> &[T] {
     if is_thorough() { all } else { all.get(..count).unwrap_or(all) }
@@ -56,15 +57,15 @@ pub fn text(path: &str) -> String {
     read(&root().join(path))
 }
 
-/// Compares a section of a page, from the line after its heading to the next heading of its level, with what it must be;
-/// with `SENSEDSL_BLESS=1` writes it.
+/// Compares a section of a page, from the line after its heading to the next heading of the same
+/// level, with the wanted text; with `SENSEDSL_BLESS=1`, writes that text.
 #[track_caller]
 pub fn assert_section(page: &str, heading: &str, wanted: &str) {
     let whole = text(page);
     let start = whole.find(&format!("\n## {heading}\n\n"));
     let start = start.unwrap_or_else(|| panic!("{page} has no section {heading}"));
     let begin = start + heading.len() + "\n## \n\n".len();
-    // From the empty line before: what follows may be the next heading.
+    // The search starts at the empty line before, because the next heading may follow at once.
     let rest = whole.get(begin - 1..).unwrap_or_default();
     let end = rest.find("\n## ").map_or(whole.len(), |at| begin + at.max(1) - 1);
     let found = whole.get(begin..end).unwrap_or_default();
@@ -76,7 +77,7 @@ pub fn assert_section(page: &str, heading: &str, wanted: &str) {
     }
 }
 
-/// Any file as text.
+/// The text of any file.
 #[must_use]
 pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -99,13 +100,13 @@ pub fn verifier() -> &'static Path {
     found.as_deref().unwrap_or_else(|| panic!("there is no verifier to test"))
 }
 
-/// Builds a program with the profile and into the folder of this test.
+/// Builds a program with the profile of this test, into its target folder.
 ///
-/// The workspace is named, and a test of it, so that Cargo takes the same features as `cargo test
-/// --workspace` does: what that has built is then not built again with others.
+/// The workspace is named, and one of its tests, so that Cargo picks the same features as `cargo
+/// test --workspace`: it then does not rebuild with other features what that command has built.
 fn built(program: &str) -> Option<PathBuf> {
     let test = std::env::current_exe().unwrap();
-    // A test lies in TARGET/PROFILE/deps. Cargo marks TARGET (CACHEDIR.TAG) only where it made it.
+    // A test is in TARGET/PROFILE/deps. Cargo marks TARGET (CACHEDIR.TAG) only if it created it.
     let target = test.ancestors().nth(3);
     let target = target.unwrap_or_else(|| panic!("{} is in no target folder", test.display()));
     let release = test.components().any(|part| part.as_os_str() == "release");
@@ -115,7 +116,7 @@ fn built(program: &str) -> Option<PathBuf> {
     command.args(["--test", "help", "--profile", if release { "release" } else { "test" }]);
     command.args(["--message-format", "json-render-diagnostics", "--target-dir"]).arg(target);
     if cfg!(feature = "machine") {
-        // Images are run as users do it as well.
+        // Tests run images the way users do.
         command.args(["--features", "sensedsl-tests/machine,sensedsl/twin"]);
     }
     let output = command.stderr(Stdio::inherit()).output().unwrap();
@@ -135,18 +136,18 @@ pub struct Call {
     stdin: Option<Vec<u8>>,
 }
 
-/// What came of it.
+/// The result of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ran {
-    /// The exit status; -1 where a signal ended it.
+    /// The exit status; -1 if a signal ended the program.
     pub status: i32,
-    /// The result.
+    /// The text on stdout: the result.
     pub stdout: String,
-    /// The messages.
+    /// The text on stderr: the messages.
     pub stderr: String,
 }
 
-/// A call of the program, without colours whatever the terminal.
+/// A call of the program, without colours on any terminal.
 pub fn sensedsl<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Call {
     let mut command = Command::new(binary());
     command.args(arguments).current_dir(root()).env_remove("NO_COLOR");
@@ -154,7 +155,8 @@ pub fn sensedsl<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Call
     Call { command, stdin: None }
 }
 
-/// Where the programs under test remember what they have written: not in the home of who tests.
+/// The folder where the programs under test record what they have written, outside the tester's
+/// home.
 #[must_use]
 pub fn state() -> PathBuf {
     std::env::temp_dir().join("sensedsl-tests-state")
@@ -175,28 +177,28 @@ impl Call {
         self
     }
 
-    /// Runs in that folder instead of the root of the repository.
+    /// Runs in the given folder instead of the root of the repository.
     #[must_use]
     pub fn within(mut self, folder: &Path) -> Self {
         self.command.current_dir(folder);
         self
     }
 
-    /// Sets a variable of the environment.
+    /// Sets an environment variable.
     #[must_use]
     pub fn env(mut self, name: &str, value: &str) -> Self {
         self.command.env(name, value);
         self
     }
 
-    /// Gives it that to read.
+    /// Passes these bytes on stdin.
     #[must_use]
     pub fn stdin(mut self, bytes: impl Into<Vec<u8>>) -> Self {
         self.stdin = Some(bytes.into());
         self
     }
 
-    /// Runs it to its end.
+    /// Runs the program to its end.
     #[must_use]
     pub fn run(mut self) -> Ran {
         let stdin = if self.stdin.is_some() { Stdio::piped() } else { Stdio::null() };
@@ -219,7 +221,7 @@ impl Call {
 }
 
 impl Ran {
-    /// Fails unless the status is that one.
+    /// Fails unless the exit status is the given one.
     #[must_use]
     #[track_caller]
     pub fn exits(self, status: i32) -> Self {
@@ -236,12 +238,12 @@ impl Ran {
     }
 }
 
-/// A folder of a test's own, empty at first and removed at the end.
+/// A test's own folder, empty at first and removed at the end.
 #[derive(Debug)]
 pub struct Scratch(PathBuf);
 
 impl Scratch {
-    /// A new one; `name` is for people.
+    /// A new folder; its name includes `name`, for people to recognise.
     #[must_use]
     pub fn new(name: &str) -> Self {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
@@ -252,19 +254,19 @@ impl Scratch {
         Self(path)
     }
 
-    /// Where it is.
+    /// The path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.0
     }
 
-    /// A path in it.
+    /// A path in the folder.
     #[must_use]
     pub fn join(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
 
-    /// Writes a file in it, with the folders it needs.
+    /// Writes a file in the folder, and creates the parent folders that it needs.
     pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         fs::create_dir_all(path.parent().unwrap_or(&self.0)).unwrap();
@@ -275,7 +277,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What cannot be removed is left to the machine's own cleaning.
+        // Files that cannot be removed are left to the machine's own cleaning.
         let _ = fs::remove_dir_all(&self.0);
     }
 }
@@ -300,7 +302,7 @@ pub fn tree(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// The files of a folder with that ending, in order.
+/// The files of a folder with this extension, in order.
 #[must_use]
 pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
@@ -312,7 +314,7 @@ pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     paths
 }
 
-/// Whether the program answers `--version`; says so loudly when not.
+/// Whether the program answers `--version`; if not, reports it on stderr.
 #[must_use]
 pub fn has(tool: &str) -> bool {
     let mut command = Command::new(tool);
@@ -324,7 +326,7 @@ pub fn has(tool: &str) -> bool {
     found
 }
 
-/// Says what a test had to leave out; a failure where tools are required.
+/// Reports what a test had to leave out; fails if tools are required.
 pub fn missing(what: &str) {
     assert!(
         std::env::var("SENSEDSL_REQUIRE_TOOLS").as_deref() != Ok("1"),
@@ -333,7 +335,7 @@ pub fn missing(what: &str) {
     eprintln!("SKIPPED: {what} is not here");
 }
 
-/// A file with one board of that head and those devices, identifiers from 1 on.
+/// A file with one board and the given devices, with identifiers from 1 on.
 ///
 /// A device is `kind` or `kind: properties`, as in `i2c: address = 0x10; exclusive = true;`.
 #[must_use]

@@ -1,7 +1,8 @@
-//! The Alloy Analyzer, given the exported model, finds a wiring as good as ours and none better.
+//! The Alloy Analyzer, given the exported model, finds a wiring as good as the tool's, and none
+//! better.
 //!
-//! `ALLOY` names the class path of the analyzer: its jar, or several with colons. Without it the
-//! text of the model alone is looked at.
+//! `ALLOY` is the class path of the analyzer: its jar, or several, separated by colons. Without it,
+//! only the text of the model is checked.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,10 +12,10 @@ use sensedsl_tests::{Random, Scratch, design, device_block, has, root, sensedsl,
 
 use crate::prolog::random_table;
 
-/// What a model's runs gave, by their names.
+/// The results of a model's runs, by name.
 type Runs = BTreeMap<String, bool>;
 
-/// Runs all commands of models; none where no analyzer is named.
+/// Runs all commands of the models; `None` if no analyzer is named.
 fn analyze(models: &[PathBuf]) -> Option<Vec<Runs>> {
     let Some(classes) = std::env::var_os("ALLOY") else {
         eprintln!("SKIPPED: ALLOY names no analyzer");
@@ -48,15 +49,15 @@ fn model(call: &[&str], file: &Path) -> String {
     call.arg(file).run().exits(0).stdout
 }
 
-/// The cost, where there is a wiring.
+/// The cost, if there is a wiring.
 fn cost(call: &[&str], file: &Path) -> Option<u64> {
     let call = sensedsl(["solve", "-q", "--format", "json"]).args(call);
     let ran = call.arg("--allow-outside").arg(std::env::temp_dir()).arg(file).run();
     ran.json()["cost"].as_u64().filter(|_| ran.status == 0)
 }
 
-/// The analyzer finds a wiring at our objective and none below it, or none at all where we find
-/// none. How many were feasible.
+/// The analyzer must find a wiring with the tool's objective and none below it, or no wiring if the
+/// tool finds none. Returns how many cases were feasible.
 #[track_caller]
 fn agree(name: &str, cases: &[(&[&str], String)]) -> usize {
     let scratch = Scratch::new(name);
@@ -81,7 +82,7 @@ fn agree(name: &str, cases: &[(&[&str], String)]) -> usize {
     costs.iter().flatten().count()
 }
 
-/// Whether nothing stands outside of comments but what the model is written with.
+/// Whether the text outside comments uses only the characters that a model is written with.
 fn is_plain(model: &str) -> bool {
     model.lines().all(|line| {
         let code = line.split("//").next().unwrap_or_default();
@@ -105,7 +106,7 @@ fn a_model_states_its_runs_and_its_width() {
     let scratch = Scratch::new("alloy-text");
     let file = scratch.write("fig2.sense", text("examples/fig2.sense"));
     let fig2 = model(&[], &file);
-    // All pins together cost 33, and six bits end at 31.
+    // The cost of all pins together is 33, and six bits only reach 31.
     for line in [
         "run any for 7 Int expect 1",
         "run best for 7 Int expect 1",
@@ -117,7 +118,7 @@ fn a_model_states_its_runs_and_its_width() {
     let five = design("STM32F4DiscoveryBoard", &["i2c: address = 0x20;"; 4]);
     let none = model(&[], &scratch.write("none.sense", five));
     assert!(none.contains(" Int expect 0\n") && !none.contains("\nrun better"), "{none}");
-    // What the time does not suffice for is not claimed.
+    // If the search ran out of time, the model does not claim optimality.
     let late = model(&["--timeout", "0"], &file);
     assert!(late.contains("Time ran out") && !late.contains("expect 0"), "{late}");
 }
@@ -163,7 +164,7 @@ fn every_part_of_the_objective() {
         let board = "on STM32F4DiscoveryBoard {}";
         format!("{floating} board One {board} spare board Two {board}")
     };
-    // The lights of the board are on PD12 to PD15, which are all that TIM4 has left.
+    // The board's LEDs are on PD12 to PD15, the only pins that TIM4 has left.
     let lights = "# mcu = STM32F407VGT6\nPin,Usages,Onboard\nPD12,TIM4_CH1,LED:care\nPD13,TIM4_CH2 x,LED:care\nPB7,TIM4_CH2 y z,\n";
     let scratch = Scratch::new("alloy-shared");
     let table = scratch.write("t.csv", lights).display().to_string();

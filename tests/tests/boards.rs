@@ -1,5 +1,5 @@
-//! Every built-in board: its facts hold together, the places that it names in a ChibiOS tree are
-//! there, and what Fig. 2 asks for is wired on it without a pin that the board needs.
+//! Every built-in board: its facts agree with each other, the places that it names in a ChibiOS
+//! tree exist, and the devices of Fig. 2 are wired on it without a pin that the board needs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -17,7 +17,7 @@ use sensedsl_tests::{Scratch, sensedsl, text};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Solved, Wiring};
 
-/// The whole table of a board.
+/// The complete table of a board.
 fn whole(entry: &Entry) -> Table {
     let mut table = entry.table();
     match complete(&mut table) {
@@ -49,7 +49,7 @@ fn there_are_many_and_each_has_its_names() {
     assert!(with_headers.count() >= 50);
 }
 
-/// What a system's drivers serve can be switched to a pad: the number of its alternate function is known.
+/// For every signal that a system's drivers serve, the number of its alternate function is known.
 /// F1 has none.
 #[test]
 fn alternate_functions_of_served_pins_are_known() {
@@ -94,7 +94,7 @@ fn has(pin: &Pin, signal: &str) -> bool {
 fn facts_agree_with_the_table() {
     for entry in catalog::all() {
         let board = entry.board().unwrap();
-        // The printed table has 26 pins, and not all that the board's facts name.
+        // The table of the paper has 26 pins, and not all that the board's facts name.
         if entry.name == "STM32F4DiscoveryBoard" {
             continue;
         }
@@ -131,7 +131,7 @@ fn facts_agree_with_the_table() {
     }
 }
 
-/// Signals that only a pin of a bus has.
+/// Whether a pin has a signal that only a bus uses.
 fn is_of_bus(pin: &Pin) -> bool {
     let starts = ["I2C", "FMPI2C", "SPI", "CAN", "FDCAN"];
     pin.usages.iter().any(|usage| starts.iter().any(|s| usage.signal.name().starts_with(s)))
@@ -149,7 +149,7 @@ fn joinable_pins_are_pins_of_a_bus() {
     }
 }
 
-/// What Fig. 2 asks for. The segments of one board's display leave too few pins.
+/// The devices of Fig. 2. The display of one board leaves too few pins, so it is released.
 fn fig2_on(entry: &Entry) -> String {
     let rule = if entry.name == "STM32L-DISCOVERY" { "release LCD;" } else { "" };
     format!(
@@ -172,7 +172,8 @@ fn wired(entry: &Entry, target: Option<&str>) -> (Design, Assignment) {
     let request = Request { path: "fig2.sense", text: &text, board: None, target };
     let resolved = resolve(&request, &NoFiles);
     let said: Vec<&str> = resolved.diagnostics.iter().map(|said| said.code.name()).collect();
-    // Without a profile for the MCU there is wiring, and a hint says what is not looked at.
+    // Without a profile for the MCU the design is still wired, and a hint names what is not
+    // checked.
     let known = target.is_some() || !said.contains(&"H0702") || said == ["H0702"];
     assert!(known, "{}: {said:?}", entry.name);
     let design = resolved.design.unwrap_or_else(|| panic!("{}: {said:?}", entry.name));
@@ -201,7 +202,7 @@ fn each_carries_fig2_and_keeps_what_it_needs() {
     }
 }
 
-/// Each chosen pin is said with what it costs.
+/// Each chosen pin is printed with its cost.
 #[test]
 fn costs_of_fig2_on_the_discovery_are_told() {
     let entry = catalog::find("STM32F407G-DISC1").unwrap();
@@ -223,7 +224,7 @@ fn costs_of_fig2_on_the_discovery_are_told() {
     assert_eq!(answer["cost"].as_u64(), Some(sum));
 }
 
-/// The places in a tree, where `CHIBIOS` names one.
+/// Checks the places in the tree that `CHIBIOS` names.
 #[test]
 fn places_in_the_tree_exist() {
     let Some(tree) = std::env::var_os("CHIBIOS") else {
@@ -243,7 +244,7 @@ fn places_in_the_tree_exist() {
         let folder = "os/common/startup/ARMCMx/compilers/GCC/ld";
         let script = tree.join(folder).join(&chibios.ldscript);
         assert!(script.is_file(), "{name}: {}", script.display());
-        // Sources name files of the tree truthfully.
+        // The files of the tree that the sources cite exist.
         for source in entry.board().unwrap().source {
             let Some(paths) = source.from.strip_prefix("ChibiOS 21.11: ") else { continue };
             let first = paths.split(", ").next().unwrap();
@@ -265,7 +266,7 @@ fn a_board_that_the_system_does_not_know_says_so() {
     }
 }
 
-/// Wherever a profile and a folder of the tree are known, the paper's example comes to firmware.
+/// If a profile and a folder of the tree are known, firmware is generated for the paper's example.
 #[test]
 fn boards_with_a_profile_have_firmware() {
     for name in
@@ -293,12 +294,12 @@ fn the_printed_table_is_whole() {
         let left = sensedsl(of_board).stdin(file.clone()).run().exits(0).stdout;
         assert_eq!(sensedsl(of_table).stdin(file).run().exits(0).stdout, left, "{name}");
     }
-    // The table of the paper is printed as it stands.
+    // The table of the paper is printed unchanged.
     let printed = sensedsl(["boards", "STM32F4DiscoveryBoard"]).run().exits(0).stdout;
     assert_eq!(printed, text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv"));
 }
 
-/// The picture stands as the board does: by connector and place, with what is printed there.
+/// The picture is arranged like the board: by connector and position, with the printed labels.
 #[test]
 fn the_picture_shows_the_connectors() {
     let file = fig2_on(catalog::find("NUCLEO-F411RE").unwrap());
@@ -325,7 +326,7 @@ fn boards_are_found_by_what_is_known_of_them() {
     assert!(all.lines().count() >= 80 && all.lines().all(|line| line.chars().count() <= 110));
 }
 
-/// The wires of the link by pin, as `solve` tells them.
+/// The wires of the link by pin, as `solve` prints them.
 fn link_of(on: &str, link: &str, arguments: &[&str]) -> Vec<String> {
     let device = "sensor A returns uint16 { id = 1; type = analog; }";
     let file = format!("board B on {on} {{ {link} {device} }}");
@@ -343,9 +344,10 @@ fn a_board_is_linked_by_what_it_has_wired() {
     assert_eq!(link_of("NUCLEO_F411RE", "link { transport = usb; }", &[]), [""; 0]);
     let other = link_of("NUCLEO_F411RE", "link { transport = uart; unit = USART1; }", &[]);
     assert!(other.len() == 2 && other[0].ends_with("USART1_TX"), "{other:?}");
-    // A pure pin model has no link but a stated one.
+    // In a pure pin model, the only link is one that the design states.
     assert_eq!(link_of("NUCLEO_F411RE", "", &["--target", "none"]), [""; 0]);
-    // USB first, where the board has its socket; a port of any pins, where the MCU has no USB.
+    // USB comes first if the board has a socket for it; if the MCU has no USB, a serial port on any
+    // pins.
     assert_eq!(link_of("STM32F401C_DISCO", "", &[]), [""; 0]);
     assert_eq!(link_of("STM32F410RBT6", "", &[]).len(), 2);
     assert_eq!(link_of("STM32F411RET6", "", &[]), [""; 0]);
@@ -363,7 +365,7 @@ fn the_pins_of_the_probe_are_taken_without_its_link() {
     let _ = sensedsl(["solve", "-", "-q"]).stdin(free).run().exits(0);
 }
 
-/// Where the pages of the makers and public board files agree and a table once said otherwise.
+/// Facts on which the makers' pages and public board files agree, and which a table once had wrong.
 #[test]
 fn labels_and_lights_are_where_the_boards_have_them() {
     let facts = [
@@ -396,14 +398,14 @@ fn labels_and_lights_are_where_the_boards_have_them() {
     }
 }
 
-/// A label of a connector is on one pin, and the light that firmware uses is marked as one.
+/// A connector label is on one pin only, and the LED that firmware uses is marked as an LED.
 #[test]
 fn labels_are_on_one_pin_and_lights_are_marked() {
     for entry in catalog::all() {
         let pins = entry.table().pins;
         let mut labels: BTreeMap<&str, &str> = BTreeMap::new();
         for pin in &pins {
-            // Such as D13 and A0; `EXT` is on a whole connector.
+            // Labels such as D13 and A0; `EXT` is on a whole connector.
             let labels_here = pin.label.iter().flat_map(|label| label.split([' ', '/']));
             let numbered = labels_here.filter(|label| {
                 let number = label.strip_prefix(['A', 'D']);

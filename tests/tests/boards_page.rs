@@ -1,5 +1,5 @@
-//! `docs/boards.md` says what `boards/` says.
-//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests boards_page::` writes the page anew.
+//! `docs/boards.md` agrees with `boards/`. `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests
+//! boards_page::` rewrites the page.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -34,7 +34,7 @@ comes from the MCU's part. The names of the Discovery, Nucleo and other boards a
 This page is made from `crates/board/boards/`.
 ";
 
-/// The page, from the boards.
+/// The text of the page, from the boards.
 fn page() -> String {
     let mut families: BTreeMap<&str, Vec<&Entry>> = BTreeMap::new();
     for entry in catalog::all() {
@@ -84,7 +84,7 @@ fn row(entry: &Entry) -> String {
     )
 }
 
-/// Each once, in natural order.
+/// The distinct words, in natural order.
 fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> String {
     let mut words: Vec<&str> = words.collect();
     words.sort_by(|a, b| natural(a, b));

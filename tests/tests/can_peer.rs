@@ -1,5 +1,5 @@
-//! A motor controller that somebody else is: `simulate --can` with python-can and cantools on its bus, which know a DBC
-//! file and none of our code.
+//! A motor controller played by another program: `simulate --can` with python-can and cantools on
+//! its bus, which know a DBC file and none of the project's code.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStdout, Command, Stdio};
@@ -14,7 +14,7 @@ use sensedsl_wire::{
 const DESIGN: &str = "tests/can/vesc.sense";
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Ended with the test, whatever becomes of it.
+/// A process that is ended with the test, whatever its result.
 struct Running {
     child: Child,
     lines: Receiver<String>,
@@ -43,7 +43,7 @@ impl Running {
         Self { child, lines }
     }
 
-    /// The first line that is wanted, and what was said before it.
+    /// The first line that is wanted; if none comes, panics with the lines received.
     fn wait(&self, mut wanted: impl FnMut(&str) -> bool) -> String {
         let (end, mut said) = (Instant::now() + PATIENCE, Vec::new());
         while let Ok(line) = self.lines.recv_timeout(end.saturating_duration_since(Instant::now()))
@@ -85,7 +85,7 @@ fn schema() -> Schema {
     Schema { items, stamp: false, checksum: Checksum::None }
 }
 
-/// What the host hears until each sensor has said what the peer sends.
+/// Reads the host's end until each sensor has reported the values that the peer sends.
 fn hear(link: &mut std::fs::File) {
     let schema = schema();
     let mut decoder = Decoder::new(&schema, Direction::Sensor);
@@ -105,7 +105,7 @@ fn hear(link: &mut std::fs::File) {
     }
 }
 
-/// A board, its host and its peer: each command in the one direction, each status in the other.
+/// A board, its host and its peer: each command goes in one direction, each status in the other.
 fn between_host_and_peer(simulate: &mut Command) {
     simulate.args(["--can", "--seconds", "120"]).current_dir(root()).stderr(Stdio::null());
     let board = Running::new(simulate);
@@ -128,7 +128,8 @@ fn between_host_and_peer(simulate: &mut Command) {
         let _ = peer.wait(|line| line == seen);
     };
     set(4, 2500, "VESC_SetRpm Set_Rpm=2500");
-    // The frame is repeated, as the host says nothing more: a VESC would release its motor.
+    // The frame is repeated although the host sends no more: without it, a VESC would release its
+    // motor.
     for _ in 0..3 {
         let _ = peer.wait(|line| line == "VESC_SetRpm Set_Rpm=2500");
     }
@@ -143,7 +144,7 @@ fn a_vesc_is_moved_by_an_independent_peer() {
     }
 }
 
-/// What a row of the table shows: the device, its value, and half of the last digit.
+/// The content of a table row: the device, its value, and half of the last digit.
 fn row(line: &str) -> Option<(String, f64, f64)> {
     let mut words = line.split_whitespace();
     let (name, value) = (words.next()?, words.next()?);
@@ -157,8 +158,8 @@ fn row(line: &str) -> Option<(String, f64, f64)> {
     Some((name.to_owned(), value.parse().ok()?, slack))
 }
 
-/// Signals with 11 and 29 bits of identifier, in both orders, across bytes, signed, scaled, multiplexed and as floats:
-/// what cantools puts into their frames is what the user is shown.
+/// Signals with 11-bit and 29-bit identifiers, in both byte orders, across bytes, signed, scaled,
+/// multiplexed and as floats: the user is shown the values that cantools puts into the frames.
 #[test]
 fn values_of_an_imported_file_are_those_of_cantools() {
     if !has_peer() {
@@ -197,7 +198,8 @@ fn values_of_an_imported_file_are_those_of_cantools() {
     }
 }
 
-/// A bus has one peer: the world, which is what a judge compares with, or whoever opens it.
+/// A bus has one peer: either the world, which the judge compares with, or the program that opens
+/// it.
 #[test]
 fn a_judge_has_no_other_peer() {
     for other in ["--judge", "--stdout"] {

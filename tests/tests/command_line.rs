@@ -1,5 +1,5 @@
-//! What scripts rely on: exit statuses, the two streams, `-`, quiet and colourless output, pipes
-//! that close, and files that are no files.
+//! Behaviour that scripts rely on: exit statuses, the two streams, `-`, quiet and colourless
+//! output, pipes that are closed, and paths that are not regular files.
 
 use std::process::{Command, Stdio};
 
@@ -10,7 +10,7 @@ const FIG2: &str = "examples/fig2.sense";
 const WRONG: &str =
     "board STM32F4DiscoveryBoard { sensor A returns uint16 { id = 0; type = analog; } }";
 
-/// The exit status of a call with that standard input.
+/// Checks the exit status of a call with this standard input.
 #[track_caller]
 fn exits(arguments: &[&str], stdin: &str, status: i32) {
     let ran = sensedsl(arguments).stdin(stdin).run();
@@ -92,7 +92,8 @@ fn exit_status_of_every_command() {
     }
 }
 
-/// Shells complete the built-in boards where nothing else may stand, and any name of one is taken.
+/// Shells complete built-in boards where only a board can come, and any name of a board is
+/// accepted.
 #[test]
 fn names_of_boards_are_completed() {
     let script = sensedsl(["completions", "bash"]).run().exits(0).stdout;
@@ -232,7 +233,7 @@ fn what_new_makes_works_at_once() {
         assert!(ran.stdout.contains("sensedsl solve"), "{}", ran.stdout);
         let file = dir.join("robot.sense").display().to_string();
         let check = sensedsl(["check", &file, "--format", "json"]).run().exits(0).json();
-        // An LED on a pin of the full board is worth a warning, whatever is connected.
+        // An LED on a pin of the complete board gives a warning, whatever is connected.
         let other = |one: &Value| one["code"] != "W0605";
         assert!(!check["diagnostics"].as_array().unwrap().iter().any(other), "{check:#}");
         let _ = sensedsl(["fmt", "--check", &file]).run().exits(0);
@@ -242,7 +243,7 @@ fn what_new_makes_works_at_once() {
     }
 }
 
-/// The starter has what the board can carry, and goes as far as the board does.
+/// The starter design has what the board can carry, and firmware if the board has any.
 #[test]
 fn new_works_for_every_board() {
     let scratch = Scratch::new("new_everywhere");
@@ -331,7 +332,8 @@ fn a_file_of_nothing_but_mistakes_is_answered_briefly() {
     }
 }
 
-/// A chip is explained by its name, with the pins of all its connections, those that no value goes over included.
+/// A chip is explained by its name, with the pins of all its connections, including those without a
+/// value.
 #[test]
 fn a_chip_is_explained() {
     let text = "board STM32F407G_DISC1 { chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 {} } }";
@@ -341,7 +343,7 @@ fn a_chip_is_explained() {
     for wire in ["pwm", "in1", "in2", "standby"] {
         assert!(why.contains(&format!("\n  {wire} ")), "{wire}: {why}");
     }
-    // What people want first comes first; the whole list is there for who asks.
+    // The most useful facts come first; `--all` prints the whole list.
     assert!(
         why.lines().count() < 30 && why.lines().all(|line| line.chars().count() <= 100),
         "{why}"
@@ -359,7 +361,8 @@ fn a_chip_is_explained() {
     assert!(unknown.contains("no device or chip Lef; did you mean Left?"), "{unknown}");
 }
 
-/// Without a system a timer's channel is a signal by itself, and rules about units are about the timer that it names.
+/// Without a system, a timer's channel is a signal by itself, and rules about units apply to the
+/// timer that it names.
 #[test]
 fn a_wish_for_a_timer_decides_between_the_signals_of_a_pin() {
     let of = |wish: &str| {

@@ -1,7 +1,7 @@
 //! The corpus: inputs that must be accepted, and malformed ones that must be refused with the code
-//! that names the file, at the place that `tests/corpus/err/expected.txt` tells.
+//! in the name of the file, at the place that `tests/corpus/err/expected.txt` gives.
 //!
-//! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests corpus::`,
+//! If messages change their places: run `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests corpus::`,
 //! and read the difference.
 #![expect(
     clippy::indexing_slicing,
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use sensedsl_tests::{root, sensedsl};
 use serde_json::Value;
 
-/// What stands on the board whose table is malformed.
+/// The devices on a board whose table is malformed.
 const ON_TABLE: &str = "board Robot {\n    sensor A returns uint16 {\n        id = 1;\n        type = analog;\n    }\n}\n";
 
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
@@ -31,7 +31,7 @@ fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     files
 }
 
-/// Codes and places of all that is said of a file, and how `check` ended.
+/// The codes and places of all diagnostics for a file, and the exit status of `check`.
 fn said(folder: &Path, file: &str) -> (Vec<(String, String)>, i32) {
     let call = sensedsl(["check", "--format", "json"]).within(folder);
     let ran = if file.ends_with(".csv") {

@@ -1,4 +1,5 @@
-//! The drivers of the library against their vectors, by a reader of both that shares no code with the tool.
+//! The drivers of the library against their vectors, read by a program that shares no code with the
+//! tool.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +9,7 @@ use sensedsl_tests::{Scratch, files, has, root};
 
 const VECTORS: &str = "tests/vectors/drivers";
 
-/// Runs `check.py` of a folder that is laid out as the repository is.
+/// Runs `check.py` in a folder that is laid out like the repository.
 fn check(root: &Path) -> Output {
     Command::new("python3").arg(root.join(VECTORS).join("check.py")).output().unwrap()
 }
@@ -22,7 +23,7 @@ fn drivers_agree_with_their_vectors() {
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stdout));
 }
 
-/// A wrong byte, a wrong bit and a vector that is not there are told, each with the driver's name.
+/// A wrong byte, a wrong bit and a missing vector are each reported with the driver's name.
 #[test]
 fn what_disagrees_is_told() {
     if !has("python3") {

@@ -1,5 +1,5 @@
-//! `docs/drivers/` says what the library of drivers says, and each part's example can be wired.
-//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests drivers_pages::` writes the pages anew.
+//! `docs/drivers/` agrees with the library of drivers, and each part's example can be wired.
+//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests drivers_pages::` rewrites the pages.
 #![expect(
     clippy::indexing_slicing,
     clippy::unwrap_used,
@@ -28,7 +28,7 @@ bench. The names of parts are those of their makers.
 These pages are made from `drivers/`.
 ";
 
-/// All pages, from the library: name and text.
+/// All pages as the library gives them, by name.
 fn pages() -> BTreeMap<String, String> {
     let parts = facts::all();
     let mut pages: BTreeMap<String, String> =
@@ -63,7 +63,7 @@ fn the_pages_are_fresh() {
     assert!(stale.is_empty(), "{stale:?} are not what drivers/ says: SENSEDSL_BLESS=1");
 }
 
-/// Each example is wired on a board that is in many drawers, and says nothing but hints.
+/// Each example is wired on a common board, with no diagnostics except hints.
 #[test]
 fn every_example_is_wired() {
     let mut said = Vec::new();
@@ -129,7 +129,7 @@ fn a_part_is_told_by_any_of_its_names() {
     assert!(word.stderr.contains("sensedsl drivers"), "{}", word.stderr);
 }
 
-/// What a part's page says fits a terminal, but for a value that is longer by itself.
+/// The description of a part fits a terminal, except for a single value that is too long by itself.
 #[test]
 fn what_is_told_fits_a_terminal() {
     let mut wide = Vec::new();
@@ -152,7 +152,7 @@ fn programs_read_the_same() {
     assert_eq!(part["identity"]["register"], 0x75);
     assert_eq!(part["values"][0]["type"], "int16[3]");
     assert_eq!(part["values"][0]["scale"], 1.0 / 16_384.0);
-    // The example is a file that works.
+    // The example is a complete file that can be solved.
     let folder = Scratch::new("driver_example");
     let file = folder.write("example.sense", part["example"].as_str().unwrap());
     let _ = sensedsl(["solve"]).arg(file).run().exits(0);

@@ -1,12 +1,13 @@
-//! The examples: each is short, laid out canonically, solved as it stands, and everything but
-//! firmware for kinds that none is made for is generated of it.
+//! The examples: each is short, formatted canonically, and solved as it is. Everything is generated
+//! for it, except firmware for kinds that have none.
 #![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
 
 use std::fs;
 
 use sensedsl_tests::{Scratch, root, sensedsl};
 
-/// The most lines of examples that show how short a robot can be told; none for the others.
+/// The maximum number of lines of the examples that show how short a robot's description can be; no
+/// limit for the others.
 fn lines_max(name: &str) -> usize {
     match name {
         "line_follower.sense" => 20,

@@ -1,7 +1,9 @@
-//! The judge calls nothing wrong that is right: for each built-in board a design of all kinds that it carries, and each
-//! driver of the library, alone and with as many others as fit, as `simulate --judge` runs them in this program.
+//! The judge reports nothing as wrong that is right. Each built-in board gets a design with all
+//! kinds that it can carry, and each driver of the library runs alone and with as many others as
+//! fit, judged as in `simulate --judge` of this program.
 //!
-//! A drawn few of each always; all of them with `SENSEDSL_THOROUGH=1`, which prints how much was compared.
+//! A small random selection always runs; `SENSEDSL_THOROUGH=1` runs all, and prints how much was
+//! compared.
 
 use std::collections::VecDeque;
 use std::sync::Mutex;
@@ -10,14 +12,15 @@ use sensedsl_tests::{Random, is_thorough, sensedsl, text};
 
 const KINDS: [&str; 10] =
     ["analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can"];
-/// What frees a board's wires, and what inverts serial ports.
+/// A link that frees a board's wires. [`INVERTING_BOARD`] is for drivers whose serial port is
+/// inverted.
 const SERIAL_LINK: &str = "link { transport = uart; }";
 const BOARD: &str = "STM32F407G_DISC1";
 const INVERTING_BOARD: &str = "NUCLEO_F303RE";
-/// Drivers that are tried together at first.
+/// The number of drivers that are first tried together.
 const TOGETHER: usize = 24;
 
-/// What a judge has compared.
+/// The number of comparisons of a judge.
 #[derive(Clone, Copy, Debug, Default)]
 struct Compared {
     designs: u64,
@@ -32,7 +35,7 @@ fn count(stdout: &str, what: &str) -> u64 {
     number.unwrap_or(0)
 }
 
-/// Judges a design; what is wrong with it is the error.
+/// Judges a design; the error says what is wrong with it.
 fn judge(text: &str, target: &str) -> Result<Compared, String> {
     let ran = sensedsl(["simulate", "-", "--judge", "--target", target]).stdin(text).run();
     let (values, looks) =
@@ -47,7 +50,7 @@ pub(crate) fn is_wired(text: &str, target: &str) -> bool {
     sensedsl(["solve", "-", "--target", target]).stdin(text).run().status == 0
 }
 
-/// A few of them, drawn with a seed; all where everything is asked for.
+/// A few items, drawn with a fixed seed; all in a thorough run.
 fn drawn<T>(mut all: Vec<T>, count: usize) -> Vec<T> {
     let mut random = Random::new(25);
     while !is_thorough() && all.len() > count {
@@ -57,7 +60,7 @@ fn drawn<T>(mut all: Vec<T>, count: usize) -> Vec<T> {
     all
 }
 
-/// Works on all of them with two threads; panics with what was wrong.
+/// Works on all items with two threads; panics with everything that was wrong.
 fn each<T: Send>(all: Vec<T>, work: impl Fn(T) -> Vec<Result<Compared, String>> + Sync) {
     let left = Mutex::new(VecDeque::from(all));
     let found = Mutex::new(Vec::new());
@@ -97,7 +100,8 @@ fn of_kinds(board: &str, kinds: &[&str], rule: &str) -> String {
     format!("board {board} {{\n{rule}\n{}}}\n", inside.collect::<String>())
 }
 
-/// All kinds that a board carries: as many as fit together, and what does not fit with them by itself.
+/// Designs for all kinds that a board can carry: as many as fit together in one, and each of the
+/// others by itself.
 fn designs(board: &str, target: &str) -> Vec<String> {
     let (mut taken, mut all) = (Vec::new(), Vec::new());
     for kind in KINDS {
@@ -131,7 +135,7 @@ fn no_board_with_all_kinds_is_called_wrong() {
     });
 }
 
-/// The library's drivers, and the devices of each in a board's braces.
+/// The library's drivers, each as the text of its devices for the inside of a board.
 pub(crate) fn drivers() -> Vec<String> {
     let ran = sensedsl(["drivers", "--quiet", "--format", "json"]).run().exits(0);
     let json = ran.json();
@@ -149,7 +153,7 @@ fn part(one: &serde_json::Value, node: usize) -> String {
     }
     let address = one["addresses"].get(0).filter(|_| one["address"].is_null());
     let address = address.map(|first| format!("address = {first};")).unwrap_or_default();
-    // Controllers of one make are told apart by a number that each has for itself.
+    // Controllers of the same make are distinguished by a number of their own.
     let notes = one["notes"].as_array().map_or(&[][..], Vec::as_slice);
     let is_numbered = notes.iter().any(|note| note.as_str().unwrap().contains("`node` is"));
     let node = if is_numbered { format!("node = {node};") } else { String::new() };
@@ -175,7 +179,7 @@ fn checksums_among_values_are_part_of_a_transfer() {
     each(vec![driver], |part| vec![judge(&of_parts(&[part]), "chibios")]);
 }
 
-/// As many together as have a wiring: where a group has none, each half of it is tried.
+/// Groups of parts that can be wired together: if a group cannot, each half of it is tried.
 fn groups(parts: &[String]) -> Vec<String> {
     let together = of_parts(parts);
     if parts.len() < 2 || is_wired(&together, "chibios") {

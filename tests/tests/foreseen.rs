@@ -1,8 +1,9 @@
-//! What `check` says beforehand of what `generate` would refuse, and which target is meant where none is named.
+//! Warnings of `check` about what `generate` would refuse, and the target that is assumed if none
+//! is named.
 
 use sensedsl_tests::{Scratch, sensedsl};
 
-/// Two bridges, for which there is no firmware on an RP2040, with rules in their chip.
+/// Two motor bridges on an RP2040, which has no firmware for them, with rules in their chip.
 fn bridges(rules: &str) -> String {
     format!(
         "board Robot on RASPBERRYPI_PICO {{\n    chip Motors {{\n        driver = drv8833;\n        {rules}\n        \
@@ -23,7 +24,7 @@ fn check_warns_of_what_generate_refuses() {
     let message = gap["message"].as_str().unwrap();
     assert!(message.starts_with("target embassy: no firmware can be generated for "), "{message}");
     assert!(message.ends_with("(E0501)"), "{message}");
-    // The same sentence, at the same place.
+    // The warning has the same sentence as the error, at the same place.
     let sentence = message.trim_start_matches("target embassy: ").trim_end_matches(" (E0501)");
     assert!(refused.contains(sentence), "{refused}");
     assert!(gap.to_string().contains("robot.sense"), "{gap}");
@@ -34,7 +35,7 @@ fn whoever_writes_the_firmware_allows_the_gap() {
     let own = bridges("allow W0615 \"own firmware\";");
     let said = sensedsl(["check", "-"]).stdin(own.as_str()).run().exits(0).stderr;
     assert!(!said.contains("W0615") && !said.contains("W0604"), "{said}");
-    // Without the library's firmware nothing is missing, and nobody is told that the rule is unused.
+    // Without the library's firmware nothing is missing, and the rule is not reported as unused.
     let said = sensedsl(["solve", "-"]).stdin(own.as_str()).run().exits(0).stderr;
     assert!(!said.contains("W0604"), "{said}");
     let pure = sensedsl(["check", "-", "--target", "none"]).stdin(bridges("")).run().exits(0);

@@ -1,4 +1,4 @@
-//! What `generate` promises about the folder it writes.
+//! Promises of `generate` about the folder that it writes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -57,7 +57,7 @@ fn the_same_input_gives_the_same_bytes_wherever_it_is() {
         assert_eq!(first, out(&other));
         let _ = generate(file, &one, &[]).exits(0);
         assert_eq!(first, out(&one), "and a second run changes nothing");
-        // The design is called what its file is called, wherever that is.
+        // The design is named after its file, wherever that is.
         let name = file.rsplit('/').next().unwrap_or(file);
         let copy = other.write(&format!("elsewhere/{name}"), sensedsl_tests::text(file));
         let third = Scratch::new("third");
@@ -104,7 +104,7 @@ fn check_compares_and_writes_nothing() {
     let _ = generate(FIG2, &scratch, &["--check"]).exits(0);
     let ran = generate(FIG2, &scratch, &["--check", "--host", "cpp"]).exits(1);
     assert!(ran.stderr.contains("no longer made: host/"), "{}", ran.stderr);
-    // What the user wrote is as it shall be, whatever it is.
+    // A file of the user's is accepted with any content.
     scratch.write(&format!("out/{FIRMWARE}/user/user.c"), "mine");
     let _ = generate(FIG2, &scratch, &["--check"]).exits(0);
 }
@@ -122,7 +122,7 @@ fn foreign_files_are_left_alone_and_said() {
     fs::remove_file(scratch.join("out/thesis.tex")).unwrap();
     fs::remove_file(scratch.join("out/wiring.md")).unwrap();
     let _ = generate(FIG2, &scratch, &[]).exits(0);
-    // Where users and build tools keep their things nothing is foreign.
+    // In folders where users and build tools keep their files, nothing counts as foreign.
     for folder in ["user", "build", ".dep"] {
         scratch.write(&format!("out/{FIRMWARE}/{folder}/more.c"), "int more;\n");
     }
@@ -212,7 +212,7 @@ fn nothing_is_written_when_anything_is_wrong() {
     let _ = generate(FIG2, &scratch, &["--board", "nosuch.csv"]).exits(2);
     let _ = generate("no such file", &scratch, &[]).exits(2);
     assert!(!scratch.join("out").exists());
-    // What was right before stays as it was.
+    // Output that was right before stays unchanged.
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let before = out(&scratch);
     let file = scratch.join("robot.sense").display().to_string();
@@ -220,7 +220,7 @@ fn nothing_is_written_when_anything_is_wrong() {
     assert_eq!(out(&scratch), before);
 }
 
-/// A number in a text can be read from a device and not yet be sent to one.
+/// A number in a text can be read from a device, but cannot yet be sent to one.
 const TEXT_OUT: &str = "board STM32F407G_DISC1 {
     actuator Out accepts int16 { id = 1; type = uart; end = [10]; format = decimal; field = 0; }
     sensor In returns uint16 { id = 2; type = analog; }
@@ -232,7 +232,7 @@ fn all_kinds_come_to_firmware() {
     let kinds = ["encoder", "digital", "uart", "spi", "pwm", "dac", "can: frame = 0x120;"];
     for kind in kinds {
         let scratch = Scratch::new("kinds");
-        // Both DAC outputs lead to parts of the board.
+        // Both DAC outputs lead to parts on the board.
         let text = design("STM32F407G_DISC1", &[kind]).replacen('{', "{ release CS43L22;", 1);
         let file = scratch.write("robot.sense", text).display().to_string();
         let _ = generate(&file, &scratch, &[]).exits(0);
@@ -306,7 +306,8 @@ fn the_next_command_is_said() {
 fn a_folder_stays_the_one_it_is() {
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
     let scratch = Scratch::new("same");
-    // The folder is named by a link, and what the user has in it are links and modes.
+    // The folder is named by a link, and the user's files in it include links and have modes of
+    // their own.
     fs::create_dir(scratch.join("real")).unwrap();
     symlink("real", scratch.join("out")).unwrap();
     let _ = generate(FIG2, &scratch, &[]).exits(0);
@@ -331,7 +332,7 @@ fn a_folder_stays_the_one_it_is() {
     assert_eq!(read(&other), "int other;\n");
     assert_eq!(fs::metadata(&makefile).unwrap().mode() & 0o777, 0o600, "modes are kept");
     let _ = generate(CAR, &scratch, &["--check"]).exits(0);
-    // A shell that works in the folder goes on working in it.
+    // A shell that works in the folder can continue to work in it.
     let file = sensedsl_tests::root().join(FIG2).display().to_string();
     let within = scratch.join("out/firmware");
     let script =
@@ -358,7 +359,7 @@ fn what_earlier_versions_left_behind_is_removed() {
     assert!(scratch.join("out/.wiring.md.part").exists(), "--check writes nothing");
     let _ = generate(CAR, &scratch, &[]).exits(0);
     assert!(!out(&scratch).keys().any(|name| name.ends_with(".part")));
-    // What could be somebody's own is not.
+    // A file that could be somebody's own is not removed.
     scratch.write("out/.thesis.tex.part", "years of work");
     let ran = generate(CAR, &scratch, &[]).exits(1);
     assert!(ran.stderr.contains(".thesis.tex.part"), "{}", ran.stderr);

@@ -1,21 +1,21 @@
-//! Everything that `generate` writes for a few designs, byte for byte, as it was read and agreed to.
+//! Everything that `generate` writes for a few designs, byte for byte, as reviewed and accepted.
 //!
-//! The runtimes' own files are copied as they are and left out here, and so are lock files, which a table says. What
-//! stands in a tree several times is there once; `same.txt` says where else. After a change that is meant: `cargo xtask
-//! bless`, and read the difference.
+//! The runtimes' own files are copied unchanged and left out here. So are lock files, which a table
+//! determines. Content that is in a tree several times is stored once; `same.txt` lists the other
+//! places. After an intended change: run `cargo xtask bless`, and read the difference.
 
 use std::collections::BTreeMap;
 use std::fs;
 
 use sensedsl_tests::{Scratch, root, sensedsl, tree};
 
-/// What is the same whatever the design.
+/// Whether a file is the same for all designs.
 fn is_runtime(path: &str) -> bool {
     let folders = ["/uproxy/", "/include/sensedsl/", "/sense-embassy/src/", "/sense-rt/src/"];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }
 
-/// Takes files out of a tree that are in it before, and lists them.
+/// Removes files whose content is already in the tree, and lists them.
 fn once(files: &mut BTreeMap<String, Vec<u8>>) {
     let mut first: BTreeMap<Vec<u8>, String> = BTreeMap::new();
     let mut same = String::new();
@@ -40,7 +40,7 @@ fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let _ = call.run().exits(0);
     let mut files = tree(&scratch.join("out"));
     files.retain(|path, _| !is_runtime(path));
-    // The list says again, in a SHA-256, what the files say.
+    // The SHA-256 values of the list only repeat what the files contain.
     if let Some(list) = files.get_mut(".sensedsl-files") {
         let text = String::from_utf8_lossy(list).into_owned();
         let name = |line: &str| match line.split_once("  ") {
@@ -52,12 +52,12 @@ fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// Holds what is generated for `folder/example.sense` to the tree of that name.
+/// Compares the output for `folder/example.sense` with the tree of that name.
 fn agrees(folder: &str, example: &str, arguments: &[&str]) {
     agrees_as(example, &format!("{folder}/{example}.sense"), arguments);
 }
 
-/// The same under another name.
+/// Compares the output for a file with the tree named `example`.
 fn agrees_as(example: &str, file: &str, arguments: &[&str]) {
     let mut files = generated(file, arguments);
     once(&mut files);

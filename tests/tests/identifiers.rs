@@ -1,4 +1,4 @@
-//! `fmt --ids`: the identifiers that the tool gives by itself, written into the file.
+//! `fmt --ids`: writes the identifiers that the tool assigns into the file.
 #![expect(
     clippy::indexing_slicing,
     clippy::unwrap_used,
@@ -28,7 +28,7 @@ board Robot on NUCLEO_F446RE {
 }
 ";
 
-/// What a program reads of the wire.
+/// The names and identifiers that a program reads from the answer.
 fn ids(folder: &Scratch, file: &str) -> Vec<(String, u64)> {
     let ran = sensedsl(["solve", "--format", "json", file]).within(folder.path()).run();
     let value = ran.exits(0).json();
@@ -87,7 +87,7 @@ board Robot on NUCLEO_F446RE {
 ";
     assert_eq!(after, wanted);
     assert_eq!(ids(&folder, "robot.sense"), before);
-    // Once more changes nothing.
+    // A second run changes nothing.
     assert_eq!(fmt(&folder, &["robot.sense"]).exits(0).stdout, "");
     let _ = fmt(&folder, &["--check", "robot.sense"]).exits(0);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), wanted);
@@ -102,7 +102,7 @@ fn a_file_with_errors_is_left_alone() {
     assert!(told.stderr.contains("E0216") && told.stderr.contains("E0203"), "{}", told.stderr);
     assert!(told.stderr.contains("no identifiers are written"), "{}", told.stderr);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
-    // Without --ids it is only laid out.
+    // Without `--ids`, the file is only formatted.
     let _ = sensedsl(["fmt", "robot.sense"]).within(folder.path()).run().exits(0);
 }
 

@@ -1,5 +1,5 @@
-//! `sensedsl import` as users call it: what is printed where, the exit status, and that the other
-//! commands take what comes out.
+//! `sensedsl import`, as users call it: its output on each stream and its exit status; the other
+//! commands must accept the result.
 
 use sensedsl_tests::{Scratch, root, sensedsl, text};
 

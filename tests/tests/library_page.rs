@@ -1,4 +1,4 @@
-//! The examples of `docs/library.md`, which stands for what is between the marks here.
+//! The examples of `docs/library.md`: the page must contain the code between the marks here.
 
 use sensedsl_tests::{root, text};
 

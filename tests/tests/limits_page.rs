@@ -1,5 +1,5 @@
-//! `docs/limits.md` says what `crates/limits` says, and every limit has a diagnostic that there is.
-//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests limits_page::` writes the page anew.
+//! `docs/limits.md` agrees with `crates/limits`, and every limit has a diagnostic that exists.
+//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests limits_page::` rewrites the page.
 #![expect(clippy::unwrap_used, reason = "a test of a page reads it")]
 
 use std::fmt::Write as _;
@@ -40,7 +40,7 @@ fn page() -> String {
     text
 }
 
-/// `400,000`.
+/// A number with thousands separators: `400,000`.
 fn digits(number: usize) -> String {
     let text = number.to_string();
     let groups: Vec<_> = text.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();

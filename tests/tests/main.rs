@@ -1,5 +1,5 @@
-//! All tests over the whole, as one program: it is linked once, and its tests share all processors.
-//! [`README.md`](../README.md) says what each module holds.
+//! All tests of the whole as one program: it is linked once, and its tests share all processors.
+//! [`README.md`](../README.md) describes each module.
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "tests make files, run programs and measure time")]
 

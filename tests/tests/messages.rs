@@ -1,6 +1,6 @@
-//! How the tool looks to people: its messages and its forms of a wiring, as snapshots.
+//! The tool's appearance to people, as snapshots: its messages and its forms of a wiring.
 //!
-//! `cargo insta review`, or `INSTA_UPDATE=always`, after a change that is meant.
+//! After an intended change: `cargo insta review`, or `INSTA_UPDATE=always`.
 
 use sensedsl_tests::{design, sensedsl};
 
@@ -14,7 +14,7 @@ fn settings() -> insta::Settings {
     settings
 }
 
-/// What `check` says to people about a file of the corpus.
+/// The output of `check` for people, about a file of the corpus.
 fn said(file: &str) -> String {
     let folder = sensedsl_tests::root().join("tests/corpus/err");
     let call = sensedsl(["check"]).within(&folder);

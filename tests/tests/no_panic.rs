@@ -1,9 +1,9 @@
-//! No input makes the tool panic: seeded mutations of all examples and tables go through resolving,
-//! solving and generating, in this process.
+//! No input makes the tool panic: seeded mutations of all examples and tables are resolved, solved
+//! and generated in this process.
 //!
-//! 2,000 of them by default, ten times as many with `SENSEDSL_THOROUGH=1`;
-//! `SENSEDSL_MUTATIONS=1000000` for a long run (with `--release`). An
-//! input that panics is printed; it belongs into `tests/corpus/err` or `tests/corpus/ok`.
+//! The default is 600 mutations, and 20,000 with `SENSEDSL_THOROUGH=1`;
+//! `SENSEDSL_MUTATIONS=1000000` is for a long run (with `--release`). An input that panics is
+//! printed; it belongs in `tests/corpus/err` or `tests/corpus/ok`.
 
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -32,7 +32,7 @@ impl Files for Memory<'_> {
     }
 }
 
-/// What runs over an input, as the commands do it.
+/// Runs the stages of the commands on an input.
 fn pipeline(input: &Input) {
     let board = input.table.is_some().then_some("table.csv");
     let request = Request { path: "robot.sense", text: &input.sense, board, target: None };
@@ -75,7 +75,7 @@ fn pipeline(input: &Input) {
     }
 }
 
-/// Everything that ships, and the corpora: what is well-formed, and what once was not.
+/// Everything that ships, and both corpora: the well-formed one and the malformed one.
 fn seeds() -> Vec<Input> {
     let mut seeds = Vec::new();
     let tables: Vec<String> = sensedsl_board::catalog::all()
@@ -92,7 +92,7 @@ fn seeds() -> Vec<Input> {
     seeds
 }
 
-/// Words that matter somewhere.
+/// Words with a meaning somewhere in the language.
 const WORDS: &[&str] = &[
     "board",
     "spare",
@@ -232,7 +232,7 @@ const WORDS: &[&str] = &[
     ":care",
 ];
 
-/// A text with a few things changed.
+/// A text with a few changes.
 fn mutate(random: &mut Random, text: &str, other: &str) -> String {
     let mut text: Vec<char> = text.chars().collect();
     for _ in 0..=random.below(4) {
@@ -254,7 +254,7 @@ fn mutate(random: &mut Random, text: &str, other: &str) -> String {
                 text.splice(at..end, word.chars());
             }
             5 => {
-                // Whole lines: properties, devices, rows.
+                // Moves whole lines: properties, devices, rows.
                 let lines: String = text.iter().collect();
                 let mut lines: Vec<&str> = lines.split_inclusive('\n').collect();
                 let (from, to) = (random.below(lines.len()), random.below(lines.len()));
@@ -277,12 +277,12 @@ fn mutate(random: &mut Random, text: &str, other: &str) -> String {
             }
         }
     }
-    // What grows without end is slow and finds nothing new.
+    // Inputs that grow without end are slow and find nothing new.
     text.truncate(20_000);
     text.into_iter().collect()
 }
 
-/// The mutation of a number: the same everywhere.
+/// The mutation with a number, which is the same on every machine.
 fn mutation(number: u64, seeds: &[Input]) -> Input {
     let mut random = Random::new(number);
     let (seed, other) = (random.below(seeds.len()), random.below(seeds.len()));
@@ -297,7 +297,7 @@ fn mutation(number: u64, seeds: &[Input]) -> Input {
     input
 }
 
-/// Runs the mutations of the numbers; prints those that panic.
+/// Runs the mutations with these numbers; returns those that panic.
 fn panics(numbers: impl Iterator<Item = u64>, seeds: &[Input]) -> String {
     let mut panics = String::new();
     for number in numbers {

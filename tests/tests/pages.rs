@@ -1,4 +1,4 @@
-//! What pages say of data is what the data says.
+//! Statements of pages about data agree with the data.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use sensedsl_board::profile;
 use sensedsl_firmware_chibios as chibios;
 use sensedsl_tests::{read, root, text};
 
-/// The firmware page names the families that there is firmware for, without `STM32`, and no other.
+/// The firmware page names exactly the families that have firmware, without `STM32`.
 #[test]
 fn the_firmware_page_names_its_families() {
     let page = words_of("docs/firmware.md");
@@ -23,12 +23,13 @@ fn the_firmware_page_names_its_families() {
     assert_eq!(named, served);
 }
 
-/// A page with one space between words, wherever its lines end.
+/// The text of a page with single spaces between words, independent of its line breaks.
 fn words_of(page: &str) -> String {
     text(page).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The page of the parts says how many numbers the shipped table has; the RP parts are rules.
+/// The page of the parts gives the number of part numbers in the shipped table; the RP parts are
+/// rules.
 #[test]
 fn counts_are_those_of_the_data() {
     let parts = sensedsl_parts::all().filter(|part| !part.base().starts_with("RP"));
@@ -37,7 +38,7 @@ fn counts_are_those_of_the_data() {
     assert!(words_of("docs/parts.md").contains(&grouped), "docs/parts.md: there are {grouped}");
 }
 
-/// The README names the families that firmware in C is for.
+/// The README names the families that have firmware in C.
 #[test]
 fn the_readme_names_the_families() {
     let families: BTreeSet<String> = profile::lines(profile::DEFAULT)
@@ -64,7 +65,7 @@ fn prose_is_wrapped() {
     pages.extend(docs.map(|entry| entry.unwrap().path()));
     let drivers = std::fs::read_dir(root().join("docs/drivers")).unwrap();
     pages.extend(drivers.map(|entry| entry.unwrap().path()));
-    // This one is made of texts in the code, which are indented there.
+    // This page is made from texts in the code, which are indented there.
     pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
     pages.retain(|path| !path.ends_with("diagnostics.md"));
     assert!(pages.len() > 15);

@@ -1,4 +1,4 @@
-//! What the paper and the studies after it say about Table 1, asked of the program.
+//! The statements of the paper and of later studies about Table 1, checked against the program.
 #![expect(clippy::unwrap_used, reason = "a test")]
 
 use std::collections::BTreeSet;
@@ -74,7 +74,7 @@ fn fig2_on_table1_has_the_known_answer_in_the_fixed_form() {
             "WheelEncoder in PB4 TIM3_CH1",
         ]
     );
-    // The same from the built-in board, whatever way it is named.
+    // The built-in board gives the same, whichever way it is named.
     for board in [None, Some("STM32F4DiscoveryBoard"), Some("stm32f4_discovery-board")] {
         let call = sensedsl(["solve", FIG2, "--format", "json"]);
         let call = board.map_or(sensedsl(["solve", FIG2, "--format", "json"]), |name| {
@@ -84,12 +84,12 @@ fn fig2_on_table1_has_the_known_answer_in_the_fixed_form() {
     }
 }
 
-/// Analog inputs, I2C buses of their own and captures on Table 1.
+/// A number of analog inputs, separate I2C buses and captures on Table 1.
 struct Row {
     devices: [usize; 3],
-    /// Number of wirings, least cost and number of wirings of that cost, on the pins alone.
+    /// Number of wirings, least cost, and number of wirings with that cost, for the pins only.
     pins_alone: (&'static str, u64, usize),
-    /// The same with what ChibiOS can do.
+    /// The same numbers, within what ChibiOS can do.
     chibios: (&'static str, u64, usize),
 }
 
@@ -144,7 +144,7 @@ fn numbers_of_optima_on_table1() {
     for row in ROWS.iter().take(2) {
         let text = row_text(row);
         for (target, (_, cost, optima)) in [("none", row.pins_alone), ("chibios", row.chibios)] {
-            // Best first: the optima stand at the front, and one more is dearer.
+            // The best wirings come first: all optima, then one with a higher cost.
             let limit = (optima + 1).to_string();
             let ran = solve(&text, &["--limit", &limit, "--target", target]).exits(0);
             let costs: Vec<u64> = ran
@@ -233,7 +233,7 @@ fn devices_of_one_address_go_to_different_buses() {
     assert_eq!(units.len(), 3);
     let four = design("STM32F4DiscoveryBoard", &["i2c: address = 0x20;"; 4]);
     assert_eq!(solve(&four, &[]).exits(1).json()["status"], "infeasible");
-    // 0xE6 and 0x73 are one address.
+    // 0xE6 (8-bit form) and 0x73 (7-bit form) are the same address.
     let mixed = ["i2c: address = 0xE6;", "i2c: address = 0x73; driver = srf08;"];
     let answer = solve(&design("STM32F4DiscoveryBoard", &mixed), &[]).exits(0).json();
     let devices = &answer["boards"][0]["devices"];

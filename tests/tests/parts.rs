@@ -64,7 +64,7 @@ fn parts_that_cannot_carry_the_devices_are_left_out() {
     let file = scratch.write("can.sense", can).display().to_string();
     let lines = carriers(&file, &["--family", "STM32F103", "--target", "none"]);
     assert!(lines.iter().any(|line| word(line, "part").starts_with("STM32F103C8")));
-    // The 36 contacts have CAN on PA11 and PA12 alone.
+    // The 36-pin packages have CAN only on PA11 and PA12.
     assert!(!lines.iter().any(|line| word(line, "part").starts_with("STM32F103T")));
     let many = design("X", &["dac"; 3]);
     let file = scratch.write("many.sense", many);
@@ -73,8 +73,8 @@ fn parts_that_cannot_carry_the_devices_are_left_out() {
     assert!(none.stdout.contains("\n0 of "), "{}", none.stdout);
 }
 
-/// Whoever reads a pipe need not wait for the last part. The rows are those of the sorted list, in
-/// the order of the parts, however many cores ask.
+/// The reader of a pipe need not wait for the last part. The rows are those of the sorted list, in
+/// the order of the parts, however many cores work.
 #[test]
 fn a_pipe_gets_each_row_as_it_is_found() {
     let file = "examples/fig2.sense";
@@ -103,7 +103,7 @@ fn a_pipe_gets_each_row_as_it_is_found() {
     assert!(is_running && first.contains("pins only"), "{first}");
 }
 
-/// What is wrong with the file is told once, not once for each part.
+/// A mistake in the file is reported once, not once for each part.
 #[test]
 fn a_mistake_in_the_file_is_told() {
     let wrong = "board X {\n    sensor A returns uint16 { id = 1; type = analgo; }\n}\n";
@@ -142,7 +142,8 @@ fn the_first_ones_in_the_order_asked_for() {
     assert!(cut.contains(&count), "{cut}");
 }
 
-/// Cores and memory are shown, filter and sort, of a file's carriers and of the list alike.
+/// Cores and memory are shown, filtered and sorted, both for the parts that carry a file and for
+/// the list.
 #[test]
 fn cores_and_memory_narrow_and_sort() {
     let fig2 = "examples/fig2.sense";
@@ -166,7 +167,7 @@ fn cores_and_memory_narrow_and_sort() {
         list(&["--list", "--core", "m0"]).iter().filter(|part| has_core(part, "M0+")).count(),
         0
     );
-    // The flash of an RP2040 is as large as you like, that of an AVR is not.
+    // An RP2040 can have flash of any size; an AVR cannot.
     let many = list(&["--list", "--min-flash", "100000"]);
     assert!(
         many.iter().any(|part| part["part"] == "RP2040")
@@ -183,7 +184,7 @@ fn has_core(part: &Value, name: &str) -> bool {
     part["cores"].as_array().unwrap().iter().any(|core| core.as_str().unwrap().ends_with(name))
 }
 
-/// A terminal has 80 columns.
+/// Tables fit a terminal of 80 columns.
 #[test]
 fn tables_are_as_wide_as_a_terminal() {
     let list = sensedsl(["parts", "--list"]).run().exits(0).stdout;
@@ -214,7 +215,7 @@ fn control_c_prints_what_there_is() {
     let mut call = Command::new(binary());
     call.args(["parts", "examples/miniature_car.sense"]).current_dir(root());
     let child = call.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // Long before the thousands of parts are through.
+    // The interrupt comes long before the thousands of parts are done.
     thread::sleep(Duration::from_millis(1_500));
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());

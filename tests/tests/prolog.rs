@@ -1,4 +1,4 @@
-//! SWI-Prolog, given the exported problem, finds the best cost that we find.
+//! SWI-Prolog, given the exported problem, finds the same best cost as the tool.
 
 use std::fmt::Write as _;
 use std::process::Command;
@@ -6,13 +6,13 @@ use std::process::Command;
 use sensedsl_tests::{Call, Random, Scratch, design, device_block, has, sensedsl, text};
 use serde_json::Value;
 
-/// A call of `solve` that may read the tables of these tests, which stand in folders of their own.
+/// A call of `solve` that may read the tables of these tests, which are in folders of their own.
 fn call(format: &str) -> Call {
     let call = sensedsl(["solve", "-q", "--format", format, "--allow-outside"]);
     call.arg(std::env::temp_dir())
 }
 
-/// What `main` of an exported program prints first: rules violated, shared pins, cost.
+/// The first line that `main` of an exported program prints: rules violated, shared pins, cost.
 fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64, u64)> {
     let program = call("prolog").arg(design).run().exits(0).stdout;
     let file = scratch.write("wiring.pl", program);
@@ -52,7 +52,7 @@ fn agree(design: &str) -> Option<(u64, u64, u64)> {
     ours
 }
 
-/// A table of Table 1's kind: a dozen pins with one to three random usages each.
+/// A table like Table 1: a dozen pins with one to three random usages each.
 pub(crate) fn random_table(random: &mut Random) -> String {
     let signals = [
         "ADC12_IN1",

@@ -1,4 +1,4 @@
-//! What `solve --proof` writes, `sensedsl-verify` accepts; what was changed, it refuses.
+//! `sensedsl-verify` accepts what `solve --proof` writes, and refuses it after any change.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -8,14 +8,14 @@ use sensedsl_tests::{Scratch, design, read, sensedsl, verifier};
 
 const BOARD: &str = "STM32F4DiscoveryBoard";
 
-/// Exit status and words of the verifier.
+/// The exit status and the output of the verifier.
 fn verify(certificate: &Path) -> (i32, String) {
     let output = Command::new(verifier()).arg(certificate).output().unwrap();
     let said = [output.stdout, output.stderr].concat();
     (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
 }
 
-/// As [`verify`], for some files.
+/// Like [`verify`], against given files.
 fn verify_for(certificate: &Path, files: &[&PathBuf]) -> (i32, String) {
     let call = &mut Command::new(verifier());
     let output = call.arg(certificate).arg("--for").args(files).output().unwrap();
@@ -23,7 +23,7 @@ fn verify_for(certificate: &Path, files: &[&PathBuf]) -> (i32, String) {
     (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
 }
 
-/// Solves with a certificate and verifies that; what the verifier said.
+/// Solves with a certificate and verifies it; returns the output of the verifier.
 #[track_caller]
 fn proved(arguments: &[&str], stdin: &str, status: i32) -> String {
     let scratch = Scratch::new("proof");
@@ -97,7 +97,7 @@ fn moved_wires_are_proved_to_be_needed() {
     assert!(said.contains("moved 1, violated 1"), "{said}");
 }
 
-/// The files of a design, and the answer to keep.
+/// The files of a design, and the answer to `--keep`.
 const NAMES: [&str; 4] = ["robot.sense", "parts/arm.sense", "tables/own.csv", "before.json"];
 
 #[test]
@@ -133,7 +133,7 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
     let (status, said) = verify_for(&plain, &all);
     assert!(status == 1 && said.contains("not of"), "nothing was kept: {said}");
     assert_eq!(verify_for(&plain, &all[..3]).0, 0);
-    // What is printed is what was used.
+    // The texts that `parts` prints are those that were used.
     let mut texts = Vec::new();
     for call in [&["--table", "STM32F407VGT6"][..], &["--profile", "STM32F407VGT6"]] {
         let text = sensedsl(["parts"]).args(call).run().exits(0).stdout;

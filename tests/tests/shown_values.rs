@@ -1,5 +1,5 @@
-//! Values that people give are those that are shown: what firmware gets of them, and what `fmt --migrate`
-//! makes of files that meant codes.
+//! Values that people write are in the units that are shown: tests the raw values that firmware
+//! gets, and how `fmt --migrate` changes files whose values were raw codes.
 #![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
 
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_tests::{root, sensedsl};
 
-/// A folder of this test run, empty.
+/// An empty folder for this test run.
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&path);

@@ -1,11 +1,11 @@
-//! What silicon can do and how its data sheets name it: units of RP2 and AVR, capture inputs, pads
-//! that are analog alone, pins that stand 5 V.
+//! The abilities of silicon under the names of its data sheets: units of RP2 and AVR, capture
+//! inputs, analog-only pads, pins that tolerate 5 V.
 #![expect(clippy::indexing_slicing, clippy::unwrap_used, reason = "a panic is a test's failure")]
 
 use sensedsl_tests::{Scratch, sensedsl};
 use serde_json::Value;
 
-/// A board with devices, each a type with its properties.
+/// A board with devices, each given as a type with its properties.
 fn file(board: &str, rules: &str, devices: &[&str]) -> String {
     let mut text = format!("board B on {board} {{ {rules}\n");
     for (index, device) in devices.iter().enumerate() {
@@ -23,7 +23,7 @@ fn file(board: &str, rules: &str, devices: &[&str]) -> String {
     text + "}\n"
 }
 
-/// Unit, pin and signal of each wire; none where there is no wiring.
+/// Unit, pin and signal of each wire; `None` if there is no wiring.
 fn wires(text: &str) -> Option<Vec<(String, String, String)>> {
     let solved = ["solve", "-", "-q", "--target", "none", "--format", "json"];
     let ran = sensedsl(solved).stdin(text.to_owned()).run();
@@ -47,7 +47,7 @@ fn wire(board: &str, rules: &str, device: &str) -> (String, String, String) {
     wires(&file(board, rules, &[device])).unwrap().remove(0)
 }
 
-/// The code that a file is refused with.
+/// The code with which a file is refused.
 fn refused(text: &str) -> String {
     let checked = ["check", "-", "-q", "--format", "json"];
     let ran = sensedsl(checked).stdin(text.to_owned()).run().exits(1);
@@ -68,7 +68,7 @@ fn answers_name_units_as_the_data_sheet_does() {
     let path = scratch.write("robot.sense", &text).display().to_string();
     for format in ["human", "json", "csv", "markdown", "svg"] {
         let shown = sensedsl(["solve", &path, "-q", "--format", format]).run().exits(0).stdout;
-        // In Markdown an underscore is escaped.
+        // Markdown escapes underscores.
         let shown = shown.replace('\\', "");
         for name in ["PWM4_A", "PWM5_B", "I2C1_SCL"] {
             assert!(shown.contains(name), "{format} does not show {name}:\n{shown}");
@@ -103,7 +103,7 @@ fn every_slice_and_channel_of_the_pico_can_be_asked_for() {
     }
 }
 
-/// What files said before means what it meant.
+/// Names in earlier files keep their meaning.
 #[test]
 fn earlier_names_of_units_are_understood() {
     for (earlier, now) in [
@@ -122,7 +122,7 @@ fn earlier_names_of_units_are_understood() {
     assert_eq!(uno("pwm; unit = TIM2"), uno("pwm; unit = TC2"));
     let i2c = |unit: &str| uno(&format!("i2c; address = 0x20; register = 0; unit = {unit}"));
     assert_eq!(i2c("I2C0"), i2c("TWI"));
-    // A table that was printed before.
+    // A table that an earlier version printed.
     let scratch = Scratch::new("earlier-table");
     let table = "# mcu = RP2040\nPin,TIM\nGP0,TIM0_CH1@4\nGP1,TIM0_CH2@4\nGP2,TIM1_CH1@4\n";
     let table = scratch.write("pico.csv", table).display().to_string();
@@ -163,7 +163,7 @@ fn analog_pads_are_for_the_converter_alone() {
     assert_eq!(both[1], ("ADC1".into(), "ADC7".into(), "ADC1_IN7".into()));
     assert!(wires(&file(nano, "", &["analog"; 8])).is_some());
     assert_eq!(wires(&file(nano, "", &["analog"; 9])), None);
-    // Eighteen pins of ports, and two pads.
+    // Eighteen port pins, and two analog-only pads.
     let all = wires(&file(nano, "", &["digital"; 18])).unwrap();
     assert!(all.iter().all(|(_, pin, _)| !pin.starts_with("ADC")), "{all:?}");
     assert_eq!(wires(&file(nano, "", &["digital"; 19])), None);

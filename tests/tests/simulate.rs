@@ -1,5 +1,5 @@
-//! The command `simulate`, as users run it: verdicts, exit statuses, the same bytes for the same seed, and a generated
-//! host application that takes the pseudo-terminal for a board.
+//! The command `simulate`, as users run it: verdicts, exit statuses, the same bytes for the same
+//! seed, and a generated host application that uses the pseudo-terminal as if it were a board.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -22,7 +22,7 @@ fn examples_agree_with_their_worlds() {
             (format!("examples/{name}.sense"), format!("examples/worlds/{world}.toml"));
         let ran = sensedsl(["simulate", &file, "--world", &world, "--judge"]).run().exits(0);
         assert!(ran.stdout.contains("agree with the world"), "{name}: {}", ran.stdout);
-        // Every sensor of the table has reported; that of the actuators comes after it.
+        // Every sensor of the table has reported; the table of the actuators comes after it.
         let rows = ran.stdout.lines().skip(1).take_while(|line| line.starts_with("  "));
         let counts = rows.map(|row| row.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap());
         let counts: Vec<u64> = counts.collect();
@@ -30,7 +30,8 @@ fn examples_agree_with_their_worlds() {
     }
 }
 
-/// What is wrong with file, world or call ends with the status that scripts rely on, and with a code.
+/// A mistake in the file, the world or the call gives the exit status that scripts rely on, and a
+/// code.
 #[test]
 fn statuses_and_codes() {
     let scratch = Scratch::new("simulate");
@@ -54,7 +55,8 @@ fn statuses_and_codes() {
         (&["simulate", "no such file", "--judge"], 2, ""),
         (&["simulate", FIG2, "--world", "no such file", "--judge"], 2, ""),
         (&["simulate", FIG2, "--firmware", "no such file", "--judge"], 2, ""),
-        // Without the emulated MCU: it is not there. With it: that is no program.
+        // Without the feature for the emulated MCU, it is missing; with it, the file is not a
+        // program.
         (&["simulate", FIG2, "--firmware", &image, "--judge"], 1, "error[E054"),
         (&["simulate", FIG2, "--judge", "--stdout"], 2, ""),
         (&["simulate", FIG2, "--judge", "--seconds", "1", "--set", "IRFront=raw 100"], 0, ""),
@@ -71,7 +73,8 @@ fn statuses_and_codes() {
     }
 }
 
-/// What a device does not report is explained by the world or told; a board of an AVR is read like any other.
+/// If a device does not report, the world explains it or the judge reports it; the board of an AVR
+/// is handled like any other.
 #[test]
 fn silences_are_explained_by_the_world() {
     let scratch = Scratch::new("silence");
@@ -119,7 +122,7 @@ fn health_and_lines_are_printed() {
     assert!(ran.stdout.contains("USRear ") && ran.stdout.contains(" cm"), "{}", ran.stdout);
 }
 
-/// Ended with the test, whatever becomes of it.
+/// A process that is ended with the test, whatever its result.
 struct Running(Child);
 
 impl Drop for Running {
@@ -156,7 +159,8 @@ fn monitor(scratch: &Scratch, file: &str, board: &str) -> std::path::PathBuf {
     program
 }
 
-/// The end of the README's first minutes: live values from a simulated car, in the generated host application.
+/// The end of the README's first minutes: live values from a simulated car in the generated host
+/// application.
 #[test]
 fn a_generated_host_reads_the_pseudo_terminal() {
     if !has("g++") {
@@ -183,7 +187,7 @@ fn a_generated_host_reads_the_pseudo_terminal() {
     assert!(missing.is_empty(), "{missing:?} in {read:#?}");
 }
 
-/// A board that waits for somebody to open its terminal sleeps meanwhile: it asked 35,000 times a second once.
+/// A board sleeps until somebody opens its terminal; it once polled 35,000 times a second.
 #[test]
 #[cfg(target_os = "linux")]
 fn nobody_opens_the_terminal() {
@@ -204,6 +208,6 @@ fn nobody_opens_the_terminal() {
     let before = cpu_ticks();
     std::thread::sleep(std::time::Duration::from_secs(2));
     let spent = cpu_ticks() - before;
-    // Of 200; a loop without a pause takes all that the machine has.
+    // Out of 200; a loop without a pause would use a whole processor.
     assert!(spent < 40, "{spent} hundredths of a second of processor in 2 s");
 }

@@ -1,5 +1,6 @@
-//! What the commands promise about single files that they write: whole or not at all, nothing of
-//! the user's replaced unasked, links, modes, devices and pipes respected.
+//! Promises about the single files that commands write: a file is written completely or not at all,
+//! no file of the user's is replaced without `--force`, and links, modes, devices and pipes are
+//! respected.
 
 use std::fs;
 use std::path::Path;
@@ -26,7 +27,7 @@ fn import_replaces_nothing_unasked() {
     let project = scratch.write("rover.ioc", PROJECT);
     let out = scratch.join("out.sense");
     let import = || sensedsl(["import", "-q"]).arg(&project).arg("-o").arg(&out);
-    // Not even the table beside it, and then no file at all.
+    // The table beside the result is not replaced either, and then no file is written at all.
     let table = scratch.write("out.csv", "years of work");
     let ran = import().run().exits(2);
     assert!(
@@ -38,7 +39,7 @@ fn import_replaces_nothing_unasked() {
     assert_eq!((read(&table).as_str(), out.exists()), ("years of work", false));
     let _ = import().arg("--force").run().exits(0);
     assert!(read(&table).starts_with("# mcu") && out.exists(), "{}", read(&table));
-    // The same again is in nobody's way, and neither is one file of two, nor an empty one.
+    // Importing the same again is no conflict; nor is a missing file of the two, nor an empty one.
     let _ = import().run().exits(0);
     fs::remove_file(&out).unwrap();
     let _ = import().run().exits(0);
@@ -114,13 +115,13 @@ fn links_stay_links_and_modes_stay_modes() {
     }
     assert_ne!(read(&real), UNTIDY);
     assert_eq!(fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
-    // A link to what is not there yet leads to where it is made.
+    // A link to a missing file leads to where the file is created.
     symlink("elsewhere/proof.json", scratch.join("proof.json")).unwrap();
     let solve = sensedsl(["solve", "-q", FIG2, "--proof"]);
     let _ = solve.arg(scratch.join("proof.json")).run().exits(0);
     assert!(scratch.join("elsewhere/proof.json").is_file());
     assert!(fs::symlink_metadata(scratch.join("proof.json")).unwrap().is_symlink());
-    // What points at itself is said.
+    // A link to itself is reported.
     symlink("loop.json", scratch.join("loop.json")).unwrap();
     let solve = sensedsl(["solve", "-q", FIG2, "--proof"]);
     let _ = solve.arg(scratch.join("loop.json")).run().exits(2);

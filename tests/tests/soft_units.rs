@@ -1,12 +1,12 @@
-//! `prefer unit` and `avoid unit` in the pure pin model: the program against every way there is to
-//! give pins to a few devices, tried out here without any of its code.
+//! `prefer unit` and `avoid unit` in the pure pin model: the program is compared with all possible
+//! pin assignments of a few devices, which are tried here without any of its code.
 
 use std::fmt::Write as _;
 
 use sensedsl_tests::{Random, Scratch, design, sensedsl};
 use serde_json::Value;
 
-/// Pins of the table, and usages of each.
+/// The number of pins in the table.
 const PINS: usize = 7;
 
 /// A soft rule: the unit, and whether it is preferred.
@@ -24,7 +24,7 @@ struct Robot {
     board_rules: Vec<Rule>,
 }
 
-/// What is compared in this order: violated rules, cost, pins.
+/// The objectives in the order of comparison: violated rules, cost, pins.
 type Wiring = (u64, u64, Vec<usize>);
 
 fn robot(random: &mut Random) -> Robot {
@@ -133,7 +133,8 @@ fn serves(kind: &str, usage: &str) -> bool {
     }
 }
 
-/// A preferred unit must be able to have the wire; an avoided one must not be the only one.
+/// Whether a usage violates a rule: a preferred unit must be able to have the wire; an avoided unit
+/// must not be the only one.
 fn violates(usage: &str, (unit, prefer): &Rule) -> bool {
     let of = usage.split('_').next().unwrap_or(usage);
     let units = if of == "ADC12" { vec!["ADC1", "ADC2"] } else { vec![of] };

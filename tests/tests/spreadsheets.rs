@@ -1,12 +1,13 @@
-//! Workbooks as LibreOffice writes them: Table 1 comes back from each format, and what only a
-//! spreadsheet has is reported at its cell. The files are made here, by `soffice`.
+//! Workbooks as LibreOffice writes them: Table 1 is read back from each format, and features that
+//! only a spreadsheet has are reported at their cells. `soffice` creates the files here.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use sensedsl_tests::{Ran, Scratch, has, root, sensedsl, text};
 
-/// A sheet of remarks, and pins with a title, a formula, merged cells and a number among names.
+/// A sheet of remarks, and a sheet of pins with a title, a formula, merged cells and a number among
+/// names.
 const ODD: &str = r#"<table:table table:name="Notes">
  <table:table-row/><table:table-row><table:table-cell/>TEXT(nothing about pins)</table:table-row>
 </table:table>
@@ -22,7 +23,7 @@ const ODD: &str = r#"<table:table table:name="Notes">
 </table:table>
 "#;
 
-/// Letters that Windows-1252 has and ASCII has not.
+/// Letters that are in Windows-1252 but not in ASCII.
 const WESTERN: &str = r#"<table:table table:name="Pins">
  <table:table-row>TEXT(Pin)TEXT(I²C)TEXT(Note)</table:table-row>
  <table:table-row>TEXT(PB6)TEXT(I2C1-SCL)TEXT(Prüfpunkt)</table:table-row>
@@ -30,7 +31,7 @@ const WESTERN: &str = r#"<table:table table:name="Pins">
 </table:table>
 "#;
 
-/// What stands around the sheets of a workbook that is one file of XML.
+/// The text before the sheets of a workbook that is a single XML file.
 const START: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <office:document xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0"
  xmlns:table="urn:oasis:names:tc:opendocument:xmlns:table:1.0"
@@ -41,7 +42,7 @@ const START: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 "#;
 const END: &str = "</office:spreadsheet></office:body></office:document>\n";
 
-/// A workbook of sheets, in which `TEXT(…)` and `NUMBER(…)` are cells.
+/// A workbook made from sheets in which `TEXT(…)` and `NUMBER(…)` are cells.
 fn flat(sheets: &str) -> String {
     let cell = |out: String, start: &str, before: &str, after: &str| {
         let mut parts = out.split(start);
@@ -59,7 +60,7 @@ fn flat(sheets: &str) -> String {
     format!("{START}{sheets}{END}")
 }
 
-/// A file in another format, made by LibreOffice.
+/// The file in another format, converted by LibreOffice.
 fn converted(scratch: &Scratch, source: &Path, format: &str) -> PathBuf {
     let profile = format!("-env:UserInstallation=file://{}", scratch.join("profile").display());
     let ending = format.split(':').next().unwrap();
@@ -121,7 +122,7 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
     }
 }
 
-/// Text in Windows-1252 (its number is 1) with semicolons (59), as German machines write it.
+/// Text in Windows-1252 (number 1) separated by semicolons (59), as German machines write it.
 #[test]
 fn text_in_another_encoding_is_reported_at_its_cell() {
     if !has("soffice") {

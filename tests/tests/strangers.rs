@@ -1,5 +1,5 @@
-//! Folders of strangers: whatever a cloned or unpacked project holds, `generate` changes nothing
-//! outside its output folder, nothing of `user/` and `.git`, and nobody waits for it.
+//! Folders of strangers: whatever a cloned or unpacked project contains, `generate` changes nothing
+//! outside its output folder and nothing in `user/` and `.git`, and never hangs.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -13,17 +13,17 @@ use sensedsl_tests::{Ran, Random, Scratch, design, few, read, sensedsl, tree};
 const USER: &str = "build/firmware/Robot/user";
 const SHEET: &str = "build/wiring.md";
 
-/// A home with things in it, and beside it a project that came from somewhere.
+/// A home with files in it, and beside it a project of unknown origin.
 struct Clone {
     scratch: Scratch,
     output: &'static str,
 }
 
-/// All that `stat` tells of what must not change, with its content.
+/// Everything that `stat` reports about files that must not change, with their content.
 type Seen = BTreeMap<PathBuf, (u64, u32, u64, i64, i64, Vec<u8>)>;
 
 impl Clone {
-    /// A project whose output another machine made.
+    /// A project whose output was generated on another machine.
     fn new(made: &BTreeMap<String, Vec<u8>>) -> Self {
         let scratch = Scratch::new("stranger");
         for name in [".bashrc", "notes.txt", "keys/id"] {
@@ -49,7 +49,7 @@ impl Clone {
         self.scratch.write(&format!("clone/{path}"), bytes);
     }
 
-    /// A link to something of the user's, or to anything else; it takes the place of what is there.
+    /// Puts a link to something of the user's, or to anything else, in the place of what is there.
     fn link(&self, path: &str, target: &str) {
         let path = self.path(path);
         let _ = fs::remove_file(&path);
@@ -77,7 +77,7 @@ impl Clone {
         fs::remove_dir_all(self.path(path)).unwrap();
     }
 
-    /// Adds a line to the list, with the right SHA-256 where there is such a file.
+    /// Adds a line to the list, with the right SHA-256 if the file exists.
     fn listed(&self, entry: &str) {
         let list = read(&self.path("build/.sensedsl-files"));
         let path = self.path("build").join(entry);
@@ -87,7 +87,7 @@ impl Clone {
         self.file("build/.sensedsl-files", format!("{list}{sum}{entry}\n"));
     }
 
-    /// What a run that was cut off leaves in a working folder.
+    /// Writes the files that an interrupted run leaves in a working folder.
     fn journal(&self, work: &str, path: &str) {
         self.file(&format!("{work}/complete"), "");
         self.file(&format!("{work}/list"), format!("{path}\n"));
@@ -103,7 +103,8 @@ impl Clone {
         call.within(&self.path("")).env("XDG_STATE_HOME", &state).run()
     }
 
-    /// The home, the project but for its output, and what is the user's in that.
+    /// The state of the home, of the project without its output, and of the user's files in the
+    /// output.
     fn precious(&self) -> Seen {
         let mut seen = Seen::new();
         let mut ways = vec![self.scratch.join("home"), self.scratch.join("clone")];
@@ -113,8 +114,8 @@ impl Clone {
             let below = way.strip_prefix(&output).ok();
             let theirs = |path: &Path| path.iter().any(|part| part == "user" || part == ".git");
             let is_output = below.is_some_and(|below| !theirs(below));
-            // Whoever writes makes and removes a lock and a seal beside the output, and their folder
-            // where nothing else is in it.
+            // A run that writes creates and removes a lock and a seal beside the output, and their
+            // folder if it contains nothing else.
             let is_folder_of_lock = found.is_dir() && way.ends_with(".build.sensedsl-work");
             let is_lock = is_folder_of_lock
                 || way.file_name().is_some_and(|name| name == "lock" || name == "seal");
@@ -142,7 +143,7 @@ impl Clone {
     }
 }
 
-/// What came with a project: what it is, and how to put it there.
+/// A trap in a project: its description, and how to set it up.
 type Case = (&'static str, fn(&mut Clone));
 
 const CASES: &[Case] = &[
@@ -311,7 +312,7 @@ const CASES: &[Case] = &[
     }),
 ];
 
-/// What another machine generates.
+/// The output generated on another machine.
 fn made() -> BTreeMap<String, Vec<u8>> {
     let scratch = Scratch::new("other-machine");
     let text = design("Robot on STM32F4DiscoveryBoard", &["analog"]);
@@ -321,11 +322,11 @@ fn made() -> BTreeMap<String, Vec<u8>> {
     tree(&scratch.join("build"))
 }
 
-/// Runs `generate` in a hostile project, as a user does, and as one who believes all that it says.
+/// Runs `generate` in a hostile project, as a user does, and as a user who trusts everything in it.
 #[track_caller]
 fn harmless(name: &str, made: &BTreeMap<String, Vec<u8>>, prepare: &dyn Fn(&mut Clone)) {
     let all = [&["--adopt"][..], &[], &["--without", "firmware"]];
-    // The first believes the most.
+    // The first variant trusts the most.
     for more in few(&all, 1) {
         let mut clone = Clone::new(made);
         prepare(&mut clone);
@@ -337,7 +338,7 @@ fn harmless(name: &str, made: &BTreeMap<String, Vec<u8>>, prepare: &dyn Fn(&mut 
         }
         let _ = clone.generate(&[]);
         let mut after = clone.precious();
-        // A user's file that is missing is made, in a folder that is one.
+        // A missing file of the user's is created, if its folder is a real one.
         let once = clone.path(USER).join("user.c");
         if !before.contains_key(&once) {
             for seen in [&mut before, &mut after] {
@@ -375,7 +376,7 @@ fn drawn_hostile_folders_change_nothing_that_is_not_theirs() {
             for _ in 0..=random.below(4) {
                 let path = paths[random.below(paths.len())];
                 let way: Vec<&Path> = Path::new(path).ancestors().collect();
-                // The file itself or a folder above it.
+                // The path of the file itself, or of a folder above it.
                 let way = way[random.below(way.len() - 1)].display().to_string();
                 let target = ["~", "~/empty", "~/.bashrc", "~/new", "../../../home"];
                 let target = target[random.below(target.len())];
@@ -397,14 +398,16 @@ fn a_clone_of_another_machine_is_taken_over_where_nothing_was_changed() {
     let clone = Clone::new(&made);
     let _ = clone.generate(&[]).exits(0);
     let _ = clone.generate(&["--check"]).exits(0);
-    // The design goes on: what is no longer made goes, as it is what the list says.
+    // The design develops: files that are no longer generated are removed, because they are as
+    // listed.
     let clone = Clone::new(&made);
     clone.file("robot.sense", design("Rover on STM32F4DiscoveryBoard", &["analog"]));
     let _ = clone.generate(&[]).exits(0);
     let _ = clone.generate(&["--check"]).exits(0);
     let left = tree(&clone.path("build/firmware/Robot"));
     assert_eq!(left.keys().collect::<Vec<_>>(), ["user/own.c", "user/user.c"]);
-    // And what this machine wrote it may rewrite, whatever became of it, wherever it went.
+    // A file that this machine wrote may be overwritten, whatever its content is now and wherever
+    // it was moved.
     fs::rename(clone.path("build"), clone.path("moved")).unwrap();
     let clone = Clone { output: "moved", ..clone };
     clone.file("moved/wiring.md", "changed");

@@ -1,11 +1,11 @@
-//! What the manifests leave out to save time is not there.
+//! Tests that the manifests leave out to save time do not exist.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use sensedsl_tests::{read, root};
 
-/// All files of Rust below a folder.
+/// All Rust files below a folder.
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
         if entry.is_dir() {
@@ -16,8 +16,8 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// A library without tests in its sources is not compiled for them a second time, and one without
-/// examples in its documentation is not searched for them. Where there are some, they must be run.
+/// A library without tests in its sources is not compiled a second time for them, and one without
+/// examples in its documentation is not searched for them. A library that has some must run them.
 #[test]
 fn tests_that_are_left_out_are_not_there() {
     let crates = fs::read_dir(root().join("crates")).unwrap();

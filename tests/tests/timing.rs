@@ -1,4 +1,4 @@
-//! Times that are computed: the table, what is refused with the way out, and groups that take turns.
+//! Computed times: the table, refusals with a way out, and groups that take turns.
 
 use sensedsl_board::catalog;
 use sensedsl_diagnostics::{Diagnostic, Severity};
@@ -27,13 +27,14 @@ fn sensor(number: usize, ty: &str, properties: &str) -> String {
     format!("sensor S{number} returns {ty} {{ id = {number}; type = {properties} }}\n")
 }
 
-/// Code and help of all there is to say.
+/// The codes and help texts of all diagnostics.
 fn said(diagnostics: &[Diagnostic]) -> Vec<(&'static str, &str)> {
     let said = |one: &'_ Diagnostic| one.code.info().code;
     diagnostics.iter().map(|one| (said(one), one.help.as_deref().unwrap_or_default())).collect()
 }
 
-/// What the device is told, and that it is enough: with the delay from the message nothing is said.
+/// The shortest delay that the message proposes, after a check that it is sufficient: with this
+/// delay there is no error.
 fn shortest(properties: &str, ty: &str, delay_ms: u32) -> u32 {
     let device = |delay_ms: u32| sensor(1, ty, &format!("{properties} delay = {delay_ms} ms;"));
     let fast = |devices: &str| {
@@ -53,9 +54,10 @@ fn shortest(properties: &str, ty: &str, delay_ms: u32) -> u32 {
 
 #[test]
 fn a_delay_that_cannot_be_kept_is_refused_with_the_shortest_that_can() {
-    // 2048 conversions of 492 clocks at 21 MHz are 23.99 ms a sensor.
+    // 2048 conversions of 492 clocks at 21 MHz take 23.99 ms for a sensor.
     assert_eq!(shortest("analog; samples = 1024; sampling = 480;", "uint16", 1), 25);
-    // 1027 bytes of 9 clocks and three conditions at 100 kHz are 92.5 ms, and their values take the processor 0.6 ms.
+    // 1027 bytes of 9 clocks and three conditions at 100 kHz take 92.5 ms, and their values take
+    // 0.6 ms of processor time.
     assert_eq!(
         shortest("i2c; address = 0x20; register = 0; length = 1024;", "uint8[1024]", 10),
         94
@@ -105,7 +107,8 @@ fn clocks_that_cannot_be_made_are_refused_with_one_that_can() {
     for device in [i2c("300 kHz"), i2c("5250 Hz"), i2c("1 MHz"), icu("84 MHz")] {
         assert_eq!(said(&discovery(&device).1), [], "{device}");
     }
-    // 79.96 MHz have no exact microsecond: one of 999,500 in a second are near enough.
+    // 79.96 MHz has no divisor for exactly one microsecond; 999,500 ticks per second are near
+    // enough.
     for (tick, codes) in [("1 us", &[][..]), ("900 kHz", &["E0620"])] {
         let wheel = sensor(1, "uint32", &format!("icu; mode = width; resolution = {tick};"));
         let (_, diagnostics) = on("NUCLEO_L432KC", &wheel);
@@ -137,12 +140,12 @@ fn a_link_that_is_too_slow_is_refused() {
     let link = |baud| format!("link {{ transport = uart; unit = USART2; baud = {baud}; }}{block}");
     assert_eq!(said(&on("STM32F407G_DISC1", &link(115_200)).1)[0].0, "E0622");
     assert_eq!(said(&on("STM32F407G_DISC1", &link(921_600)).1), []);
-    // A rate leaves values out instead.
+    // With a rate, values are left out instead.
     let rated = link(115_200).replace("}s", "rate = 10 Hz; }s");
     assert_eq!(said(&on("STM32F407G_DISC1", &rated).1), []);
 }
 
-/// What the linker would say.
+/// Memory that the linker would refuse.
 #[test]
 fn what_the_memory_does_not_hold_is_refused() {
     let arrays = |count: usize| -> String {
@@ -184,7 +187,7 @@ fn rangers_take_turns() {
     assert_eq!(said(&discovery(&rangers(100, "group = none;")).1), []);
 }
 
-/// What no profile states is not known: there is no figure, and nothing is refused for it.
+/// If no profile states a fact, there is no figure, and nothing is refused because of it.
 #[test]
 fn a_fact_that_lacks_makes_no_figure() {
     let mut seen = 0;

@@ -1,8 +1,8 @@
-//! Table 2 of the paper: which element of the language is used where.
+//! Table 2 of the paper: which element of the language is used in which output.
 //!
-//! Each element of Fig. 2 is changed alone, and what changes in the outputs is put into the rows and
-//! columns of the paper. Where the paper has a mark we must have one; where we have more, the
-//! reason stands beside the row.
+//! The test changes each element of Fig. 2 by itself, and records the changes of the outputs in the
+//! rows and columns of the paper. Where the paper has a mark, ours must have one; where ours has
+//! more, a comment at the row gives the reason.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ const COLUMNS: [&str; 8] = [
     "deserialization",
 ];
 
-/// A row: the element, what is replaced in Fig. 2, the paper's marks and ours.
+/// A row: the element, its replacements in Fig. 2, the paper's marks and ours.
 struct Row {
     element: &'static str,
     changes: &'static [(&'static str, &'static str)],
@@ -28,38 +28,38 @@ struct Row {
     ours: &'static str,
 }
 
-/// `#` is a mark; `+` one that the paper does not have.
+/// `#` is a mark; `+` is a mark that the paper does not have.
 const ROWS: &[Row] = &[
-    // A name of the firmware's folder; the host application is named after it as well.
+    // The firmware's folder is named after the board, and so is the host application.
     Row {
         element: "board's name",
         changes: &[("board STM32F4DiscoveryBoard", "board Robot on STM32F4DiscoveryBoard")],
         paper: "........",
         ours: ".......+",
     },
-    // Every table of the firmware says by the name whose value it is.
+    // Every table of the firmware identifies its values by this name.
     Row {
         element: "name",
         changes: &[("IRFront ", "IRLeft "), ("USRear", "USLeft"), ("WheelEncoder", "Wheel")],
         paper: "..####.#",
         ours: ".+####.#",
     },
-    // Drivers measure in the width of the hardware; the type comes in when a value is stored.
+    // Drivers measure in the width of the hardware; the type matters only when a value is stored.
     Row {
         element: "return type",
         changes: &[("IRFront returns uint16", "IRFront returns uint32"), ("uint8", "uint16")],
         paper: "...###.#",
         ours: "....##.#",
     },
-    // The host tells values apart by it; the paper's text says so, its table does not.
+    // The host tells values apart by the identifier; the paper's text says so, its table does not.
     Row {
         element: "identifier",
         changes: &[("id = 17", "id = 27"), ("id = 18", "id = 28")],
         paper: ".....#..",
         ours: ".....#++",
     },
-    // The order of fields in memory is that of the file and stays. Captures have no cycle, and the host
-    // knows by the cycle when a value is overdue.
+    // The fields in memory keep the order of the file. Captures have no cycle, and the host uses
+    // the cycle to know when a value is overdue.
     Row {
         element: "type",
         changes: &[
@@ -70,7 +70,8 @@ const ROWS: &[Row] = &[
         ours: "####..#+",
     },
     Row { element: "address", changes: &[("0xE6", "0xE4")], paper: "..#.....", ours: "..#....." },
-    // Analog sensors of one cycle time share one conversion group; the host tells what is overdue.
+    // Analog sensors with the same cycle time share one conversion group; the host reports overdue
+    // values.
     Row {
         element: "delay",
         changes: &[("delay = 60", "delay = 1000"), ("delay = 40", "delay = 45")],
@@ -83,7 +84,7 @@ const ROWS: &[Row] = &[
         paper: "......#.",
         ours: "..+...#.",
     },
-    // The pins move by rules only. Threads are named after their units.
+    // Only rules move the pins. Threads are named after their units.
     Row {
         element: "inferred pin",
         changes: &[("Board {\n", "Board {\n    reserve PB0, PB1, I2C3, TIM3;\n")],
@@ -92,13 +93,14 @@ const ROWS: &[Row] = &[
     },
 ];
 
-/// Marks of the paper that we have not, and why.
+/// Marks of the paper that ours lacks, with the reason.
 const NOT_OURS: &[(&str, &str)] = &[
-    // The capture's callbacks and configuration know no type; the value is converted as it is stored.
+    // The callbacks and configuration of a capture do not depend on the type; the value is
+    // converted when it is stored.
     ("return type", "ICU"),
 ];
 
-/// C without its comments and without what lines it up.
+/// C code without comments and without the spaces that align it.
 fn code(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -118,7 +120,7 @@ fn section<'a>(text: &'a str, title: &str) -> &'a str {
     after.split_once("/* ----").map_or(after, |(section, _)| section)
 }
 
-/// What the outputs of a design are for, column by column.
+/// The text of each output column for a design.
 fn columns(design: &str) -> BTreeMap<&'static str, String> {
     let scratch = Scratch::new("trace");
     let file = scratch.write("robot.sense", design);
@@ -141,7 +143,7 @@ fn columns(design: &str) -> BTreeMap<&'static str, String> {
         let lines = pads.lines().filter(|line| line.contains(mark));
         lines.collect::<Vec<_>>().join("\n")
     };
-    // A bus and what is on it have sections of their own.
+    // A bus and the devices on it have sections of their own.
     let part = |titles: &[&str], mark: &str| {
         let all = hardware.split("/* ---- ").filter_map(|one| one.split_once(" ---- */"));
         let own = all.filter(|(title, _)| titles.iter().any(|wanted| title.contains(wanted)));

@@ -1,4 +1,4 @@
-//! What a message proposes is what helps: mistakes that people make, and the line that they are told to write.
+//! The line that a message proposes solves the problem, for mistakes that people make.
 
 use sensedsl_tests::sensedsl;
 
@@ -29,7 +29,8 @@ fn an_mcu_that_is_not_supported_can_be_a_table() {
 fn a_kind_with_several_wires_names_each() {
     let said = on_nucleo("sensor G returns uint8 { type = uart; pin = PA3; }");
     assert!(said.contains("write `tx = …;` or `rx = …;`"), "{said}");
-    // A kind whose wires have no names of their own is still advised to remove the line.
+    // For a kind whose wires have no names of their own, the message still advises removing the
+    // line.
     let said = on_nucleo("sensor A returns uint16 { type = analog; address = 0x40; }");
     assert!(said.contains("remove the line"), "{said}");
 }
@@ -76,7 +77,7 @@ fn an_unknown_part_can_be_searched_for() {
     assert!(said.contains("`sensedsl drivers --search WORD`"), "{said}");
 }
 
-/// A label that the board does not have is no reason to propose a pin without a converter.
+/// A label that the board does not have must not lead to the proposal of a pin without a converter.
 #[test]
 fn a_pin_that_is_proposed_can_be_the_wire() {
     let said = on_nucleo("sensor A returns uint16 { type = analog; pin = A9; }");

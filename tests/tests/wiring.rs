@@ -10,13 +10,13 @@ const FULL: &str = "STM32F407G_DISC1";
 
 fn solve(text: impl Into<String>, arguments: &[&str]) -> Ran {
     let call = sensedsl(["solve", "-", "-q", "--format", "json", "--allow-outside"]);
-    // Tables stand in folders of their own.
+    // The tables are in folders of their own.
     let call = call.arg(std::env::temp_dir());
     let call = arguments.iter().fold(call, |call, argument| call.arg(argument));
     call.stdin(text.into()).run()
 }
 
-/// The pins by `board.device.role`.
+/// The pins, by `board.device.role`.
 fn pins(ran: &Ran) -> BTreeMap<String, String> {
     let mut pins = BTreeMap::new();
     for board in ran.json()["boards"].as_array().unwrap() {
@@ -68,7 +68,7 @@ fn reserved_pins_and_units_are_left_free() {
     assert!(["PB6", "PB8"].contains(&found[0].as_str()), "{found:?}");
     let none = rules("reserve I2C1, I2C2, I2C3;", &["i2c: address = 0x20;"]);
     assert_eq!(solve(none, &[]).exits(1).json()["status"], "infeasible");
-    // A converter that is kept free samples nothing; without all of them nothing is sampled.
+    // A reserved converter samples nothing; if all are reserved, nothing can be sampled.
     let third = solve(rules("reserve ADC1, ADC2;", &["analog"]), &[]).exits(0);
     assert_eq!(third.json()["boards"][0]["devices"][0]["unit"], "ADC3");
     let none = solve(rules("reserve ADC1, ADC2, ADC3;", &["analog"]), &[]).exits(1);
@@ -86,7 +86,8 @@ fn parts_of_the_board_are_spared_until_released() {
     assert_eq!(best(&by_part), ["PA5"]);
 }
 
-/// Here a wiring after a repair is soon found, and that none is cheaper takes long to prove.
+/// In this design, a wiring after a repair is found quickly, but the proof that none is cheaper
+/// takes long.
 #[test]
 fn what_helps_is_shown_even_where_its_least_cost_is_unknown() {
     let sonar = |at| format!("sensor S{at} returns uint16 {{ driver = srf02; address = 0x72; }}");
@@ -107,7 +108,7 @@ fn what_helps_is_shown_even_where_its_least_cost_is_unknown() {
     assert_eq!(moved.exits(0).json()["status"], "feasible");
 }
 
-/// The rules and the repairs of an impossible design.
+/// The rules and the repairs for an impossible design.
 fn conflict(text: &str, arguments: &[&str]) -> (Vec<String>, Vec<String>) {
     let value = solve(text, arguments).exits(1).json();
     let words = |list: &Value, word: &dyn Fn(&Value) -> Value| {
@@ -149,7 +150,7 @@ fn a_conflict_names_the_rules_it_needs_and_what_helps() {
     assert_eq!(repairs[..2], ["run D1 at 60 Hz", "run D2 at 50 Hz"]);
 }
 
-/// On the F103, the streams of I2C2 are those of SPI2.
+/// On the F103, I2C2 and SPI2 have the same DMA streams.
 #[test]
 fn buses_share_the_streams() {
     let rows = "# mcu = STM32F103RBT6\nPin,I2C,SPI,Other\nPB10,I2C2_SCL,-,-\nPB11,I2C2_SDA,-,-\n\
@@ -191,7 +192,7 @@ fn wishes_are_fulfilled_before_costs_and_given_up_before_failing() {
     assert_eq!(best(&unit), ["PE9"]);
     let avoided = design(BOARD, &["icu: avoid unit = TIM3;"]);
     assert_eq!(best(&avoided), ["PB14"]);
-    // Of the whole board: no device shall be on TIM3.
+    // A rule of the whole board: avoid TIM3 for every device.
     let of_board = design(BOARD, &["icu"]).replacen('{', "{ avoid unit = TIM3;", 1);
     assert_eq!(best(&of_board), ["PB14"]);
 }
@@ -224,12 +225,12 @@ fn an_earlier_wiring_is_kept_as_far_as_it_goes() {
     let ran = solve(free.clone(), &["--keep", &kept]).exits(0);
     assert_eq!(pins(&ran).into_values().collect::<Vec<_>>(), ["PC5", "PE9"]);
     assert_eq!(ran.json()["moved"], 0);
-    // What must move moves, the rest stays; a new device may go anywhere.
+    // Only what must move is moved; a new device may go anywhere.
     let more = design(BOARD, &["analog", "icu", "analog"]).replacen('{', "{ reserve PC5;", 1);
     let ran = solve(more, &["--keep", &kept]).exits(0);
     assert_eq!(ran.json()["moved"], 1);
     assert_eq!(pins(&ran)[&format!("{BOARD}.D2.in")], "PE9");
-    // A wiring of another design keeps nothing and harms nothing.
+    // A wiring of another design is ignored and does no harm.
     let strange = r#"{"boards":[{"name":"X","devices":[{"name":"D1","wires":[{"role":"in","pin":"PZ9"}]}]}]}"#;
     let strange = scratch.write("strange.json", strange).display().to_string();
     let ran = solve(free, &["--keep", &strange]).exits(0);
@@ -242,12 +243,13 @@ fn several_boards_and_devices_that_float() {
         let blocks: String = (1..=devices).map(|id| device_block(id, "analog")).collect();
         format!("{blocks}board One on {BOARD} {{}}\n{spare} board Two on {BOARD} {{}}\n")
     };
-    // Nine fit on one board; which is dearer than to use the cheap pins of both.
+    // Nine fit on one board, but that costs more than using the cheap pins of both.
     let ran = solve(boards("", 9), &[]).exits(0);
     assert_eq!(ran.json()["cost"], 9);
     let on_two = |ran: &Ran| pins(ran).keys().filter(|name| name.starts_with("Two.")).count();
     assert_eq!(on_two(&ran), 3);
-    // A spare board is a question of costs last; the devices need it from ten on.
+    // A spare board is used only if the devices need it, whatever the cost; they need it from ten
+    // on.
     let ran = solve(boards("spare", 6), &[]).exits(0);
     assert_eq!((ran.json()["cost"].as_u64(), on_two(&ran)), (Some(6), 0));
     assert!(on_two(&solve(boards("spare", 10), &[]).exits(0)) >= 1);
@@ -259,7 +261,7 @@ fn several_boards_and_devices_that_float() {
         device_block(2, "analog")
     );
     assert_eq!(best(&bound), ["PB0", "PB0"]);
-    // A bus is one board's.
+    // A bus belongs to one board.
     let buses = format!(
         "board One on {BOARD} {{ {} }} board Two on {BOARD} {{ {} }}",
         device_block(1, "i2c: address = 0x20;"),
@@ -321,7 +323,7 @@ fn every_kind_has_its_wires() {
 
 #[test]
 fn units_are_told_from_signals_by_their_rules() {
-    // An encoder takes its timer whole, and captures take theirs.
+    // An encoder takes a whole timer, and captures take theirs.
     let one_timer = "# mcu = STM32F407VGT6\nPin,TIM\nPB4,TIM3_CH1\nPB5,TIM3_CH2\n";
     let (_scratch, path) = table(one_timer);
     let board = format!("B on \"{path}\"");
@@ -329,14 +331,14 @@ fn units_are_told_from_signals_by_their_rules() {
     let two = design(&board, &["icu", "icu"]);
     let _ = solve(two.clone(), &[]).exits(1);
     let _ = solve(two, &["--target", "none"]).exits(0);
-    // Outputs of one timer share its frequency.
+    // Outputs on the same timer share its frequency.
     let pwm = |other: &str| {
         design(&board, &["pwm: frequency = 50 Hz;", &format!("pwm: frequency = {other};")])
     };
     let _ = solve(pwm("50 Hz"), &[]).exits(0);
     let _ = solve(pwm("60 Hz"), &[]).exits(1);
     let _ = solve(design(&board, &["pwm", "icu"]), &[]).exits(1);
-    // An interrupt line is that of one pin's number.
+    // Each interrupt line serves one pin number, on any port.
     let (_scratch, path) = table("# mcu = STM32F407VGT6\nPin,X\nPA1,-\nPB1,-\n");
     let board = format!("B on \"{path}\"");
     let edges = design(&board, &["digital: edge = rising;", "digital: edge = both;"]);
@@ -353,7 +355,7 @@ fn signals_are_what_they_are_named_whatever_their_column() {
     let board = format!("B on \"{path}\"");
     let ran = solve(design(&board, &["i2c: address = 0x20;", "analog"]), &[]).exits(0);
     assert_eq!(pins(&ran).into_values().collect::<Vec<_>>(), ["PA1", "PA2", "PA3"]);
-    // Three usages on PA1 (the unknown `x` counts), one on PA2, two on PA3.
+    // Three usages on PA1 (including the unknown `x`), one on PA2, two on PA3.
     assert_eq!(ran.json()["cost"], 6);
 }
 

@@ -1,13 +1,14 @@
-//! Designs that hurt their user when they are built: each is an error or a warning, with a place in the text, before
-//! anything is wired. By class: address, level, range, unit, identifier, order, rate.
+//! Designs that would harm their user if built. Each gives an error or a warning with a place in
+//! the text before anything is wired. By class: address, level, range, unit, identifier, order,
+//! rate.
 //!
-//! More of each class are in `corpus/err`, where the places are kept as well.
+//! `corpus/err` has more of each class, and also records the places.
 
 use std::collections::BTreeMap;
 
 use sensedsl_tests::sensedsl;
 
-/// Class, what stands on a board, and the code that it must get.
+/// The class, the items on a board, and the code that they must give.
 const WRONG: &[(&str, &str, &str)] = &[
     ("address", "chip A { driver = mpu6050; address = 0x60; }", "E0232"),
     ("address", "chip A { driver = ads1115; address = 0x50; }", "E0232"),

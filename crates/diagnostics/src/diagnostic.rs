@@ -5,14 +5,14 @@ use sensedsl_limits::SENTENCE_CHARS_MAX;
 use crate::codes::Code;
 use crate::source::Span;
 
-/// How bad it is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The input cannot be used.
     Error,
-    /// It can, but the hardware will do something else than the reader expects.
+    /// The input can be used, but the hardware will behave differently than the reader expects.
     Warning,
-    /// Good to know.
+    /// Something worth knowing.
     Hint,
 }
 
@@ -28,7 +28,7 @@ impl Severity {
     }
 }
 
-/// A further place and what it has to do with the matter.
+/// A further place and how it relates to the diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The place.
@@ -37,34 +37,34 @@ pub struct Label {
     pub message: String,
 }
 
-/// Replace the text at `span`.
+/// The replacement of the text at `span`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced; empty for an insertion.
+    /// The text to replace; empty for an insertion.
     pub span: Span,
-    /// By what.
+    /// The new text.
     pub text: String,
 }
 
-/// A change that mends the matter, for editors.
+/// A change that fixes the problem, for editors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
-    /// What it does, as a command ("change to `analog`").
+    /// The effect, as a command ("change to `analog`").
     pub title: String,
     /// The edits; they do not overlap.
     pub edits: Vec<Edit>,
 }
 
-/// Something to say about the input.
+/// A statement about the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Its stable code.
+    /// The stable code.
     pub code: Code,
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub message: String,
-    /// The place, and a few words for it (may be empty).
+    /// The place, and a few words about it (may be empty).
     pub primary: Label,
     /// Further places.
     pub labels: Vec<Label>,
@@ -74,7 +74,7 @@ pub struct Diagnostic {
     pub fix: Option<Fix>,
 }
 
-/// A sentence without the middle of what it quotes, where that is a whole file.
+/// A sentence without the middle of a quotation that is as long as a whole file.
 fn short(sentence: String) -> String {
     const HALF: usize = SENTENCE_CHARS_MAX / 2;
     let mut places = sentence.char_indices().map(|(at, _)| at);
@@ -101,28 +101,28 @@ impl Diagnostic {
         }
     }
 
-    /// Words for the primary place.
+    /// Sets the words for the primary place.
     #[must_use]
     pub fn here(mut self, message: impl Into<String>) -> Self {
         self.primary.message = short(message.into());
         self
     }
 
-    /// A further place.
+    /// Adds a further place.
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
         self.labels.push(Label { span, message: short(message.into()) });
         self
     }
 
-    /// The way out.
+    /// Sets the way out.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(short(help.into()));
         self
     }
 
-    /// The way out as one replacement.
+    /// Sets the way out as one replacement.
     #[must_use]
     pub fn replace(
         mut self,

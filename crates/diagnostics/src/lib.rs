@@ -1,8 +1,7 @@
 //! Diagnostics as plain data: what is wrong, where, and the way out.
 //!
-//! A [`Diagnostic`] is made by the builder of its code (one file each in [`codes`]), travels
-//! unchanged through all stages, and is rendered late: for people, as JSON, SARIF or GitHub
-//! annotations (see [`render`]).
+//! A [`Diagnostic`] is made by the builder of its code (one file each in [`codes`]), passes unchanged through all
+//! stages, and is rendered at the end: for people, as JSON, SARIF or GitHub annotations (see [`render`]).
 
 pub mod codes;
 mod diagnostic;

@@ -1,4 +1,4 @@
-//! Files by number, places in them, and the line and column of a place.
+//! Files by number, places in them, and their lines and columns.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,14 +13,14 @@ pub struct FileId(u32);
 pub struct Span {
     /// The file.
     pub file: FileId,
-    /// First byte.
+    /// The first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// The byte after the last.
     pub end: u32,
 }
 
 impl Span {
-    /// The span of `range` in `file`; a range beyond 4 GiB is cut there.
+    /// The span of `range` in `file`; a range beyond 4 GiB is clipped.
     #[must_use]
     pub fn new(file: FileId, range: Range<usize>) -> Self {
         let cut = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
@@ -33,7 +33,7 @@ impl Span {
         self.start as usize..self.end as usize
     }
 
-    /// The smallest span over both; `self` when they are in two files.
+    /// The smallest span that covers both; `self` if they are in different files.
     #[must_use]
     pub fn cover(self, other: Self) -> Self {
         if self.file != other.file {
@@ -43,12 +43,12 @@ impl Span {
     }
 }
 
-/// A place as people and editors count it, both from 1; the column counts characters.
+/// A place in the way people and editors count, with line and column from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LineColumn {
-    /// Line.
+    /// The line.
     pub line: u32,
-    /// Character in the line.
+    /// The character in the line.
     pub column: u32,
 }
 
@@ -56,20 +56,20 @@ pub struct LineColumn {
 struct File {
     name: String,
     text: String,
-    /// Made when the first place of the file is asked for.
+    /// Made when a place in the file is first looked up.
     index: OnceLock<Index>,
 }
 
-/// Where lines start and how many characters stand before, so that no place is searched for from
-/// the start of its file, nor of its line.
+/// The starts of lines and the characters before each block, so that no place is searched for from the start of its
+/// file or its line.
 #[derive(Clone, Debug)]
 struct Index {
     lines: Vec<u32>,
-    /// The characters before each block of the text.
+    /// The number of characters before each block of the text.
     characters: Vec<u32>,
 }
 
-/// Bytes after which the characters are counted anew.
+/// The size of a block, after which the number of characters is stored again.
 const BLOCK_BYTES: usize = 256;
 
 impl Index {
@@ -83,12 +83,12 @@ impl Index {
             small(here)
         });
         let mut blocks: Vec<u32> = blocks.collect();
-        // The end of a text that fills its last block is the start of another one.
+        // A text that fills its last block ends at the start of another one.
         blocks.push(small(before));
         Self { lines, characters: blocks }
     }
 
-    /// How many characters stand before a byte.
+    /// The number of characters before a byte.
     fn characters_before(&self, text: &str, offset: usize) -> usize {
         let block = offset / BLOCK_BYTES;
         let before = self.characters.get(block).map_or(0, |before| *before as usize);
@@ -96,7 +96,7 @@ impl Index {
     }
 }
 
-/// The characters that begin in a piece of UTF-8.
+/// The number of characters that begin in a piece of UTF-8.
 fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| **byte & 0xc0 != 0x80).count()
 }
@@ -111,11 +111,11 @@ impl File {
     }
 }
 
-/// All files that were read, in the order they were read.
+/// All files that were read, in the order in which they were read.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
     files: Vec<File>,
-    /// The first file of each name.
+    /// The first file with each name.
     names: BTreeMap<String, FileId>,
 }
 
@@ -145,13 +145,13 @@ impl SourceMap {
         self.file(file).map_or("", |file| &file.text)
     }
 
-    /// The file of that name.
+    /// The file with this name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<FileId> {
         self.names.get(name).copied()
     }
 
-    /// Line and column of a byte offset; an offset past the end is the end.
+    /// The line and column of a byte offset; an offset past the end counts as the end.
     #[must_use]
     pub fn line_column(&self, file: FileId, offset: u32) -> LineColumn {
         let Some(file) = self.file(file) else { return LineColumn { line: 1, column: 1 } };
@@ -164,7 +164,7 @@ impl SourceMap {
         LineColumn { line: small(line), column: small(column) }
     }
 
-    /// Where the line numbered `line` (from 1) starts; past the last line, the end of the text.
+    /// The start of line `line` (from 1); past the last line, the end of the text.
     pub(crate) fn line_start(&self, file: FileId, line: u32) -> usize {
         let Some(file) = self.file(file) else { return 0 };
         let at = (line as usize).saturating_sub(1);

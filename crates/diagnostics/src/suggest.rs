@@ -20,9 +20,9 @@ pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     let edits = |name: &'a str| {
         let other = name.chars().count();
         let most = (other.max(length) / 3).max(1);
-        // The difference in length is a lower bound that costs little.
+        // The difference in length is a cheap lower bound.
         let edits = (length.abs_diff(other) <= most).then(|| distance(typed, name))?;
-        // Something of the word must be left: `a` is not a mistyped `b`.
+        // Part of the word must be left: `a` is not a mistyped `b`.
         let keeps = edits == 0 || edits < length.min(other);
         (edits <= most && keeps).then_some((edits, name))
     };

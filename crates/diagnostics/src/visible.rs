@@ -1,44 +1,44 @@
-//! Text of others, made safe to look at: what moves a cursor, colours a terminal, turns the direction
-//! of the text or cannot be seen at all comes in, its code (`\u{1b}`) goes out.
+//! Foreign text made safe to print: characters that move a cursor, colour a terminal, change the text direction or are
+//! invisible are replaced by their codes (`\u{1b}`).
 //!
-//! All that is printed for people goes through here: names, cells, labels, paths, lines of a source.
+//! Everything that is printed for people passes through here: names, cells, labels, paths, lines of a source.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character does something other than stand on the paper: controls, marks of direction,
-/// joiners and spaces without width, line ends of Unicode, what is no character.
+/// Whether a character does something other than appear in print: controls, direction marks, zero-width joiners and
+/// spaces, Unicode line ends, noncharacters.
 #[must_use]
 pub const fn is_hidden(character: char) -> bool {
     matches!(character,
         '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}'
-        // Direction of the text.
+        // Text direction.
         | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
-        // Without width.
+        // Zero width.
         | '\u{ad}' | '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180e}'
         | '\u{200b}'..='\u{200d}' | '\u{2060}'..='\u{2065}' | '\u{206a}'..='\u{206f}'
         | '\u{3164}' | '\u{feff}' | '\u{ffa0}' | '\u{fff9}'..='\u{fffb}'
         // Line ends.
         | '\u{2028}' | '\u{2029}'
-        // Tags, and what XML does not take.
+        // Tags, and what XML does not allow.
         | '\u{e0000}'..='\u{e0fff}' | '\u{fffe}' | '\u{ffff}'
     )
 }
 
-/// One line: hidden characters, line ends among them, are shown by their codes.
+/// One line: hidden characters, including line ends, are shown as their codes.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false)
 }
 
-/// Several lines: line ends and tabs stay.
+/// Several lines: line ends and tabs are kept.
 #[must_use]
 pub fn visible_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |character| matches!(character, '\n' | '\t'))
 }
 
-/// JSON as it is written by a serialiser, which leaves marks of direction and a terminal's other
-/// controls as they are: they become escapes of JSON, so that readers get the same text.
+/// JSON from a serialiser, which leaves direction marks and other terminal controls as they are: they become JSON
+/// escapes, so that readers get the same text.
 #[must_use]
 pub fn visible_json(json: &str) -> Cow<'_, str> {
     let is_left = |character: char| character > '\u{1f}' && is_hidden(character);
@@ -59,7 +59,7 @@ pub fn visible_json(json: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// The code by which a hidden character is shown: `\u{202e}`.
+/// The code that a hidden character is shown as: `\u{202e}`.
 pub(crate) fn code(character: char) -> String {
     character.escape_unicode().to_string()
 }

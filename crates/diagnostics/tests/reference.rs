@@ -1,5 +1,5 @@
-//! `docs/diagnostics.md` says what the registry says, and every code is in a group of the page.
-//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-diagnostics --test reference` writes the page anew.
+//! `docs/diagnostics.md` agrees with the registry, and every code is in a group of the page. `SENSEDSL_BLESS=1 cargo
+//! test -p sensedsl-diagnostics --test reference` writes the page.
 #![expect(clippy::disallowed_methods, reason = "a test of a page reads the page")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -9,7 +9,7 @@ use std::path::Path;
 use sensedsl_diagnostics::Severity;
 use sensedsl_diagnostics::codes::ALL;
 
-/// What the first two digits of a code stand for.
+/// The groups of codes, by their first two digits.
 const GROUPS: &[(&str, &str)] = &[
     ("01", "The text"),
     ("02", "Names, properties and values"),
@@ -33,7 +33,7 @@ change. The letter is the severity: **E** error (exit status 1, nothing is writt
 This page is made from the registry in `crates/diagnostics/src/codes/`.
 ";
 
-/// The page, from the registry.
+/// The page, made from the registry.
 fn page() -> String {
     let mut text = String::from(HEAD);
     for (digits, title) in GROUPS {
@@ -65,7 +65,7 @@ fn every_code_is_in_a_group_of_its_severity() {
         assert!(GROUPS.iter().any(|(group, _)| *group == digits), "{code} is in no group");
         let expected = match digits {
             "07" => Severity::Hint,
-            // Whatever their severity, the messages on hardware and on imports stand together.
+            // Messages about hardware and about imports are together, whatever their severity.
             "06" | "08" => continue,
             _ => Severity::Error,
         };

@@ -1,4 +1,4 @@
-//! What each renderer makes of one diagnostic with two places in two files.
+//! The output of each renderer for one diagnostic with two places in two files.
 
 use sensedsl_diagnostics::codes::{e0203_duplicate_identifier, e0304_table_pin_twice};
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, render};

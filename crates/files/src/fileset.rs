@@ -1,4 +1,4 @@
-//! The files a target wants written: paths and bytes, no disk.
+//! The files that a target generates: paths and contents, without a disk.
 
 use std::collections::BTreeMap;
 
@@ -7,18 +7,18 @@ use std::collections::BTreeMap;
 pub struct FileEntry {
     /// The content.
     pub bytes: Vec<u8>,
-    /// True for a user's file: made when absent, never touched again.
+    /// True for a user's file: created if absent, never changed again.
     pub once: bool,
 }
 
-/// Files by path relative to the output directory, `/` as separator.
+/// Files by their path relative to the output directory, with `/` as the separator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSet {
     files: BTreeMap<String, FileEntry>,
 }
 
 impl FileSet {
-    /// Adds a generated file. Two files of one path are a mistake of the caller: the later wins.
+    /// Adds a generated file. Two files with the same path are a mistake of the caller: the later one wins.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) {
         let bytes = text.into().into_bytes();
         self.files.insert(path.into(), FileEntry { bytes, once: false });
@@ -30,7 +30,7 @@ impl FileSet {
         self.files.insert(path.into(), FileEntry { bytes, once: true });
     }
 
-    /// Takes over `other` below the folder `prefix`.
+    /// Adds the files of `other` below the folder `prefix`.
     pub fn merge_under(&mut self, prefix: &str, other: Self) {
         for (path, entry) in other.files {
             self.files.insert(format!("{prefix}/{path}"), entry);
@@ -48,13 +48,13 @@ impl FileSet {
         self.files.get(path)
     }
 
-    /// Number of files.
+    /// The number of files.
     #[must_use]
     pub fn len(&self) -> usize {
         self.files.len()
     }
 
-    /// True when there is no file.
+    /// True if there are no files.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.files.is_empty()

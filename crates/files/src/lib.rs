@@ -1,4 +1,4 @@
-//! What is generated before it is written: paths and bytes, and how a template becomes one of them. No disk.
+//! Generated files before they are written: paths and contents, and the printing of templates. No disk access.
 
 mod fileset;
 mod template;

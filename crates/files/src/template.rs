@@ -1,8 +1,7 @@
-//! Printing of templates, the same for all that generate.
+//! Printing of templates, for everything that generates files.
 
-/// Prints a template and the line end that the template engine takes away. Templates are checked
-/// when this crate is compiled and they write to memory, so that only a formatter that fails by
-/// itself could make this empty.
+/// Prints a template, and the final newline that the template engine removes. Templates are checked when this crate is
+/// compiled, and they write to memory, so this can be empty only if a formatter fails by itself.
 #[must_use]
 pub fn print(template: &impl askama::Template) -> String {
     let mut text = template.render().unwrap_or_default();
@@ -12,7 +11,7 @@ pub fn print(template: &impl askama::Template) -> String {
     text
 }
 
-/// Prints a template that is a part of a file: no line end stands behind it.
+/// Prints a template that is part of a file, without a final newline.
 #[must_use]
 pub fn block(template: &impl askama::Template) -> String {
     let text = print(template);

@@ -1,9 +1,9 @@
 /*
- * A bus with register devices on it, as the core sees it: I2C or SPI.
+ * A bus with register devices, I2C or SPI, as the core sees it.
  *
- * A system fills one of these for each bus (for SPI, with the chip selects behind it). The functions wait until the
- * transfer is over, with a time-out of their own; what they are given stays valid for so long. Both buffers lie in the
- * work buffer of whoever calls, never in constant tables or on a stack: a DMA must reach them.
+ * A system provides one of these for each bus (for SPI, with its chip selects). The functions return when the transfer
+ * is over, with a time-out of their own; their arguments stay valid for that long. Both buffers are in the caller's
+ * work buffer, never in constant tables or on a stack, because a DMA must reach them.
  */
 #ifndef UP_BUS_H
 #define UP_BUS_H
@@ -14,7 +14,7 @@
 
 #include "up_result.h"
 
-/* What a transfer came to: UP_BUS_DONE, or the cause that is told of all values in it. */
+/* The outcome of a transfer: UP_BUS_DONE, or the cause that is reported for all values in it. */
 typedef up_result_t up_bus_result_t;
 #define UP_BUS_DONE UP_FRESH
 #define UP_BUS_NOT_ACKNOWLEDGED UP_NOT_ACKNOWLEDGED /* I2C only */
@@ -26,11 +26,11 @@ typedef up_result_t up_bus_result_t;
 typedef struct {
   /* Sends `count` bytes, at least 1. */
   up_bus_result_t (*write)(void *context, uint8_t address, const uint8_t *bytes, size_t count);
-  /* Sends `tx_count` bytes (0: none), then reads `rx_count`, at least 1, without letting go of the device between
-   * them: a repeated start, or one chip select around both. */
+  /* Sends `tx_count` bytes (0: none), then reads `rx_count`, at least 1, without releasing the device in between: a
+   * repeated start, or one chip select around both. */
   up_bus_result_t (*write_read)(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
                                 size_t rx_count);
-  /* SPI only (NULL on I2C): sends `count` bytes while as many are received. */
+  /* SPI only (NULL on I2C): sends `count` bytes and receives as many at the same time. */
   up_bus_result_t (*exchange)(void *context, uint8_t address, const uint8_t *tx, uint8_t *rx, size_t count);
   void *context;
 } up_bus_t;

@@ -23,7 +23,7 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
                        uint32_t now_ms, uint8_t type, void *element) {
   const uint32_t edges = raw->edges + (first_edge_seen ? 1U : 0U);
 
-  /* Standing still is a fact as well: it is told once at the start and then now and again. */
+  /* An unchanged count is news as well: it is reported once at the start and repeated from time to time. */
   if (state->has_told && edges == state->captures && (uint32_t)(now_ms - state->told_ms) < COUNT_REPEAT_MS) {
     return false;
   }
@@ -54,7 +54,7 @@ static void store_capture(const up_capture_config_t *config, const up_capture_ra
   }
 }
 
-/* A signal that has stopped has no frequency; its last width and period stay what they were. */
+/* A signal that has stopped has no frequency; its last width and period remain. */
 static bool read_silence(const up_capture_config_t *config, up_capture_state_t *state, uint32_t now_ms,
                          uint8_t type, void *element) {
   const bool tells_silence = config->mode == UP_CAPTURE_FREQUENCY || config->mode == UP_CAPTURE_DUTY;

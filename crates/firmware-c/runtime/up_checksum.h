@@ -1,5 +1,5 @@
 /*
- * The checksums of devices (that of frames is in up_encode.h).
+ * The checksums of devices (those of frames are in up_encode.h).
  */
 #ifndef UP_CHECKSUM_H
 #define UP_CHECKSUM_H
@@ -7,16 +7,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Low byte of the sum of all bytes. */
+/* The low byte of the sum of all bytes. */
 uint8_t up_sum8(const uint8_t *bytes, size_t count);
 
-/* All bytes XORed. */
+/* The exclusive or of all bytes. */
 uint8_t up_xor8(const uint8_t *bytes, size_t count);
 
-/* Sum of all bytes, modulo 2^16. */
+/* The sum of all bytes, modulo 2^16. */
 uint16_t up_sum16(const uint8_t *bytes, size_t count);
 
-/* CRC-8, most significant bit first, not reflected, nothing XORed at the end. 0x31 from 0xFF: Sensirion; 0xD5 from 0:
+/* CRC-8, most significant bit first, not reflected, no final XOR. Polynomial 0x31 from 0xFF: Sensirion; 0xD5 from 0:
  * DVB-S2. */
 uint8_t up_crc8(uint8_t polynomial, uint8_t start, const uint8_t *bytes, size_t count);
 

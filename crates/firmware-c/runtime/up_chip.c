@@ -4,11 +4,12 @@
 
 #include "up_convert.h"
 
-/* Nothing was read or written in this step yet. */
+/* Nothing was read or written in this step so far. */
 #define UNTOUCHED 0xFFU
-/* Clocks of whole milliseconds make a cycle look shorter than it is. */
+/* Whole milliseconds make a cycle look shorter than it is, so transfers may be this fraction of a cycle early. */
 #define EARLY_PARTS 8U
-/* A stranger is started all the same after so many looks: a few parts say who they are only when they are set up. */
+/* After this many attempts a chip with a wrong identity is started anyway: some identify themselves only once set
+ * up. */
 #define LOOKS 16U
 
 typedef struct {
@@ -18,10 +19,10 @@ typedef struct {
   const up_schema_t *schema;
   const up_value_sink_t *sink;
   up_clock_t clock;
-  uint32_t now_ms; /* when it began */
+  uint32_t now_ms; /* the start of the step */
 } step_t;
 
-/* Half the range of the clock lies ahead, half behind: right across its wrap. */
+/* Half the range of the clock is ahead, half is in the past, so the comparison holds across its wrap. */
 static bool is_reached(uint32_t now_ms, uint32_t when_ms) {
   return (uint32_t)(now_ms - when_ms) < 0x80000000U;
 }
@@ -30,7 +31,7 @@ static uint32_t left_ms(uint32_t now_ms, uint32_t when_ms) {
   return is_reached(now_ms, when_ms) ? 0U : (uint32_t)(when_ms - now_ms);
 }
 
-/* When `wait_ms` have passed from now. One more, for the first millisecond is cut short. */
+/* The time `wait_ms` from now, plus one, because the first millisecond is cut short. */
 static uint32_t after(const step_t *step, uint32_t wait_ms) {
   return step->clock() + ((wait_ms == 0U) ? 0U : wait_ms + 1U);
 }
@@ -49,14 +50,14 @@ static void count_fault(up_chip_state_t *state, up_result_t cause) {
   state->fault = (uint8_t)cause;
 }
 
-/* Counts what a transfer came to; after one that failed, the chip is to be started again. */
+/* Counts the outcome of a transfer; after a failure the chip must be started again. */
 static bool went_through(up_chip_state_t *state, up_bus_result_t result) {
   if (result != UP_BUS_DONE) {
     count_fault(state, result);
     restart(state);
     return false;
   }
-  /* Starting proves nothing before it is done. */
+  /* A start proves nothing until it is complete. */
   if (state->fault == UNTOUCHED && state->is_running) {
     state->fault = UP_NOTHING;
   }
@@ -68,7 +69,7 @@ static bool write_bytes(const step_t *step, const uint8_t *bytes, size_t count) 
   return went_through(step->state, step->bus->write(step->bus->context, step->chip->address, step->state->work, count));
 }
 
-/* What was read, in the work buffer; NULL when it failed. */
+/* The bytes read, in the work buffer; NULL if it failed. */
 static const uint8_t *read_bytes(const step_t *step, const uint8_t *select, size_t select_count, size_t count) {
   uint8_t *work = step->state->work;
   up_bus_result_t result;
@@ -94,7 +95,7 @@ static const uint8_t *exchange_bytes(const step_t *step, const uint8_t *bytes, s
 
 /* ---- starting ---- */
 
-/* True when all steps are done; false while it pauses, or when it failed. */
+/* True when all steps are complete; false during a pause or after a failure. */
 static bool initialise(const step_t *step) {
   up_chip_state_t *state = step->state;
 
@@ -174,7 +175,7 @@ static void begin_transfers(const step_t *step) {
   step->state->counts.starts++;
 }
 
-/* A stranger is not written to before it is known to be the right part after all. */
+/* Nothing is written to a chip with a wrong identity. */
 static void start(const step_t *step) {
   if (UP_USES_CHIP_IDENTITY && step->state->is_stranger) {
     if (!identify(step)) {
@@ -198,7 +199,7 @@ static void say(const step_t *step, const up_chip_reading_t *reading, up_result_
   step->sink->on_value(step->sink->context, reading->field, result, (result == UP_FRESH) ? state->scratch : NULL);
 }
 
-/* The fault, for all readings of one transfer; for those of all with `transfer` transfers_count. */
+/* Reports the fault for all readings of one transfer; with `transfer` equal to transfers_count, for all readings. */
 static void say_fault(const step_t *step, size_t transfer) {
   size_t i;
 
@@ -210,7 +211,7 @@ static void say_fault(const step_t *step, size_t transfer) {
   }
 }
 
-/* The formula's outputs of one raw block, computed once for all readings that stand in it. */
+/* The formula's outputs for one raw block, computed once for all readings in it. */
 typedef struct {
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX];
   uint16_t offset;
@@ -286,7 +287,7 @@ static bool is_due(const step_t *step, size_t transfer) {
   return is_reached(step->now_ms + early_ms(step), step->state->transfers[transfer].due_ms);
 }
 
-/* The next time on the transfer's own grid; what was missed is left out. */
+/* Moves a transfer to the next time on its own grid; missed times are skipped. */
 static void set_next(const step_t *step, size_t transfer) {
   up_chip_transfer_state_t *state = &step->state->transfers[transfer];
   const uint32_t cycle_ms = cycle_of(step->chip, transfer);
@@ -313,7 +314,7 @@ static bool fetch(const step_t *step, size_t transfer) {
   return true;
 }
 
-/* Reads all that measure by themselves. */
+/* Reads all transfers without a trigger that are due. */
 static bool fetch_free(const step_t *step) {
   size_t i;
 
@@ -332,7 +333,7 @@ static bool fetch_free(const step_t *step) {
   return true;
 }
 
-/* The triggered transfer that has been due for longest; transfers_count for none. */
+/* The triggered transfer that has been due for longest; transfers_count if there is none. */
 static size_t next_triggered(const step_t *step) {
   size_t found = step->chip->transfers_count;
   size_t i;
@@ -347,7 +348,8 @@ static size_t next_triggered(const step_t *step) {
   return found;
 }
 
-/* Reads what is ready and triggers the next, so often that one that needs no time is read at once. */
+/* Fetches what is ready and triggers the next, repeatedly, so that a conversion that takes no time is fetched at
+ * once. */
 static void run_triggered(const step_t *step) {
   up_chip_state_t *state = step->state;
   size_t turns;
@@ -421,7 +423,8 @@ uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, ui
   return (idle_ms == UINT32_MAX) ? chip->cycle_ms : idle_ms;
 }
 
-/* Puts what the other commands have told a register into the bytes of this one, and keeps all of it. */
+/* Merges the bits that other commands have last written to a register into the bytes of this one, and keeps the
+ * result. */
 static void join(const up_chip_command_t *command, up_chip_state_t *state, uint8_t *bytes, size_t count) {
   uint8_t *kept = &state->kept[command->kept];
   size_t i;

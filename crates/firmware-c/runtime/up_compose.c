@@ -12,7 +12,7 @@ static uint8_t digit(uint8_t number) {
   return (uint8_t)((number < 10U) ? (48U + number) : (55U + number)); /* '0' and 'A' - 10 */
 }
 
-/* Writes the checksum of the first `at` bytes behind them, and returns its bytes. */
+/* Writes the checksum of the first `at` bytes after them, and returns its size. */
 static size_t put_checksum(const up_compose_t *how, uint8_t *bytes, size_t at) {
   const size_t from = (how->checksum_from < at) ? how->checksum_from : at;
   uint16_t sum;

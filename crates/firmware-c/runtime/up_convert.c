@@ -19,8 +19,8 @@ static const range_t ranges[] = {
     [UP_TYPE_INT64] = {INT64_MIN, INT64_MAX},
 };
 
-/* Stores mantissa * 2^exponent, and `is_more` says that a little more was meant: rounded to nearest, ties to even, as
- * the machine would, but without linking its emulation of doubles. Numbers of 64 bits and their ratios are in range. */
+/* Stores mantissa * 2^exponent; `is_more`: the exact number is a little greater. Rounded to nearest, ties to even,
+ * as hardware would, but without linking the emulation of doubles. 64-bit numbers and their ratios are in range. */
 static void store_real(uint8_t type, bool is_negative, uint64_t mantissa, int exponent, bool is_more, void *element) {
   const bool is_wide = type == UP_TYPE_FLOAT64;
   const unsigned fraction_bits = is_wide ? 52U : 23U;
@@ -80,7 +80,7 @@ static void store_real_ratio(uint8_t type, bool is_negative, uint64_t numerator,
   uint64_t remainder = numerator % denominator;
   int exponent = 0;
 
-  /* Digit by digit until there are more than a double has. */
+  /* Digit by digit, until there are more than a double holds. */
   while (numerator != 0U && quotient < (uint64_t)1U << 55) {
     const bool is_carried = (remainder >> 63) != 0U;
     remainder <<= 1;
@@ -111,7 +111,7 @@ void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void
   up_store_signed_ratio(type, false, numerator, denominator, element);
 }
 
-/* The magnitude of a number in floating point, rounded half away from zero. */
+/* The magnitude of a floating-point number, rounded half away from zero. */
 static uint64_t round_real(uint64_t bits, unsigned fraction_bits, int bias) {
   const uint64_t mantissa = bits & (((uint64_t)1U << fraction_bits) - 1U);
   const int biased = (int)(bits >> fraction_bits);
@@ -180,7 +180,7 @@ static void store_gathered(uint8_t type, uint64_t bits, size_t size, void *eleme
   }
 }
 
-/* Bytes of a device for each element of a field; 0 when they do not fit together. */
+/* Bytes of a device for each element of a field; 0 if they do not divide evenly. */
 static size_t element_bytes(const up_field_t *field, size_t bytes_count) {
   const size_t size = (field->count == 0U) ? 0U : bytes_count / field->count;
 

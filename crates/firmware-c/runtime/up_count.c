@@ -5,7 +5,7 @@
 void up_count_step(up_count_t *count, uint16_t now) {
   const uint16_t moved = (uint16_t)(now - count->last);
 
-  /* The sign of the 16 bits goes on into the upper ones. */
+  /* Extends the sign of the 16 bits into the upper ones. */
   count->total += ((moved & 0x8000U) != 0U) ? (0xFFFF0000U | moved) : moved;
   count->last = now;
 }

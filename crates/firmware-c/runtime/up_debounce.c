@@ -4,7 +4,7 @@ static bool counts(const up_contact_config_t *config, bool level) {
   return config->edge == UP_EDGE_BOTH || (config->edge == UP_EDGE_RISING) == level;
 }
 
-/* What was seen before has lasted until now. */
+/* The level seen before has lasted until now. */
 static void settle(const up_contact_config_t *config, up_contact_t *contact, uint32_t now) {
   if (contact->seen != contact->level && (uint32_t)(now - contact->since) >= config->lasting) {
     contact->level = contact->seen;
@@ -31,7 +31,7 @@ void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact
     begin(contact, level, now);
   }
   settle(config, contact, now);
-  /* The level may be back already; it has changed all the same. */
+  /* The level may have changed back already; it has changed all the same. */
   contact->seen = level;
   contact->since = now;
 }

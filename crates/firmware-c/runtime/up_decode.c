@@ -48,7 +48,7 @@ bool up_decoder_is_idle(const up_decoder_t *decoder) {
   return i == decoder->size;
 }
 
-/* Bytes of the longest payload but health, without a checksum. */
+/* The size of the longest payload except health, without a checksum. */
 static size_t short_bytes_max(const up_wire_t *wire) {
   const size_t asked_bytes = (wire->direction == (uint8_t)UP_TO_HOST) ? HELLO_BYTES : HEALTH_REQUEST_BYTES;
 
@@ -83,7 +83,7 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
   return UP_VERDICT_INCOMPLETE;
 }
 
-/* What begins with 0: to the host a hello, or a stamp; to the board a request. */
+/* A payload that begins with 0: a hello or a stamp to the host, a request to the board. */
 static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   const up_wire_t *wire = decoder->wire;
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
@@ -115,8 +115,8 @@ static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, si
   return UP_VERDICT_COMPLETE;
 }
 
-/* What a payload is follows from its first byte and its length: passes over a stamp, and over the whole of what has no
- * items. */
+/* Determines the type of the payload from its first byte and its length; skips a stamp, or a whole payload that has
+ * no items. */
 static up_verdict_t begin(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   const up_wire_t *wire = decoder->wire;
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
@@ -149,7 +149,7 @@ static bool are_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
   return from == to;
 }
 
-/* The elements of the value [value, end), as many as are there. */
+/* Checks the elements of a bool value [value, end), as many as are there. */
 up_verdict_t up_decoder_look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t value, size_t end) {
   const size_t from = (decoder->looked_at > value) ? decoder->looked_at : value;
   const size_t to = (end < size) ? end : size;
@@ -163,7 +163,7 @@ up_verdict_t up_decoder_look_at_bools(up_decoder_t *decoder, const uint8_t *byte
   return (to < end) ? UP_VERDICT_INCOMPLETE : UP_VERDICT_COMPLETE;
 }
 
-/* From identifier to identifier up to the end of the values. */
+/* Walks from identifier to identifier up to the end of the values. */
 static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   const up_verdict_t verdict = begin(decoder, bytes, size);
 
@@ -230,14 +230,14 @@ static up_verdict_t compare_checksum(up_decoder_t *decoder, const uint8_t *bytes
   }
   number_bytes = (size_t)(up_register_put(decoder->wire, crc, number) - number);
   decoder->checksum_right = memcmp(&bytes[end + 1U], number, number_bytes) == 0;
-  /* Values that have not been walked through may still hold what is not a bool. */
+  /* Values that have not been walked through may still contain invalid bools. */
   if (!decoder->checksum_right || decoder->at == end) {
     decoder->looked_at = end;
   }
   return decoder->checksum_right ? UP_VERDICT_COMPLETE : UP_VERDICT_INVALID;
 }
 
-/* Looks at the bytes from the candidate's first on; what was found out before is not looked at again. */
+/* Checks the bytes from the candidate's first on; what has been checked before is not checked again. */
 static up_verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   up_verdict_t verdict = UP_VERDICT_COMPLETE;
   bool has_comma;
@@ -248,7 +248,7 @@ static up_verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
       return verdict;
     }
   }
-  /* The cheapest first: most of what only looks like a frame ends wrong. */
+  /* The cheapest check first: most false candidates end wrong. */
   has_comma = size >= decoder->frame_bytes;
   if (has_comma && bytes[decoder->frame_bytes - 1U] != (uint8_t)',') {
     return UP_VERDICT_INVALID;
@@ -257,7 +257,7 @@ static up_verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
       bytes[decoder->values_end] != UP_ID_CHECKSUM) {
     return UP_VERDICT_INVALID;
   }
-  /* By sums the checksum costs less than a walk. */
+  /* With sums, the checksum costs less than a walk. */
   if (has_comma && decoder->spent > 0U && compare_checksum(decoder, bytes, size) != UP_VERDICT_COMPLETE) {
     return UP_VERDICT_INVALID;
   }
@@ -295,8 +295,8 @@ static void deliver(const up_decoder_t *decoder, const uint8_t *frame) {
   }
 }
 
-/* Looks for frames that start at `at` or behind it and before `limit`. Returns where the candidate starts that
- * lacks bytes, or where to go on. */
+/* Looks for frames that start at or after `at` and before `limit`. Returns the start of the candidate that lacks
+ * bytes, or the place to continue from. */
 static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t at, size_t limit) {
   while (at < limit) {
     const size_t from = at;
@@ -323,8 +323,8 @@ static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size
   return at;
 }
 
-/* Holds some more bytes, as many as the candidate lacks at most; returns how many. While its length is read,
- * that is one at a time. */
+/* Buffers more bytes, at most as many as the candidate lacks; returns how many. While its length is being read, one
+ * at a time. */
 static size_t hold(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   size_t more = (decoder->frame_bytes == 0U) ? 1U : decoder->frame_bytes - decoder->size;
 
@@ -341,13 +341,13 @@ static size_t hold(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
 }
 
 void up_decoder_feed(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  size_t taken = 0U; /* bytes of this call that are in the buffer, too */
+  size_t taken = 0U; /* bytes of this call that are also in the buffer */
 
   while (decoder->size > 0U && taken < size) {
     size_t old_bytes, gone;
 
     taken += hold(decoder, &bytes[taken], size - taken);
-    /* What starts in the bytes of this call is looked for there. */
+    /* Frames that start in the bytes of this call are looked for there. */
     old_bytes = (decoder->size > taken) ? decoder->size - taken : 0U;
     gone = run(decoder, &decoder->buffer[decoder->start], decoder->size, 0U, old_bytes);
     if (gone >= old_bytes) {

@@ -1,5 +1,5 @@
-/* Times are counted in 64 bits and divided by small numbers: in steps of 32 bits, which all cores have or the compiler
- * makes short, so that no program has the compiler's division of 64 bits only for that. */
+/* Times are 64-bit numbers and are divided by small numbers: in steps of 32 bits, which all cores support or the
+ * compiler makes short, so that no program links the compiler's 64-bit division only for that. */
 #ifndef UP_DIVIDE_H
 #define UP_DIVIDE_H
 

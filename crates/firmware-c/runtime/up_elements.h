@@ -1,8 +1,8 @@
 /*
- * When an array is told whose elements are measured one by one.
+ * When to report an array whose elements are measured one by one.
  *
- * It is told once each element has been measured, and then with the first new one, or only when all are new: so that
- * a distance of one ranger that answers no more does not look like a measurement of now.
+ * It is first reported when every element has been measured. After that it is reported with the first new element, or
+ * only when all are new, so that the distance from a ranger that no longer answers does not look current.
  */
 #ifndef UP_ELEMENTS_H
 #define UP_ELEMENTS_H
@@ -11,10 +11,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Element `index` has a new value. `flags` has one for each element, all zero at the start. */
+/* Notes that element `index` has a new value. `flags` has one for each element, all zero at the start. */
 void up_elements_note(uint8_t *flags, size_t index);
 
-/* True when the array is to be told; what was new is then old. `is_complete`: only when all are new. */
+/* True if the array must be reported; its elements then no longer count as new. `is_complete`: only when all are
+ * new. */
 bool up_elements_are_due(uint8_t *flags, size_t count, bool is_complete);
 
 #endif

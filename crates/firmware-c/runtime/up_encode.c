@@ -8,7 +8,7 @@ void up_bit_set(uint8_t *bitmap, size_t index) {
   bitmap[index / 8U] = (uint8_t)(bitmap[index / 8U] | (1U << (index % 8U)));
 }
 
-/* The polynomial has so few terms that eight bits go in at once without a table. */
+/* The polynomial has so few terms that eight bits can be processed at once without a table. */
 uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size) {
   size_t i;
 
@@ -20,7 +20,7 @@ uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size) {
   return crc;
 }
 
-/* Half a byte goes in at once: the table is of 64 bytes. */
+/* Four bits at a time, so the table has only 64 bytes. */
 uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
   static const uint32_t of_nibble[16] = {
       0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU, 0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
@@ -36,13 +36,13 @@ uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
   return crc;
 }
 
-/* Where the payload begins; NULL when the longest frame would not fit. */
+/* The start of the payload; NULL if the longest frame would not fit. */
 static uint8_t *open_frame(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   return (frame_bytes < UP_WIRE_FRAME_BYTES(wire)) ? NULL : &frame[wire->head_bytes];
 }
 
-/* Puts a checksum, if the link has one, and the comma behind the payload, which ends at `end`, and its length in front.
- * A payload that is shorter than the longest may move down by a few bytes. Returns the bytes of the frame. */
+/* Adds a checksum, if the link has one, and the comma after the payload, which ends at `end`, and its length before
+ * it. A payload that is shorter than the longest may move down by a few bytes. Returns the size of the frame. */
 static size_t close_frame(const up_wire_t *wire, uint8_t *frame, uint8_t *end) {
   uint8_t *const payload = &frame[wire->head_bytes];
   uint8_t *head = payload;

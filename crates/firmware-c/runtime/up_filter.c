@@ -23,7 +23,7 @@ uint32_t up_filter_decay(uint32_t elapsed_ms, uint32_t constant_ms) {
   if (constant_ms == 0U || elapsed_ms / constant_ms >= DECAY_END) {
     return 0U;
   }
-  /* exp(-x) is 2^-(x * log2(e)): whole halvings, then a root for each bit of the fraction. */
+  /* exp(-x) is 2^-(x * log2(e)): halvings for the integer part, then a root for each bit of the fraction. */
   exponent = ((uint64_t)(elapsed_ms % constant_ms) << 32) / constant_ms;
   exponent += (exponent * LOG2E_REST) >> 32;
   exponent += (uint64_t)(elapsed_ms / constant_ms) * (((uint64_t)1U << 32) + LOG2E_REST);
@@ -52,7 +52,7 @@ static uint64_t sign_of(uint8_t type) {
   return (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
 }
 
-/* The bits of an element as an unsigned number that is in the same order. */
+/* The bits of an element as an unsigned number with the same order. */
 static uint64_t key_of(uint8_t type, uint64_t bits) {
   const uint64_t sign = sign_of(type);
 
@@ -103,7 +103,7 @@ static bool is_invalid(const up_filter_t *filter, const up_field_t *field, const
 
 /* ---- median ---- */
 
-/* The bits of one element that so many of the window are not above: counting needs no memory for a sorted copy. */
+/* The bits of the median element in the window. It is found by counting, which needs no memory for a sorted copy. */
 static uint64_t middle(uint8_t type, const uint8_t *window, size_t stride, size_t count) {
   const size_t rank = (count - 1U) / 2U;
   uint64_t bits = 0U;
@@ -144,7 +144,7 @@ static void take_median(const up_filter_t *filter, up_filter_state_t *state, con
 
 /* ---- smooth ---- */
 
-/* A number of 64 bits with 32 behind the point, as it stands in the state. */
+/* A 64-bit number with 32 more bits of fraction, as in the state. */
 typedef struct {
   uint64_t whole;
   uint32_t fraction;
@@ -160,7 +160,8 @@ static fixed_t times_decay(fixed_t number, uint32_t decay) {
   return result;
 }
 
-/* What is left of the distance to the input is taken towards 0 from either side: no drift, and it is reached. */
+/* The remaining distance to the input is rounded towards 0 from either side: there is no drift, and the input is
+ * reached. */
 static uint64_t smooth_key(uint64_t *state, uint32_t decay, uint64_t key) {
   fixed_t now = {state[0], (uint32_t)state[1]};
   fixed_t distance;
@@ -202,7 +203,7 @@ static bool is_finite(uint64_t bits) {
   return (bits & 0x7F800000U) != 0x7F800000U;
 }
 
-/* state[1] is what state[0] lacks for want of digits: without it, small steps would be lost. */
+/* state[1] is the rounding error of state[0], without which small steps would be lost. */
 static void smooth_single(uint64_t *state, uint32_t decay, void *element) {
   const uint64_t bits = up_element_load(UP_TYPE_FLOAT32, element);
   const float gain = (float)(uint32_t)(0U - decay) / 4294967296.0F;
@@ -254,7 +255,7 @@ static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint6
 
   if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     const float distance = single_of(from) - single_of(to);
-    /* Not a number is far from all others. */
+    /* NaN is far from all other numbers. */
     return !(distance < filter->change.f && distance > -filter->change.f);
   }
   if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
@@ -276,7 +277,8 @@ static bool has_changed(const up_filter_t *filter, const up_field_t *field, cons
   return false;
 }
 
-/* Whether the next value would come too late for the heartbeat, by more than a quarter of what lies between two. */
+/* Whether the next value would be too late for the heartbeat if it comes after three quarters of the present
+ * interval. */
 static bool is_heartbeat(const up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
   const uint64_t silent_ms = (uint32_t)(now_ms - state->told_ms);
   const uint64_t interval_ms = (uint32_t)(now_ms - state->seen_ms);

@@ -1,4 +1,4 @@
-/* The two steps of a filter that need arithmetic in double precision; see up_filter.c, where they are in single. */
+/* The two steps of a filter that need double precision; up_filter.c has them in single precision. */
 #include <string.h>
 
 #include "up_filter.h"

@@ -1,14 +1,14 @@
-/* BMP280 and BME280: the integer formulas of their data sheets, with pressure in 64 bits. Sums that no sound part and
- * no air on earth come to are refused before they could overflow. */
+/* BMP280 and BME280: the integer formulas of their data sheets, with pressure in 64 bits. Results that no working
+ * part and no air on earth can produce are rejected before they could overflow. */
 #include "up_formula.h"
 
-/* t_fine is 5120 a degree; the parts measure -40 to 85 degC. */
+/* t_fine has 5120 units per degree; the parts measure -40 to 85 degC. */
 #define FINE_MIN (-(int64_t)60 * 5120)
 #define FINE_MAX ((int64_t)110 * 5120)
-/* What is read of a quantity that is switched off, in 20 and in 16 bits. */
+/* The raw value of a quantity that is switched off, in 20 and in 16 bits. */
 #define SKIPPED 0x80000
 #define SKIPPED_HUMIDITY 0x8000
-/* What a line reads that nobody drives. */
+/* The raw value of an undriven line. */
 #define ONES 0xFFFFF
 /* 100 %, in the unit before the last division by 2^12. */
 #define HUMIDITY_FULL 419430400
@@ -26,12 +26,12 @@ static int64_t raw20(const uint8_t *bytes) {
   return (int64_t)((uint32_t)bytes[0] << 12 | (uint32_t)bytes[1] << 4 | (uint32_t)bytes[2] >> 4);
 }
 
-/* Division by 2^bits, rounded down: what a shift of a negative number does on most machines, but C does not promise. */
+/* Division by 2^bits, rounded down: most machines shift negative numbers in this way, but C does not guarantee it. */
 static int64_t shift_down(int64_t number, unsigned bits) {
   return (number < 0) ? -1 - ((-1 - number) >> bits) : number >> bits;
 }
 
-/* The fine temperature; false when it is out of all range. */
+/* The fine temperature; false if it is far out of range. */
 static bool fine_temperature(const uint8_t *calibration, const uint8_t *raw, int64_t *fine) {
   const int64_t t1 = unsigned16(&calibration[0]), t2 = signed16(&calibration[2]), t3 = signed16(&calibration[4]);
   const int64_t adc = raw20(&raw[3]);
@@ -41,7 +41,7 @@ static bool fine_temperature(const uint8_t *calibration, const uint8_t *raw, int
   return adc != SKIPPED && adc != ONES && *fine >= FINE_MIN && *fine <= FINE_MAX;
 }
 
-/* Pa times 256; false where there is none. */
+/* Pressure in Pa times 256; false if there is none. */
 static bool pressure(const uint8_t *calibration, const uint8_t *raw, int64_t fine, int64_t *result) {
   const uint8_t *p = &calibration[6];
   const int64_t adc = raw20(raw);
@@ -70,11 +70,11 @@ static bool pressure(const uint8_t *calibration, const uint8_t *raw, int64_t fin
   return *result > 0;
 }
 
-/* Percent times 1024. */
+/* Relative humidity in percent times 1024. */
 static int64_t humidity(const uint8_t *calibration, const uint8_t *raw, int64_t fine) {
   const int64_t adc = (int64_t)((unsigned)raw[6] << 8 | raw[7]);
   const int64_t h1 = calibration[24], h2 = signed16(&calibration[25]), h3 = calibration[27];
-  /* Two numbers of 12 bits share a byte. */
+  /* Two 12-bit numbers share a byte. */
   const int64_t h4 = (((int64_t)calibration[28] ^ 0x80) - 0x80) * 16 + (calibration[29] & 0xF);
   const int64_t h5 = (((int64_t)calibration[30] ^ 0x80) - 0x80) * 16 + (calibration[29] >> 4);
   const int64_t h6 = ((int64_t)calibration[31] ^ 0x80) - 0x80;
@@ -85,7 +85,7 @@ static int64_t humidity(const uint8_t *calibration, const uint8_t *raw, int64_t 
   int64_t high = shift_down(result, 15);
 
   if (high > 131072 || high < -131072) {
-    /* Far outside; the square below must not overflow. */
+    /* Far out of range; the square below must not overflow. */
     high = 0;
   }
   result -= shift_down(shift_down(high * high, 7) * h1, 4);

@@ -1,8 +1,8 @@
 /*
  * Formulas that need more than scale and offset: from the raw bytes of one reading, the part's calibration and its
- * parameters to physical numbers, in integers.
+ * parameters to physical quantities, in integers.
  *
- * A table names a formula by its address, so that only what a board uses is linked.
+ * A table refers to a formula by its address, so that only the formulas that a board uses are linked.
  */
 #ifndef UP_FORMULA_H
 #define UP_FORMULA_H
@@ -11,15 +11,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* No formula has more outputs. */
+/* The most outputs that any formula has. */
 #define UP_FORMULA_OUTPUTS_MAX 3U
 
 typedef struct {
-  uint16_t calibration_bytes; /* the bytes of all calibration reads, one behind the other */
-  uint16_t raw_bytes;         /* of the block it is computed from */
+  uint16_t calibration_bytes; /* size of all calibration blocks, one after the other */
+  uint16_t raw_bytes;         /* size of the raw block that it is computed from */
   uint8_t parameters_count;
   uint8_t outputs_count;
-  /* False where the raw block is not a measurement (switched off, out of range, a wire that is open). */
+  /* False if the raw block is not a measurement (switched off, out of range, an open wire). */
   bool (*compute)(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw, int64_t *outputs);
 } up_formula_t;
 
@@ -27,18 +27,19 @@ typedef struct {
  * bytes. */
 extern const up_formula_t up_formula_bmp280;
 
-/* BME280. Outputs: 0 and 1 as above, 2 relative humidity in %/1024. Calibration: 0x88, 24 bytes; 0xA1, 1; 0xE1, 7. Raw:
- * 0xF7, 8 bytes. */
+/* BME280. Outputs: 0 and 1 as for BMP280, 2 relative humidity in %/1024. Calibration: 0x88, 24 bytes; 0xA1, 1; 0xE1,
+ * 7. Raw: 0xF7, 8 bytes. */
 extern const up_formula_t up_formula_bme280;
 
-/* Thermistor from the pin to ground, a series resistor to the supply. Output: 0 temperature in 0.01 degC. Parameters:
- * beta in K (1 to 20000), resistance at 25 degC in ohm, series resistance in ohm (both 1 to 100000000). Raw: the analog
- * value 0 to 4095, 2 bytes, most significant first; 0 and 4095 are a short circuit and a break. */
+/* A thermistor from the pin to ground, with a series resistor to the supply. Output: 0 temperature in 0.01 degC.
+ * Parameters: beta in K (1 to 20000), resistance at 25 degC in ohms, series resistance in ohms (both 1 to
+ * 100000000). Raw: the analog value 0 to 4095, 2 bytes, most significant first; 0 and 4095 mean a short circuit and
+ * an open circuit. */
 extern const up_formula_t up_formula_ntc;
 
 /* TSL2561 in the T, FN and CL packages. Output: 0 illuminance in mlx. Parameters: integration time in ms (13, 101 or
- * 402), gain (1 or 16); none (NULL): 402 and 16. Raw: both channels from 0x8C, 4 bytes, each least
- * significant first; a channel at its end is not a measurement. */
+ * 402), gain (1 or 16); none (NULL): 402 and 16. Raw: both channels from 0x8C, 4 bytes, each least significant
+ * first; a saturated channel is not a measurement. */
 extern const up_formula_t up_formula_tsl2561;
 
 #endif

@@ -8,10 +8,10 @@
 #define BETA_MAX 20000
 /* ln(2) times 2^24. */
 #define LN2_Q24 11629080
-/* Bits of the logarithm behind the point. */
+/* Fractional bits of the logarithm. */
 #define LOG_BITS 24U
 
-/* log2(number) times 2^24, for a number of at least 1: the place of the highest bit, then squaring gives bit by bit. */
+/* log2(number) times 2^24, for a number of at least 1: the position of the highest bit, then one bit per squaring. */
 static int64_t log2_q24(uint64_t number) {
   int64_t result = 63;
   uint32_t mantissa;
@@ -21,7 +21,7 @@ static int64_t log2_q24(uint64_t number) {
     number <<= 1;
     result--;
   }
-  mantissa = (uint32_t)(number >> 32); /* 1 is 2^31 */
+  mantissa = (uint32_t)(number >> 32); /* here 2^31 stands for 1 */
   for (bit = 0U; bit < LOG_BITS; bit++) {
     const uint64_t square = (uint64_t)mantissa * mantissa;
     const bool is_two = (square >> 63) != 0U;

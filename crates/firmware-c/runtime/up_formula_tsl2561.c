@@ -1,8 +1,8 @@
-/* TSL2561: the piecewise linear formula of the data sheet for the packages T, FN and CL, in integers, but in millilux
- * instead of rounded to lux. */
+/* TSL2561: the piecewise linear formula of the data sheet for the T, FN and CL packages, in integers, but in
+ * millilux instead of rounded to lux. */
 #include "up_formula.h"
 
-/* What the constants are for. */
+/* The integration time and gain that the constants are for. */
 #define NOMINAL_MS 402
 #define NOMINAL_GAIN 16
 
@@ -18,7 +18,7 @@ static const piece_t pieces[] = {
     {0x0138U, 0x016FU, 0x01FCU}, {0x019AU, 0x00D2U, 0x00FBU}, {0x029AU, 0x0018U, 0x0012U},
 };
 
-/* A time of integration: what makes counts of 402 ms of it, times 2^10, and the count at which it ends. */
+/* An integration time, its factor to counts at 402 ms times 2^10, and the count at which it saturates. */
 typedef struct {
   int32_t time_ms;
   uint32_t scale;

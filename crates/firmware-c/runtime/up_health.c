@@ -4,7 +4,7 @@
 
 /* Half of the clock's range. */
 #define ANCIENT_MS 0x80000000U
-/* A value that is so little younger than the time of who asks came meanwhile, from another thread. */
+/* A value whose time is ahead of the caller's by at most this much came meanwhile, from another thread. */
 #define AHEAD_MS 0x10000U
 
 static size_t fault_of(up_result_t result) {
@@ -104,7 +104,7 @@ void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_
   }
 }
 
-/* ---- a host's side ---- */
+/* ---- the host's side ---- */
 
 bool up_health_read_board(const uint8_t *payload, size_t size, up_health_board_t *board) {
   if (size < UP_HEALTH_BOARD_BYTES || payload[1] != UP_HEALTH_VERSION) {

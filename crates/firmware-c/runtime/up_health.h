@@ -1,7 +1,8 @@
 /*
- * How the devices of a board are: what their last readings came to, how long ago, and how often each fault was met.
+ * The health of a board's devices: the outcome of their last readings, how long ago those were, and how often each fault
+ * occurred.
  *
- * Nothing here locks or knows a clock: the caller serialises the functions, and time comes in.
+ * Nothing here locks or has a clock: the caller serialises the functions and passes the time.
  */
 #ifndef UP_HEALTH_H
 #define UP_HEALTH_H
@@ -9,11 +10,11 @@
 #include "up_result.h"
 #include "up_schema.h"
 
-/* No value yet; and none for so long that the clock cannot tell (24 days). */
+/* The age of a value that does not exist yet, and of one that is older than the clock can tell (24 days). */
 #define UP_AGE_NEVER 0xFFFFFFFFU
 #define UP_AGE_LONG 0xFFFFFFFEU
 
-/* A device without a value for so many of its cycles is stale. */
+/* A device is stale after this many of its cycles without a value. */
 #define UP_STALE_CYCLES 3U
 
 typedef enum {
@@ -21,7 +22,7 @@ typedef enum {
   UP_STATUS_GOOD,   /* the last reading was a measurement, and is not old */
   UP_STATUS_STALE,  /* no value for three cycles */
   UP_STATUS_FAILED, /* the last reading did not come through */
-  UP_STATUS_INVALID /* the last answer was no measurement */
+  UP_STATUS_INVALID /* the last answer was not a measurement */
 } up_status_t;
 
 typedef enum {
@@ -30,11 +31,11 @@ typedef enum {
   UP_FAULT_ARBITRATION,
   UP_FAULT_TIME_OUT,
   UP_FAULT_CRC,
-  UP_FAULT_INVALID /* another device's answers as well */
+  UP_FAULT_INVALID /* also answers of the wrong device */
 } up_fault_t;
 #define UP_FAULTS 6U
 
-/* What is known of one device. All zero at the start. */
+/* The state of one device. All zero at the start. */
 typedef struct {
   uint32_t good_ms;           /* when the last value came; the clock may wrap */
   uint16_t counts[UP_FAULTS]; /* by up_fault_t; they stop at 65535 */
@@ -45,28 +46,28 @@ typedef struct {
 
 typedef struct {
   up_health_device_t *devices; /* one for each field of the schema */
-  const uint32_t *cycles_ms;   /* for each how often it is read; 0: only when something happens, then it is never stale.
+  const uint32_t *cycles_ms;   /* how often each is read; 0: only when something happens, and then it is never stale.
                                 * NULL: all are like that */
   uint8_t devices_count;
-  uint8_t looked_at; /* the device that up_health_tick() looks at next */
+  uint8_t looked_at; /* the next device for up_health_tick() */
 } up_health_t;
 
-/* One device as the host is told of it. */
+/* The health of one device, as reported to the host. */
 typedef struct {
   uint32_t age_ms;
   uint16_t counts[UP_FAULTS];
   uint8_t status; /* up_status_t */
 } up_health_row_t;
 
-/* The board itself, as the host is told of it. */
+/* The health of the board itself, as reported to the host. */
 typedef struct {
   uint32_t uptime_ms;
   uint32_t reports_sent;
   uint32_t reports_refused;
-  uint16_t stack_left_bytes; /* bytes never used of the fullest stack; UP_STACK_UNKNOWN */
+  uint16_t stack_left_bytes; /* bytes of the fullest stack that were never used; UP_STACK_UNKNOWN */
   uint8_t reset_cause;       /* up_cause_t */
-  uint8_t reset_device;      /* after a watchdog's reset the identifier of the first device of the thread that hung */
-  uint8_t load_percent;      /* the highest so far; UP_LOAD_UNKNOWN */
+  uint8_t reset_device;      /* after a watchdog reset, identifier of the first device of the thread that hung */
+  uint8_t load_percent;      /* highest load so far; UP_LOAD_UNKNOWN */
 } up_health_board_t;
 #define UP_LOAD_UNKNOWN 255U
 #define UP_STACK_UNKNOWN 65535U
@@ -74,7 +75,7 @@ typedef struct {
 /* Why the board started. */
 typedef enum {
   UP_CAUSE_UNKNOWN,
-  UP_CAUSE_POWER, /* switched on, or a brown-out */
+  UP_CAUSE_POWER, /* power-on or brown-out */
   UP_CAUSE_PIN,
   UP_CAUSE_SOFTWARE,
   UP_CAUSE_WATCHDOG,
@@ -83,24 +84,24 @@ typedef enum {
   UP_CAUSE_HALT /* the kernel stopped itself */
 } up_cause_t;
 
-/* On the wire: what the request says, the frame's version, and its parts. */
+/* On the wire: the content of a request, the version of the format, and the sizes of its parts. */
 #define UP_HEALTH_REQUEST 1U
 #define UP_HEALTH_VERSION 1U
 #define UP_HEALTH_BOARD_BYTES 19U
 #define UP_HEALTH_DEVICE_BYTES 17U
 
-/* What a reading of a field came to, before any filter keeps it from the host. UP_NOTHING says nothing of it. */
+/* Notes the outcome of a reading of a field, before any filter withholds it from the host. UP_NOTHING is ignored. */
 void up_health_note(up_health_t *health, size_t field, up_result_t result, uint32_t now_ms);
 
-/* Call it now and then, at least so often that each device has its turn within 24 days: the clock wraps. */
+/* Must be called from time to time, so often that each device has its turn within 24 days, because the clock wraps. */
 void up_health_tick(up_health_t *health, uint32_t now_ms);
 
-/* Of a payload that a decoder has delivered to a host: the board, and device `index` in the schema's order. False where
- * there is none, or the payload is of another version. */
+/* Read the board, and device `index` in the schema's order, from a payload that a decoder has delivered to a host.
+ * False if there is none, or the payload has another version. */
 bool up_health_read_board(const uint8_t *payload, size_t size, up_health_board_t *board);
 bool up_health_read_row(const uint8_t *payload, size_t size, size_t index, up_health_row_t *row);
 
-/* How a device is. */
+/* The health of a device. */
 void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row);
 
 #endif

@@ -4,13 +4,13 @@
 
 #define BLOCK_BYTES UP_DECODER_BLOCK_BYTES
 #define BLOCKS_MAX 0xFFFFU
-/* The way of a candidate that takes fewer is not kept. */
+/* The walk of a candidate with fewer steps is not kept. */
 #define STEPS_MIN 16U
 
-/* Of the stream up to where a block begins. */
+/* Sums over the stream up to the start of a block. */
 typedef struct {
-  up_register_t crc; /* register, from a start of 0 somewhere before */
-  uint16_t bools;    /* how many whole blocks before are bools without a gap */
+  up_register_t crc; /* register, starting from 0 somewhere before */
+  uint16_t bools;    /* number of whole blocks before it that contain only bools, without a gap */
 } sums_t;
 
 /* The register that multiplies by 1: CRC-32 has its highest power in the lowest bit. */
@@ -18,7 +18,7 @@ static up_register_t one(const up_wire_t *wire) {
   return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? 0x80000000U : 1U);
 }
 
-/* Of two registers as polynomials over GF(2), modulo the one of the CRC. */
+/* The product of two registers as polynomials over GF(2), modulo the polynomial of the CRC. */
 static up_register_t product(const up_wire_t *wire, up_register_t left, up_register_t right) {
   const bool is_32 = UP_WIRE_HAS_CRC32(wire);
   const unsigned bits = is_32 ? 32U : 16U;
@@ -34,7 +34,7 @@ static up_register_t product(const up_wire_t *wire, up_register_t left, up_regis
   return (up_register_t)result;
 }
 
-/* What `blocks` blocks of zeros multiply a register by. */
+/* The factor by which `blocks` blocks of zeros multiply a register. */
 static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
   return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(up_register_t)];
 }
@@ -76,8 +76,8 @@ static size_t count_bools(const uint8_t *bytes, size_t size) {
   return i;
 }
 
-/* What overlaps with a candidate that failed is in blocks: where the first whole one of the window starts and the
- * last one ends. False when there is none; otherwise there are sums up to the last. */
+/* Divides the overlap with a failed candidate into blocks: the start of the first whole block in the window and the
+ * end of the last. False if there is none; otherwise there are sums up to the last. */
 static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to, size_t *first,
                       size_t *last) {
   sums_t sums = {0U, 0U};
@@ -103,7 +103,7 @@ static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
   return true;
 }
 
-/* A CRC is linear: what stood before a block shifts through it. */
+/* A CRC is linear: the register before a block is shifted through it. */
 static up_register_t crc_of(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
   up_register_t crc = up_register_init(decoder->wire);
   size_t first, last;
@@ -140,9 +140,9 @@ static bool are_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
 
 typedef enum {
   STEP_TAKEN,
-  STEP_REPEATS, /* an identifier of the candidate stands twice */
-  STEP_MISSES,  /* none of its items ends where its values do */
-  STEP_UNKNOWN  /* the walk does not tell */
+  STEP_REPEATS, /* the candidate has an identifier twice */
+  STEP_MISSES,  /* none of its items ends at the end of its values */
+  STEP_UNKNOWN  /* the walk cannot tell */
 } step_t;
 
 static bool has_id(const uint32_t *ids, uint8_t id) {
@@ -159,7 +159,7 @@ static bool have_common(const uint32_t *ids, const uint32_t *others) {
   return common != 0U;
 }
 
-/* The bit of a place, in the byte that comes back. */
+/* The returned byte contains the bit for a place. */
 static uint8_t *place_at(const up_decoder_t *decoder, const up_walk_t *walk, size_t place, uint8_t *bit) {
   size_t at = decoder->ring_at + place;
 
@@ -177,7 +177,7 @@ static bool has_place(const up_decoder_t *decoder, const up_walk_t *walk, size_t
   return (*byte & bit) != 0U;
 }
 
-/* The identifier that it ends with, and where the next one stands. */
+/* Appends an identifier to the walk, with the place of the next one. */
 static void lengthen(const up_decoder_t *decoder, up_walk_t *walk, uint8_t id, size_t next) {
   uint8_t bit;
   uint8_t *byte = place_at(decoder, walk, walk->head, &bit);
@@ -187,7 +187,7 @@ static void lengthen(const up_decoder_t *decoder, up_walk_t *walk, uint8_t id, s
   walk->head = next;
 }
 
-/* Without the identifier that it starts with. */
+/* Removes the walk's first identifier. */
 static void shorten(const up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
   const uint8_t id = bytes[walk->tail];
   uint8_t bit, *byte = place_at(decoder, walk, walk->tail, &bit);
@@ -197,7 +197,7 @@ static void shorten(const up_decoder_t *decoder, up_walk_t *walk, const uint8_t 
   walk->tail += 1U + UP_ITEM_BYTES(decoder->wire->item(id));
 }
 
-/* One that has an identifier at this place; NULL when none has. */
+/* A walk with an identifier at this place; NULL if there is none. */
 static up_walk_t *find_walk(up_decoder_t *decoder, size_t place) {
   size_t i;
 
@@ -209,7 +209,7 @@ static up_walk_t *find_walk(up_decoder_t *decoder, size_t place) {
   return NULL;
 }
 
-/* The candidate stands at an identifier of the walk. One step further at the head of it, to `next`. */
+/* The candidate is at an identifier of the walk: extends the walk by one step at its head, to `next`. */
 static step_t take_step(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t next) {
   const uint8_t id = bytes[walk->head];
 
@@ -223,7 +223,7 @@ static step_t take_step(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *b
   return STEP_TAKEN;
 }
 
-/* Whether the candidate comes to the end of its values by the walk, which goes so far. */
+/* Whether the candidate reaches the end of its values along the walk, which extends that far. */
 static step_t leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
   const size_t end = decoder->values_end;
 
@@ -231,7 +231,7 @@ static step_t leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes)
     return STEP_MISSES;
   }
   if (have_common(decoder->seen, walk->ids)) {
-    /* Some may stand before the candidate comes upon the walk, or behind its end. */
+    /* Some may be before the place where the candidate meets the walk, or after the candidate's end. */
     while (walk->tail < decoder->at) {
       shorten(decoder, walk, bytes);
     }
@@ -242,7 +242,7 @@ static step_t leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes)
   return STEP_TAKEN;
 }
 
-/* To the end of the values by a walk of others, which goes on where it has not come so far. */
+/* Follows another candidate's walk to the end of the values, and extends the walk if it does not reach that far. */
 static up_verdict_t follow(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t size) {
   step_t found;
 
@@ -284,7 +284,7 @@ static up_verdict_t join(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
   return *is_known ? follow(decoder, known, bytes, size) : UP_VERDICT_COMPLETE;
 }
 
-/* The way of a candidate that has failed, unless it was on another's. */
+/* Keeps the walk of a failed candidate, unless it used another's. */
 static void keep(up_decoder_t *decoder, const uint8_t *bytes) {
   up_walk_t *walk = &decoder->walks[decoder->walks_put];
 
@@ -303,7 +303,7 @@ static void keep(up_decoder_t *decoder, const uint8_t *bytes) {
   }
 }
 
-/* The walks without what stands before the new candidate. True when one of them is left. */
+/* Removes what is before the new candidate from the walks. True if one of them is left. */
 static bool advance_walks(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
   bool any = false;
   size_t i;
@@ -329,7 +329,7 @@ static bool advance_walks(up_decoder_t *decoder, const uint8_t *bytes, size_t sk
 
 #endif
 
-/* The candidate is given up for one that starts so many bytes further on. */
+/* Gives up the candidate for one that starts this many bytes further on. */
 static void advance(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
   bool moves = decoder->spent > skipped;
 

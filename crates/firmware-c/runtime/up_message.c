@@ -17,7 +17,7 @@ static size_t checksum_size(const up_message_t *message) {
   return (message->checksum < sizeof checksum_bytes) ? checksum_bytes[message->checksum] : 0U;
 }
 
-/* What stands around a body. */
+/* The bytes around a body. */
 static size_t frame_bytes(const up_message_t *message) {
   return (size_t)message->start_count + checksum_size(message) + message->end_count;
 }
@@ -25,10 +25,10 @@ static size_t frame_bytes(const up_message_t *message) {
 /* ---- is it a message? ---- */
 
 typedef enum {
-  MORE,    /* it may become one */
-  WHOLE,   /* it is one */
-  DAMAGED, /* it is one but for its checksum */
-  BAD      /* it will never be one */
+  MORE,    /* it may become a message */
+  WHOLE,   /* it is a complete message */
+  DAMAGED, /* it is a message except for its checksum */
+  BAD      /* it cannot become a message */
 } verdict_t;
 
 static bool starts_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
@@ -41,7 +41,7 @@ static bool ends_right(const up_message_t *message, const uint8_t *bytes, size_t
   return message->end_count == 0U || memcmp(&bytes[size - message->end_count], message->end, message->end_count) == 0;
 }
 
-/* Where nothing but `end` bounds a body and nothing sums it, another start means that the end was lost. */
+/* If only `end` bounds a body and no checksum covers it, a second start means that the end was lost. */
 static bool begins_anew(const up_message_t *message, const uint8_t *bytes, size_t size) {
   return message->length == 0U && message->checksum == UP_CHECKSUM_NONE && message->start_count > 0U &&
          size >= 2U * (size_t)message->start_count &&
@@ -57,7 +57,7 @@ static bool is_nmea_sum(const up_message_t *message, const uint8_t *bytes, size_
          sum == up_xor8(&bytes[message->start_count], at - message->start_count);
 }
 
-/* The checksum stands at `at`. */
+/* Whether the checksum at `at` is right. */
 static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t at) {
   const size_t from = (message->checksum_from < at) ? message->checksum_from : at;
   const uint8_t *summed = &bytes[from];
@@ -104,7 +104,7 @@ static verdict_t judge(const up_message_t *message, const up_message_state_t *st
 
 /* ---- values ---- */
 
-/* True when the first field of a sentence ends with its type. */
+/* True if the first field of a sentence ends with its type. */
 static bool is_sentence(up_piece_t text, const char *sentence, char separator) {
   const size_t count = strlen(sentence);
   up_piece_t first;
@@ -136,7 +136,7 @@ static up_result_t text_element(const up_message_field_t *how, uint8_t type, up_
   }
 }
 
-/* One invalid element makes the whole value invalid, one that is empty makes it no measurement. */
+/* One invalid element makes the whole value invalid, an empty one makes it UP_NOTHING. */
 static up_result_t text_value(const up_message_field_t *how, const up_field_t *field, up_piece_t text, void *value) {
   const size_t stride = (how->format == UP_FORMAT_DEGREES) ? 2U : 1U;
   const size_t first = (size_t)how->index + ((how->sentence != NULL) ? 1U : 0U);
@@ -156,7 +156,7 @@ static up_result_t text_value(const up_message_field_t *how, const up_field_t *f
   return result;
 }
 
-/* Whether a body is of the kind that has this value. */
+/* Whether the body is of a kind that contains this value. */
 static bool is_of_body(const up_message_field_t *how, const uint8_t *body, size_t body_count) {
   const up_piece_t text = {(const char *)body, body_count};
 
@@ -183,7 +183,7 @@ bool up_message_value(const up_message_field_t *how, const up_field_t *field, co
   return true;
 }
 
-/* A damaged message is told of all values that it has. Without a start or an end nobody knows that it is one. */
+/* A damaged message is reported for all its values. Without a start or an end it cannot be recognised as a message. */
 static void say_damaged(const up_message_t *message, const up_message_state_t *state, const up_value_sink_t *sink) {
   const uint8_t *body = &state->buffer[message->start_count];
   size_t i;
@@ -224,7 +224,7 @@ static void drop(up_message_state_t *state, size_t count) {
   memmove(state->buffer, &state->buffer[count], state->size);
 }
 
-/* Takes off the first byte, and what follows it up to the next that a message could begin with. */
+/* Drops the first byte and those after it, up to the next at which a message could begin. */
 static void drop_candidate(const up_message_t *message, up_message_state_t *state) {
   size_t count = 1U;
 
@@ -235,14 +235,14 @@ static void drop_candidate(const up_message_t *message, up_message_state_t *stat
   drop(state, count);
 }
 
-/* Whether nothing but a place tells where a message begins. */
+/* Whether only its position tells where a message begins. */
 static bool needs_alignment(const up_message_t *message) {
   const bool is_recognised = message->checksum != UP_CHECKSUM_NONE || message->end_count > 0U;
 
   return message->start_count == 0U && (message->length == 0U || !is_recognised);
 }
 
-/* Before the first end nobody knows where a message began. True when the byte was taken. */
+/* Before the first end, the start of a message is unknown. True if the byte was consumed. */
 static bool align(const up_message_t *message, up_message_state_t *state) {
   if (state->is_aligned || !needs_alignment(message)) {
     return false;
@@ -252,7 +252,7 @@ static bool align(const up_message_t *message, up_message_state_t *state) {
     drop(state, state->size);
     state->is_aligned = true;
   } else if (state->size >= message->end_count) {
-    /* Enough stays to recognise the end. */
+    /* Enough remains to recognise the end. */
     drop(state, 1U);
   }
   return true;
@@ -268,7 +268,7 @@ static void take(const up_message_t *message, up_message_state_t *state, const u
       say_damaged(message, state, sink);
     }
     if (needs_alignment(message)) {
-      /* Either too long, and its end is still to come, or at its end and wrong. */
+      /* Either it is too long, and its end is still to come, or it is at its end and wrong. */
       state->is_aligned = state->size >= message->end_count && ends_right(message, state->buffer, state->size);
       drop(state, state->size);
     } else {
@@ -305,7 +305,7 @@ void up_message_gap(up_message_state_t *state) {
   state->is_aligned = true;
 }
 
-/* ---- setting up ---- */
+/* ---- setup ---- */
 
 const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
                                           uint32_t now_ms) {
@@ -321,7 +321,7 @@ const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t
   step = &init[state->at];
   state->at++;
   if (step->pause_ms > 0U) {
-    /* One more, for the first millisecond is cut short. */
+    /* One more, because the first millisecond is cut short. */
     state->pause_until_ms = now_ms + step->pause_ms + 1U;
     state->is_pausing = true;
   }

@@ -67,8 +67,8 @@ static bool take_sign(up_piece_t *text) {
 /* Digits, a point, digits: the number is digits / 10^places. */
 typedef struct {
   uint64_t digits;
-  unsigned places;    /* 0 to places_max; what is behind is cut off */
-  size_t whole_count; /* digits in front of the point */
+  unsigned places;    /* 0 to places_max; further digits are cut off */
+  size_t whole_count; /* digits before the point */
   bool is_too_large;
 } decimal_t;
 
@@ -136,7 +136,7 @@ up_result_t up_parse_decimal(up_piece_t text, uint8_t decimals, uint8_t type, vo
   return UP_FRESH;
 }
 
-/* The greatest angle of a hemisphere, and whether it is negative; 0 for what is none. */
+/* The greatest angle of a hemisphere, and whether it is negative; 0 for an invalid letter. */
 static unsigned hemisphere_degrees(up_piece_t hemisphere, bool *is_negative) {
   const char letter = (hemisphere.size == 1U) ? hemisphere.start[0] : '\0';
 

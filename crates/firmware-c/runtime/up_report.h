@@ -1,9 +1,9 @@
 /*
- * The latest value of every field, and which of them a report owes the host.
+ * The latest value of every field, and which of them must still be reported to the host.
  *
- * A field becomes due each time it is read (or received), and is reported once; so a payload holds whatever is
- * due, in the order of the table, and never a zero that nobody measured. None of these functions locks: the
- * caller serialises them when several threads share a store.
+ * A field becomes due each time it is read (or received), and is reported once; so a payload contains exactly what is
+ * due, in the order of the table, and never a zero that nobody measured. None of these functions locks: the caller
+ * serialises them if several threads share a store.
  */
 #ifndef UP_REPORT_H
 #define UP_REPORT_H
@@ -19,24 +19,24 @@ typedef struct {
 
 void up_store_init(up_store_t *store, const up_schema_t *schema, void *values);
 
-/* Takes over the value of fields[index] and makes it due. */
+/* Stores the value of fields[index] and makes it due. */
 void up_store_put(up_store_t *store, size_t index, const void *value);
 
-/* The value of fields[index]; NULL while nothing was read. */
+/* The value of fields[index]; NULL until it was first read. */
 const void *up_store_get(const up_store_t *store, size_t index);
 
-/* Whether anything is due towards the host. */
+/* Whether anything is due for the host. */
 bool up_report_is_due(const up_store_t *store);
 
-/* The value of fields[index] is not to be reported. */
+/* Makes fields[index] no longer due. */
 void up_report_forget(up_store_t *store, size_t index);
 
-/* Packs what is due towards the host and takes it off the list; `taken` (UP_FIELD_BITMAP_BYTES) says what it
- * was. Returns the bytes of the frame, 0 when nothing is due. */
+/* Packs what is due for the host and makes it no longer due; `taken` (UP_FIELD_BITMAP_BYTES) gets the fields.
+ * Returns the size of the frame, 0 if nothing is due. */
 size_t up_report_take(up_store_t *store, const up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
                       size_t frame_bytes, uint8_t *taken);
 
-/* Makes the fields of a frame due again that could not be sent. */
+/* Makes fields due again after their frame could not be sent. */
 void up_report_restore(up_store_t *store, const uint8_t *taken);
 
 #endif

@@ -2,10 +2,10 @@
 
 #include "up_divide.h"
 
-/* Bytes that are read at a time, and in a cycle: a host that sends without end must not keep reports waiting. */
+/* Bytes per read and reads per cycle: a host that sends without end must not delay reports. */
 #define READ_BYTES 64U
 #define READS_MAX 16U
-/* A value that has waited for more of its device's cycles, or of the reporter's, is no longer fresh. */
+/* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
 #define FRESH_CYCLES 2U
 
 static uint32_t now_ms(const up_reporter_t *reporter) {
@@ -93,7 +93,7 @@ static void receive(up_reporter_t *reporter) {
 
 /* ---- to the host ---- */
 
-/* What is being sent is given up; the values of a report are due again. */
+/* Gives up the frame that is being sent; the values of a report become due again. */
 static void give_up(up_reporter_t *reporter) {
   if (reporter->frame_size == 0U) {
     return;
@@ -107,7 +107,7 @@ static void give_up(up_reporter_t *reporter) {
   }
 }
 
-/* Sends as much as there is room for; true when nothing is left to be sent. */
+/* Sends as much as there is room for; true if nothing is left to send. */
 static bool push(up_reporter_t *reporter) {
   const up_channel_t *channel = reporter->config->channel;
   const size_t left = reporter->frame_size - reporter->frame_sent;
@@ -172,7 +172,7 @@ static void send_health(up_reporter_t *reporter) {
   send(reporter, size, false);
 }
 
-/* A value that waited while the channel had no room, and that no reading has followed since. */
+/* Whether a value has waited too long for room in the channel without a newer reading. */
 static bool is_old(const up_reporter_t *reporter, size_t field) {
   const up_health_t *health = reporter->config->health;
   const uint32_t own_ms = (health->cycles_ms == NULL) ? 0U : health->cycles_ms[field];
@@ -215,7 +215,7 @@ static void send_report(up_reporter_t *reporter) {
   }
 }
 
-/* What the host has asked for; true when it is on its way. */
+/* Answers the host's requests; true if an answer is on its way. */
 static bool answer(up_reporter_t *reporter) {
   if (reporter->hello_due) {
     send_hello(reporter);
@@ -227,7 +227,7 @@ static bool answer(up_reporter_t *reporter) {
   return true;
 }
 
-/* One frame at a time, so that none waits behind another; answers and reports take turns. */
+/* Sends one frame at a time, so that none waits for another; answers and reports take turns. */
 static void transmit(up_reporter_t *reporter) {
   const up_reporter_config_t *config = reporter->config;
   const up_channel_t *channel = config->channel;
@@ -259,7 +259,7 @@ bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *confi
          config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 
-/* What is done whoever has the channel; `is_open` says whether frames have it. */
+/* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
 static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) {
   reporter->now_us = now_us;
   if (reporter->config->health != NULL) {

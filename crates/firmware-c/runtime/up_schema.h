@@ -1,9 +1,9 @@
 /*
- * What is on the wire: the fields of a board, their types, their place in the value buffer.
+ * What a board sends and receives: its fields, their types, their places in the value buffer.
  *
- * A schema is a constant table that a generator prints; nothing here allocates, and nothing depends on an
- * operating system. Values are kept in the machine's own representation (so that C code reads them as plain
- * struct members) and turned into network byte order only when a frame is packed.
+ * A schema is a constant table that a generator prints; nothing here allocates or depends on an operating system.
+ * Values are kept in machine representation (so that C code reads them as plain struct members) and are converted to
+ * network byte order only when a frame is packed.
  */
 #ifndef UP_SCHEMA_H
 #define UP_SCHEMA_H
@@ -23,7 +23,7 @@
 #define UP_FIELDS_MAX 254U
 #define UP_FIELD_BITMAP_BYTES 32U
 
-/* Size of the longest payload: LEN has at most four digits. */
+/* The size of the longest payload: its length has at most four digits. */
 #define UP_PAYLOAD_BYTES_LIMIT 9999U
 
 typedef enum {
@@ -40,20 +40,20 @@ typedef enum {
   UP_TYPE_FLOAT64
 } up_type_t;
 
-/* Which way a field or a frame travels. */
+/* The direction in which a field or a frame travels. */
 typedef enum {
-  UP_TO_HOST, /* sensors: board to host */
-  UP_TO_BOARD /* actuators: host to board */
+  UP_TO_HOST, /* from sensors: board to host */
+  UP_TO_BOARD /* to actuators: host to board */
 } up_direction_t;
 
-/* One field: an identifier and where its value stands. */
+/* One field: an identifier and the place of its value. */
 typedef struct {
   const char *name; /* as written by the user; only for people */
   uint8_t id;       /* 1..254 */
   uint8_t type;     /* up_type_t */
   uint8_t direction; /* up_direction_t */
-  bool is_array;    /* an array of one element is not a scalar: the schema's text tells them apart */
-  uint16_t count;   /* elements; 1 for a scalar */
+  bool is_array;    /* an array of one element is not a scalar: the schema's text distinguishes them */
+  uint16_t count;   /* number of elements; 1 for a scalar */
   uint16_t offset;  /* bytes from the start of the value buffer */
 } up_field_t;
 
@@ -61,11 +61,11 @@ typedef struct {
 typedef struct {
   const up_field_t *fields;
   uint8_t fields_count;
-  const char *checksum; /* `none`, or which one frames end with */
-  uint32_t hash;        /* what the hello says */
+  const char *checksum; /* `none`, or the checksum at the end of payloads */
+  uint32_t hash;        /* the hash that the hello carries */
 } up_schema_t;
 
-/* Bytes of one element, on the wire and in memory. */
+/* The size of one element, on the wire and in memory. */
 size_t up_type_bytes(uint8_t type);
 
 /* The type's name in the language and in the schema's text. */
@@ -75,7 +75,7 @@ const char *up_type_name(uint8_t type);
 uint64_t up_element_load(uint8_t type, const void *element);
 void up_element_store(uint8_t type, uint64_t bits, void *element);
 
-/* Bytes of a whole value. */
+/* The size of a whole value. */
 size_t up_field_bytes(const up_field_t *field);
 
 /* The field with this identifier in this direction, or NULL. */

@@ -12,7 +12,7 @@ void up_silence_heard(up_silence_t *silence, uint32_t now_ms) {
 }
 
 bool up_silence_step(up_silence_t *silence, uint32_t now_ms) {
-  /* Once silent it stays so, also when the clock comes round. */
+  /* Once silent, it remains so, even when the clock wraps. */
   if (silence->limit_ms == 0U || silence->is_silent || (uint32_t)(now_ms - silence->heard_ms) < silence->limit_ms) {
     return false;
   }

@@ -10,7 +10,7 @@
 #define UP_TEXT_BYTES 32U
 
 /* Writes one element: integers exactly, floating point with six decimals (beyond 2^53 as "large"). Returns the
- * characters written, without the closing zero. */
+ * number of characters written, without the closing zero. */
 size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTES]);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * What the values of a program need of the core. What none of them needs can be left out of it: set these to 0 for the
- * compiler. The tables of a program must then not ask for it.
+ * The parts of the core that the values of a program need. A part that none of them needs can be left out: set its
+ * macro to 0 for the compiler. The tables of the program must then not use it.
  */
 #ifndef UP_USES_H
 #define UP_USES_H

@@ -13,7 +13,7 @@ static size_t words_of(const up_value_t *how, uint16_t count) {
   return (how->words != 0U) ? how->words : count;
 }
 
-/* All codes but whole numbers can be left out. */
+/* All codes except integers can be left out. */
 static bool is_code(const up_value_t *how, up_code_t code) {
   return UP_USES_CODES && how->code == (uint8_t)code;
 }
@@ -22,7 +22,7 @@ static bool has_crc(const up_value_t *how) {
   return UP_USES_WORD_CRC && how->crc == (uint8_t)UP_CRC_SENSIRION;
 }
 
-/* Bytes of the words alone. */
+/* The size of the words alone. */
 static size_t data_bytes(const up_value_t *how, uint16_t count) {
   const size_t words = words_of(how, count);
 
@@ -35,7 +35,7 @@ size_t up_value_bytes(const up_value_t *how, uint16_t count) {
   return has_crc(how) ? data + data / 2U : data;
 }
 
-/* Where byte `at` of the words stands on the wire. */
+/* The place of byte `at` of the words on the wire. */
 static size_t place(const up_value_t *how, size_t at) {
   return has_crc(how) ? at + at / 2U : at;
 }
@@ -58,7 +58,7 @@ static uint64_t mask_of(unsigned bits) {
   return (bits >= 64U) ? UINT64_MAX : ((uint64_t)1U << bits) - 1U;
 }
 
-/* How many bits of a word count; 0 where the table makes no sense. */
+/* The number of significant bits of a word; 0 if the table makes no sense. */
 static unsigned bits_of(const up_value_t *how) {
   const unsigned word_bits = 8U * how->word_bytes;
 
@@ -71,7 +71,7 @@ static unsigned bits_of(const up_value_t *how) {
   return (how->bits == 0U || how->bits > word_bits - how->low) ? word_bits - how->low : how->bits;
 }
 
-/* Where the word of an element stands; at least `words` where it stands nowhere. */
+/* The index of an element's word; at least `words` if it has none. */
 static size_t word_of_element(const up_value_t *how, size_t element) {
   return (how->elements != NULL) ? how->elements[element] : element;
 }
@@ -117,7 +117,7 @@ static bool store_bcd(uint8_t type, uint64_t digits, void *element) {
   return true;
 }
 
-/* IEEE 754 bits as they are; an exponent of all ones is no number. */
+/* Stores IEEE 754 bits as they are; an exponent of all ones is not a number. */
 static bool store_float(uint8_t type, uint64_t bits, unsigned word_bytes, void *element) {
   const uint64_t exponent = (word_bytes == 4U) ? 0x7F800000U : (uint64_t)0x7FF00000U << 32;
 
@@ -184,7 +184,7 @@ up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, cons
 
 /* ---- encoding ---- */
 
-/* Binary-coded decimal in so many bits; the greatest there is when the number is greater. */
+/* Binary-coded decimal in the bits of `mask`; saturates. */
 static uint64_t to_bcd(uint64_t number, uint64_t mask) {
   uint64_t rest = number, digits = 0U, greatest = 0U;
   unsigned shift;

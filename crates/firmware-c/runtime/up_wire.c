@@ -1,6 +1,6 @@
 #include "up_wire.h"
 
-/* Where byte `i` of an array stands in the other byte order. Memory is as the machine has it. */
+/* The place of byte `i` of an array in network byte order; memory has the machine's byte order. */
 static size_t turned(size_t i, size_t element_bytes) {
   const uint16_t one = 1U;
   uint8_t low;

@@ -1,8 +1,7 @@
-//! What is C but no system's: the values of a board and its wire, for firmware and for programs on a computer.
+//! The C code that no system decides: the values of a board and its wire, for firmware and for programs on a computer.
 //!
-//! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table, and `sense_codec.c`, straight lines
-//! of code from values to payloads and back; and of each part its tables. They need `crates/firmware-c/runtime` and
-//! nothing else.
+//! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table; `sense_codec.c`, straight-line code
+//! from values to payloads and back; and the tables of each part. They need only `crates/firmware-c/runtime`.
 
 pub mod runtime;
 mod schema;
@@ -43,7 +42,7 @@ pub fn files(board: &str, schema: &Schema, role: Role) -> FileSet {
     render(board, &SchemaPlan::new(schema, role))
 }
 
-/// Prints them.
+/// Prints the files of a model.
 #[must_use]
 pub fn render(board: &str, s: &SchemaPlan) -> FileSet {
     let mut files = FileSet::default();

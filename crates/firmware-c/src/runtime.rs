@@ -1,6 +1,6 @@
-//! The hand-written core in C, copied beside what is generated: what every board has, and what only some drivers call.
+//! The hand-written core in C, copied beside the generated files: what every board has, and what only some drivers use.
 
-/// Path below the runtime's folder, and text.
+/// The path below the runtime's folder, and the content.
 pub type File = (&'static str, &'static str);
 
 macro_rules! files {
@@ -9,7 +9,7 @@ macro_rules! files {
     };
 }
 
-/// What every board has. The linker leaves out what nobody calls.
+/// The files that every board has. The linker leaves out what is not called.
 pub const BASE: &[File] = files![
     "up_bus.h",
     "up_checksum.c",
@@ -62,7 +62,7 @@ pub const BASE: &[File] = files![
     "up_wire.h",
 ];
 
-/// Arithmetic on input captures, for them and for who reads edges.
+/// Arithmetic on input captures, for these and for pins whose edges are read.
 pub const CAPTURE: &[File] = files!["up_capture.c", "up_capture.h",];
 
 /// Counts that wrap.
@@ -71,8 +71,8 @@ pub const COUNT: &[File] = files!["up_count.c", "up_count.h",];
 /// Contacts that bounce.
 pub const DEBOUNCE: &[File] = files!["up_debounce.c", "up_debounce.h",];
 
-/// Values of which several wires have an element each.
+/// Values with one element per wire.
 pub const ELEMENTS: &[File] = files!["up_elements.c", "up_elements.h",];
 
-/// Widths of pulses in ticks of a timer.
+/// Widths of pulses in timer ticks.
 pub const PULSE_WIDTH: &[File] = files!["up_pulse_width.c", "up_pulse_width.h",];

@@ -1,38 +1,38 @@
-//! The wire in the words of C: fields, types, sizes, and the lines that pack and take each value.
+//! The wire in terms of C: fields, types, sizes, and the lines that pack and unpack each value.
 
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema};
 
-/// Frames of up to so many bytes, and with up to so many items, are looked at anew in no more time than the decoder's
-/// memory of failed candidates would take (`UP_WIRE_PLAIN_BYTES`, `UP_WIRE_PLAIN_ITEMS`).
+/// Up to this frame size, and up to this number of items, checking a candidate again takes no more time than the
+/// decoder's memory of failed candidates would (`UP_WIRE_PLAIN_BYTES`, `UP_WIRE_PLAIN_ITEMS`).
 const PLAIN_BYTES: usize = 96;
 const PLAIN_ITEMS: usize = 16;
-/// Time and counter in front of a report, with their identifier.
+/// The time and counter before a report, with their identifier.
 const STAMP_BYTES: usize = 6;
-/// Health: of the board and of each device.
+/// The sizes of health: for the board and for each device.
 const HEALTH_BOARD_BYTES: usize = 19;
 const HEALTH_DEVICE_BYTES: usize = 17;
 
-/// Which end of a link code is for: what the other end does is not printed.
+/// The end of a link that code is for: what only the other end does is not printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Packs reports, takes commands.
+    /// Packs reports, unpacks commands.
     Board,
-    /// Takes reports, packs commands.
+    /// Unpacks reports, packs commands.
     Host,
-    /// Both, for tests of the one against the other.
+    /// Both, for testing one against the other.
     Both,
 }
 
-/// The schema table and what depends on it.
+/// The schema table and everything derived from it.
 #[derive(Clone, Debug)]
 pub struct SchemaPlan {
     pub(crate) fields: Vec<FieldPlan>,
     pub(crate) checksum: &'static str,
-    /// As a C literal.
+    /// The schema hash as a C literal.
     pub(crate) hash: String,
-    /// The largest value of a field.
+    /// The size of the largest value of a field.
     pub value_bytes_max: usize,
-    /// Reports and commands.
+    /// The reports and the commands.
     pub(crate) wires: [WirePlan; 2],
 }
 
@@ -41,7 +41,7 @@ pub struct SchemaPlan {
 pub(crate) struct WirePlan {
     /// `report`
     pub(crate) name: &'static str,
-    /// For people.
+    /// The title for people.
     pub(crate) title: &'static str,
     pub(crate) direction_macro: &'static str,
     pub(crate) items: Vec<FieldPlan>,
@@ -57,7 +57,7 @@ pub(crate) struct WirePlan {
     pub(crate) is_taken: bool,
 }
 
-/// One value. Names are only ever printed behind a prefix, so that none is a word of C.
+/// One value. Names are only printed after a prefix, so that none can be a C keyword.
 #[derive(Clone, Debug)]
 pub(crate) struct FieldPlan {
     pub(crate) index: usize,
@@ -87,13 +87,13 @@ impl SchemaPlan {
         }
     }
 
-    /// How many values the board has.
+    /// The number of values of the board.
     #[must_use]
     pub fn fields_count(&self) -> usize {
         self.fields.len()
     }
 
-    /// What no wire of the program has, as the compiler is told (`-D`).
+    /// Compiler options (`-D`) for what no wire of the program needs.
     #[must_use]
     pub fn left_out(&self) -> Vec<&'static str> {
         let none = |has: fn(&WirePlan) -> bool| !self.wires.iter().any(has);
@@ -149,7 +149,7 @@ impl WirePlan {
         self.items.iter().any(|item| item.scalar == ScalarType::Bool)
     }
 
-    /// The name of its macros: `REPORT`.
+    /// The prefix of its macros: `REPORT`.
     pub(crate) fn upper(&self) -> String {
         self.name.to_ascii_uppercase()
     }
@@ -173,7 +173,7 @@ impl FieldPlan {
         }
     }
 
-    /// With its identifier.
+    /// The size of the value with its identifier.
     pub(crate) fn item_bytes(&self) -> usize {
         1 + self.element_bytes * self.count
     }
@@ -186,7 +186,7 @@ impl FieldPlan {
         self.scalar == ScalarType::Bool
     }
 
-    /// Byte and bit of its place in a bitmap.
+    /// The byte and the bit of its place in a bitmap.
     pub(crate) fn byte(&self) -> usize {
         self.index / 8
     }
@@ -195,7 +195,7 @@ impl FieldPlan {
         format!("0x{:02X}U", 1_u32 << (self.index % 8))
     }
 
-    /// Packs the value: what is behind it.
+    /// Packs the value: the expression for the position after it.
     pub(crate) fn put(&self) -> String {
         let at = format!("up_put_8(at, {}U)", self.id);
         let value = format!("values->SENSE_{}", self.name);
@@ -219,7 +219,7 @@ impl FieldPlan {
         format!("up_put_{}({at}, {bits})", 8 * self.element_bytes)
     }
 
-    /// Takes the value, which stands behind its identifier at `at`.
+    /// Unpacks the value, which follows its identifier at `at`.
     pub(crate) fn take(&self) -> String {
         let value = format!("values->SENSE_{}", self.name);
         if self.is_array {
@@ -243,7 +243,7 @@ impl FieldPlan {
         }
     }
 
-    /// The unsigned type of its size.
+    /// The unsigned type of the same size.
     fn bits_type(&self) -> &'static str {
         match self.element_bytes {
             1 => "uint8_t",
@@ -261,7 +261,7 @@ fn direction_macro(direction: Direction) -> &'static str {
     }
 }
 
-/// The type of C and the runtime's name for it.
+/// The C type, and the runtime's name for it.
 fn scalar(scalar: ScalarType) -> (&'static str, &'static str) {
     match scalar {
         ScalarType::Bool => ("bool", "UP_TYPE_BOOL"),

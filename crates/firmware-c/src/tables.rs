@@ -6,22 +6,22 @@ use sensedsl_job::part::{FieldCoding, PartPlan};
 
 use crate::words as c;
 
-/// What only the wiring of a part says, and only its tables in C are told.
+/// The facts of a part's wiring, which only its tables in C contain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wiring {
-    /// Which DMA fills and empties its buffer.
+    /// The kind of DMA that fills and empties its buffer.
     pub buffer: DmaBuffer,
-    /// The number of its chip select; none where its address selects it.
+    /// The number of its chip select; `None` if its address selects it.
     pub select: Option<u8>,
 }
 
-/// A buffer, by the DMA controllers that must reach it.
+/// The DMA controllers that must reach a buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DmaBuffer {
-    /// The main ones.
+    /// The main controllers.
     #[default]
     Main,
-    /// The basic one.
+    /// The basic controller.
     Basic,
 }
 
@@ -32,9 +32,9 @@ struct Tables<'a> {
     wiring: Wiring,
 }
 
-/// The tables of a part in C. They name the fields of the schema `SENSE_FIELD_` and the device's name, as the header of
-/// a board does, and the types of `crates/firmware-c/runtime`. The plan is the same for all targets; what only C is
-/// told of the wiring comes with it.
+/// The tables of a part in C. They refer to the fields of the schema as `SENSE_FIELD_` and the device's name, as the
+/// header of a board does, and to the types of `crates/firmware-c/runtime`. The plan is the same for all targets;
+/// `wiring` adds what only C needs.
 #[must_use]
 pub fn tables(plan: &PartPlan, wiring: Wiring) -> String {
     block(&Tables { p: plan, wiring })

@@ -1,4 +1,4 @@
-//! How what a plan says is spelled in C, for the templates of this crate and of systems in C.
+//! How a plan is spelled in C, for the templates of this crate and of systems in C.
 
 use sensedsl_model::kind::uart::MessageChecksum;
 use sensedsl_model::protocol::{Crc, Drive, Format, Formula};
@@ -21,7 +21,7 @@ pub fn bytes(bytes: &[u8]) -> String {
     all.join(", ")
 }
 
-/// Characters of a text.
+/// The characters of a text.
 pub(crate) fn text(text: &str) -> String {
     let plain = |byte: u8| {
         let is_plain = (byte.is_ascii_graphic() || byte == b' ') && !b"\"\\?".contains(&byte);
@@ -30,17 +30,17 @@ pub(crate) fn text(text: &str) -> String {
     format!("\"{}\"", text.bytes().map(plain).collect::<String>())
 }
 
-/// What is between fields; 0 where the whole message is one.
+/// The separator between fields; 0 if the whole message is one field.
 pub(crate) fn separator(separator: &Option<u8>) -> String {
     byte(&separator.unwrap_or(0))
 }
 
-/// A part's address or its chip select.
+/// A part's address, or the number of its chip select.
 pub(crate) fn address(address: &u8, wiring: &Wiring) -> String {
     wiring.select.map_or_else(|| byte(address), |number| format!("{number}U"))
 }
 
-/// What a buffer is marked with.
+/// The macro that marks a buffer.
 #[must_use]
 pub const fn buffer(buffer: &DmaBuffer) -> &'static str {
     match buffer {
@@ -49,7 +49,7 @@ pub const fn buffer(buffer: &DmaBuffer) -> &'static str {
     }
 }
 
-/// How an integer or a real number is coded.
+/// The constant for the format of a word.
 #[must_use]
 pub const fn code(code: &Code) -> &'static str {
     match code {
@@ -60,7 +60,7 @@ pub const fn code(code: &Code) -> &'static str {
     }
 }
 
-/// What guards a word.
+/// The constant for the checksums between words.
 #[must_use]
 pub const fn crc(crc: &Option<Crc>) -> &'static str {
     match crc {
@@ -98,7 +98,7 @@ pub(crate) const fn drive(drive: &Drive) -> &'static str {
     }
 }
 
-/// What the runtime calls a formula.
+/// The runtime's name of a formula.
 #[must_use]
 pub const fn formula(formula: &Formula) -> &'static str {
     match formula {
@@ -109,7 +109,7 @@ pub const fn formula(formula: &Formula) -> &'static str {
     }
 }
 
-/// The member of `up_number_t` that a number is in.
+/// The member of `up_number_t` that holds a number.
 pub(crate) const fn member(number: &Number) -> &'static str {
     match number {
         Number::Unsigned(_) => "u",
@@ -119,11 +119,11 @@ pub(crate) const fn member(number: &Number) -> &'static str {
     }
 }
 
-/// A number; of one with a fraction the shortest text that is this very number.
+/// A number; a floating-point number as the shortest text that is exactly this number.
 pub(crate) fn number(number: &Number) -> String {
     match number {
         Number::Unsigned(number) => format!("UINT64_C({number})"),
-        // The least one is not spelled as it is written.
+        // C cannot spell the least one as a literal.
         Number::Signed(i64::MIN) => "INT64_MIN".to_owned(),
         Number::Signed(number) => format!("INT64_C({number})"),
         Number::Float32(number) => format!("{number:?}F"),

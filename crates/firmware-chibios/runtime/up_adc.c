@@ -1,6 +1,6 @@
 /*
- * Analog sensors: a thread starts the groups of its units together, waits for each no longer than it may take, and
- * puts the mean of each input's samples.
+ * Analog sensors: a thread starts the groups of its units together, waits for each for at most its time-out, and stores
+ * the mean of each input's samples.
  */
 #include "up_adc.h"
 #include "up_rt.h"
@@ -9,10 +9,10 @@
 
 #include "up_convert.h"
 
-/* Raw values go from 0 to this, whatever the converter has. */
+/* Raw values go from 0 to this, whatever the converter's resolution. */
 #define RAW_FULL 4095U
 
-/* No MCU has more units. */
+/* The most units of any MCU. */
 #define GROUPS_MAX 5U
 
 void up_adc_on_error(ADCDriver *driver, adcerror_t errors) {
@@ -56,7 +56,7 @@ static void store_mean(const up_adc_group_t *group, const up_adc_input_t *input,
   for (row = 0U; row < input->samples; row++) {
     sum += group->samples[row * stride + input->column];
   }
-  /* Twelve bits are what they are, and numbers of 32 bits divide in no time. */
+  /* Twelve-bit samples need no scaling, and 32-bit numbers divide quickly. */
   if (UP_ADC_WIDE && group->full != RAW_FULL) {
     up_store_ratio(type, (uint64_t)sum * RAW_FULL, (uint64_t)count * group->full, element);
   } else if (UP_USES_REALS && (type == (uint8_t)UP_TYPE_FLOAT32 || type == (uint8_t)UP_TYPE_FLOAT64)) {
@@ -112,7 +112,7 @@ void up_adc_cycle(const void *work) {
     const up_result_t group_result = results[input->group];
     const up_result_t own = (group_result == UP_FRESH) ? take(adc, input) : group_result;
 
-    /* A value is put once all of its elements are there, and one that failed is told of the whole. */
+    /* A value is reported once all of its elements are there; if one failed, the whole value did. */
     result = (result == UP_FRESH) ? own : result;
     if (i + 1U == adc->inputs_count || adc->inputs[i + 1U].field != input->field) {
       up_result(input->field, result, adc->value);

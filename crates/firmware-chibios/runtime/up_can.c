@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Steps of a bit: one to synchronise, those before the sample, those behind it. */
+/* Steps of a bit: one to synchronise, those before the sample point, those after it. */
 #define STEPS_MIN 8U
 #define STEPS_MAX 21U
 #define BEFORE_MAX 16U
@@ -24,8 +24,8 @@ typedef struct {
 
 /* ---- the bit time ---- */
 
-/* The nearest bit rate, within 0.5 % as the generator allows; the sample at 87.5 % of the bit or as little before as the
- * steps allow, and not before 77 %. */
+/* Finds the nearest bit rate, within 0.5 % as the generator allows; the sample point is at 87.5 % of the bit or as
+ * little before as the steps allow, but not before 77 %. */
 static bool divide(uint32_t clock_hz, uint32_t bitrate_hz, bit_time_t *time) {
   uint32_t best_error = bitrate_hz / 200U + 1U;
   uint32_t best_sample = 0U;
@@ -61,14 +61,14 @@ static uint32_t jump(const bit_time_t *time) {
 #if defined(CAN_MCR_ABOM)
 
 static void configure(CANConfig *config, const bit_time_t *time) {
-  /* The controller comes back from bus-off and from sleep by itself. */
+  /* The controller recovers from bus-off and wakes from sleep by itself. */
   config->mcr = CAN_MCR_ABOM | CAN_MCR_AWUM | CAN_MCR_TXFP;
   config->btr =
       CAN_BTR_SJW(jump(time) - 1U) | CAN_BTR_TS2(time->behind - 1U) | CAN_BTR_TS1(time->before - 1U) |
       CAN_BTR_BRP(time->prescaler - 1U);
 }
 
-/* The kind of the last error since it was asked for; 7 for none. */
+/* The kind of the last error since the previous call; 7 for none. */
 static uint32_t last_error(const up_can_t *bus) {
   const uint32_t kind = (bus->driver->can->ESR & CAN_ESR_LEC_Msk) >> CAN_ESR_LEC_Pos;
 
@@ -122,11 +122,11 @@ static bool is_off(const up_can_t *bus) {
 }
 
 static bool lost_arbitration(const up_can_t *bus) {
-  (void)bus; /* the controller does not tell */
+  (void)bus; /* the controller does not report it */
   return false;
 }
 
-/* After bus-off the controller waits to be let in again. */
+/* After bus-off the controller stays off until software lets it rejoin the bus. */
 static void recover(const up_can_t *bus) {
   bus->driver->fdcan->CCCR &= ~FDCAN_CCCR_INIT;
 }
@@ -150,7 +150,7 @@ static void address(CANTxFrame *frame, uint32_t identifier, bool is_extended) {
 /* ---- start ---- */
 
 void up_can_start(const up_can_t *bus) {
-  /* The driver keeps a pointer; each bus has its own. */
+  /* The driver keeps a pointer, so each bus has its own. */
   static CANConfig configs[UP_CAN_BUSES];
   static size_t count;
   bit_time_t time = {1U, 1U, 1U};
@@ -163,9 +163,9 @@ void up_can_start(const up_can_t *bus) {
   count++;
 }
 
-/* ---- what comes in ---- */
+/* ---- receiving ---- */
 
-/* The bytes of a frame as a number, the first the lowest. */
+/* The bytes of a frame as a number, the first one lowest. */
 static uint64_t bits_of(const uint8_t *data, size_t count) {
   uint64_t bits = 0U;
 
@@ -210,7 +210,7 @@ static void take(const up_can_t *bus, const CANRxFrame *frame) {
   }
 }
 
-/* ---- what went wrong ---- */
+/* ---- faults ---- */
 
 static void say(const up_can_t *bus, up_result_t result) {
   uint8_t i;
@@ -224,7 +224,7 @@ static void say(const up_can_t *bus, up_result_t result) {
 }
 
 static void look_for_faults(const up_can_t *bus) {
-  /* By the number that the controllers have for the last error. */
+  /* Indexed by the controllers' number for the last error. */
   static const up_result_t kinds[] = {UP_NOTHING,   UP_BUS_ERROR, UP_BUS_ERROR, UP_NOT_ACKNOWLEDGED,
                                       UP_BUS_ERROR, UP_BUS_ERROR, UP_WRONG_CRC, UP_NOTHING};
   const bool was_off = bus->state->is_off;
@@ -248,7 +248,7 @@ void up_can_cycle(const void *work) {
   uint32_t passed_ms = 0U;
 
   look_for_faults(bus);
-  /* All of the cycle: the controller holds three frames, and a burst of more may come at any time. */
+  /* For the whole cycle: the controller holds three frames, and a burst of more may come at any time. */
   while (passed_ms < bus->cycle_ms) {
     CANRxFrame frame;
 
@@ -260,7 +260,7 @@ void up_can_cycle(const void *work) {
   }
 }
 
-/* ---- what goes out ---- */
+/* ---- sending ---- */
 
 void up_can_set(const up_can_frame_t *frame, const up_can_value_t *how, const void *value) {
   uint8_t coded[UP_CAN_FRAME_BYTES] = {0U};
@@ -296,14 +296,14 @@ void up_can_hush(const up_can_t *bus) {
   }
 }
 
-/* Whether a frame is to be sent now. */
+/* Whether a frame must be sent now. */
 static bool is_wanted(const up_can_frame_t *how, uint32_t now_ms) {
   const bool is_repeated = how->resend_ms > 0U && how->kept->is_commanded;
 
   return *how->is_due || (is_repeated && now_ms - how->kept->sent_ms >= how->resend_ms);
 }
 
-/* The next one is due a period after this one was, however late this one is. */
+/* The next frame is due a period after this one was, however late this one is. */
 static void sent(const up_can_frame_t *how, uint32_t now_ms) {
   if (how->resend_ms > 0U) {
     const uint32_t late_ms = now_ms - how->kept->sent_ms - how->resend_ms;

@@ -2,7 +2,7 @@
 
 #include "up_rt.h"
 
-/* Says why a chip that only takes commands is not there; one with readings says so of them. */
+/* Reports why a chip that only takes commands is not there; a chip with readings reports it for those. */
 static void say_fault(const up_served_t *served) {
   const up_chip_state_t *state = served->state;
   uint8_t i;
@@ -15,7 +15,7 @@ static void say_fault(const up_served_t *served) {
   }
 }
 
-/* True when the chip takes further commands in this step. */
+/* True if the chip accepts further commands in this step. */
 static bool write_command(const up_bus_t *bus, const up_served_t *served, size_t i) {
   const up_chip_command_t *command = &served->chip->commands[i];
   up_chip_state_t *state = served->state;

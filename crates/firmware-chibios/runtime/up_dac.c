@@ -19,7 +19,7 @@ void up_dac_set(DACDriver *driver, size_t field, const void *value, uint16_t ele
   } else if (code > CODE_FULL) {
     code = CODE_FULL;
   }
-  /* A driver object is one output, whatever its number in the unit. */
+  /* Each driver object is one output, whatever its number in the unit. */
   (void)dacPutChannelX(driver, 0U, (dacsample_t)code);
 }
 

@@ -8,7 +8,7 @@
 
 #if HAL_USE_DAC == TRUE
 
-/* Puts out an element of a field's value: the code itself, 0 to 4095 (the reference). What is less or more becomes the
+/* Outputs an element of a field's value: the code itself, 0 to 4095 (the reference). Values beyond become the
  * nearest code, and a number with a fraction is rounded. */
 void up_dac_set(DACDriver *driver, size_t field, const void *value, uint16_t element);
 

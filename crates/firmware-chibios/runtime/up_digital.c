@@ -92,13 +92,13 @@ void up_digital_start(const up_digital_t *sensor) {
   for (i = 0U; i < sensor->inputs_count; i++) {
     const up_digital_input_t *input = &sensor->inputs[i];
 
-    /* The argument is a const table; the driver's signature knows only void pointers. */
+    /* The argument is a const table, but the driver's signature has only void pointers. */
     palSetLineCallback(input->line, on_edge, (void *)(uintptr_t)input);
     palEnableLineEvent(input->line, edges_of(input->config));
   }
 }
 
-/* A level, or what was counted; true when it is news. */
+/* Takes a level or a count; true if it is new. */
 static bool take(const up_digital_t *sensor, const up_digital_input_t *input, uint8_t type, void *element) {
   up_contact_told_t *told = &input->state->told;
   up_contact_t contact;

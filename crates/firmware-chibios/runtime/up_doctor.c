@@ -1,11 +1,11 @@
-/* What can be found out about the wires without the host. */
+/* What can be checked about the wires without the host. */
 #include "up_doctor.h"
 
 #if UP_SHELL == TRUE
 
 #include <string.h>
 
-/* A pad with its own resistor and a wire has settled after so long. */
+/* The time in which a pad with its own resistor and a wire settles. */
 #define SETTLE_US 100U
 
 static bool floats[UP_INPUTS_COUNT + 1U];
@@ -31,7 +31,7 @@ void up_doctor_look_at_inputs(void) {
   }
 }
 
-/* ---- what doctor says ---- */
+/* ---- the report ---- */
 
 typedef struct {
   void (*say)(void *context, const char *subject, const char *verdict);
@@ -87,7 +87,7 @@ static void say_chips(report_t *report) {
   }
 }
 
-/* Addresses of I2C that no specification reserves. */
+/* The I2C addresses that the specification does not reserve. */
 #define ADDRESS_FIRST 0x08U
 #define ADDRESS_LAST 0x77U
 

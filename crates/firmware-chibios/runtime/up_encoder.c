@@ -1,10 +1,10 @@
-/* Quadrature encoders: a timer counts, and its 16 bits are made 32 before they wrap. */
+/* Quadrature encoders: a timer counts, and its 16 bits are extended to 32 before they wrap. */
 #include "up_encoder.h"
 #include "up_rt.h"
 
-/* So often a counter of 16 bits is read: 32767 counts in 10 ms are 3.2 million a second. */
+/* How often a 16-bit counter is read: 32767 counts in 10 ms are 3.2 million per second. */
 #define STEP_MS 10U
-/* A wheel that stands still is told now and then. */
+/* How often a wheel at rest is reported. */
 #define REPEAT_MS 1000U
 
 static int32_t step(const up_encoder_counter_t *counter) {
@@ -30,7 +30,7 @@ void up_encoder_start(const up_encoder_counter_t *counter) {
   stm32_tim_t *timer = counter->timer;
 
   timer->CR1 = 0U;
-  timer->CCER = 0U; /* both tracks as they are: A before B counts up */
+  timer->CCER = 0U; /* both tracks not inverted: A before B counts up */
   timer->CCMR1 = STM32_TIM_CCMR1_CC1S(1U) | STM32_TIM_CCMR1_CC2S(1U) |
                  STM32_TIM_CCMR1_IC1F((uint32_t)counter->filter) | STM32_TIM_CCMR1_IC2F((uint32_t)counter->filter);
   timer->SMCR = STM32_TIM_SMCR_SMS(3U); /* encoder mode 3: every edge of both tracks */
@@ -41,7 +41,7 @@ void up_encoder_start(const up_encoder_counter_t *counter) {
   timer->CR1 = STM32_TIM_CR1_CEN;
   if (!counter->is_wide) {
     chVTObjectInit(&counter->state->timer);
-    /* The argument is a const table; the kernel's signature knows only void pointers. */
+    /* The argument is a const table, but the kernel's signature has only void pointers. */
     chVTSetContinuous(&counter->state->timer, TIME_MS2I(STEP_MS), on_step, (void *)(uintptr_t)counter);
   }
 }

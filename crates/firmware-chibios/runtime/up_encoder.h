@@ -1,5 +1,5 @@
 /*
- * Timers that count the edges of two tracks, by their registers: no driver of ChibiOS knows the mode.
+ * Timers that count the edges of two tracks, set up by their registers, because no driver of ChibiOS supports the mode.
  */
 #ifndef UP_ENCODER_H
 #define UP_ENCODER_H
@@ -11,24 +11,24 @@
 #include "up_count.h"
 #include "up_elements.h"
 
-/* What is kept of a timer that counts; all zero at the start. */
+/* The state of a timer that counts; all zero at the start. */
 typedef struct {
-  virtual_timer_t timer; /* of a counter of 16 bits: reads it in time */
+  virtual_timer_t timer; /* of a 16-bit counter: reads it in time */
   up_count_t count;
   int32_t told;
 } up_encoder_state_t;
 
-/* A timer that counts the edges of two tracks. No driver of ChibiOS knows it. */
+/* A timer that counts the edges of two tracks. No driver of ChibiOS supports it. */
 typedef struct {
   stm32_tim_t *timer;
   up_encoder_state_t *state;
-  uint8_t filter; /* of both inputs: IC1F and IC2F */
+  uint8_t filter; /* for both inputs: IC1F and IC2F */
   bool is_wide;   /* the counter has 32 bits */
 } up_encoder_counter_t;
 
-/* A sensor of such timers: what up_encoder_poll() works on. */
+/* A sensor of such timers: the argument of up_encoder_poll(). */
 typedef struct {
-  const up_encoder_counter_t *counters; /* one an element */
+  const up_encoder_counter_t *counters; /* one per element */
   up_repeat_t *repeat;
   uint64_t *value; /* as large as the value */
   uint16_t field;

@@ -6,14 +6,14 @@
 
 #include "up_i2c_bus.h"
 
-/* A device that was cut off in the middle of a byte lets go after at most so many clocks. */
+/* The most clocks until a device that was cut off in the middle of a byte releases the bus. */
 #define RECOVERY_CLOCKS 9U
 #define RECOVERY_HALF_CLOCK_US 100U
-/* From one try to free a bus that is stuck to the next: the first time, and at most. */
+/* The time between attempts to free a stuck bus: at first, and at most. */
 #define BACKOFF_FIRST_MS 50U
 #define BACKOFF_MAX_MS 1000U
 
-/* The pad as it is moved by hand, with the MCU's own resistor where there is one for an output. */
+/* The mode of a pad that is driven by hand, with the MCU's own pull-up if outputs can have one. */
 #if defined(PAL_STM32_PUPDR_PULLUP)
 #define BY_HAND (PAL_MODE_OUTPUT_OPENDRAIN | PAL_STM32_PUPDR_PULLUP)
 #else
@@ -40,7 +40,7 @@ static void set_pads(const up_i2c_port_t *port) {
   palSetLineMode(port->sda, port->sda_mode);
 }
 
-/* Clocks until the device that holds SDA lets go of it, and ends with a stop condition. True when both wires are free
+/* Clocks until the device that holds SDA releases it, and ends with a stop condition. True if both wires are free
  * after that. */
 static bool clock_out(const up_i2c_port_t *port) {
   unsigned clock;
@@ -61,7 +61,7 @@ static bool clock_out(const up_i2c_port_t *port) {
   return palReadLine(port->scl) == PAL_HIGH && palReadLine(port->sda) == PAL_HIGH;
 }
 
-/* The driver is locked after a time-out, and its unit may take the bus for busy for good: both start anew. */
+/* After a time-out the driver is locked, and its unit may consider the bus busy for good: both are restarted. */
 static bool recover(const up_i2c_port_t *port) {
   up_i2c_state_t *state = port->state;
   bool is_free;
@@ -86,13 +86,13 @@ static bool recover(const up_i2c_port_t *port) {
 
 /* ---- transfers ---- */
 
-/* Looks before the driver does, which would hold the processor while the bus is busy. Right behind a transfer that is
- * the transfer's stop condition, and the driver waits for no more than that (STM32_I2C_BUSY_TIMEOUT). */
+/* Checks the bus before the driver does, which would block the processor while it is busy. Right after a transfer it
+ * is busy with the stop condition, and the driver waits for no more than that (STM32_I2C_BUSY_TIMEOUT). */
 static bool is_ready(const up_i2c_port_t *port) {
   const up_i2c_state_t *state = port->state;
 
   if (state->backoff_ms > 0U) {
-    /* Half the range of the clock lies ahead, half behind: right across its wrap. */
+    /* Half the range of the clock is ahead, half is in the past, so the comparison holds across its wrap. */
     return (uint32_t)(up_now_ms() - state->retry_ms) < 0x80000000U && recover(port);
   }
   if (is_busy(port) && chTimeDiffX(state->ended, chVTGetSystemTimeX()) > TIME_MS2I(1)) {
@@ -120,7 +120,7 @@ static up_bus_result_t cause(const up_i2c_port_t *port, msg_t message) {
   if (message == MSG_TIMEOUT) {
     return recover(port) ? UP_BUS_TIMED_OUT : UP_BUS_ERROR;
   }
-  /* Who loses the bus may see a refused byte as well. */
+  /* A master that loses arbitration may also see a refused byte. */
   if ((errors & I2C_ARBITRATION_LOST) != 0U) {
     return UP_BUS_ARBITRATION_LOST;
   }
@@ -149,7 +149,7 @@ void up_i2c_start(const up_i2c_port_t *port) {
 }
 
 bool up_i2c_answers(const void *bus, uint8_t address) {
-  /* Every DMA controller reaches what the basic one does. */
+  /* Every DMA controller reaches the memory that the basic one does. */
   static UP_BDMA_BUFFER uint8_t unread[UP_I2C_READ_BYTES_MIN];
 
   return transfer(bus, address, NULL, 0U, unread, sizeof unread) == UP_BUS_DONE;
@@ -162,7 +162,7 @@ up_bus_result_t up_i2c_write(void *context, uint8_t address, const uint8_t *byte
 up_bus_result_t up_i2c_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
                                   size_t rx_count) {
 #if UP_I2C_READ_BYTES_MIN > 1
-  /* The unit of an STM32F1 cannot end a reading after one byte: two are read and the second is dropped. */
+  /* The unit of an STM32F1 cannot end a read after one byte: two are read and the second is dropped. */
   uint8_t enough[UP_I2C_READ_BYTES_MIN];
 
   if (rx_count < sizeof enough) {

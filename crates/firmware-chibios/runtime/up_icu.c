@@ -1,4 +1,4 @@
-/* Input capture: the interrupts count, the reporter looks; no thread of its own. */
+/* Input capture: interrupts count and the reporter polls; there is no thread. */
 #include "up_icu.h"
 #include "up_rt.h"
 
@@ -23,7 +23,7 @@ static bool read_input(const up_icu_t *icu, size_t index, uint8_t type, void *el
 
   chSysLock();
   raw = *input->raw;
-  /* The driver turns active with the first edge, which it does not notify. */
+  /* The first edge makes the driver active, without a callback. */
   first_edge_seen = input->driver->state == ICU_ACTIVE;
   chSysUnlock();
   return up_capture_read(&icu->capture, &icu->states[index], &raw, first_edge_seen, up_now_ms(), type, element);

@@ -6,7 +6,7 @@
 #include "up_mcu.h"
 #include "up_rt.h"
 
-/* A thread may be late by a cycle and so much more. */
+/* How late a thread may be, beyond one more cycle. */
 #define LATE_MS 1000U
 /* 4 s at the nominal 32 kHz of the watchdog's oscillator; it may be off by half on some MCUs. */
 #define WATCHDOG_PRESCALER 4U /* 64 */
@@ -15,7 +15,7 @@
 #define RECORD_MAGIC 0x53454E53U
 #define REASON_BYTES 32U
 
-/* Ticks of the processor, where the core counts them; else of the kernel. */
+/* Processor clocks if the core counts them, otherwise kernel ticks. */
 #if PORT_SUPPORTS_RT == TRUE
 #define UP_LOAD_CLOCK() ((uint32_t)chSysGetRealtimeCounterX())
 #elif CH_CFG_ST_RESOLUTION == 32
@@ -25,11 +25,11 @@
 #endif
 #define LOAD_UNKNOWN 255U
 
-/* What the next start is told; the start-up code leaves it as it is. */
+/* The record for the next start; the start-up code leaves it unchanged. */
 typedef struct {
   uint32_t magic;
   uint32_t device;
-  const void *thread; /* the one that runs */
+  const void *thread; /* the running thread */
   char reason[REASON_BYTES];
 } record_t;
 
@@ -50,14 +50,14 @@ extern uint8_t __main_thread_stack_end__[];
 
 /* ---- the record ---- */
 
-/* Caches may hold what is written until a reset throws it away. */
+/* Caches may hold the written data until a reset discards them. */
 static void keep(void) {
   record.magic = RECORD_MAGIC;
   cacheBufferFlush(&record, sizeof record);
 }
 
-/* The kernel has found itself damaged: it is safer to start anew, with all pads as after a reset, than to stand still
- * with motors on. Under a debugger it stops, as usual. */
+/* The kernel has found itself damaged: it is safer to restart, with all pads as after a reset, than to stop with
+ * motors on. Under a debugger it stops, as usual. */
 void up_on_halt(const char *why) {
   record.device = 0U;
   strncpy(record.reason, why, sizeof record.reason - 1U);
@@ -71,7 +71,7 @@ void up_on_halt(const char *why) {
   NVIC_SystemReset();
 }
 
-/* The first device of a task by its thread, which stands in its working area; 0 for the threads of the kernel. */
+/* The first device of a task, given the thread, which is in its working area; 0 for threads of the kernel. */
 static uint8_t device_of(const void *thread) {
   size_t i;
 
@@ -111,7 +111,7 @@ void up_life_init(void) {
     memcpy(reason, record.reason, sizeof reason);
     device = (uint8_t)record.device;
   } else {
-    /* The reporter did not come to say it: a thread that never waits kept the processor. */
+    /* The reporter could not note the device: a thread that never waits kept the processor. */
     device = device_of(record.thread);
   }
   cause = cause_of(flags);
@@ -161,7 +161,7 @@ void up_life_beat(size_t task) {
   beats_ms[task] = up_now_ms();
 }
 
-/* The first task that has made no cycle for too long; their number when all live. */
+/* The first task that has completed no cycle for too long; the number of tasks if all are alive. */
 static size_t hanging(uint32_t now_ms) {
   size_t i;
 
@@ -207,13 +207,13 @@ void up_life_cycle(void) {
   }
 }
 
-/* The kernel says who runs next. */
+/* The kernel calls this with the thread that runs next. */
 void up_on_switch(const void *next) {
   record.thread = next;
   cacheBufferFlush(&record.thread, sizeof record.thread);
 }
 
-/* ---- load: the kernel says when nobody runs ---- */
+/* ---- load: the kernel reports when no thread runs ---- */
 
 void up_on_idle_enter(void) {
   idle_since = UP_LOAD_CLOCK();
@@ -227,7 +227,7 @@ uint8_t up_load_percent(void) {
   return load_percent;
 }
 
-/* ---- stacks: what the kernel has filled at the start and nobody has written since ---- */
+/* ---- stacks: bytes that the kernel filled at the start and nothing has overwritten since ---- */
 
 size_t up_stack_left_of(const void *base, size_t bytes) {
   const uint8_t *at = base;

@@ -1,4 +1,4 @@
-/* The channel under the portable reporter, and what the reporter asks of this system. */
+/* The channel under the portable reporter, and what the reporter needs from this system. */
 #include "up_link.h"
 
 #include "sense_model.h"
@@ -39,7 +39,7 @@ static const up_channel_t channel = {
     .room_max = UP_CHANNEL_ROOM_MAX,
 };
 
-/* ---- what the reporter asks for ---- */
+/* ---- what the reporter needs ---- */
 
 #if defined(SENSE_HAS_COMMANDS)
 static sense_values_t received;
@@ -47,7 +47,7 @@ static sense_values_t received;
 void up_fall_back(size_t field, const void *value) {
   static uint64_t changed[(UP_VALUE_BYTES_MAX + 7U) / 8U];
 
-  /* The user's transform works on a value of its own. */
+  /* The user's transform works on its own copy of the value. */
   memcpy(changed, value, up_field_bytes(&up_config.schema->fields[field]));
   up_put(field, changed);
   sense_apply(field, changed);
@@ -122,7 +122,7 @@ void up_link_start(void) {
   config.store = up_store();
   config.health = up_health();
   config.cycle_ms = up_config.report_ms;
-  /* The generated sizes and the generated tables are made together; this holds them together. */
+  /* The generated sizes and tables are made together; this checks that they still match. */
   if (!up_reporter_init(&reporter, &config, now_us())) {
     chSysHalt("frame sizes");
   }

@@ -12,7 +12,8 @@
 void up_channel_start(void);
 BaseChannel *up_channel(void);
 
-/* Bytes that it takes now without waiting; UP_CHANNEL_ROOM_MAX when all that it took has left. */
+/* The number of bytes that it accepts now without waiting; UP_CHANNEL_ROOM_MAX if all bytes that it accepted have
+ * left. */
 #if UP_LINK_USB == TRUE
 #define UP_CHANNEL_ROOM_MAX ((size_t)SERIAL_USB_BUFFERS_NUMBER * SERIAL_USB_BUFFERS_SIZE)
 #else
@@ -20,7 +21,7 @@ BaseChannel *up_channel(void);
 #endif
 size_t up_channel_room(void);
 
-/* True while somebody listens at the other end, as far as the channel can tell. */
+/* Whether the other end listens, as far as the channel can tell. */
 bool up_channel_is_open(void);
 
 /* ---- the frames ---- */
@@ -30,13 +31,13 @@ void up_link_start(void);
 /* Receives, answers and sends what is due; called by the reporter while frames are on. */
 void up_link_cycle(void);
 
-/* Called instead while the shell has the channel: frames begin with a hello when their turn comes. */
+/* Replaces a cycle while the shell uses the channel: when it is free again, frames begin with a hello. */
 void up_link_pause(void);
 
-/* Looks for the host's request for a hello in what the shell reads; true when it has just ended. */
+/* Looks for the host's request for a hello in the shell's input; true when it has just ended. */
 bool up_link_peek(uint8_t byte);
 
-/* For people: what it counted. */
+/* The reporter with its counts, to show to people. */
 const up_reporter_t *up_link_reporter(void);
 
 #endif

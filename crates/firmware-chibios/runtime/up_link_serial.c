@@ -1,4 +1,4 @@
-/* The channel over a serial port. Nobody can tell whether the wire is connected: it always counts as open. */
+/* The channel over a serial port. It cannot detect whether the wire is connected, so it always counts as open. */
 #include "up_link.h"
 
 #if UP_LINK_USB == FALSE

@@ -1,8 +1,8 @@
 /*
  * The channel over USB: a CDC ACM device, which hosts show as a serial port (/dev/ttyACM0).
  *
- * It counts as open while the host has configured it and either raises DTR (every terminal and serial library
- * does when it opens the port) or has sent something.
+ * It counts as open while the host has configured it and either raises DTR (as every terminal and serial library does
+ * when it opens the port) or has sent something.
  */
 #include "up_link.h"
 
@@ -61,7 +61,7 @@ _Static_assert(sizeof configuration_bytes == CONFIGURATION_BYTES, "length stated
 static const USBDescriptor device_descriptor = {sizeof device_bytes, device_bytes};
 static const USBDescriptor configuration_descriptor = {sizeof configuration_bytes, configuration_bytes};
 
-/* The serial number tells several boards apart: the MCU's unique number, in hexadecimal. */
+/* The serial number distinguishes several boards: it is the MCU's unique number in hexadecimal. */
 static void serial_number(char text[25]) {
   static const char digits[] = "0123456789ABCDEF";
   size_t i;
@@ -77,7 +77,7 @@ static void serial_number(char text[25]) {
   text[24] = '\0';
 }
 
-/* Texts are asked for rarely, one at a time: they are made when wanted. */
+/* Strings are requested rarely and one at a time, so they are made on demand. */
 static const USBDescriptor *text_descriptor(uint8_t index) {
   static uint8_t bytes[2U + 2U * 32U];
   static USBDescriptor descriptor;
@@ -213,7 +213,7 @@ static const SerialUSBConfig channel_config = {
     .int_in = NOTIFY_ENDPOINT,
 };
 
-/* The oscillator of 48 MHz is too coarse for USB unless it follows the host's frames, one each millisecond. */
+/* The 48 MHz oscillator is too inaccurate for USB unless it follows the host's frames, one per millisecond. */
 static void follow_host(void) {
 #if defined(CRS)
 #if defined(RCC_APB1ENR1_CRSEN)
@@ -235,7 +235,7 @@ void up_channel_start(void) {
   follow_host();
   sduObjectInit(&channel);
   (void)sduStart(&channel, &channel_config);
-  /* A pause long enough for a host to notice, so that a restart of the MCU alone is seen as well. */
+  /* A pause long enough for a host to notice, so that it also sees a restart of the MCU alone. */
   usbDisconnectBus(channel_config.usbp);
   chThdSleepMilliseconds(RECONNECT_MS);
   (void)usbStart(channel_config.usbp, &usb_config);
@@ -246,7 +246,7 @@ BaseChannel *up_channel(void) {
   return (BaseChannel *)&channel;
 }
 
-/* Whole buffers only: what stands in one that has begun to fill leaves with the next frame of the bus. */
+/* Whole buffers only: bytes in a partly filled one leave with the next frame of the bus. */
 size_t up_channel_room(void) {
   size_t buffers;
 

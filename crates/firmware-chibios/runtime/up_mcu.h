@@ -1,5 +1,5 @@
 /*
- * What the families of STM32 call alike and spell differently: reset flags, and the watchdog under a debugger.
+ * What the STM32 families have in common but spell differently: reset flags, and the watchdog under a debugger.
  */
 #ifndef UP_MCU_H
 #define UP_MCU_H
@@ -16,7 +16,7 @@
 #if defined(RCC_RSR_SFTRSTF)
 #define UP_RESET_SOFTWARE RCC_RSR_SFTRSTF
 #define UP_RESET_LOW_POWER RCC_RSR_LPWRRSTF
-#else /* of two cores the first */
+#else /* of two cores, the first */
 #define UP_RESET_SOFTWARE RCC_RSR_SFT1RSTF
 #define UP_RESET_LOW_POWER RCC_RSR_LPWR1RSTF
 #endif
@@ -39,7 +39,7 @@
 #define UP_RESET_PIN RCC_CSR_PINRSTF
 #endif
 
-/* ---- while a debugger holds the core, the watchdog stands still ---- */
+/* ---- the watchdog stops while a debugger halts the core ---- */
 
 #if defined(DBGMCU_APB4FZ1_DBG_IWDG1)
 #define UP_FREEZE_WATCHDOG() (DBGMCU->APB4FZ1 |= DBGMCU_APB4FZ1_DBG_IWDG1)

@@ -1,9 +1,9 @@
-/* Pulses on lines of their own that make a device measure (the trigger of an ultrasonic ranger). */
+/* Pulses on separate lines that make a device measure (the trigger of an ultrasonic ranger). */
 #include "up_pulse.h"
 #include "up_rt.h"
 #include "up_wait.h"
 
-/* From here on a pulse is slept through instead of waited for. */
+/* From this length on, the thread sleeps during a pulse instead of busy-waiting. */
 #define SLEEP_US 1000U
 
 static void wait_us(uint32_t pulse_us) {

@@ -1,5 +1,5 @@
 /*
- * Lines that get a pulse each cycle, so that a device measures.
+ * Lines that get a pulse in each cycle to make a device measure.
  */
 #ifndef UP_PULSE_H
 #define UP_PULSE_H
@@ -10,10 +10,10 @@
 /* A line that gets a pulse. */
 typedef struct {
   ioline_t line;
-  uint32_t apart_ms; /* from it to the next line's, which would hear its answer; 0: that follows at once */
+  uint32_t apart_ms; /* from it to the next line's, which would hear its answer; 0: the next follows at once */
 } up_pulse_line_t;
 
-/* Lines that get a pulse each cycle: what up_pulse_cycle() works on. */
+/* Lines that get a pulse in each cycle: the argument of up_pulse_cycle(). */
 typedef struct {
   const up_pulse_line_t *lines;
   uint32_t pulse_us;

@@ -1,4 +1,4 @@
-/* PWM outputs, and the bridges of motors behind them. Values change at the end of a period. */
+/* PWM outputs, and motor bridges on them. Values change at the end of a period. */
 #include "up_pwm.h"
 #include "up_rt.h"
 
@@ -8,7 +8,7 @@ static void set_level(const up_pwm_output_t *output, uint32_t level) {
   pwmEnableChannelI(output->driver, output->channel, (pwmcnt_t)up_pulse_ticks(&output->width, level));
 }
 
-/* All outputs of an array change in the same period: until they are written their timers take nothing over. */
+/* All outputs of an array change in the same period: until they are written, their timers update nothing. */
 static void hold_updates(const up_pwm_t *pwm, bool is_held) {
   uint8_t i;
 
@@ -50,7 +50,7 @@ void up_pwm_set_level(const up_pwm_t *pwm, uint32_t level) {
   chSysUnlock();
 }
 
-/* Off within the period: the wires for the direction change behind it, and must not find the old strength. */
+/* Turns off within the period: the direction wires change next, and must not get the old strength. */
 static void stop_now(const up_pwm_output_t *output) {
   stm32_tim_t *timer = output->driver->tim;
   volatile uint32_t *mode = (output->channel < 2U) ? &timer->CCMR1 : &timer->CCMR2;

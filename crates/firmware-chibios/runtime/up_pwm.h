@@ -1,5 +1,5 @@
 /*
- * Outputs of timers, and bridges of motors on them.
+ * Outputs of timers, and motor bridges on them.
  */
 #ifndef UP_PWM_H
 #define UP_PWM_H
@@ -19,7 +19,7 @@ typedef struct {
 
 /* An actuator of such outputs. */
 typedef struct {
-  const up_pwm_output_t *outputs; /* one an element */
+  const up_pwm_output_t *outputs; /* one per element */
   uint16_t field;
   uint8_t outputs_count;
 } up_pwm_t;
@@ -38,11 +38,11 @@ typedef struct {
   uint16_t field;
 } up_bridge_t;
 
-/* From the next period on: what the host has set, or 0 to 10000 for all outputs. */
+/* Sets the host's value, or 0 to 10000 for all outputs, from the next period on. */
 void up_pwm_set(const up_pwm_t *pwm, const void *value);
 void up_pwm_set_level(const up_pwm_t *pwm, uint32_t level);
 
-/* What the host has set, or -10000 to 10000. */
+/* Sets the host's value, or -10000 to 10000. */
 void up_bridge_set(const up_bridge_t *bridge, const void *value);
 void up_bridge_set_level(const up_bridge_t *bridge, int32_t level);
 #endif

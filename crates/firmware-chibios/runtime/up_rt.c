@@ -14,7 +14,7 @@ static mutex_t store_lock;
 static uint32_t sequences[UP_FIELDS_COUNT];
 static up_health_device_t devices[UP_FIELDS_COUNT];
 static up_health_t health = {.devices = devices, .devices_count = UP_FIELDS_COUNT};
-/* All threads count from here, so that those of a group keep apart. */
+/* The common time origin of all threads, so that those of a group keep apart. */
 static systime_t start;
 
 __attribute__((weak)) void up_user_init(void) {
@@ -24,7 +24,7 @@ __attribute__((weak)) void up_user_received(size_t field) {
   (void)field;
 }
 
-/* From the 64-bit time stamp: the system time wraps after days, and at no power of two of milliseconds. */
+/* From the 64-bit time stamp: the system time wraps after days, and not at a power of two of milliseconds. */
 uint32_t up_now_ms(void) {
   return up_divide(chVTGetTimeStamp(), CH_CFG_ST_FREQUENCY / 1000U);
 }
@@ -56,7 +56,7 @@ void up_result(size_t field, up_result_t result, void *value) {
 
     result = up_config.filter(own->filter, own->state, &up_config.schema->fields[field], up_now_ms(), value);
     if (result == UP_NOTHING) {
-      /* The device answered; the filter keeps the value from the host. */
+      /* The device answered; the filter withholds the value from the host. */
       note(field, UP_FRESH);
     }
   }
@@ -125,8 +125,8 @@ void up_unlock(void) {
   chMtxUnlock(&store_lock);
 }
 
-/* Fixed rate: a late cycle does not shift the following ones, and lost ones are left out, so that threads which keep
- * apart do so for good. */
+/* A fixed rate: a late cycle does not shift the following ones, and missed ones are skipped, so that threads that
+ * keep apart do so for good. */
 static void sleep_cycle(systime_t *previous, sysinterval_t cycle) {
   const systime_t next = chTimeAddX(*previous, cycle);
   sysinterval_t late;
@@ -171,7 +171,7 @@ static void start_tasks(void) {
   start = chVTGetSystemTime();
   for (i = 0U; i < up_config.tasks_count; i++) {
     const up_task_t *task = &up_config.tasks[i];
-    /* The argument is a const table; the kernel's signature knows only void pointers. */
+    /* The argument is a const table, but the kernel's signature has only void pointers. */
     (void)chThdCreateStatic(task->stack, task->stack_bytes, (tprio_t)((int)NORMALPRIO + task->prio), run_task,
                             (void *)(uintptr_t)task);
   }

@@ -17,7 +17,7 @@
 #define READ_MS 100U
 #define PRINT_MS 100U
 #define STACK_BYTES 1024U
-/* Arrays are shown up to so many elements. */
+/* The most elements of an array that are shown. */
 #define ELEMENTS_SHOWN 16U
 
 static THD_WORKING_AREA(shell_stack, STACK_BYTES);
@@ -25,9 +25,9 @@ static thread_t *shell_thread;
 static volatile bool is_streaming;
 static bool starts_streaming;
 
-/* ---- the stream the shell reads and writes ---- */
+/* ---- the stream that the shell reads and writes ---- */
 
-/* Never blocks for good: a host that went away must not hold the shell. */
+/* Never blocks for good: a host that has gone must not hang the shell. */
 static size_t stream_write(void *instance, const uint8_t *bytes, size_t size) {
   (void)instance;
   return chnWriteTimeout(up_channel(), bytes, size, TIME_MS2I(WRITE_MS));
@@ -269,7 +269,7 @@ static void command_doctor(BaseSequentialStream *out, int argc, char *argv[]) {
   }
 }
 
-/* The text that the schema hash is made of: a host that expects another schema names the devices that differ. */
+/* The text that the schema hash is computed from: a host that expects another schema names the devices that differ. */
 static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
   const up_schema_t *schema = up_config.schema;
   size_t i;
@@ -300,7 +300,7 @@ static const ShellCommand commands[] = {
     {NULL, NULL},
 };
 
-/* ---- who has the channel ---- */
+/* ---- the owner of the channel ---- */
 
 static void run_shell(void) {
   static const ShellConfig config = {.sc_channel = &stream, .sc_commands = commands};
@@ -337,7 +337,7 @@ bool up_shell_cycle(void) {
 }
 
 bool up_shell_wants(uint8_t byte) {
-  /* A frame starts with a digit: between two frames the letter can mean nothing else. */
+  /* A frame starts with a digit, so between two frames the letter can mean nothing else. */
   if (byte != (uint8_t)'q') {
     return false;
   }

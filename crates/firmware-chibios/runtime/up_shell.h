@@ -1,10 +1,10 @@
 /*
- * The shell for development, or frames: who has the channel.
+ * The development shell or frames: who uses the channel.
  *
- * A development build starts with the shell; frames come when the user's button is held at the start, by the
- * command `stream`, or when a host asks for a hello: so the generated host application works without a hand on
- * the board. While frames are on, a `q` between two frames brings the shell back. A production build
- * (UP_SHELL FALSE) knows frames only.
+ * A development build starts with the shell. Frames are turned on when the user's button is held at the start, by the
+ * command `stream`, or when a host requests a hello, so that the generated host application works without a hand on the
+ * board. While frames are on, a `q` between two frames brings the shell back. A production build (UP_SHELL FALSE) has
+ * only frames.
  */
 #ifndef UP_SHELL_H
 #define UP_SHELL_H
@@ -13,13 +13,13 @@
 
 void up_shell_start(void);
 
-/* Called by the reporter each cycle; true while the shell has the channel. */
+/* Called by the reporter in each cycle; true while the shell uses the channel. */
 bool up_shell_cycle(void);
 
-/* The host has gone while frames were on: the next one finds what the start decided. */
+/* The host has gone while frames were on: the next one gets the mode that the start selected. */
 void up_shell_channel_closed(void);
 
-/* Looks at a byte that the host sent between two frames; true when it was the shell's. */
+/* Checks a byte that the host sent between two frames; true if it was meant for the shell. */
 bool up_shell_wants(uint8_t byte);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "up_spi_bus.h"
 
-/* What is sent while nothing has to be: the wire stays high. */
+/* Sent when there is nothing to send: the wire stays high. */
 #define FILLER 0xFF
 
 static up_bus_result_t run(const up_spi_port_t *port, const uint8_t *tx, uint8_t *rx, size_t count) {
@@ -22,7 +22,8 @@ static up_bus_result_t run(const up_spi_port_t *port, const uint8_t *tx, uint8_t
   return (message == MSG_OK) ? UP_BUS_DONE : UP_BUS_ERROR;
 }
 
-/* What was sent is overwritten by what came: the byte of a place is sent before the one for it has come. */
+/* The bytes sent are overwritten by those received, which is safe: each byte is sent before the one at its place
+ * arrives. */
 static up_bus_result_t run_in_place(const up_spi_port_t *port, const uint8_t *bytes, size_t count) {
   return run(port, bytes, (uint8_t *)(uintptr_t)bytes, count);
 }

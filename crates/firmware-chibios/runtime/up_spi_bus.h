@@ -2,8 +2,8 @@
  * An SPI bus on ChibiOS as the core sees it (up_bus.h): a chip select for each device, with its own mode and clock. The
  * address of a transfer is the number of the chip select.
  *
- * The bytes to send may be overwritten by what comes meanwhile: both directions share the work buffer, for a DMA may
- * reach nothing else.
+ * The bytes to send may be overwritten by those received: both directions share the work buffer, because a DMA may be
+ * unable to reach anything else.
  */
 #ifndef UP_SPI_BUS_H
 #define UP_SPI_BUS_H
@@ -20,7 +20,7 @@ typedef struct {
   uint32_t timeout_ms;      /* of a transfer */
 } up_spi_port_t;
 
-/* Starts the driver, behind the pads. */
+/* Starts the driver, after the pads are set up. */
 void up_spi_start(const up_spi_port_t *port);
 
 /* For an up_bus_t whose context is an up_spi_port_t. */

@@ -3,24 +3,24 @@
 
 #if HAL_USE_SERIAL == TRUE
 
-/* Bytes that are taken out of the queue at a time. */
+/* The number of bytes that are taken out of the queue at a time. */
 #define CHUNK_BYTES 16U
 
-/* A device that says nothing for so long may have lost its supply, and what it was told with it. */
+/* After this silence a device may have lost its supply, and its settings with it. */
 #define FORGOTTEN_MS 5000U
 
 #define FAULTS (SD_PARITY_ERROR | SD_FRAMING_ERROR | SD_OVERRUN_ERROR | SD_QUEUE_FULL_ERROR)
 
-/* A message may be sent while it is put together for another port, so each thread has its own: the reporter sends. */
+/* The message that is put together. Only the reporter sends, so one buffer serves all ports. */
 static uint8_t sent[UP_UART_SEND_BYTES_MAX];
 
 void up_uart_start(const up_uart_t *port) {
   (void)sdStart(port->driver, port->config);
 }
 
-/* ---- what comes in ---- */
+/* ---- receiving ---- */
 
-/* The first value of a cycle is put, for that is when it is due; faults are all counted. */
+/* The first value of a cycle is stored, because it is due then; all faults are counted. */
 static void on_value(void *context, uint16_t field, up_result_t result, void *value) {
   const up_uart_t *port = context;
   uint8_t i;
@@ -36,12 +36,12 @@ static void on_value(void *context, uint16_t field, up_result_t result, void *va
   up_result(field, result, value);
 }
 
-/* Damaged characters and those that nobody took in time are faults of all values of the port. */
+/* Damaged characters and lost ones are faults of all values of the port. */
 static void count_faults(const up_uart_t *port) {
   uint8_t i;
 
   if (!port->state->is_listening) {
-    /* What came before anybody listened is no fault. */
+    /* What came before the thread listened is not a fault. */
     chEvtRegisterMaskWithFlags(chnGetEventSource(port->driver), &port->state->listener, EVENT_MASK(0), FAULTS);
     port->state->is_listening = true;
   } else if (chEvtGetAndClearFlags(&port->state->listener) != 0U) {
@@ -59,7 +59,7 @@ static void take(const up_uart_t *port, const uint8_t *bytes, size_t count) {
   up_message_feed(port->message, port->message_state, up_config.schema, bytes, count, &sink);
 }
 
-/* Waits for a byte, but no longer than `wait_ms`, and takes all that is there. */
+/* Waits for a byte for at most `wait_ms`, and takes everything that is there. */
 static void listen(const up_uart_t *port, uint32_t wait_ms) {
   uint8_t bytes[CHUNK_BYTES];
   size_t count = sdReadTimeout(port->driver, bytes, 1U, UP_MS2I(wait_ms));
@@ -77,9 +77,9 @@ static void listen(const up_uart_t *port, uint32_t wait_ms) {
   }
 }
 
-/* ---- what goes out ---- */
+/* ---- sending ---- */
 
-/* Sends what is due of the steps that start the device. */
+/* Sends the bytes that are due from the steps that start the device. */
 static void set_up(const up_uart_t *port) {
   const up_message_init_t *step;
 
@@ -125,7 +125,7 @@ void up_uart_cycle(const void *work) {
     port->is_told[i] = false;
   }
   count_faults(port);
-  /* The last millisecond belongs to whoever keeps the cycles apart. */
+  /* The last millisecond is left for the code that keeps the cycles apart. */
   while (passed_ms + 1U < port->cycle_ms) {
     const uint32_t left_ms = port->cycle_ms - 1U - passed_ms;
 

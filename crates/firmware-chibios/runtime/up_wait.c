@@ -14,11 +14,11 @@ void up_wait_us(uint32_t us) {
 
 #else
 
-/* Clocks of a turn of the loop, on the fastest core there is: a subtraction, and a branch that is taken. */
+/* Clocks per iteration of the loop on the fastest core: a subtraction and a taken branch. */
 #define TURN_CLOCKS 3U
 
 void up_wait_us(uint32_t us) {
-  /* One more, because the first turn may be short; no division in the time that is waited. */
+  /* One more, because the first iteration may be short; no division while it waits. */
   uint32_t turns = us * ((UP_CORE_HZ + 999999U) / 1000000U) / TURN_CLOCKS + 1U;
 
   __asm volatile(".syntax unified\n"

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Keeps the processor for at least so long: up to a second. Being preempted makes it longer, never shorter. */
+/* Busy-waits for at least this time, up to a second. Preemption makes it longer, never shorter. */
 void up_wait_us(uint32_t us);
 
 #endif

@@ -1,19 +1,19 @@
-//! Which files of the user's ChibiOS tree the board is built from.
+//! The files of the user's ChibiOS tree that the board is built from.
 
 use super::context::Context;
 
-/// Files of the tree, relative to its root, and what they must say.
+/// Files of the tree, relative to its root, and the facts that they must agree with.
 #[derive(Clone, Debug)]
 pub(super) struct TreePlan {
     /// `21.11`
     pub(super) version: String,
     pub(super) mcu: String,
-    /// The core's unit for real numbers, as the compiler is told.
+    /// The core's FPU, as a compiler option.
     pub(super) fpu: Option<String>,
-    /// Bytes of the main thread's stack and of that of interrupts.
+    /// The stack sizes of the main thread and of interrupts.
     pub(super) process_stack_bytes: u32,
     pub(super) exceptions_stack_bytes: u32,
-    /// The core's clock, which its cycle counter counts.
+    /// The core's clock, which drives its cycle counter.
     pub(super) core_clock: String,
     pub(super) startup_mk: String,
     pub(super) platform_mk: String,
@@ -23,13 +23,13 @@ pub(super) struct TreePlan {
     pub(super) board_mk: String,
     pub(super) cfg_dir: String,
     pub(super) ldscript: String,
-    /// Macros that the files want to be told.
+    /// Macros that the files need.
     pub(super) defines: Vec<String>,
-    /// The macro by which `mcuconf.h` tells its MCU.
+    /// The macro with which `mcuconf.h` identifies its MCU.
     pub(super) mcuconf: String,
 }
 
-/// Stacks of the main thread and of interrupts.
+/// The stack sizes of the main thread and of interrupts.
 const STACKS_BYTES: [u32; 2] = [1_536, 1_024];
 
 pub(super) fn plan(context: &Context<'_>) -> TreePlan {

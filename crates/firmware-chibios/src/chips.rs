@@ -1,6 +1,6 @@
-//! Devices on register buses, as I2C and SPI have them alike: which thread serves which chip, in which order.
+//! Devices on register buses, the same for I2C and SPI: which thread serves which chip, and in which order.
 //!
-//! A device by itself is a chip with one reading or one command; its tables are those of its part ([`super::parts`]).
+//! A single device is a chip with one reading or one command; its tables are those of its part ([`super::parts`]).
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use sensedsl_job::part::BusPlan;
 use sensedsl_job::snake;
 use sensedsl_job::{BoardJob, Cycle, JobConnection};
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [560, 444], filtered: [688, 472] };
 
-/// What one thread does on one bus.
+/// The work of one thread on one bus.
 pub(super) struct Thread {
     /// `i2c1_10ms`
     ident: String,
@@ -26,12 +26,12 @@ pub(super) struct Thread {
     chips: Vec<Served>,
 }
 
-/// One chip.
+/// A chip that the thread serves.
 struct Served {
     name: String,
-    /// What the names of its tables begin with.
+    /// The prefix of the names of its tables.
     ident: String,
-    /// Values that are written.
+    /// The number of commands.
     commands: usize,
     id: u8,
 }
@@ -42,7 +42,7 @@ struct Tables<'a> {
     threads: &'a [Thread],
 }
 
-/// The threads of a bus, by their cycles; each serves its chips in the design's order.
+/// The threads of a bus, one per cycle; each serves its chips in the design's order.
 pub(super) fn threads(
     context: &Context<'_>,
     unit: &str,
@@ -50,7 +50,7 @@ pub(super) fn threads(
 ) -> Vec<Thread> {
     let mut cycles: BTreeMap<Cycle, Vec<Served>> = BTreeMap::new();
     for one in on_bus {
-        // No value goes over a connection without a table.
+        // A connection without a table carries no value.
         let Some(plan) = plan_of(context.job, one) else { continue };
         cycles.entry(one.cycle).or_default().push(Served {
             name: one.part.name.value.clone(),
@@ -68,12 +68,12 @@ pub(super) fn threads(
     cycles.into_iter().map(thread).collect()
 }
 
-/// The C of the threads' tables.
+/// The C code of the threads' tables.
 pub(super) fn tables(threads: &[Thread]) -> String {
     block(&Tables { threads })
 }
 
-/// The tables of the part that a connection is of.
+/// The tables of the part that a connection belongs to.
 pub(super) fn plan_of<'a>(
     job: &'a BoardJob<'_>,
     connection: &JobConnection<'_>,
@@ -81,13 +81,13 @@ pub(super) fn plan_of<'a>(
     job.bus_of(connection)
 }
 
-/// What is not made.
+/// What a connection needs and there is no code for; `None` if there is code for everything.
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     job.lacks_on_buses(connection)
 }
 
 impl Thread {
-    /// What it does, for the plan.
+    /// The work of the thread, for the plan.
     pub(super) fn work(&self) -> Work {
         Work {
             unit: self.unit.clone(),
@@ -104,12 +104,12 @@ impl Thread {
         format!("{}_bus", snake(&self.unit))
     }
 
-    /// For a comment.
+    /// The title, for a comment.
     fn title(&self) -> String {
         self.cycle.title(&self.unit)
     }
 
-    /// For a comment.
+    /// The names of its chips, for a comment.
     fn names(&self) -> String {
         let names: Vec<&str> = self.chips.iter().map(|one| one.name.as_str()).collect();
         names.join(", ")

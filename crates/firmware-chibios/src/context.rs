@@ -1,4 +1,4 @@
-//! One board with everything its sections are planned from, and the words for pads and modes.
+//! One board with everything that its sections are planned from, and the spelling of pads and modes.
 
 use std::collections::BTreeSet;
 
@@ -13,23 +13,23 @@ use super::facts::Facts;
 use super::names::Names;
 use sensedsl_job::{BoardJob, JobConnection, JobDevice, Pad};
 
-/// One board on its way to a plan.
+/// One board and what its plan is made from.
 pub(super) struct Context<'a> {
     pub(super) job: &'a BoardJob<'a>,
     pub(super) profile: &'a TargetProfile,
     pub(super) chibios: Facts,
     pub(super) names: Names,
-    /// The timer that the kernel takes; none for the core's own tick.
+    /// The timer that the kernel uses; `None` for the core's own tick.
     pub(super) kernel_timer: Option<String>,
 }
 
-/// How one pad is set up. The order is the natural one of the pins.
+/// How one pad is set up. The order is the natural order of the pins.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PadPlan {
     pub(super) pin: PinName,
     pub(super) line: String,
     pub(super) mode: String,
-    /// The level that an output has before it becomes one.
+    /// True if an output must be high before it becomes one.
     pub(super) is_high: bool,
 }
 
@@ -38,16 +38,16 @@ pub(super) struct PadPlan {
 pub(super) enum Drive {
     /// An input, or an output of a slow peripheral.
     Plain,
-    /// Pulled low or left alone: a bus.
+    /// Pulled low or released: a bus.
     OpenDrain,
     /// Fast edges: USB.
     Fast,
-    /// An input that is high, or low, as long as nothing is connected.
+    /// An input that rests high, or low, while nothing is connected.
     Resting(bool),
 }
 
 impl<'a> Context<'a> {
-    /// None where [`super::Chibios`] refuses the board.
+    /// `None` if [`super::Chibios`] refuses the board.
     pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
         let profile = job.profile?;
         let chibios = Facts::of(job.board.facts.as_ref()?).ok()??;
@@ -77,12 +77,12 @@ impl<'a> Context<'a> {
         self.job.devices.get(*connection.devices.first()?)
     }
 
-    /// The identifier of the first device of a connection; 0 where no value goes over it.
+    /// The identifier of the first device of a connection; 0 if it carries no value.
     pub(super) fn id_of(&self, connection: &JobConnection<'_>) -> u8 {
         self.device_of(connection).map_or(0, |one| one.device.id.value)
     }
 
-    /// A pad in a mode. A pin whose port is not known is reported.
+    /// A pad in a mode. A pin whose port is unknown is reported.
     pub(super) fn pad(
         &self,
         pad: &Pad<'_>,
@@ -100,7 +100,7 @@ impl<'a> Context<'a> {
         Some(PadPlan { pin: name.clone(), line, mode: mode.to_owned(), is_high: false })
     }
 
-    /// A pad with the alternate function of its wire. None that is known is a mistake that is reported.
+    /// A pad with the alternate function of its wire. If none is known, that is reported.
     pub(super) fn alternate_pad(
         &self,
         pad: &Pad<'_>,
@@ -122,7 +122,7 @@ impl<'a> Context<'a> {
         self.pad(pad, &alternate_mode(number, drive), diagnostics)
     }
 
-    /// The line of a pin, where the MCU has its port.
+    /// The line of a pin, if the MCU has its port.
     pub(super) fn line(&self, pin: &PinName) -> Option<String> {
         let (port, number) = (pin.port()?, pin.number()?);
         let is_known = self.profile.gpio_ports.contains(&port) && number < PADS_OF_PORT;
@@ -130,16 +130,16 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Pads of one port.
+/// The number of pads of a port.
 const PADS_OF_PORT: u8 = 16;
 
-/// Steps of the kernel's time in a second, with a timer of its own: all that a 16-bit one can make of any clock.
+/// The kernel's time steps per second with its own timer: the most that a 16-bit one can derive from any clock.
 pub(super) const KERNEL_HZ: u32 = 10_000;
 
-/// Steps of the kernel's time in a second with the core's tick.
+/// The kernel's time steps per second with the core's tick.
 pub(super) const TICK_HZ: u32 = 1_000;
 
-/// The first timer that no device has and that does not wrap within a cycle; none for the core's tick.
+/// The first timer that no device uses and that does not wrap within a cycle; `None` for the core's tick.
 fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
     let taken = job.connections.iter().filter_map(|one| one.unit);
     let units: BTreeSet<UnitName> = taken.map(UnitName::new).collect();
@@ -147,7 +147,7 @@ fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
     let longest_ms = u64::from(cycles.max().unwrap_or(0));
     let kernel = &profile.kernel;
     let is_free = |timer: &&String| units.iter().all(|unit| unit.as_str() != timer.as_str());
-    // Half of what it counts is room for a thread that comes late.
+    // Half of its range is left for a thread that runs late.
     let lasts = |timer: &&String| {
         let bits = profile.timer(timer).map_or(0, |timer| timer.bits.min(32));
         longest_ms * u64::from(KERNEL_HZ) / 1_000 < (1 << bits) / 2
@@ -155,7 +155,7 @@ fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
     let free = kernel.timers.iter().filter(is_free).find(lasts);
     match kernel.fallback {
         Some(Fallback::Systick) => free.cloned(),
-        // Without a fallback the wiring has kept one free.
+        // Without a fallback, the wiring has kept one free.
         None => free.or(kernel.timers.first()).cloned(),
     }
 }
@@ -172,8 +172,8 @@ pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
     format!("PAL_MODE_ALTERNATE({number}){extra}")
 }
 
-/// The mode of a pad where it has no number of an alternate function: an output is the peripheral's, and an input is
-/// any input, which the peripheral reads as well.
+/// The mode of a pad without alternate function numbers: an output belongs to the peripheral, an input is a plain
+/// input, which the peripheral reads as well.
 fn unnumbered_mode(role: Role, drive: Drive) -> &'static str {
     match drive {
         Drive::OpenDrain => "PAL_MODE_STM32_ALTERNATE_OPENDRAIN",

@@ -1,4 +1,4 @@
-//! What the board can find out about its wires: tables for the self test.
+//! Tables for the self test of the board's wires.
 
 use sensedsl_model::kind::{KindName, Role};
 
@@ -8,9 +8,9 @@ use sensedsl_job::{JobConnection, Pad};
 /// All tables of the self test.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DoctorPlan {
-    /// Wires that somebody else drives or pulls.
+    /// Wires that are driven or pulled from outside.
     pub(super) inputs: Vec<Input>,
-    /// Chips whose state says how they are.
+    /// Chips whose state shows whether they work.
     pub(super) chips: Vec<Chip>,
     /// Sensors that count.
     pub(super) edges: Vec<Edges>,
@@ -22,7 +22,7 @@ pub(super) struct Input {
     /// `IRFront at PB0 (ADC12-IN8)`
     pub(super) title: String,
     pub(super) line: String,
-    /// Pulled up by a resistor, not driven.
+    /// True if it is pulled up by a resistor, not driven.
     pub(super) is_bus: bool,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct Input {
 #[derive(Clone, Debug)]
 pub(super) struct Chip {
     pub(super) title: String,
-    /// What its tables begin with.
+    /// The prefix of the names of its tables.
     pub(super) prefix: String,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Chip {
 #[derive(Clone, Debug)]
 pub(super) struct Edges {
     pub(super) title: String,
-    /// The device.
+    /// The device's name.
     pub(super) field: String,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
             device.map(|device| Edges { title: one.place(), field: device.name().to_owned() }),
         );
     }
-    // Wires of a bus are those of all its devices.
+    // Devices share the wires of their bus.
     plan.inputs.sort_by(|a, b| a.line.cmp(&b.line));
     plan.inputs.dedup_by(|a, b| a.line == b.line);
     for part in context.job.parts.iter().filter(|one| one.part.chip.is_some()) {
@@ -64,7 +64,8 @@ pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
     plan
 }
 
-/// A wire that the board can tell to be loose. The line of an SPI device is loose while nobody selects it.
+/// A wire that the board can detect to be disconnected. MISO of an SPI device is not driven while the device is not
+/// selected.
 fn input(context: &Context<'_>, one: &JobConnection<'_>, pad: &Pad<'_>) -> Option<Input> {
     let is_told = pad.role.is_driven_by_device() && pad.role != Role::Miso;
     let line = context.line(&pad.pin.name).filter(|_| is_told)?;

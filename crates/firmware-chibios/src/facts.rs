@@ -1,4 +1,4 @@
-//! What the tree of ChibiOS has for a board: the group `[system.chibios]` of its `board.toml`.
+//! The facts about a board in the ChibiOS tree: the group `[system.chibios]` of its `board.toml`.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use serde::{Deserialize, Deserializer};
 
-/// Paths are relative to the tree.
+/// The facts about a board. Paths are relative to the tree.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Facts {
@@ -18,31 +18,31 @@ pub struct Facts {
     pub cfg: String,
     /// The linker script.
     pub ldscript: String,
-    /// Bytes of the main thread's stack and of that of interrupts, where the usual ones are too large.
+    /// The stack sizes of the main thread and of interrupts, if the usual ones are too large.
     pub stacks_bytes: Option<[u32; 2]>,
-    /// The macro by which the configuration tells its MCU.
+    /// The macro with which the configuration identifies its MCU.
     pub mcuconf: String,
-    /// Macros that the files of the tree want to be told.
+    /// Macros that the files of the tree need.
     #[serde(default)]
     pub defines: Vec<String>,
-    /// What of the board's folder and the demo's configuration is not right for this board: macros, and what they
-    /// are to be; nothing for one that must not be defined.
+    /// Macros in which the board's folder and the demo's configuration are wrong for this board, with the right values;
+    /// empty for one that must not be defined.
     #[serde(default)]
     pub changes: BTreeMap<String, String>,
-    /// Pins that the folder makes outputs and that are free on this board.
+    /// Pins that the folder sets up as outputs and that are free on this board.
     #[serde(default, deserialize_with = "pins")]
     pub released: Vec<PinName>,
-    /// What the configuration's clock tree gives, by macro.
+    /// The frequencies of the configuration's clock tree, by macro.
     #[serde(skip)]
     pub clocks_hz: BTreeMap<String, u32>,
 }
 
 impl Facts {
-    /// What the tree has for a board; none where it has nothing.
+    /// The facts about a board; `None` if the tree has none.
     ///
     /// # Errors
     ///
-    /// When the board's file is damaged; tests rule that out for those that are built in.
+    /// If the board's file is damaged; tests rule that out for the built-in ones.
     pub fn of(board: &catalog::Board) -> Result<Option<Self>, String> {
         let Some(facts) = board.system.get(crate::NAME) else { return Ok(None) };
         let own =

@@ -1,17 +1,17 @@
-//! What actuators take when the host is silent, where it is sent to them as a value of the host would be.
+//! The failsafe values of actuators that are applied as if the host had sent them.
 
 use sensedsl_wire::ScalarType;
 
 use super::context::Context;
 use sensedsl_job::JobDevice;
 
-/// A value that is set when the host is silent.
+/// A value that is set when the host falls silent.
 #[derive(Clone, Debug)]
 pub(super) struct FallBackPlan {
-    /// The device, as in `SENSE_FIELD_` and its name.
+    /// The device's name, as in `SENSE_FIELD_`.
     pub(super) field: String,
     pub(super) c_type: &'static str,
-    /// Each element, as a C literal.
+    /// The elements, each as a C literal.
     pub(super) elements: Vec<String>,
 }
 
@@ -31,7 +31,7 @@ impl FallBackPlan {
     }
 }
 
-/// The number as the type has it; the model has seen to it that the type holds it.
+/// The number as a literal of the type, whose range the model has checked.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
 fn literal(scalar: ScalarType, number: f64) -> String {
     match scalar {
@@ -43,7 +43,7 @@ fn literal(scalar: ScalarType, number: f64) -> String {
         }
         ScalarType::Int8 | ScalarType::Int16 | ScalarType::Int32 | ScalarType::Int64 => {
             match number as i64 {
-                // The least one is not spelled as it is written.
+                // C cannot spell the least one as a literal.
                 i64::MIN => "INT64_MIN".to_owned(),
                 whole => format!("INT64_C({whole})"),
             }

@@ -1,9 +1,9 @@
-//! ChibiOS firmware: tables for the hand-written runtime, configuration as changes to the user's tree.
+//! ChibiOS firmware: tables for the hand-written runtime, and configuration as changes to the user's tree.
 //!
-//! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime.
-//! Each driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` puts the sections together
-//! and looks into none; the templates only print. Names of the system are in the `[system]` part of a
-//! profile (`names.rs`). What the hardware or the system cannot do comes back as diagnostics, and then there are no files.
+//! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime. Each
+//! driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` combines the sections without
+//! looking into any; the templates only print. Names of the system are in the `[system]` part of a profile
+//! (`names.rs`). What the hardware or the system cannot do is returned as diagnostics, and then there are no files.
 
 mod adc;
 mod board;
@@ -75,7 +75,7 @@ impl Target for Chibios {
         NAME
     }
 
-    /// An MCU is served where code is made for its pins; a kind, where code is made for the version of its driver.
+    /// An MCU is served if there is code for its pins; a kind, if there is code for the version of its driver.
     fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String> {
         match facts.map(Facts::of) {
             Some(Ok(Some(_))) => unserved(profile),
@@ -116,7 +116,7 @@ impl Target for Chibios {
     }
 }
 
-/// A driver of the profile's MCUs that there is no code for, in words.
+/// A driver of the profile's MCUs that has no code here, in words.
 fn unserved(profile: &TargetProfile) -> Option<String> {
     match Names::of(profile) {
         Ok(names) => section::unserved(&names.drivers),
@@ -124,7 +124,7 @@ fn unserved(profile: &TargetProfile) -> Option<String> {
     }
 }
 
-/// Whether code is made for the drivers of the profile's MCUs.
+/// Whether there is code for the drivers of the profile's MCUs.
 #[must_use]
 pub fn is_served(profile: &TargetProfile) -> bool {
     unserved(profile).is_none()

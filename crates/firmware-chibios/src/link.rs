@@ -1,4 +1,4 @@
-//! The link to the host, its button, and how often a report goes out.
+//! The link to the host, its button, and the report rate.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::Diagnostic;
@@ -10,10 +10,10 @@ use super::names::Setting;
 use super::plan::TaskPlan;
 use sensedsl_job::kinds::can;
 
-/// The reporter's cycle where nothing asks for another.
+/// The reporter's cycle unless something requires another.
 const REPORT_MS: u32 = 10;
 
-/// What carries the frames.
+/// The carrier of the frames.
 #[derive(Clone, Debug)]
 pub(super) enum LinkPlan {
     /// A USB device: its driver and the options that it needs.
@@ -22,7 +22,7 @@ pub(super) enum LinkPlan {
     Uart { unit: String, driver: String, switches: Vec<String>, baud: u32 },
 }
 
-/// A button that asks for frames at the start.
+/// A button that turns frames on at the start.
 #[derive(Clone, Debug)]
 pub(super) struct ButtonPlan {
     pub(super) pin: String,
@@ -35,12 +35,12 @@ impl LinkPlan {
         matches!(self, Self::Usb { .. })
     }
 
-    /// A USB device that a host sees as long as the cable is in.
+    /// Whether it is a USB device that the host sees as long as the cable is plugged in.
     pub(super) fn is_always_connected(&self) -> bool {
         matches!(self, Self::Usb { is_always_connected: true, .. })
     }
 
-    /// The options that choose its clock.
+    /// The options that select its clock.
     pub(super) fn settings(&self) -> &[Setting] {
         match self {
             Self::Usb { settings, .. } => settings,
@@ -62,7 +62,7 @@ impl LinkPlan {
         }
     }
 
-    /// Bits per second; of no effect over USB.
+    /// The baud rate; 0 over USB.
     pub(super) fn baud(&self) -> u32 {
         match self {
             Self::Usb { .. } => 0,
@@ -70,7 +70,7 @@ impl LinkPlan {
         }
     }
 
-    /// For people.
+    /// The title for people.
     pub(super) fn title(&self) -> String {
         match self {
             Self::Usb { .. } => "USB (a serial port of the host, such as /dev/ttyACM0)".to_owned(),
@@ -144,8 +144,7 @@ fn uart(
     })
 }
 
-/// The board's own button, unless a device has its pin. Another board with the same MCU may have
-/// anything there.
+/// The board's own button, unless a device uses its pin. Another board with the same MCU may have anything at that pin.
 pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
     let button = context.job.board.facts.as_ref()?.button.as_ref();
     let button = button.filter(|_| context.job.board.built_in)?;
@@ -158,7 +157,7 @@ pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
     })
 }
 
-/// As often as something can become due, at most as often as the link allows.
+/// The reporter's cycle: as short as the time in which something can become due, but no shorter than the link allows.
 pub(super) fn report_ms(context: &Context<'_>, tasks: &[TaskPlan]) -> u32 {
     if let Some(rate_hz) = context.job.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);

@@ -1,4 +1,4 @@
-//! What the wiring has and no driver took: it is told, so that no device is left out in silence.
+//! Connections of the wiring that no driver serves: they are reported, so that no device is left out silently.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::UnitName;
@@ -11,8 +11,8 @@ use super::context::{Context, PadPlan};
 use super::section::Section;
 use sensedsl_job::JobConnection;
 
-/// Tells each connection with a pad that nothing sets up, or with a port that nothing starts. Where something else was
-/// told already, a clock that cannot be made among it, that is why.
+/// Reports each connection with a pad that nothing sets up, or with a port that nothing starts. If something was
+/// reported before, such as a clock that cannot be made, that is the reason.
 pub(super) fn tell(
     context: &Context<'_>,
     pads: &[PadPlan],
@@ -28,14 +28,14 @@ pub(super) fn tell(
         let (name, board) = (&one.part.name, &context.job.board.name.value);
         let why = format!("`{}` needs {what}, which no driver of its firmware has", name.value);
         let report = no_firmware_target(name.span, board, &why);
-        // All wires of a chip or an array have one thing to say.
+        // All wires of a chip or an array give the same report.
         if diagnostics.last() != Some(&report) {
             diagnostics.push(report);
         }
     }
 }
 
-/// What of a connection nothing serves. What there is no code for is told as that.
+/// The part of a connection that nothing serves. A kind without code has been reported as such.
 fn missed(
     context: &Context<'_>,
     one: &JobConnection<'_>,

@@ -1,8 +1,8 @@
-//! How ChibiOS spells what a profile knows: files of its tree, versions of drivers, driver objects, options.
+//! How ChibiOS spells what a profile describes: files of its tree, versions of drivers, driver objects, options.
 //!
-//! In: what a profile keeps for its system's generator. Out: [`Names`]. A rule is a text in which `{name}` stands
-//! for the unit's name, `{n}` for the number in it and `{channel}` for the number of an output. What
-//! a unit states itself comes before the rule of its group.
+//! In: the part of a profile for its system's generator. Out: [`Names`]. A rule is a text in which `{name}` stands for
+//! the unit's name, `{n}` for the number in it and `{channel}` for the number of an output. What a unit states itself
+//! takes precedence over the rule of its group.
 
 use std::collections::BTreeMap;
 
@@ -17,9 +17,9 @@ use sensedsl_job::JobStream;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Names {
-    /// The file of the tree that says what each MCU has.
+    /// The file of the tree that lists what each MCU has.
     pub registry: String,
-    /// The macros that the file needs, beside one of the MCU's.
+    /// The macros that the file needs besides one of the MCU's.
     #[serde(default)]
     pub macros: Vec<String>,
     /// Files of the tree.
@@ -28,17 +28,17 @@ pub struct Names {
     pub drivers: Drivers,
     /// The option that names the kernel's timer.
     pub(super) kernel_option: String,
-    /// The core's clock, which its cycle counter counts.
+    /// The core's clock, which drives its cycle counter.
     #[serde(default = "core_clock")]
     pub(super) core_clock: String,
     pub(super) off: Off,
-    /// How the field is called that moves a unit to other pins; none where every pin has a choice.
+    /// The rule for the field that moves a unit to other pins; `None` if every pin has its own choice.
     remap: Option<String>,
-    /// Where buffers of a DMA lie; by default with all other data.
+    /// The memory for DMA buffers; by default that of all other data.
     #[serde(default)]
     pub(super) memory: Memory,
     timers: Timers,
-    /// Timers whose interrupts the system's port does not serve: with the option that says so, pulses need none.
+    /// Timers whose interrupts the system's port does not serve: an option declares that their outputs need none.
     #[serde(default)]
     without_interrupt: Vec<String>,
     adcs: Group,
@@ -52,22 +52,22 @@ pub struct Names {
     pub usbs: Vec<Usb>,
     #[serde(default)]
     units: Vec<Unit>,
-    /// What the line states.
+    /// The facts of the line.
     #[serde(skip)]
     pub line: Line,
     #[serde(skip)]
     line_name: String,
 }
 
-/// What a line states.
+/// The facts of a line.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
-    /// The macros by which the tree is told these MCUs.
+    /// The macros that select these MCUs in the tree.
     pub devices: Vec<String>,
-    /// Where the line has its own list of drivers.
+    /// The driver list, if the line has its own.
     platform_mk: Option<String>,
-    /// Where the line has its own unit for real numbers.
+    /// The FPU option, if the line has its own.
     fpu: Option<String>,
 }
 
@@ -75,9 +75,9 @@ pub struct Line {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tree {
-    /// The core, as the compiler is told.
+    /// The core, as a compiler option.
     pub mcu: String,
-    /// The core's unit for real numbers, as the compiler is told; none where there is none.
+    /// The core's FPU, as a compiler option; `None` without one.
     pub fpu: Option<String>,
     /// Start-up code.
     pub startup_mk: String,
@@ -87,26 +87,26 @@ pub struct Tree {
     pub port_mk: String,
     /// The layer between drivers and kernel.
     pub osal_mk: String,
-    /// Folder of the make rules.
+    /// The folder of the make rules.
     pub rules_dir: String,
     source: String,
 }
 
-/// Versions of the drivers; each chooses a variant of the generated code.
+/// Versions of the drivers; each selects a variant of the generated code.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drivers {
     /// Analog-digital conversion.
     pub adc: String,
-    /// CAN; empty where there is no driver.
+    /// CAN; empty if there is no driver.
     #[serde(default)]
     pub can: String,
-    /// Digital-analog conversion; empty where there is no driver.
+    /// Digital-analog conversion; empty if there is no driver.
     #[serde(default)]
     pub dac: String,
     /// DMA.
     pub dma: String,
-    /// Pin interrupts; empty where they belong to the pins.
+    /// Pin interrupts; empty if they belong to the pins.
     #[serde(default)]
     pub exti: String,
     /// Pins.
@@ -122,7 +122,7 @@ pub struct Drivers {
     source: String,
 }
 
-/// Switches that a demo's configuration turns on unasked.
+/// Switches that demos turn on although they are not needed.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Off {
@@ -130,17 +130,17 @@ pub(super) struct Off {
     source: String,
 }
 
-/// The memory that DMA controllers reach and no cache stands before.
+/// Uncached memory that DMA controllers reach.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Memory {
-    /// The section of the tree's linker scripts for buffers.
+    /// The section for buffers in the tree's linker scripts.
     pub(super) dma_section: Option<String>,
-    /// The same for the basic controller, which reaches one memory alone.
+    /// The section for buffers of the basic controller, which reaches only one memory.
     pub(super) bdma_section: Option<String>,
     /// The number of the basic controller in the names of streams.
     bdma_controller: Option<String>,
-    /// Options that keep the cache away from the sections, and their values.
+    /// Options that exclude the sections from the cache, and their values.
     #[serde(default)]
     options: Vec<[String; 2]>,
     source: Option<String>,
@@ -153,23 +153,23 @@ struct Timers {
     pwm: Group,
 }
 
-/// How the units of a group are called.
+/// The names of the units of a group.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Group {
     driver: String,
     switch: String,
-    /// Options that name streams; none where the tree fixes them.
+    /// Options that name streams; `None` if the tree fixes them.
     rx: Option<String>,
     tx: Option<String>,
     dma: Option<String>,
-    /// Options that choose source and divider of the group's clock, and their values.
+    /// Options that select source and divider of the group's clock, and their values.
     #[serde(default)]
     options: Vec<[String; 2]>,
-    /// The option for how many milliseconds the driver holds the processor while a bus is busy.
+    /// The option for the time in milliseconds that the driver blocks the processor while a bus is busy.
     pub(super) busy_option: Option<String>,
-    /// The option that chooses what drives the unit, and the value that the profile's clock is true for; none where the
-    /// tree has a constant for the unit's own clock.
+    /// The option that selects the unit's clock source, and the value for which the profile's clock is right; `None` if
+    /// the tree has a constant for the unit's own clock.
     clock_source: Option<[String; 2]>,
 }
 
@@ -177,9 +177,10 @@ pub(super) struct Group {
 #[serde(deny_unknown_fields)]
 struct Dacs {
     switch: String,
-    /// The driver objects of a converter's outputs, from the first on.
+    /// The driver objects of a converter's outputs, starting with the first.
     drivers: BTreeMap<String, Vec<String>>,
-    /// Options of the outputs, by number from 1 on, and their values: what the driver asks for and not every demo says.
+    /// Options of the outputs, by number from 1, and their values: those that the driver requires and not every demo
+    /// sets.
     #[serde(default)]
     options: BTreeMap<String, Vec<[String; 2]>>,
 }
@@ -196,18 +197,18 @@ pub struct Usb {
     /// Options that must be on as well.
     #[serde(default)]
     pub(super) needs: Vec<String>,
-    /// Options that choose its clock, and their values.
+    /// Options that select its clock, and their values.
     #[serde(default)]
     pub(super) settings: BTreeMap<String, String>,
-    /// The MCU has no resistor of its own by which a host sees it: one on the board is always there, unless the
-    /// board's folder says how to switch it.
+    /// True if the MCU has no pull-up resistor by which a host detects it: one on the board is always connected, unless
+    /// the board's folder says how to switch it.
     #[serde(default)]
     pub(super) is_always_connected: bool,
-    /// The option under which it takes a host for granted and leaves the VBUS pin alone.
+    /// The option with which it assumes a host and does not use the VBUS pin.
     pub(super) without_vbus: Option<String>,
 }
 
-/// A unit that is spelled otherwise than its group says.
+/// A unit that is spelled differently from the rule of its group.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Unit {
@@ -221,18 +222,18 @@ struct Unit {
     dma: Option<String>,
     /// The field that moves it to other pins.
     remap: Option<String>,
-    /// How its options name a stream, with `{controller}` and `{stream}`.
+    /// The rule by which its options name a stream, with `{controller}` and `{stream}`.
     stream: Option<String>,
     clock_source: Option<[String; 2]>,
     /// Options that must be on as well.
     #[serde(default)]
     needs: Vec<String>,
-    /// Options that choose source and divider of its clock, and their values.
+    /// Options that select source and divider of its clock, and their values.
     #[serde(default)]
     options: Vec<[String; 2]>,
 }
 
-/// How an option names a stream.
+/// The usual rule by which an option names a stream.
 const STREAM: &str = "STM32_DMA_STREAM_ID({controller}, {stream})";
 
 fn core_clock() -> String {
@@ -246,11 +247,11 @@ fn apply(rule: &str, name: &str) -> String {
 }
 
 impl Names {
-    /// The names of a profile's line.
+    /// The names for a profile's line.
     ///
     /// # Errors
     ///
-    /// When its file is damaged; a test rules that out.
+    /// If its file is damaged; a test rules that out.
     pub fn of(profile: &TargetProfile) -> Result<Self, String> {
         let own = &profile.own;
         let mut names: Self =
@@ -267,19 +268,19 @@ impl Names {
         Ok(names)
     }
 
-    /// The driver object of a unit; of a timer that of input capture.
+    /// The driver object of a unit; for a timer that of input capture.
     pub(super) fn driver(&self, unit: &str) -> Option<String> {
         let own = self.own(unit).and_then(|own| own.driver.as_ref());
         Some(apply(own.or(self.group(unit).map(|group| &group.driver))?, unit))
     }
 
-    /// The options that choose the clock of a unit's group, and their values.
+    /// The options that select the clock of a unit's group, and their values.
     pub(super) fn group_options(&self, unit: &str) -> impl Iterator<Item = Setting> {
         let options = self.group(unit).into_iter().flat_map(|group| &group.options);
         options.map(|[name, value]| Setting::new(name, value))
     }
 
-    /// The field that moves a unit to other pins, where pins have no choice of their own.
+    /// The field that moves a unit to other pins, if pins have no choice of their own.
     pub(super) fn remap(&self, unit: &str) -> Option<String> {
         let own = self.own(unit).and_then(|own| own.remap.as_ref());
         Some(apply(own.or(self.remap.as_ref())?, unit))
@@ -303,8 +304,7 @@ impl Names {
         (apply(&pwm.driver, timer), switches.collect())
     }
 
-    /// The option that names the stream of a request, and the stream's name; none where the tree
-    /// fixes the stream.
+    /// The option that names the stream of a request, and the stream's name; `None` if the tree fixes the stream.
     pub(super) fn stream(&self, unit: &str, request: &str, stream: &str) -> Option<Setting> {
         let (own, group) = (self.own(unit), self.group(unit)?);
         let (own_option, rule) = match request.strip_prefix(unit) {
@@ -332,7 +332,7 @@ impl Names {
         Some((driver, std::iter::once(switch).chain(options).collect()))
     }
 
-    /// The options that choose source and divider of the converters' clock.
+    /// The options that select source and divider of the converters' clock.
     pub(super) fn converters<'a>(&self, units: impl Iterator<Item = &'a UnitName>) -> Vec<Setting> {
         let own = units.filter_map(|unit| self.own(unit.as_str()));
         let own = own.flat_map(|own| &own.options);
@@ -340,24 +340,24 @@ impl Names {
         all.map(|[name, value]| Setting::new(name, value)).collect()
     }
 
-    /// A buffer that these streams fill or empty.
+    /// The kind of buffer that these streams fill or empty.
     pub(super) fn buffer(&self, streams: &[JobStream<'_>]) -> DmaBuffer {
         let is_basic = streams.iter().any(|one| self.is_basic(one.stream));
         if is_basic { DmaBuffer::Basic } else { DmaBuffer::Main }
     }
 
-    /// Whether a stream is one of the basic controller.
+    /// Whether a stream belongs to the basic controller.
     pub(super) fn is_basic(&self, stream: &str) -> bool {
         let controller = stream.split_once(',').map(|(controller, _)| controller);
         controller.is_some() && controller == self.memory.bdma_controller.as_deref()
     }
 
-    /// The options that keep the cache away from buffers.
+    /// The options that exclude buffers from the cache.
     pub(super) fn memory_settings(&self) -> impl Iterator<Item = Setting> {
         self.memory.options.iter().map(|[name, value]| Setting::new(name, value))
     }
 
-    /// The option that chooses what drives a unit, and what it must be.
+    /// The option that selects a unit's clock source, and its required value.
     pub(super) fn clock_source(&self, unit: &str) -> Option<[String; 2]> {
         let own = self.own(unit).and_then(|own| own.clock_source.as_ref());
         let source = own.or(self.group(unit).and_then(|group| group.clock_source.as_ref()))?;
@@ -387,7 +387,7 @@ impl Names {
         }
     }
 
-    /// What of a profile has no name here, and what has no source; empty when all is well.
+    /// The parts of a profile that have no name or no source here; empty if there are none.
     #[must_use]
     pub fn problems(&self, profile: &TargetProfile) -> Vec<String> {
         let line = &profile.line;

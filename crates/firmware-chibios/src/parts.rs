@@ -1,4 +1,4 @@
-//! What parts say in tables of the runtime, beside their wires: chips, messages, formulas, filters.
+//! The runtime tables of parts, apart from their wires: chips, messages, formulas, filters.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::KindName;
@@ -8,12 +8,12 @@ use super::spi;
 use sensedsl_firmware_c::{self as c, DmaBuffer, Wiring};
 use sensedsl_job::{JobConnection, JobDevice, JobPart};
 
-/// All tables, and which fields have a filter.
+/// All tables, and the fields that have a filter.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartsPlan {
-    /// The C of the tables of each part.
+    /// The C code of each part's tables.
     pub(super) tables: Vec<String>,
-    /// What each field's filter is called, in order; empty where no field has a filter.
+    /// The name of each field's filter, in order; empty if no field has a filter.
     pub(super) filters: Vec<Option<String>>,
 }
 
@@ -28,7 +28,7 @@ pub(super) fn plan(context: &Context<'_>) -> PartsPlan {
     }
 }
 
-/// The tables of a part, with what only the wiring says: where the buffers of its bus lie, and its chip select.
+/// The tables of a part, with what depends on the wiring: the memory for its bus's buffers, and its chip select.
 fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
     let of_part = |other: &&JobConnection<'_>| {
         let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
@@ -44,7 +44,7 @@ fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
     )
 }
 
-/// The name of a device's filter, where it has one.
+/// The name of a device's filter, if it has one.
 fn filter(one: &JobDevice<'_>, parts: &[JobPart<'_>]) -> Option<String> {
     let Device { part, name, .. } = one.device;
     let plan = &parts.iter().find(|other| other.index == *part)?.plan;

@@ -24,7 +24,7 @@ pub(super) struct BoardPlan {
     pub(super) tree: TreePlan,
     pub(super) settings: SettingsPlan,
     pub(super) schema: SchemaPlan,
-    /// What no value needs of the core, as the compiler is told.
+    /// Compiler options for the parts of the core that no value needs.
     pub(super) left_out: Vec<String>,
     pub(super) pads: Vec<PadPlan>,
     pub(super) parts: PartsPlan,
@@ -34,10 +34,10 @@ pub(super) struct BoardPlan {
     pub(super) link: LinkPlan,
     pub(super) button: Option<ButtonPlan>,
     pub(super) report_ms: u32,
-    /// How often each value comes; 0 where only something that happens brings one.
+    /// The cycle time of each value; 0 if it comes only when something happens.
     pub(super) cycles_ms: Vec<u32>,
     pub(super) silence_ms: u32,
-    /// What is set when the host is silent, beside what sections do.
+    /// The values that are set when the host falls silent, besides what sections do.
     pub(super) fall_backs: Vec<FallBackPlan>,
     pub(super) guards: Vec<GuardPlan>,
 }
@@ -47,7 +47,7 @@ pub(super) struct BoardPlan {
 pub(super) struct TaskPlan {
     /// `ADC1 60 ms +2`
     pub(super) name: String,
-    /// The runtime's function and the table it works on.
+    /// The runtime's function and its table.
     pub(super) function: &'static str,
     pub(super) work: String,
     pub(super) delay_ms: u32,
@@ -58,7 +58,7 @@ pub(super) struct TaskPlan {
     pub(super) stack_bytes: u32,
 }
 
-/// Decides the firmware of a board. What the hardware or the system cannot do goes to the diagnostics.
+/// Decides the firmware of a board. What the hardware or the system cannot do is reported.
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<BoardPlan> {
     let mut pads = Vec::new();
     let link = link::plan(context, &mut pads, diagnostics)?;
@@ -98,7 +98,7 @@ fn cycle_ms(device: &JobDevice<'_>) -> u32 {
 }
 
 impl BoardPlan {
-    /// The sizes that drivers want the runtime to be compiled with.
+    /// The sizes that drivers need the runtime to be compiled with.
     pub(super) fn sizes(&self) -> impl Iterator<Item = &Size> {
         self.sections.iter().flat_map(|section| &section.sizes)
     }
@@ -112,32 +112,32 @@ impl BoardPlan {
         all
     }
 
-    /// What drivers count.
+    /// The counters of drivers.
     pub(super) fn counters(&self) -> Vec<&Counter> {
         self.sections.iter().flat_map(|section| &section.counters).collect()
     }
 
-    /// The buses that can be searched.
+    /// The buses that can be scanned.
     pub(super) fn probes(&self) -> Vec<&Probe> {
         self.sections.iter().flat_map(|section| &section.probes).collect()
     }
 
-    /// What starts the drivers.
+    /// The lines that start the drivers.
     pub(super) fn starts(&self) -> Vec<&str> {
         self.lines(|section| &section.starts)
     }
 
-    /// What the reporter does in each cycle.
+    /// The lines that the reporter runs in each cycle.
     pub(super) fn polls(&self) -> Vec<&str> {
         self.lines(|section| &section.polls)
     }
 
-    /// What brings actuators to safety.
+    /// The lines that bring actuators to their failsafe state.
     pub(super) fn failsafes(&self) -> Vec<&str> {
         self.lines(|section| &section.failsafes)
     }
 
-    /// What is done when an actuator is set.
+    /// The lines that run when an actuator is set.
     pub(super) fn applies(&self) -> Vec<&Apply> {
         self.sections.iter().flat_map(|section| &section.applies).collect()
     }
@@ -162,7 +162,7 @@ impl TaskPlan {
     }
 }
 
-/// What is left out of the core, as its compiler is told (`-D`).
+/// The parts left out of the core, as compiler options (`-D`).
 fn left_out(job: &BoardJob<'_>) -> Vec<String> {
     let unused = uses(job).into_iter().filter(|(_, is_used)| !is_used);
     unused.map(|(name, _)| format!("UP_USES_{}=0", name.to_uppercase().replace('-', "_"))).collect()

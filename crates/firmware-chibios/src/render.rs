@@ -9,7 +9,7 @@ use sensedsl_files::FileSet;
 use sensedsl_files::print;
 use sensedsl_firmware_c as c;
 
-/// The user's file as it is made once.
+/// The user's file, as it is first written.
 const USER: &str = include_str!("templates/user.c.txt");
 
 /// Declares a template that prints a [`BoardPlan`] under the name `b`.

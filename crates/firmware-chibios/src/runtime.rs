@@ -1,4 +1,5 @@
-//! The hand-written runtime that every board has, copied beside what is generated. What is a driver's is in its folder.
+//! The hand-written runtime that every board has, copied beside the generated files. Files of a driver are in its
+//! folder.
 
 /// Files of `runtime/` with their path below `uproxy/`.
 macro_rules! own {
@@ -12,7 +13,7 @@ macro_rules! own {
 pub(crate) use own;
 use sensedsl_firmware_c::runtime::File;
 
-/// What is between the core and the system.
+/// The files between the core and the system.
 pub(super) const FILES: &[File] = own![
     "up_chips.c",
     "up_chips.h",

@@ -1,7 +1,7 @@
-//! What the firmware of one driver adds to a board: its section. A driver is a folder here, a version of it a file.
+//! The section of a board's firmware that one driver adds. A driver is a folder here, a version of it a file.
 //!
-//! In: a [`Context`]. Out: a [`Section`]. What is common to all drivers puts the sections together and looks into
-//! none of them: a kind that gets firmware is a folder and a line in [`PERIPHERALS`].
+//! In: a [`Context`]. Out: a [`Section`]. The code common to all drivers combines the sections without looking into
+//! any: firmware for another kind is a folder and a line in [`PERIPHERALS`].
 
 use std::collections::BTreeSet;
 
@@ -16,101 +16,101 @@ use super::names::{Drivers, Setting};
 use super::stacks::Depth;
 use sensedsl_job::{BoardJob, Cycle, JobConnection};
 
-/// A driver of the system that code is made for.
+/// A driver of the system that has code here.
 pub(super) struct Peripheral {
-    /// For people.
+    /// The name for people.
     pub(super) name: &'static str,
     /// The kind of device that it serves by itself.
     pub(super) kind: Option<KindName>,
-    /// Which version an MCU has.
+    /// The version that an MCU has.
     pub(super) version: fn(&Drivers) -> &str,
-    /// The versions that code is made for.
+    /// The versions that have code here.
     pub(super) versions: &'static [Version],
-    /// What a connection needs and is not made: [`nothing`] where everything is.
+    /// The function for what a connection needs and there is no code for; [`nothing`] if there is code for everything.
     pub(super) lacks: Lacks,
-    /// What it needs of the core in C.
+    /// The files that it needs from the core in C.
     pub(super) core: &'static [&'static [File]],
-    /// Its hand-written files: path below `uproxy/`, and text.
+    /// Its hand-written files: path below `uproxy/`, and content.
     pub(super) runtime: &'static [File],
 }
 
-/// See [`sensedsl_job::Target::lacks`].
+/// The type of a driver's part of [`sensedsl_job::Target::lacks`].
 pub(super) type Lacks = fn(&BoardJob<'_>, &JobConnection<'_>) -> Option<&'static str>;
 
 /// The code for one version of a driver.
 pub(super) struct Version {
-    /// As the system names it: `ADCv2`.
+    /// The system's name for it: `ADCv2`.
     pub(super) name: &'static str,
-    /// Decides everything. What cannot be goes to the diagnostics.
+    /// Decides everything. What is impossible is reported.
     pub(super) plan: fn(&Context<'_>, &mut Vec<Diagnostic>) -> Section,
 }
 
-/// What a driver adds.
+/// The section that a driver adds.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Section {
-    /// How pads are set up.
+    /// The pads and their setup.
     pub(super) pads: Vec<PadPlan>,
-    /// The units that it takes.
+    /// The units that it uses.
     pub(super) units: BTreeSet<UnitName>,
-    /// For `mcuconf.h`: options that turn on what is no unit of its own, such as the outputs of a timer.
+    /// For `mcuconf.h`: options that turn on what is not a unit of its own, such as the outputs of a timer.
     pub(super) switches: Vec<String>,
     /// For `halconf.h`: whether the driver is compiled.
     pub(super) switch: Option<Setting>,
-    /// For `halconf.h`: how it is compiled.
+    /// For `halconf.h`: the options that it is compiled with.
     pub(super) hal: Vec<Setting>,
-    /// For `mcuconf.h`, beside switches and streams of the units.
+    /// For `mcuconf.h`, besides switches and streams of the units.
     pub(super) mcu: Vec<Setting>,
-    /// For `up_conf.h`.
+    /// For `up_conf.h`: the sizes that the runtime is compiled with.
     pub(super) sizes: Vec<Size>,
     /// The threads.
     pub(super) work: Vec<Work>,
-    /// What the C compiler is to check.
+    /// The conditions for the C compiler to check.
     pub(super) guards: Vec<GuardPlan>,
-    /// The clocks whose frequencies were computed with.
+    /// The clocks whose frequencies the computations used.
     pub(super) clocks: BTreeSet<String>,
     /// The headers that its tables need; [`sections`] fills them in.
     pub(super) headers: Vec<&'static str>,
-    /// The C of its tables.
+    /// The C code of its tables.
     pub(super) tables: String,
-    /// Lines of C that start it, after the pads.
+    /// Lines of C that start it, after the pads are set up.
     pub(super) starts: Vec<String>,
-    /// Lines of C that look at what its interrupts have gathered: in each cycle of the reporter.
+    /// Lines of C that process what its interrupts have collected: in each cycle of the reporter.
     pub(super) polls: Vec<String>,
-    /// What is done at once when the host has set an actuator.
+    /// Lines of C that run at once when the host has set an actuator.
     pub(super) applies: Vec<Apply>,
-    /// What it counts beside the health of devices.
+    /// Its counters besides the health of devices.
     pub(super) counters: Vec<Counter>,
-    /// Buses on which addresses can be searched for.
+    /// The buses that can be scanned for addresses.
     pub(super) probes: Vec<Probe>,
-    /// Lines of C that bring its actuators to safety when the host is silent.
+    /// Lines of C that bring its actuators to their failsafe state when the host falls silent.
     pub(super) failsafes: Vec<String>,
 }
 
-/// A bus on which addresses can be searched for: an `up_probe_t`.
+/// A bus that can be scanned for addresses: an `up_probe_t`.
 #[derive(Clone, Debug)]
 pub(super) struct Probe {
     /// `I2C1`
     pub(super) title: String,
-    /// The runtime's function that asks one address, and what it is told.
+    /// The runtime's function that probes one address, and its argument.
     pub(super) function: &'static str,
     pub(super) table: String,
-    /// Those that the design has there.
+    /// The addresses that the design has there.
     pub(super) expected: Vec<u8>,
 }
 
-/// A number for people.
+/// A counter, shown to people.
 #[derive(Clone, Debug)]
 pub(super) struct Counter {
     /// `I2C1 was freed`
     pub(super) title: String,
-    /// The `uint32_t` in C.
+    /// The `uint32_t` variable in C.
     pub(super) variable: String,
 }
 
-/// What is done when the host has set an actuator.
+/// The action when the host has set an actuator.
 #[derive(Clone, Debug)]
 pub(super) struct Apply {
-    /// The device, as in `SENSE_FIELD_` and its name.
+    /// The device's name, as in `SENSE_FIELD_`.
     pub(super) field: String,
     /// A line of C; `value` points to the value.
     pub(super) line: String,
@@ -119,18 +119,18 @@ pub(super) struct Apply {
 /// A size that the runtime is compiled with.
 #[derive(Clone, Debug)]
 pub(super) struct Size {
-    /// For people.
+    /// The comment for people.
     pub(super) comment: &'static str,
     pub(super) setting: Setting,
 }
 
-/// What one thread has to do.
+/// The work of one thread.
 #[derive(Clone, Debug)]
 pub(super) struct Work {
-    /// For people: `ADC1`.
+    /// The name for people: `ADC1`.
     pub(super) unit: String,
     pub(super) cycle: Cycle,
-    /// The function that does one cycle, and the table it works on.
+    /// The function that runs one cycle, and its table.
     pub(super) function: &'static str,
     pub(super) table: String,
     /// The identifier of the first device that it serves.
@@ -152,13 +152,13 @@ impl Peripheral {
     }
 }
 
-/// The kinds of devices that code is made for.
+/// The kinds of devices that have code here.
 pub(super) fn kinds(drivers: &Drivers) -> Vec<KindName> {
     let served = PERIPHERALS.iter().filter(|one| one.serving(drivers).is_some());
     served.filter_map(|one| one.kind).collect()
 }
 
-/// The driver of an MCU's pins, where there is no code for it, in words.
+/// The driver of an MCU's pins, in words, if it has no code here.
 pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
     let is_missing = |one: &&&Peripheral| one.kind.is_none() && one.serving(drivers).is_none();
     let missing = PERIPHERALS.iter().find(is_missing)?;
@@ -171,7 +171,7 @@ pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
     ))
 }
 
-/// Of a driver that serves whatever the language has.
+/// The `lacks` of a driver that serves everything that the language has.
 pub(super) fn nothing(_: &BoardJob<'_>, _: &JobConnection<'_>) -> Option<&'static str> {
     None
 }

@@ -1,4 +1,4 @@
-//! What changes in the demo's `chconf.h`, `halconf.h` and `mcuconf.h`.
+//! The changes to the demo's `chconf.h`, `halconf.h` and `mcuconf.h`.
 
 use std::collections::BTreeSet;
 
@@ -12,13 +12,13 @@ use super::section::{GuardPlan, Section};
 /// All settings.
 #[derive(Clone, Debug)]
 pub(super) struct SettingsPlan {
-    /// What the kernel's time comes from.
+    /// The source of the kernel's time.
     pub(super) kernel: KernelPlan,
-    /// For `halconf.h`.
+    /// The settings for `halconf.h`.
     pub(super) hal: Vec<Setting>,
-    /// For `mcuconf.h`.
+    /// The settings for `mcuconf.h`.
     pub(super) mcu: Vec<Setting>,
-    /// The sections for buffers, and the macros by which the runtime knows them.
+    /// The linker sections for buffers, and the macros by which the runtime refers to them.
     pub(super) memory: Vec<Setting>,
     /// The DMA streams in use.
     dma: Vec<StreamPlan>,
@@ -28,20 +28,20 @@ pub(super) struct SettingsPlan {
 #[derive(Clone, Debug)]
 struct StreamPlan {
     setting: Setting,
-    /// It is one of the basic controller, whose numbers are for themselves.
+    /// True if it is a stream of the basic controller, which are numbered separately.
     is_basic: bool,
 }
 
-/// What the kernel's time comes from.
+/// The source of the kernel's time.
 #[derive(Clone, Debug)]
 pub(super) struct KernelPlan {
     /// `TIM2`
     pub(super) name: String,
-    /// For people.
+    /// The reason, for people.
     pub(super) why: String,
-    /// A timer wakes the kernel when something is due, instead of a tick.
+    /// True if a timer wakes the kernel when something is due, instead of a tick.
     pub(super) is_tickless: bool,
-    /// Width of the counter.
+    /// The width of the counter.
     pub(super) bits: u8,
     pub(super) hz: u32,
 }
@@ -96,7 +96,7 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
     }
 }
 
-/// The sections of the linker script for buffers of a DMA.
+/// The linker sections for DMA buffers.
 fn memory(context: &Context<'_>) -> Vec<Setting> {
     let memory = &context.names.memory;
     let sections = [
@@ -126,13 +126,13 @@ fn streams(context: &Context<'_>, units: &BTreeSet<&UnitName>) -> Vec<StreamPlan
     settings
 }
 
-/// Drivers that a demo may turn on and nothing here uses unless a section says so.
+/// Drivers that a demo may turn on and that are unused here unless a section needs them.
 const DRIVERS: [&str; 20] = [
     "ADC", "CAN", "CRY", "DAC", "EFL", "GPT", "I2C", "I2S", "ICU", "MAC", "MMC_SPI", "PWM", "RTC",
     "SDC", "SIO", "SPI", "TRNG", "UART", "WDG", "WSPI",
 ];
 
-/// Each driver once, on where anything wants it on.
+/// Each driver once, turned on if anything needs it.
 fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
     let truth = |value: bool| if value { "TRUE" } else { "FALSE" };
     let mut settings = vec![Setting::new("HAL_USE_PAL", "TRUE")];
@@ -163,11 +163,11 @@ fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
     settings
 }
 
-/// Bytes of the queues of all serial ports, each way; and how many the link wants.
+/// The size of the queues of all serial ports, each way, and the bytes that the link needs.
 const SERIAL_SIZE: &str = "SERIAL_BUFFERS_SIZE";
 const LINK_BYTES: u32 = 256;
 
-/// What the C compiler is asked to check against the user's tree, because nothing else would.
+/// The conditions for the C compiler to check against the user's tree, because nothing else would.
 pub(super) fn guards(
     context: &Context<'_>,
     sections: &[Section],
@@ -186,7 +186,7 @@ pub(super) fn guards(
     guards
 }
 
-/// The macros of clocks that the computed times are true for.
+/// The macros of the clocks that the computed times depend on.
 fn clocks<'a>(context: &'a Context<'_>, sections: &'a [Section]) -> BTreeSet<&'a str> {
     let core = context.profile.costs.as_ref().map(|costs| costs.clock.as_str());
     let link = context.job.link.as_ref().and_then(|link| context.profile.unit(link.unit));
@@ -195,7 +195,7 @@ fn clocks<'a>(context: &'a Context<'_>, sections: &'a [Section]) -> BTreeSet<&'a
     own.chain(sections.map(String::as_str)).collect()
 }
 
-/// Two drivers on one stream compile, and fail at run time.
+/// Two drivers that share a stream would compile, but fail at run time.
 fn streams_differ(settings: &SettingsPlan, guards: &mut Vec<GuardPlan>) {
     for (at, first) in settings.dma.iter().enumerate() {
         let others = settings.dma.iter().skip(at + 1);

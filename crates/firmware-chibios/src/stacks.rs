@@ -1,20 +1,20 @@
-//! How large the stacks of threads are: by what the thread does, as `tests/timing/stacks.py` measures it.
+//! The stack sizes of threads, from what each thread does, as `tests/timing/stacks.py` measures it.
 
 use super::context::Context;
 use sensedsl_job::JobDevice;
 
-/// The deepest path of a thread in bytes, in either mode, on a core with the small set of instructions (Cortex-M0 and M0+)
-/// and on the others. Frames of interrupts and what the kernel saves of a thread come on top; the kernel adds them.
+/// The deepest call path of a thread in bytes, in either mode, on a core with the small instruction set (Cortex-M0 and
+/// M0+) and on the others. Interrupt frames and the kernel's saved context come on top; the kernel adds them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
-    /// Where no value of the board has a filter that remembers.
+    /// If no value of the board has a filter with memory.
     pub(super) plain: [u32; 2],
-    /// With `median`, `smooth` or `change`.
+    /// If a value has a filter with `median`, `smooth` or `change`.
     pub(super) filtered: [u32; 2],
 }
 
 impl Depth {
-    /// The bytes to reserve: a quarter more than the deepest path. What a user's transform needs is not among them
+    /// The bytes to reserve: a quarter more than the deepest path. They do not include a user's transform
     /// (`UP_TRANSFORM_BYTES`).
     pub(super) fn stack_bytes(&self, context: &Context<'_>) -> u32 {
         let [small, other] =

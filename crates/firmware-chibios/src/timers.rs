@@ -1,4 +1,4 @@
-//! What the drivers of timers have in common: which channel of which timer a wire is, and the wires of a device.
+//! What the drivers of timers have in common: the timer channel of each wire, and the wires of a device.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::signal::{Function, TimerLine};
@@ -8,12 +8,12 @@ use super::context::Context;
 use super::section::GuardPlan;
 use sensedsl_job::{JobConnection, JobDevice, Pad};
 
-/// One channel of a timer at a pin.
+/// A channel of a timer at a pin.
 pub(super) struct Channel<'a> {
     pub(super) timer: &'a Timer,
-    /// From 1.
+    /// The number of the channel, from 1.
     pub(super) number: u8,
-    /// The complementary output.
+    /// True for the complementary output.
     pub(super) is_inverted: bool,
 }
 
@@ -34,13 +34,13 @@ pub(super) fn devices<'a>(
     devices.map(move |device| (device, context.job.wires_of(device.device)))
 }
 
-/// 64-bit words of memory for a value of a device.
+/// The number of 64-bit words that hold a value of a device.
 pub(super) fn words(device: &JobDevice<'_>) -> usize {
     let value = device.device.value.value;
     (value.count() * value.scalar.size_bytes()).div_ceil(8)
 }
 
-/// That the driver can make a tick of the timer's clock.
+/// Checks that the driver can derive a tick from the timer's clock.
 pub(super) fn divides(timer: &Timer, tick_hz: u32) -> GuardPlan {
     let Timer { name, clock, .. } = timer;
     GuardPlan {
@@ -49,7 +49,7 @@ pub(super) fn divides(timer: &Timer, tick_hz: u32) -> GuardPlan {
     }
 }
 
-/// That the tree's timer has so many channels.
+/// Checks that the tree's timer has this many channels.
 pub(super) fn has_channels(timer: &Timer, channels: u8) -> GuardPlan {
     let name = &timer.name;
     GuardPlan {

@@ -1,9 +1,9 @@
-//! The host applications that are generated: a host is a line of [`HOSTS`].
+//! The host applications that can be generated: each is a line of [`HOSTS`].
 
 use sensedsl_host_cpp as cpp;
 use sensedsl_job::host::Host;
 
-/// Every host there is, in the order in which people read of them.
+/// All hosts, in the order in which they are documented.
 pub const HOSTS: &[&dyn Host] = &[
     &cpp::OpenDavinci, //
     &cpp::OpenDavinci2014,
@@ -11,7 +11,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::Plain,
 ];
 
-/// The host of that name.
+/// The host with this name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static dyn Host> {
     HOSTS.iter().copied().find(|host| host.name() == name)

@@ -1,4 +1,4 @@
-//! From a wired design to all files of a project: the systems and hosts that there are, and what they lack.
+//! From a wired design to all files of a project: the available systems and hosts, and what they lack.
 
 pub mod host;
 mod project;

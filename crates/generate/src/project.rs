@@ -1,4 +1,4 @@
-//! Everything `generate` writes for a wired design, as one set of files.
+//! Everything that `generate` writes for a wired design, as one set of files.
 
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_diagnostics::{Diagnostic, render};
@@ -13,7 +13,7 @@ use sensedsl_job::host::{Host, HostBoard, HostPlan};
 use crate::host::HOSTS;
 use crate::target;
 
-/// What is to be generated beside the answer, the schema, the wiring sheet and the picture.
+/// The things to generate besides the answer, the schema, the wiring sheet and the picture.
 #[derive(Clone, Copy)]
 pub struct Selection<'a> {
     /// Firmware for each board.
@@ -23,20 +23,20 @@ pub struct Selection<'a> {
 }
 
 impl Selection<'static> {
-    /// Everything there is.
+    /// Everything.
     pub const ALL: Self = Self { firmware: true, hosts: HOSTS };
 }
 
-/// What was generated, and what could not be.
+/// The generated files, and the reasons why the rest was not generated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
-    /// Everything that can be made. Of the firmware that is all boards' or nothing.
+    /// All files that could be generated. Firmware is included for all boards or for none.
     pub files: FileSet,
-    /// Why there is no firmware, where it was wanted; why there is nothing, where nothing is connected.
+    /// Why there is no firmware although it was wanted, or why there are no files because nothing is connected.
     pub gaps: Vec<Diagnostic>,
 }
 
-/// All files of a design. `name` is what people call it: what its file is called.
+/// All files of a design. `name` is the design's name for people, taken from the name of its file.
 #[must_use]
 pub fn project(
     name: &str,
@@ -66,7 +66,7 @@ pub fn project(
     Project { files, gaps }
 }
 
-/// Hosts and firmware need somebody to talk to.
+/// Hosts and firmware need at least one device.
 fn nothing_connected(design: &Design, assignment: &Assignment) -> Option<Diagnostic> {
     let board = design.boards.first()?;
     if assignment.used(design).next().is_some() {

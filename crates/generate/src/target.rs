@@ -1,8 +1,8 @@
 //! The systems that firmware is generated for.
 //!
-//! In: a [`BoardJob`], which names no system. Out: the files of one board, or what cannot be. A system is a crate
-//! that implements [`Target`], and a line of [`TARGETS`]; its profiles are data. What a system lacks is a gap: it is reported,
-//! and there is no firmware at all, but everything beside the firmware can still be made.
+//! In: a [`BoardJob`], which depends on no system. Out: the files of one board, or what is impossible. A system is a
+//! crate that implements [`Target`], and a line of [`TARGETS`]; its profiles are data. What a system lacks is a gap: it
+//! is reported, and then no firmware is generated, but everything besides the firmware still can be.
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
@@ -19,7 +19,7 @@ use sensedsl_firmware_chibios::Chibios;
 use sensedsl_firmware_embassy::Embassy;
 use sensedsl_job::{BoardJob, JobConnection, Target, jobs};
 
-/// Every system, in the order in which people read of them.
+/// All systems, in the order in which they are documented.
 pub const TARGETS: &[&dyn Target] = &[&Chibios, &Embassy];
 
 /// The system of a profile.
@@ -28,11 +28,11 @@ pub fn of(profile: &TargetProfile) -> Option<&'static dyn Target> {
     TARGETS.iter().copied().find(|target| target.name() == profile.system())
 }
 
-/// The system that a board gets its firmware from, or why there is none.
+/// The system that generates a board's firmware.
 ///
 /// # Errors
 ///
-/// Why there is none, in words that follow a colon.
+/// The reason why there is none, worded to follow a colon.
 pub fn serving(
     profile: Option<&TargetProfile>,
     facts: Option<&catalog::Board>,
@@ -43,7 +43,7 @@ pub fn serving(
     target.refusal(profile, facts).map_or(Ok(target), Err)
 }
 
-/// What a board's system lacks for it.
+/// The gaps of a board: what its system lacks for it.
 #[must_use]
 pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
     let mut gaps = Vec::new();
@@ -53,7 +53,7 @@ pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
     }
     if let Some((target, profile)) = job.profile.and_then(|one| Some((of(one)?, one))) {
         gaps.extend(missing_kinds(target, profile, job));
-        // All wires of a chip or an array have one thing to say.
+        // All wires of a chip or an array give the same report.
         for gap in job.connections.iter().filter_map(|one| unmade(target, job, one)) {
             if gaps.last() != Some(&gap) {
                 gaps.push(gap);
@@ -63,7 +63,7 @@ pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
     gaps
 }
 
-/// What a connection needs and the target does not do.
+/// A diagnostic for what a connection needs and the target does not support.
 fn unmade(
     target: &dyn Target,
     job: &BoardJob<'_>,
@@ -96,11 +96,11 @@ fn missing_kinds(
     all
 }
 
-/// The firmware of all boards, each in a folder of its name.
+/// The firmware of all boards, each in a folder named after it.
 ///
 /// # Errors
 ///
-/// What is lacking for any of them: there is all of the firmware or none.
+/// Returns what is lacking for any of them: firmware is generated for all boards or for none.
 pub fn firmware(design: &Design, wiring: &Assignment) -> Result<FileSet, Vec<Diagnostic>> {
     let mut files = FileSet::default();
     let mut diagnostics = Vec::new();
@@ -133,8 +133,8 @@ fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
     Err(diagnostics)
 }
 
-/// Adds what [`firmware`] would refuse to what is said of a design, as warnings for whoever does not generate yet. A
-/// board whose target is `none` has asked for no firmware, a design with errors gets none.
+/// Adds what [`firmware`] would reject to the diagnostics of a design, as warnings for users who do not generate yet. A
+/// board whose target is `none` wants no firmware, and a design with errors gets none.
 pub fn foresee(design: &Design, wiring: &Assignment, said: &mut Vec<Diagnostic>) {
     if said.iter().any(|one| one.severity == Severity::Error) {
         return;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use sensedsl_board::profile;
 use sensedsl_generate::target::{self, TARGETS};
 
-/// The full names of all targets there are profiles for.
+/// The full names of all targets that have profiles.
 fn profiled() -> BTreeSet<String> {
     let names = profile::names().into_iter().filter(|name| name != profile::NONE);
     names.filter_map(|name| profile::full_name(&name)).map(str::to_owned).collect()
@@ -40,7 +40,7 @@ fn every_generator_has_a_name_of_its_own_and_a_profile() {
     }
 }
 
-/// What a profile keeps for its generator is read word by word.
+/// Every key that a profile has for its generator is checked.
 #[test]
 fn a_damaged_part_is_told() {
     let mut profile = profile::lines(profile::DEFAULT).unwrap().remove(0).profile;

@@ -1,8 +1,7 @@
-//! The C++ hosts: what they share, and one folder each.
+//! The C++ hosts: a common part, and one folder each.
 //!
-//! In: a [`HostPlan`](sensedsl_job::host::HostPlan). Out: files. `names.rs` makes names of C++, `view.rs` says the plan
-//! in C++ words, `runtime/` is hand-written and copied beside what is generated, `shared/` is
-//! printed for several hosts.
+//! In: a [`HostPlan`](sensedsl_job::host::HostPlan). Out: files. `names.rs` makes C++ names, `view.rs` puts the plan in
+//! C++ terms, `runtime/` is hand-written and copied beside the generated files, `shared/` is printed for several hosts.
 
 mod libcluon;
 mod names;
@@ -33,7 +32,7 @@ struct Odvd<'a> {
     design: &'a DesignView,
 }
 
-/// What each of them has: the hand-written headers, and for each board its tables.
+/// The files that each of them has: the hand-written headers, and the tables of each board.
 fn shared(design: &DesignView) -> FileSet {
     let mut files = runtime::files();
     for board in &design.boards {

@@ -1,16 +1,16 @@
-//! One rule that makes C++ names of a design's names, the same in each C++ host.
+//! The rule that makes C++ names of a design's names, the same in each C++ host.
 //!
-//! A name stays as it is. A character that C++ does not allow becomes `_u` and its code, a leading
-//! `_` or digit gets an `n` before it, a word of `reserved.txt` (keywords, macros of the system's
-//! headers, names of our own) a `_` behind it, and so does a name that would then be taken already,
-//! upper and lower case being one: libcluon's guards and some file systems do not tell them apart.
+//! A name is kept as it is if possible. A character that C++ does not allow becomes `_u` and its code; a leading `_` or
+//! digit gets an `n` before it; a word of `reserved.txt` (keywords, macros of the system's headers, names of our own)
+//! gets a `_` after it, and so does a name that is already taken. Upper and lower case count as the same, because
+//! libcluon's guards and some file systems do not distinguish them.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 const RESERVED: &str = include_str!("reserved.txt");
 
-/// The words of the list.
+/// The reserved words.
 fn reserved() -> &'static BTreeSet<&'static str> {
     static WORDS: OnceLock<BTreeSet<&str>> = OnceLock::new();
     WORDS.get_or_init(|| {
@@ -21,17 +21,17 @@ fn reserved() -> &'static BTreeSet<&'static str> {
 
 /// Hands out names, each at most once.
 pub(super) struct CppNames {
-    /// In lower case.
+    /// The names taken, in lower case.
     taken: BTreeSet<String>,
 }
 
 impl CppNames {
-    /// Nothing is taken yet.
+    /// No names are taken yet.
     pub(super) fn new() -> Self {
         Self { taken: BTreeSet::new() }
     }
 
-    /// The C++ name for `name`, taken from now on.
+    /// The C++ name for `name`, which is then taken.
     pub(super) fn take(&mut self, name: &str) -> String {
         let mut identifier = String::new();
         for character in name.chars() {

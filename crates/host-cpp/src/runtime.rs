@@ -1,15 +1,15 @@
-//! The hand-written files that C++ hosts share, copied beside what is generated.
+//! The hand-written files that C++ hosts share, copied beside the generated files.
 
 use sensedsl_files::FileSet;
 
-/// A file of `runtime/` and where a host has it.
+/// A file of `runtime/` and its path in a host.
 macro_rules! shared {
     ($name:literal) => {
         (concat!("include/sensedsl/", $name), include_str!(concat!("../runtime/sensedsl/", $name)))
     };
 }
 
-/// From C++98 on: what every host is made of.
+/// The files of every host, in C++98.
 const EVERY_HOST: [(&str, &str); 17] = [
     shared!("cause.hpp"),
     shared!("clock.hpp"),
@@ -30,11 +30,11 @@ const EVERY_HOST: [(&str, &str); 17] = [
     shared!("wire.hpp"),
 ];
 
-/// For C++17.
+/// The additional files for C++17.
 pub(super) const BOARD: [(&str, &str); 3] =
     [shared!("board.hpp"), shared!("handlers.hpp"), shared!("typed.hpp")];
 
-/// All that a host of any C++ includes.
+/// The files of every host.
 pub(super) fn files() -> FileSet {
     let mut files = FileSet::default();
     for (path, text) in EVERY_HOST {

@@ -1,6 +1,6 @@
-//! The plan in C++ words: types, literals, names. Shared by all C++ hosts.
+//! The plan in C++ terms: types, literals, names. Shared by all C++ hosts.
 //!
-//! In: a [`HostPlan`]. Out: views whose fields are what templates print, nothing left to compute.
+//! In: a [`HostPlan`]. Out: views whose fields are exactly what templates print, with nothing left to compute.
 
 use sensedsl_diagnostics::visible;
 use sensedsl_wire::ScalarType;
@@ -8,17 +8,17 @@ use sensedsl_wire::ScalarType;
 use super::names::CppNames;
 use sensedsl_job::host::{BoardPlan, DevicePlan, DirectionPlan, HostPlan, Limits, MessagePlan};
 
-/// Distance between a wire identifier and the number of its message on an OpenDaVINCI or libcluon
-/// bus. Those busses are shared with other programs, whose messages have small numbers and four-digit ones.
+/// The offset between a wire identifier and the number of its message on an OpenDaVINCI or libcluon bus. Those buses
+/// are shared with other programs, whose messages have numbers of up to four digits.
 const MESSAGE_NUMBER_BASE: u32 = 21_000;
 
-/// Distance between a wire identifier and its data type in the OpenDaVINCI of 2014, whose data types
-/// are an enumeration: 701 to 954 are free there and within its range of values.
+/// The offset between a wire identifier and its data type in the OpenDaVINCI of 2014, whose data types are an
+/// enumeration: 701 to 954 are free and within its range of values.
 const DATA_TYPE_BASE_2014: u32 = 700;
 
 /// The whole design.
 pub(super) struct DesignView {
-    /// Its namespace in `sense`, its `CMake` target, its folder of headers.
+    /// Its namespace in `sense`, its `CMake` target, and its folder of headers.
     pub(super) ident: String,
     pub(super) boards: Vec<BoardView>,
 }
@@ -30,15 +30,15 @@ pub(super) struct BoardView {
     pub(super) name: String,
     /// Its name as a C++ string literal.
     pub(super) name_literal: String,
-    /// Its class and the stem of its files.
+    /// The name of its class and the stem of its files.
     pub(super) ident: String,
     pub(super) hash: String,
-    /// C++ string literals, a line each.
+    /// The schema text as C++ string literals, one per line.
     pub(super) schema_text: Vec<String>,
     pub(super) checksum: &'static str,
     pub(super) has_stamp: bool,
     pub(super) baud: u32,
-    /// 0 for never.
+    /// The time limit without frames from the host; 0 for never.
     pub(super) silence_ms: u32,
     pub(super) devices: Vec<DeviceView>,
     pub(super) sensors: Vec<MessageView>,
@@ -49,7 +49,7 @@ pub(super) struct BoardView {
     pub(super) actuator_short_bytes_max: usize,
 }
 
-/// One device as health has it.
+/// A device as listed in health.
 pub(super) struct DeviceView {
     pub(super) id: u8,
     /// Its name as a C++ string literal.
@@ -61,20 +61,20 @@ pub(super) struct DeviceView {
 pub(super) struct MessageView {
     /// The device's name as a C++ string literal.
     pub(super) name: String,
-    /// Its class.
+    /// The name of its class.
     pub(super) ident: String,
-    /// The same from anywhere: `::sense::fig2::IRFront`.
+    /// The qualified name of its class: `::sense::fig2::IRFront`.
     pub(super) path: String,
     /// Its name in an .odvd file: `sense.fig2.IRFront`.
     pub(super) odvd_name: String,
     pub(super) id: u8,
-    /// Number on a bus of messages, unique beside other programs' messages.
+    /// The message's number on the bus, distinct from those of other programs' messages.
     pub(super) number: u32,
     pub(super) data_type_2014: u32,
     pub(super) is_actuator: bool,
-    /// One line for a comment.
+    /// A one-line summary, for a comment.
     pub(super) summary: String,
-    /// One line for a help text, as a C++ string literal: name, type, limits, label.
+    /// A one-line help text as a C++ string literal: name, type, limits, label.
     pub(super) help: String,
     /// `uint16_t`
     pub(super) cpp_type: &'static str,
@@ -82,26 +82,26 @@ pub(super) struct MessageView {
     pub(super) is_bool: bool,
     pub(super) count: usize,
     pub(super) is_array: bool,
-    /// The function that says how values are shown: `::sense::fig2::scaling::IRFront`.
+    /// The function that describes how values are shown: `::sense::fig2::scaling::IRFront`.
     pub(super) scaling: String,
-    /// C++ literals.
+    /// Scale and offset as C++ literals.
     pub(super) scale: String,
     pub(super) offset: String,
-    /// Points as C++ initialisers: `{80.0, 8.0}`.
+    /// The points as C++ initialisers: `{80.0, 8.0}`.
     pub(super) curve: Vec<String>,
     pub(super) has_value: bool,
-    /// C++ expressions of type double.
+    /// The limits as C++ expressions of type double.
     pub(super) min: String,
     pub(super) max: String,
-    /// 0 when values come only when something happens.
+    /// The cycle time; 0 if values come only when something happens.
     pub(super) cycle_ms: u32,
-    /// The unit as a C++ string literal; `""` when there is none.
+    /// The unit as a C++ string literal; `""` if there is none.
     pub(super) quantity: String,
-    /// ` cm` as a C++ string literal, for printing behind a number.
+    /// The unit as a suffix for numbers, as a C++ string literal: ` cm`.
     pub(super) quantity_suffix: String,
-    /// One for each element, raw ones first.
+    /// The fields of each element, raw ones first.
     pub(super) fields: Vec<FieldView>,
-    /// The number of the field `is_raw`, which says by what a command is taken; none where there is nothing to choose.
+    /// The number of the field `is_raw`, which selects the value that a command uses; `None` if there is no choice.
     pub(super) is_raw_number: Option<usize>,
 }
 
@@ -110,14 +110,14 @@ pub(super) struct FieldView {
     pub(super) number: usize,
     /// `raw`, `raw2`, `value`, `value2`.
     pub(super) name: String,
-    /// `uint16` in an .odvd file.
+    /// The type in an .odvd file: `uint16`.
     pub(super) odvd_type: &'static str,
     pub(super) element: usize,
     pub(super) is_raw: bool,
 }
 
 impl DesignView {
-    /// Names are unique over the whole design, so that messages of all boards fit one namespace.
+    /// Names are unique within the whole design, so that messages of all boards can share a namespace.
     pub(super) fn new(plan: &HostPlan) -> Self {
         let ident = CppNames::new().take(&plan.name);
         let mut names = CppNames::new();
@@ -130,12 +130,12 @@ impl DesignView {
         self.boards.iter().flat_map(BoardView::messages)
     }
 
-    /// What message numbers begin with.
+    /// The offset of message numbers.
     pub(super) fn number_base(&self) -> u32 {
         MESSAGE_NUMBER_BASE
     }
 
-    /// What data types of 2014 begin with.
+    /// The offset of data types in the OpenDaVINCI of 2014.
     pub(super) fn data_type_base_2014(&self) -> u32 {
         DATA_TYPE_BASE_2014
     }
@@ -167,7 +167,7 @@ impl BoardView {
         }
     }
 
-    /// Sensors, then actuators.
+    /// The messages of the sensors, then those of the actuators.
     pub(super) fn messages(&self) -> impl Iterator<Item = &MessageView> {
         self.sensors.iter().chain(&self.actuators)
     }
@@ -190,7 +190,7 @@ fn messages(direction: &DirectionPlan, design: &str, names: &mut CppNames) -> Ve
 impl MessageView {
     fn new(message: &MessagePlan, design: &str, names: &mut CppNames) -> Self {
         let ident = names.take(&message.name);
-        // It is printed to terminals.
+        // The unit is printed to terminals.
         let quantity = visible(message.quantity.as_deref().unwrap_or_default());
         let scalar = message.value.scalar;
         let count = message.value.count();
@@ -273,7 +273,7 @@ fn fields(types: &CppTypes, count: usize, is_array: bool, has_value: bool) -> Ve
     fields
 }
 
-/// The one place where a scalar type of the wire becomes types of the C++ hosts.
+/// The C++ spellings of a scalar type of the wire, in this one place for all hosts.
 struct CppTypes {
     cpp: &'static str,
     odvd: &'static str,
@@ -308,13 +308,13 @@ fn point((x, y): &(f64, f64)) -> String {
     format!("{{{}, {}}}", real_literal(*x), real_literal(*y))
 }
 
-/// A limit as a C++ expression; one that is not there is infinite.
+/// A limit as a C++ expression; a missing one is infinite.
 fn limit_literal(sign: &str, limit: Option<f64>) -> String {
     limit.map_or_else(|| format!("{sign}std::numeric_limits<double>::infinity()"), real_literal)
 }
 
-/// Text as a C++ string literal. Bytes outside printable ASCII become octal escapes, which end after
-/// three digits; `?` too, so that no trigraph can arise.
+/// Text as a C++ string literal. Bytes outside printable ASCII become octal escapes, which end after three digits; so
+/// does `?`, so that no trigraph can arise.
 fn string_literal(text: &str) -> String {
     let mut literal = String::from("\"");
     for byte in text.bytes() {
@@ -327,8 +327,8 @@ fn string_literal(text: &str) -> String {
     literal
 }
 
-/// Text that cannot end a `//` comment or go on in the next line: nothing hidden, and no backslash at
-/// the end, not even one spelt as a trigraph.
+/// Text that cannot end a `//` comment or continue on the next line: without invisible characters and without a
+/// backslash at the end, even one spelled as a trigraph.
 fn one_line(text: &str) -> String {
     visible(&text.replace('\\', " ")).replace("??/", "?? /")
 }

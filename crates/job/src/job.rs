@@ -1,9 +1,9 @@
-//! One board's work, in words that name no system: what any target starts from, and a simulator.
+//! One board's work, independent of any system: the starting point of every target and of the simulator.
 //!
-//! In: a design and its wiring. Out: for each board that carries a device a [`BoardJob`]: the devices in the
-//! file's order, the connections with their units, pads, DMA streams, interrupt lines and cycles, the parts with their
-//! tables, the link, and the schema whose items are the devices in the same order. How a system spells any of it is
-//! the target's.
+//! In: a design and its wiring. Out: a [`BoardJob`] for each board that carries a device. It has the devices in the
+//! file's order; the connections with their units, pads, DMA streams, interrupt lines and cycles; the parts with their
+//! tables; the link; and the schema, whose items are the devices in the same order. How a system spells any of it is up
+//! to the target.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,97 +23,98 @@ use sensedsl_wiring::assignment::{
 use crate::part::{BusPlan, PartPlan};
 use crate::snake;
 
-/// One board with everything that is to run on it.
+/// One board with everything that runs on it.
 #[derive(Clone, Debug)]
 pub struct BoardJob<'a> {
-    /// The design that it is of.
+    /// The design that the board belongs to.
     pub design: &'a Design,
     /// The board.
     pub board: &'a Board,
-    /// Its part of the answer.
+    /// The board's part of the assignment.
     pub wiring: &'a BoardAssignment,
-    /// What silicon and system can do; none without a system.
+    /// The capabilities of silicon and system; `None` without a system.
     pub profile: Option<&'a TargetProfile>,
-    /// What is reported and what is set, in the file's order.
+    /// The sensors that are reported and the actuators that are set, in the file's order.
     pub devices: Vec<JobDevice<'a>>,
-    /// What is wired, in the design's order: one for each device by itself, each element of an array, each connection
+    /// The connections, in the design's order: one for each single device, each element of an array and each connection
     /// of a chip.
     pub connections: Vec<JobConnection<'a>>,
-    /// What needs tables of the runtime, in the design's order.
+    /// The parts that need tables of the runtime, in the design's order.
     pub parts: Vec<JobPart<'a>>,
     /// The port of a serial link.
     pub link: Option<SerialLink<'a>>,
-    /// The wire; its items are `devices`, in the same order.
+    /// The schema of the link; its items are `devices`, in the same order.
     pub schema: Schema,
 }
 
-/// A part whose values need more than what the hardware does with them.
+/// A part whose values the hardware alone cannot handle.
 #[derive(Clone, Debug)]
 pub struct JobPart<'a> {
     /// The part.
     pub part: &'a Part,
-    /// Which part of the design.
+    /// The part's index in the design.
     pub index: PartIndex,
-    /// Its tables.
+    /// The part's tables.
     pub plan: PartPlan,
 }
 
-/// A connection with everything the wiring gave it.
+/// A connection with everything that the wiring gave it.
 #[derive(Clone, Debug)]
 pub struct JobConnection<'a> {
     /// The connection.
     pub connection: &'a Connection,
-    /// Which connection of the design.
+    /// The connection's index in the design.
     pub index: ConnectionIndex,
-    /// The part that it is of.
+    /// The part that the connection belongs to.
     pub part: &'a Part,
-    /// What code calls it, in snake case: `ir_front`, `line_3`, `left_in1`.
+    /// The identifier in code, in snake case: `ir_front`, `line_3`, `left_in1`.
     pub ident: String,
-    /// For people: `IRFront`, `Line[3]`, `Left.in1`.
+    /// The name for people: `IRFront`, `Line[3]`, `Left.in1`.
     pub title: String,
-    /// Indices into [`BoardJob::devices`] of those whose value goes over it; none where only the part itself needs it.
+    /// Indices into [`BoardJob::devices`] of the devices whose values go over it; empty if only the part itself needs
+    /// it.
     pub devices: Vec<usize>,
-    /// The peripheral instance; none for a bare pin.
+    /// The peripheral instance; `None` for a plain pin.
     pub unit: Option<&'a str>,
-    /// In the order of the roles.
+    /// The pads, in the order of the roles.
     pub pads: Vec<Pad<'a>>,
     /// The DMA streams of its unit.
     pub streams: Vec<JobStream<'a>>,
-    /// When it is served: as often as the fastest of its devices wants.
+    /// When the connection is served: as often as the fastest of its devices requires.
     pub cycle: Cycle,
 }
 
-/// A device with everything the wiring gave it.
+/// A device with everything that the wiring gave it.
 #[derive(Clone, Debug)]
 pub struct JobDevice<'a> {
     /// The device.
     pub device: &'a Device,
-    /// Which device of the design.
+    /// The device's index in the design.
     pub index: DeviceIndex,
-    /// What code calls it, in snake case: `ir_front`.
+    /// The identifier in code, in snake case: `ir_front`.
     pub ident: String,
-    /// The peripheral instance; none for a bare pin.
+    /// The peripheral instance; `None` for a plain pin.
     pub unit: Option<&'a str>,
-    /// In the order of the roles.
+    /// The pads, in the order of the roles.
     pub pads: Vec<Pad<'a>>,
     /// The DMA streams of its unit.
     pub streams: Vec<JobStream<'a>>,
-    /// When it is served.
+    /// When the device is served.
     pub cycle: Cycle,
 }
 
-/// A pin that is put to use.
+/// A pin in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pad<'a> {
-    /// What it is to the device.
+    /// Its role for the device.
     pub role: Role,
     /// The pin.
     pub pin: &'a Pin,
-    /// What it carries; none for a plain pin.
+    /// The signal that it carries; `None` for plain GPIO.
     pub usage: Option<&'a Usage>,
-    /// The number by which the pad is switched to that. The table's comes first, then the profile's.
+    /// The alternate function that selects the signal: the table's if it has one, otherwise the profile's.
     pub alternate: Option<u8>,
-    /// The interrupt line of its edges; none where every pin has its own.
+    /// The interrupt line of its edges; `None` if every pin has its own.
     pub interrupt: Option<u8>,
 }
 
@@ -122,7 +123,7 @@ pub struct Pad<'a> {
 pub struct JobStream<'a> {
     /// The request of the unit's driver.
     pub request: &'a str,
-    /// Controller and stream.
+    /// The controller and the stream.
     pub stream: &'a str,
 }
 
@@ -131,18 +132,18 @@ pub struct JobStream<'a> {
 pub struct SerialLink<'a> {
     /// The peripheral instance.
     pub unit: &'a str,
-    /// TX and RX.
+    /// The pads of TX and RX.
     pub pads: Vec<Pad<'a>>,
 }
 
-/// When a device is served. Devices of one unit and one cycle are a class: one thread.
+/// When a device is served. Devices that share a unit and a cycle are a class: one thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cycle {
-    /// From one reading to the next.
+    /// The time from one reading to the next.
     pub delay_ms: u32,
-    /// Priority of the thread.
+    /// The priority of the thread.
     pub prio: i8,
-    /// When the first cycle begins, so that devices of a group take turns.
+    /// The start of the first cycle; it differs between the devices of a group, so that they take turns.
     pub start_ms: u32,
 }
 
@@ -154,7 +155,7 @@ pub fn jobs<'a>(
     wiring.used(design).map(|(on, board)| BoardJob::new(design, board, on))
 }
 
-/// Connections by the unit that they share; those without a unit are left out.
+/// Connections grouped by their unit; those without a unit are left out.
 pub fn by_unit<'w, 'a>(
     connections: impl Iterator<Item = &'w JobConnection<'a>>,
 ) -> BTreeMap<UnitName, Vec<&'w JobConnection<'a>>> {
@@ -166,11 +167,12 @@ pub fn by_unit<'w, 'a>(
     units
 }
 
-/// What code calls the second element of an array `Wheels` is what it calls a device `Wheels_1`: the element is renamed.
+/// The second element of an array `Wheels` and a device `Wheels_1` would have the same identifier in code: the element
+/// is renamed.
 fn tell_apart(connections: &mut [JobConnection<'_>], devices: &[JobDevice<'_>]) {
     let mut taken: BTreeSet<String> = devices.iter().map(|one| one.ident.clone()).collect();
     for one in connections {
-        // The wire of a device by itself is called like the device.
+        // The connection of a single device is named after the device.
         let is_own = one.connection.name.is_none() && one.connection.element.is_none();
         while !is_own && !taken.insert(one.ident.clone()) {
             one.ident.push('_');
@@ -206,7 +208,7 @@ impl<'a> BoardJob<'a> {
         Self { parts: job.tables(&devices), devices, connections, link, ..job }
     }
 
-    /// The system it is for: `chibios` of `chibios-21.11`.
+    /// The system that the board's firmware is for: `chibios` of `chibios-21.11`.
     #[must_use]
     pub fn system(&self) -> Option<&'a str> {
         self.profile.map(TargetProfile::system)
@@ -237,7 +239,7 @@ impl<'a> BoardJob<'a> {
         device.connections.iter().filter_map(wired).collect()
     }
 
-    /// The tables of the part that a connection is of.
+    /// The tables of the part that a connection belongs to.
     #[must_use]
     pub fn tables_of(&self, connection: &JobConnection<'_>) -> Option<&PartPlan> {
         let mut parts = self.parts.iter();
@@ -250,8 +252,8 @@ impl<'a> BoardJob<'a> {
         self.tables_of(wire)?.buses.iter().find(|plan| plan.connection == wire.index)
     }
 
-    /// What a part that is on several register buses needs and no table says; none where all is said. What is of the
-    /// whole part has no bus.
+    /// What a part on several register buses needs and no table can express; `None` if nothing is missing. Whatever
+    /// belongs to the part as a whole cannot be assigned to one of its buses.
     #[must_use]
     pub fn lacks_on_buses(&self, wire: &JobConnection<'_>) -> Option<&'static str> {
         let buses = &self.tables_of(wire)?.buses;
@@ -268,7 +270,7 @@ impl<'a> BoardJob<'a> {
         }
     }
 
-    /// The tables of all parts on the board that have some.
+    /// The tables of all parts on the board that have any.
     fn tables(&self, devices: &[JobDevice<'a>]) -> Vec<JobPart<'a>> {
         let mut parts: Vec<JobPart<'a>> = Vec::new();
         for index in devices.iter().map(|one| one.device.part) {
@@ -366,7 +368,7 @@ impl<'a> JobDevice<'a> {
         self.pads.iter().find(|pad| pad.role == role)
     }
 
-    /// Its name in the file.
+    /// The device's name in the file.
     #[must_use]
     pub fn name(&self) -> &'a str {
         &self.device.name.value
@@ -380,13 +382,13 @@ impl<'a> JobConnection<'a> {
         self.pads.iter().find(|pad| pad.role == role)
     }
 
-    /// Which element of an array it carries, from 0; 0 where it is no array.
+    /// The element of an array that the connection carries, from 0; 0 if it is not of an array.
     #[must_use]
     pub fn element(&self) -> u16 {
         self.connection.element.unwrap_or(0)
     }
 
-    /// For a comment: what it is and the row of the board's table: `IRFront at PB0 (ADC12-IN8)`.
+    /// The title with the rows of the board's table, for a comment: `IRFront at PB0 (ADC12-IN8)`.
     #[must_use]
     pub fn place(&self) -> String {
         let pad = |pad: &Pad<'_>| {
@@ -399,7 +401,7 @@ impl<'a> JobConnection<'a> {
 }
 
 impl Cycle {
-    /// What code calls a thread of a unit: `adc1_60ms`, `i2c1_250ms_prio_minus_2_at_66`.
+    /// The identifier of a unit's thread in code: `adc1_60ms`, `i2c1_250ms_prio_minus_2_at_66`.
     #[must_use]
     pub fn ident(self, unit: &str) -> String {
         let mut ident = format!("{}_{}ms", snake(unit), self.delay_ms);
@@ -413,7 +415,7 @@ impl Cycle {
         ident
     }
 
-    /// For a comment and a thread's name.
+    /// The title of the thread, for a comment and for its name.
     #[must_use]
     pub fn title(self, unit: &str) -> String {
         let Self { delay_ms, prio, start_ms } = self;

@@ -1,7 +1,8 @@
-//! What is to run on a board and at the other end of its link, in words that name no system and no language.
+//! A board's work and the other end of its link, independent of any system or language.
 //!
-//! In: a design and its wiring. Out: a [`BoardJob`] for each board, a [`host::HostPlan`] for all of them. A system
-//! that firmware is generated for implements [`Target`], a host application [`host::Host`], each in a crate of its own.
+//! In: a design and its wiring. Out: a [`BoardJob`] for each board, and one [`host::HostPlan`] for all of them. A
+//! system that firmware is generated for implements [`Target`], a host application implements [`host::Host`], each in
+//! its own crate.
 
 pub mod host;
 mod job;

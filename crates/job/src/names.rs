@@ -1,4 +1,4 @@
-//! Names that are made of the names of a design.
+//! Names derived from the names of a design.
 
 /// A name of the language in snake case: `ir_front` of `IRFront`, `us_rear` of `USRear`. Names that differ in more than
 /// case and underscores stay different.

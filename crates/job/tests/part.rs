@@ -1,11 +1,11 @@
-//! Which bytes of a chip are read together, and what its tables are told: small designs in, plans out.
+//! Which bytes of a chip are read together, and what its tables contain: small designs in, plans out.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test may panic")]
 
 use sensedsl_job::part::{BusPlan, FieldCoding, Number, PartPlan};
 use sensedsl_model::design::PartIndex;
 use sensedsl_model::{NoFiles, Request, resolve};
 
-/// The plan of a chip whose driver is that.
+/// The plan of a chip with this driver.
 #[track_caller]
 fn plan(kind: &str, driver: &str, devices: &str) -> PartPlan {
     let text = format!(
@@ -44,14 +44,14 @@ fn reads(driver: &str, devices: &str, transfers: &[&str], readings: &[&str]) {
 fn neighbours_are_read_in_one_transfer() {
     let all = "reading b returns uint16 { register = 0x12; } reading a returns uint16 { register = 0x10; }";
     reads(all, "", &["|10:4"], &["0+2", "0+0"]);
-    // Over a gap that costs less than a transfer of its own, and not over a longer one.
+    // Across a gap that costs less than a separate transfer, but not across a longer one.
     let near =
         "reading a returns uint8 { register = 0x10; } reading b returns uint8 { register = 0x15; }";
     reads(near, "", &["|10:6"], &["0+0", "0+5"]);
     let far =
         "reading a returns uint8 { register = 0x10; } reading b returns uint8 { register = 0x16; }";
     reads(far, "", &["|10:1", "|16:1"], &["0+0", "1+0"]);
-    // One that lies in another one.
+    // A reading that lies within another one.
     let within = "reading a returns uint8[8] { register = 0x10; } reading b returns uint8 { register = 0x12; }";
     reads(within, "", &["|10:8"], &["0+0", "0+2"]);
 }

@@ -1,7 +1,7 @@
-//! Copies that cannot fail: what does not fit is left out. Small cores want one of each, not one
-//! wherever they are called.
+//! Copies that cannot fail: what does not fit is left out. They are not inlined, because a small
+//! core should have only one copy of each.
 
-/// Copies as much as both have.
+/// Copies as many bytes as both slices have.
 #[inline(never)]
 pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -15,7 +15,7 @@ pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
     if from == 0 {
         return;
     }
-    // Byte by byte: the library's function for it can panic.
+    // Byte by byte: the library's function for this can panic.
     for place in from..end {
         let byte = at(bytes, place);
         if let Some(free) = bytes.get_mut(place.wrapping_sub(from)) {
@@ -24,38 +24,38 @@ pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
     }
 }
 
-/// The part `[from, from + count)`; empty where it is not whole.
+/// The slice `[from, from + count)`; empty if it is not all there.
 #[inline(never)]
 pub(crate) fn part(bytes: &[u8], from: usize, count: usize) -> &[u8] {
     bytes.get(from..).and_then(|rest| rest.get(..count)).unwrap_or_default()
 }
 
-/// The same to write to.
+/// The slice `[from, from + count)` for writing; empty if it is not all there.
 #[inline(never)]
 pub(crate) fn part_mut(bytes: &mut [u8], from: usize, count: usize) -> &mut [u8] {
     bytes.get_mut(from..).and_then(|rest| rest.get_mut(..count)).unwrap_or_default()
 }
 
-/// Splits where there is something to split.
+/// Splits at `at`, or at the end if that comes first.
 #[inline(never)]
 pub(crate) fn split(bytes: &mut [u8], at: usize) -> (&mut [u8], &mut [u8]) {
     let at = at.min(bytes.len());
     bytes.split_at_mut_checked(at).unwrap_or_default()
 }
 
-/// The byte at a place; 0 where there is none.
+/// The byte at a place; 0 if there is none.
 pub(crate) fn at(bytes: &[u8], place: usize) -> u8 {
     bytes.get(place).copied().unwrap_or_default()
 }
 
-/// 32 bits in network byte order.
+/// The 32-bit number at a place, in network byte order.
 #[inline(never)]
 pub(crate) fn word(bytes: &[u8], place: usize) -> u32 {
     let wanted = bytes.get(place..).and_then(<[u8]>::first_chunk);
     wanted.copied().map_or(0, u32::from_be_bytes)
 }
 
-/// Writes from the front on, and drops what does not fit.
+/// Writes from the front and drops what does not fit.
 pub(crate) struct Writer<'a> {
     bytes: &'a mut [u8],
     pub(crate) size: usize,

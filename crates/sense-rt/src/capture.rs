@@ -1,42 +1,42 @@
-//! What an input capture saw, and what a sensor makes of it.
+//! What an input capture has seen, and the values that a sensor makes of it.
 //!
-//! The side that captures only counts and copies; the arithmetic is the reader's. Captures are
-//! counted in ticks of the timer.
+//! The capturing side only counts and copies; the reader does the arithmetic. Captures are counted
+//! in timer ticks.
 
 use crate::convert::{store_ratio, store_unsigned};
 use crate::count::store_count;
 use crate::scalar::Scalar;
 
-/// How often an unchanged count is told again.
+/// How often an unchanged count is reported again.
 const COUNT_REPEAT_MS: u32 = 1000;
 
-/// What a sensor wants to know.
+/// What a sensor measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CaptureMode {
     /// Edges since the start; wraps.
     Count,
-    /// The last pulse, in ticks.
+    /// The width of the last pulse, in ticks.
     Width,
     /// The last period, in ticks.
     Period,
-    /// Of the last period, in Hz.
+    /// The frequency of the last period, in Hz.
     Frequency,
-    /// The active part of the last period, in ten-thousandths.
+    /// The active part of the last period, in units of 0.01 %.
     Duty,
 }
 
-/// What is wanted of a capture.
+/// The configuration of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CaptureConfig {
-    /// What a sensor wants to know.
+    /// What the sensor measures.
     pub mode: CaptureMode,
-    /// Of the timer.
+    /// The clock of the timer.
     pub tick_hz: u32,
-    /// After this time without an edge, frequency and duty are 0.
+    /// The time without an edge after which frequency and duty are 0.
     pub silent_ms: u32,
 }
 
-/// What was captured so far: written by the side that captures, copied by the reader.
+/// The captures so far: written by the capturing side, copied by the reader.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Captured {
     edges: u32,
@@ -47,11 +47,11 @@ pub struct Captured {
 }
 
 impl Captured {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { edges: 0, widths: 0, periods: 0, width_ticks: 0, period_ticks: 0 };
 
-    /// A pulse has ended. `both_edges`: its end is counted as well. Not to be called where the timer
-    /// wrapped meanwhile.
+    /// A pulse has ended. `both_edges`: its end counts as an edge, too. Must not be called if the
+    /// timer wrapped during the pulse.
     pub fn on_width(&mut self, width_ticks: u32, both_edges: bool) {
         self.width_ticks = width_ticks;
         self.widths = self.widths.wrapping_add(1);
@@ -67,13 +67,13 @@ impl Captured {
         self.periods = self.periods.wrapping_add(1);
     }
 
-    /// An edge that is only counted.
+    /// An edge was seen that is only counted.
     pub fn on_edge(&mut self) {
         self.edges = self.edges.wrapping_add(1);
     }
 }
 
-/// What the reader remembers between two looks.
+/// What the reader remembers from one read to the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Capture {
     captures: u32,
@@ -83,11 +83,11 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { captures: 0, told_ms: 0, has_told: false, is_silent: false };
 
-    /// True when there is something new, and then one element was stored. `first_edge_seen` repairs
-    /// what a driver keeps to itself: the edge that starts the first period.
+    /// True if there is something new; then one element was stored. `first_edge_seen` makes up for
+    /// an edge that a driver does not report: the one that starts the first period.
     pub fn read(
         &mut self,
         config: &CaptureConfig,
@@ -121,7 +121,8 @@ impl Capture {
         true
     }
 
-    /// Standing still is a fact as well: it is told once at the start and then now and again.
+    /// An unchanged count is news as well: it is reported once at the start and repeated from time
+    /// to time.
     fn read_count(&mut self, edges: u32, now_ms: u32, scalar: Scalar, element: &mut [u8]) -> bool {
         let is_recent = now_ms.wrapping_sub(self.told_ms) < COUNT_REPEAT_MS;
         if self.has_told && edges == self.captures && is_recent {
@@ -134,7 +135,7 @@ impl Capture {
         true
     }
 
-    /// A signal that has stopped has no frequency; its last width and period stay what they were.
+    /// A signal that has stopped has no frequency; its last width and period remain.
     fn read_silence(
         &mut self,
         config: &CaptureConfig,

@@ -1,12 +1,12 @@
-//! The checksums of the wire and of devices.
+//! The checksums of the link and of devices.
 
 use crate::schema::ID_CHECKSUM;
 use crate::uses;
 
-/// What payloads end with.
+/// The checksum at the end of payloads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Checksum {
-    /// Nothing.
+    /// No checksum.
     #[default]
     None,
     /// CRC-16/CCITT-FALSE.
@@ -16,7 +16,7 @@ pub enum Checksum {
 }
 
 impl Checksum {
-    /// Bytes of its number.
+    /// Bytes of the checksum itself.
     const fn number_bytes(self) -> usize {
         match self {
             Self::None => 0,
@@ -31,12 +31,12 @@ impl Checksum {
         self.number_bytes() > 0
     }
 
-    /// Bytes that it adds to a payload: its identifier and its number.
+    /// Bytes that it adds to a payload: its identifier and the checksum itself.
     pub(crate) const fn bytes(self) -> usize {
         if self.is_some() { 1 + self.number_bytes() } else { 0 }
     }
 
-    /// What stands behind a payload: as many of these bytes as it adds.
+    /// The bytes after a payload: the first [`Self::bytes`] of these.
     pub(crate) fn behind(self, payload: &[u8]) -> [u8; 5] {
         if uses::CRC32 && self == Self::Crc32 {
             let [a, b, c, d] = crc32(payload).to_be_bytes();
@@ -48,7 +48,8 @@ impl Checksum {
     }
 }
 
-/// CRC-32/ISO-HDLC of the bytes, that of Ethernet and zlib. Half a byte goes in at once: the table is of 64 bytes.
+/// CRC-32/ISO-HDLC of the bytes, as in Ethernet and zlib. Four bits at a time, so the table has
+/// only 64 bytes.
 #[must_use]
 pub fn crc32(bytes: &[u8]) -> u32 {
     const OF_NIBBLE: [u32; 16] = [
@@ -71,7 +72,7 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     ];
     let half = |crc: u32| {
         let [low, ..] = crc.to_le_bytes();
-        // Half a byte is always below 16; the compiler sees it and checks nothing.
+        // A nibble is always below 16; the compiler sees that and omits the check.
         (crc >> 4) ^ OF_NIBBLE.get(usize::from(low & 15)).copied().unwrap_or_default()
     };
     !bytes.iter().fold(u32::MAX, |crc, byte| half(half(crc ^ u32::from(*byte))))
@@ -80,7 +81,7 @@ pub fn crc32(bytes: &[u8]) -> u32 {
 /// CRC-16/CCITT-FALSE of the bytes.
 #[must_use]
 pub fn crc16(bytes: &[u8]) -> u16 {
-    // The polynomial has so few terms that eight bits go in at once without a table.
+    // The polynomial has so few terms that eight bits can be processed at once without a table.
     bytes.iter().fold(0xFFFF, |crc: u16, byte| {
         let mut high = (crc >> 8) ^ u16::from(*byte);
         high ^= high >> 4;
@@ -100,13 +101,13 @@ pub fn sum8(bytes: &[u8]) -> u8 {
     bytes.iter().fold(0, |sum: u8, byte| sum.wrapping_add(*byte))
 }
 
-/// All bytes in exclusive or.
+/// The exclusive or of all bytes.
 #[must_use]
 pub fn xor8(bytes: &[u8]) -> u8 {
     bytes.iter().fold(0, |sum, byte| sum ^ byte)
 }
 
-/// CRC-8 with a polynomial, from a start; the most significant bit first, nothing turned.
+/// CRC-8 with a polynomial and a start value; most significant bit first, nothing reflected.
 #[must_use]
 pub fn crc8(polynomial: u8, start: u8, bytes: &[u8]) -> u8 {
     bytes.iter().fold(start, |crc, byte| {

@@ -1,7 +1,7 @@
-//! From the bytes of a device to the value of an item, and back: words, bit fields, order, packed
-//! bits, BCD, checksums.
+//! From the bytes of a device to the value of an item, and back: words, bit fields, byte order,
+//! packed bits, BCD, checksums.
 //!
-//! Integers saturate to the item's type instead of wrapping, bool is "not zero".
+//! Integers saturate to the item's type instead of wrapping; bool is "not zero".
 
 use crate::bytes::at;
 use crate::checksum::crc8;
@@ -15,48 +15,49 @@ const SENSIRION_POLYNOMIAL: u8 = 0x31;
 const SENSIRION_START: u8 = 0xFF;
 const PACKED_BITS_MAX: u32 = 32;
 
-/// What a word is.
+/// The format of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
     /// A binary number.
     Integer,
-    /// An IEEE 754 number: 4 bytes into a float32 and 8 into a float64.
+    /// An IEEE 754 number: 4 bytes for a float32, 8 for a float64.
     Float,
-    /// Two decimal digits a byte.
+    /// Two decimal digits per byte.
     Bcd,
-    /// `bits` bits, one word behind the other without gaps, least significant bit first.
+    /// `bits` bits per word, without gaps between words, least significant bit first.
     Packed,
 }
 
 /// Checksums between the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crc {
-    /// None.
+    /// No checksums.
     None,
-    /// After every two bytes a CRC-8: polynomial 0x31, start 0xFF.
+    /// A CRC-8 after every two bytes: polynomial 0x31, start value 0xFF.
     Sensirion,
 }
 
 /// How the words of a value are coded; one word is one element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coding {
-    /// For each element the number of its word; empty: in order.
+    /// The word number of each element; empty: in order.
     pub elements: &'static [u8],
-    /// Words there are with `elements` (its greatest entry + 1); 0: as many as elements.
+    /// The number of words with `elements` (its greatest entry + 1); 0: as many as elements.
     pub words: u16,
-    /// What a word is.
+    /// The format of a word.
     pub code: Code,
-    /// Not with packed words; then `word_bytes * words` is even.
+    /// The checksums; not for packed words, and `word_bytes * words` must be even.
     pub crc: Crc,
-    /// 1 to 8; ignored for packed words.
+    /// The bytes of a word, 1 to 8; ignored for packed words.
     pub word_bytes: u8,
-    /// Lowest bit of the word that counts, 0 = its least significant; packed: 0.
+    /// The lowest significant bit of the word, 0 for its least significant; packed: 0.
     pub low: u8,
-    /// Bits that count from there, 1 to 64; 0: up to the word's highest. Packed: 1 to 32.
+    /// The number of significant bits from there, 1 to 64; 0: up to the word's highest. Packed: 1
+    /// to 32.
     pub bits: u8,
-    /// The highest of the bits is a sign; ignored for floats and BCD.
+    /// True if the highest of the bits is a sign; ignored for floats and BCD.
     pub is_signed: bool,
-    /// The word's first byte is its least significant.
+    /// True if the word's first byte is its least significant.
     pub is_little_endian: bool,
 }
 
@@ -74,7 +75,7 @@ impl Coding {
         is_little_endian: false,
     };
 
-    /// What a word is, of what is not left out.
+    /// The format of a word, as far as features allow.
     const fn code(&self) -> Code {
         if uses::CODES { self.code } else { Code::Integer }
     }
@@ -87,7 +88,7 @@ impl Coding {
         if self.words != 0 { self.words as usize } else { count as usize }
     }
 
-    /// Bytes on the wire of a value with `count` elements, checksums included.
+    /// The size of a value with `count` elements on the wire, checksums included.
     #[must_use]
     pub const fn wire_bytes(&self, count: u16) -> usize {
         let words = self.words_of(count);
@@ -101,7 +102,7 @@ impl Coding {
         }
     }
 
-    /// Where a byte of the words is on the wire.
+    /// The place of a byte of the words on the wire.
     fn place(&self, byte: usize) -> usize {
         match self.crc() {
             Crc::None => byte,
@@ -109,14 +110,14 @@ impl Coding {
         }
     }
 
-    /// Whether each checksum in the value's bytes is right (also when there are none).
+    /// Whether each checksum in the value's bytes is right (also true without checksums).
     #[must_use]
     pub fn crc_is_right(&self, count: u16, bytes: &[u8]) -> bool {
         let bytes = bytes.get(..self.wire_bytes(count)).unwrap_or_default();
         self.crc() == Crc::None || bytes.as_chunks().0.iter().all(|[a, b, crc]| sum(*a, *b) == *crc)
     }
 
-    /// How many bits of a word count; 0 where the table makes no sense.
+    /// The number of significant bits of a word; 0 if the table makes no sense.
     fn bits_of(&self) -> u32 {
         let (low, bits) = (u32::from(self.low), u32::from(self.bits));
         if self.code() == Code::Packed {
@@ -130,7 +131,7 @@ impl Coding {
         if bits == 0 || bits > most { most } else { bits }
     }
 
-    /// Where the word of an element is; `None` if there is no such word.
+    /// The index of an element's word; `None` if there is no such word.
     fn word_of(&self, element: usize, count: u16) -> Option<usize> {
         let word = if self.elements.is_empty() {
             element
@@ -142,9 +143,9 @@ impl Coding {
 
     // ---- decoding ----
 
-    /// Stores the value of an item from the first [`Self::wire_bytes`]. Fresh; a wrong CRC
-    /// where a checksum is wrong; invalid where a BCD digit is greater than 9, a float is infinite or
-    /// not a number, or bytes are missing. Unless it is fresh, `value` may be half written.
+    /// Stores the value of an item from the first [`Self::wire_bytes`] bytes. `Fresh`; `WrongCrc`
+    /// if a checksum is wrong; `Invalid` if a BCD digit is greater than 9, a float is infinite or
+    /// NaN, or bytes are missing. Unless it is fresh, `value` may be partly written.
     #[must_use]
     pub fn decode(&self, item: &Item, bytes: &[u8], value: &mut [u8]) -> Outcome {
         if bytes.len() < self.wire_bytes(item.count) {
@@ -209,9 +210,9 @@ impl Coding {
 
     // ---- encoding ----
 
-    /// The other way round, for a device that is written to: numbers saturate to the bits there are,
-    /// bits of a word that do not count are 0, and real items are rounded to integers unless the
-    /// words are floats. Returns the bytes written, 0 where they do not fit.
+    /// The reverse, for a device that is written to: numbers saturate to the bits available, other
+    /// bits of a word are 0, and floating-point items are rounded to integers unless the words are
+    /// floats. Returns the number of bytes written, 0 if they do not fit.
     #[must_use]
     pub fn encode(&self, item: &Item, value: &[u8], bytes: &mut [u8]) -> usize {
         let size = self.wire_bytes(item.count);
@@ -311,7 +312,7 @@ fn store_bcd(scalar: Scalar, digits: u64, element: &mut [u8]) -> bool {
     true
 }
 
-/// IEEE 754 bits as they are; an exponent of all ones is not a number.
+/// Stores IEEE 754 bits as they are; an exponent of all ones is not a number.
 fn store_float(scalar: Scalar, bits: u64, word_bytes: u8, element: &mut [u8]) -> bool {
     let exponent = if word_bytes == 4 { 0x7F80_0000 } else { 0x7FF0_0000_0000_0000 };
     if usize::from(word_bytes) != scalar.bytes() || bits & exponent == exponent {
@@ -321,7 +322,7 @@ fn store_float(scalar: Scalar, bits: u64, word_bytes: u8, element: &mut [u8]) ->
     true
 }
 
-/// Binary-coded decimal in so many bits; the greatest there is when the number is greater.
+/// Binary-coded decimal in the bits of `mask`; saturates.
 fn to_bcd(number: u64, mask: u64) -> u64 {
     let (mut rest, mut digits, mut greatest) = (number, 0, 0);
     for shift in (0..64).step_by(4) {

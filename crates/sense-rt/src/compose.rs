@@ -1,27 +1,27 @@
-//! A message that is sent to a serial device: a value with what is around it.
+//! A message that is sent to a serial device: a value with what surrounds it.
 
 use crate::bytes::{Writer, split};
 use crate::coding::Coding;
 use crate::message::MessageChecksum;
 use crate::schema::Item;
 
-/// Start, value, checksum, end.
+/// A message: start, value, checksum, end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Compose {
-    /// First bytes.
+    /// The first bytes.
     pub start: &'static [u8],
-    /// Last bytes.
+    /// The last bytes.
     pub end: &'static [u8],
-    /// How the value is coded.
+    /// The coding of the value.
     pub value: Coding,
-    /// Behind the value.
+    /// The checksum after the value.
     pub checksum: MessageChecksum,
-    /// First byte that is summed, counted from the first of `start`; not for NMEA.
+    /// The first byte that the checksum covers, counted from the first of `start`; not for NMEA.
     pub checksum_from: u8,
 }
 
 impl Compose {
-    /// The value alone, in one byte.
+    /// Only the value, in one byte.
     pub const NEW: Self = Self {
         start: &[],
         end: &[],
@@ -37,8 +37,9 @@ impl Compose {
         around + self.value.wire_bytes(item.count)
     }
 
-    /// Writes the message with the value of an item. Returns its bytes, 0 where they do not fit into
-    /// `message` ([`Self::bytes`] do) or the value has no place in its words.
+    /// Writes the message with the value of an item. Returns its size in bytes, or 0 if it does not
+    /// fit into `message` ([`Self::bytes`] is always enough) or the value does not fit into its
+    /// words.
     #[must_use]
     pub fn write(&self, item: &Item, value: &[u8], message: &mut [u8]) -> usize {
         if message.len() < self.bytes(item) {

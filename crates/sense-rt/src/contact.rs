@@ -1,7 +1,6 @@
-//! A wire with a contact behind it: its level once that has lasted, edges that count, and pulses
-//! that nobody saw.
+//! A wire with a contact: its debounced level, the edges that count, and pulses between two looks.
 //!
-//! Interrupts and the look of a cycle both tell what they see. Time is a number that wraps, in any
+//! Both interrupts and cyclic polling report what they see. Time is a number that wraps, in any
 //! unit, and levels are those of the wire.
 
 /// The edges that count.
@@ -15,10 +14,10 @@ pub enum Edge {
     Both,
 }
 
-/// What is wanted of a contact.
+/// The configuration of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContactConfig {
-    /// A change counts when it has lasted that long; 0: at once.
+    /// How long a change must last to count; 0: it counts at once.
     pub lasting: u32,
     /// The edges that count.
     pub edge: Edge,
@@ -34,7 +33,7 @@ impl ContactConfig {
     }
 }
 
-/// What was seen of a contact.
+/// The state of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Contact {
     since: u32,
@@ -45,22 +44,22 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { since: 0, edges: 0, has_level: false, seen: false, level: false };
 
-    /// Edges that counted; wraps.
+    /// The edges that counted; wraps.
     #[must_use]
     pub const fn edges(&self) -> u32 {
         self.edges
     }
 
-    /// The level that has lasted.
+    /// The level after debouncing.
     #[must_use]
     pub const fn level(&self) -> bool {
         self.level
     }
 
-    /// What was seen before has lasted until now.
+    /// The level seen before has lasted until now.
     fn settle(&mut self, config: &ContactConfig, now: u32) {
         if self.seen != self.level && now.wrapping_sub(self.since) >= config.lasting {
             self.level = self.seen;
@@ -74,8 +73,8 @@ impl Contact {
         *self = Self { since: now, edges: self.edges, has_level: true, seen: level, level };
     }
 
-    /// An interrupt came and this level was found. Without `lasting` only edges that count may
-    /// interrupt, with it both.
+    /// An interrupt came and found this level. Without `lasting`, only edges that count may
+    /// interrupt; with it, both edges must.
     pub fn on_edge(&mut self, config: &ContactConfig, level: bool, now: u32) {
         if config.lasting == 0 {
             self.begin(level, now);
@@ -86,12 +85,12 @@ impl Contact {
             self.begin(level, now);
         }
         self.settle(config, now);
-        // The level may be back already; it has changed all the same.
+        // The level may have changed back already; it has changed all the same.
         self.seen = level;
         self.since = now;
     }
 
-    /// The wire was looked at: often enough that what is to last is seen to last.
+    /// The wire was polled; this must happen often enough to see a level last.
     pub fn look(&mut self, config: &ContactConfig, level: bool, now: u32) {
         if !self.has_level || config.lasting == 0 {
             self.begin(level, now);
@@ -104,7 +103,8 @@ impl Contact {
         }
     }
 
-    /// The same where nothing interrupts: a level that is another one now has not lasted until now.
+    /// The wire was polled, and there are no interrupts: a level that differs from the last one has
+    /// not lasted until now.
     pub fn sample(&mut self, config: &ContactConfig, level: bool, now: u32) {
         if self.has_level && config.lasting > 0 && level != self.seen {
             self.seen = level;
@@ -115,7 +115,7 @@ impl Contact {
     }
 }
 
-/// What was told of a contact.
+/// The last report of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ContactTold {
     edges: u32,
@@ -124,11 +124,11 @@ pub struct ContactTold {
 }
 
 impl ContactTold {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { edges: 0, level: false, has_told: false };
 
-    /// The level to tell, if there is one: another than before; or that of a pulse which came and
-    /// went since the last look, and then the level that is comes with the next.
+    /// The level to report, if any: one that differs from the last, or that of a pulse that came
+    /// and went since the last call; the present level is then reported by the next call.
     pub fn tell(&mut self, config: &ContactConfig, contact: &Contact) -> Option<bool> {
         let has_edge = contact.edges != self.edges;
         self.edges = contact.edges;
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn a_spike_that_a_sample_meets_does_not_count() {
         let mut contact = Contact::NEW;
-        // The wire has a spike around 20, and is another level from 43 on.
+        // The wire has a spike around 20, and its level changes at 43.
         for (now, level, settled) in [
             (0, false, false),
             (10, false, false),

@@ -1,12 +1,12 @@
-//! From what hardware measured to the type of an item.
+//! From hardware measurements to the type of an item.
 //!
-//! Integers saturate instead of wrapping, bool is "not zero". Real numbers are made in integers, so
-//! that nothing links an emulation of the machine's own.
+//! Integers saturate instead of wrapping; bool is "not zero". Floating-point numbers are made with
+//! integer arithmetic, so that no floating-point emulation is linked.
 
 use crate::scalar::Scalar;
 use crate::uses;
 
-/// The greatest number of an integer type, and how far it goes below 0.
+/// The greatest number of an integer type, and the magnitude of its least one.
 const fn range(scalar: Scalar) -> (u64, u64) {
     match scalar {
         Scalar::Bool => (1, 0),
@@ -21,8 +21,8 @@ const fn range(scalar: Scalar) -> (u64, u64) {
     }
 }
 
-/// The bits of `mantissa` times two to the `exponent`; `is_more` says that a little more was meant.
-/// Rounded to nearest, ties to even, as the machine would.
+/// The bits of `mantissa` times two to the `exponent`; `is_more`: the exact number is a little
+/// greater. Rounded to nearest, ties to even, as hardware would.
 fn real_bits(
     scalar: Scalar,
     is_negative: bool,
@@ -51,7 +51,7 @@ fn real_bits(
     bits | if is_negative { scalar.sign() } else { 0 }
 }
 
-/// The bits of a number, by its magnitude.
+/// The bits of a number, given by its sign and magnitude.
 fn number_bits(scalar: Scalar, is_negative: bool, magnitude: u64) -> u64 {
     if scalar.is_real() {
         return real_bits(scalar, is_negative, magnitude, 0, false);
@@ -69,14 +69,14 @@ pub fn store_unsigned(scalar: Scalar, raw: u64, element: &mut [u8]) {
     scalar.store(number_bits(scalar, false, raw), element);
 }
 
-/// Stores a number with a sign as one element.
+/// Stores a signed number as one element.
 pub fn store_signed(scalar: Scalar, raw: i64, element: &mut [u8]) {
     scalar.store(number_bits(scalar, raw < 0, raw.unsigned_abs()), element);
 }
 
-/// Quotient and remainder; of a denominator of 0 the quotient is 0. Small numbers are divided by the
-/// core. Others are rare, and a loop of few bytes does them: the function that the compiler would link
-/// is long.
+/// Quotient and remainder; the quotient is 0 if the denominator is 0. Small numbers are divided by
+/// the core. Larger ones are rare, so a short loop divides them: the function that the compiler
+/// would link is long.
 pub(crate) fn divide(numerator: u64, denominator: u64) -> (u64, u64) {
     let small = (u32::try_from(numerator).ok(), u32::try_from(denominator).ok());
     if let (Some(numerator), Some(denominator)) = small {
@@ -87,7 +87,7 @@ pub(crate) fn divide(numerator: u64, denominator: u64) -> (u64, u64) {
     if denominator == 0 {
         return (0, numerator);
     }
-    // The quotient takes the place of the numerator's bits as they leave it.
+    // The quotient's bits replace the numerator's as those are shifted out.
     let (mut quotient, mut rest) = (numerator, 0_u64);
     for _ in 0..u64::BITS {
         let is_carried = rest >> 63 != 0;
@@ -104,7 +104,7 @@ pub(crate) fn divide(numerator: u64, denominator: u64) -> (u64, u64) {
 fn real_ratio_bits(scalar: Scalar, is_negative: bool, numerator: u64, denominator: u64) -> u64 {
     let (mut quotient, mut rest) = divide(numerator, denominator);
     let mut exponent = 0;
-    // Digit by digit until there are more than a double has.
+    // Digit by digit, until there are more than a double holds.
     while numerator != 0 && quotient < 1 << 55 {
         let is_carried = rest >> 63 != 0;
         rest <<= 1;
@@ -118,8 +118,8 @@ fn real_ratio_bits(scalar: Scalar, is_negative: bool, numerator: u64, denominato
     real_bits(scalar, is_negative, quotient, exponent, rest != 0)
 }
 
-/// Stores `numerator / denominator` with a sign: integers rounded half away from zero, real numbers
-/// to nearest. A denominator of 0 stores 0.
+/// Stores `numerator / denominator` with a sign: integers rounded half away from zero,
+/// floating-point numbers to nearest. A denominator of 0 stores 0.
 pub fn store_signed_ratio(
     scalar: Scalar,
     is_negative: bool,
@@ -140,12 +140,12 @@ pub fn store_signed_ratio(
     }
 }
 
-/// The same without a sign.
+/// Stores `numerator / denominator`, rounded as [`store_signed_ratio`] does.
 pub fn store_ratio(scalar: Scalar, numerator: u64, denominator: u64, element: &mut [u8]) {
     store_signed_ratio(scalar, false, numerator, denominator, element);
 }
 
-/// The magnitude of a real number without its sign, rounded half away from zero.
+/// The magnitude of a floating-point number without its sign, rounded half away from zero.
 fn round_real(bits: u64, fraction_bits: i32, bias: i32) -> u64 {
     let mantissa = bits & ((1 << fraction_bits) - 1);
     let whole = mantissa | 1 << fraction_bits;
@@ -166,8 +166,8 @@ fn round_real(bits: u64, fraction_bits: i32, bias: i32) -> u64 {
     ((whole.wrapping_shr((-shift - 1).unsigned_abs())) + 1) >> 1
 }
 
-/// The magnitude of one element, rounded half away from zero, and whether it is negative. Not a
-/// number is 0, and what is too large is `u64::MAX`.
+/// The magnitude of one element, rounded half away from zero, and whether it is negative. NaN is 0,
+/// and a number that is too large is `u64::MAX`.
 #[must_use]
 pub fn load_magnitude(scalar: Scalar, element: &[u8]) -> (u64, bool) {
     let bits = scalar.load(element);
@@ -185,9 +185,10 @@ pub fn load_magnitude(scalar: Scalar, element: &[u8]) -> (u64, bool) {
     (magnitude, is_negative)
 }
 
-/// Stores the mean of every `stride`th sample: one column of what a converter has sampled in turns, of 65536 at most.
+/// Stores the mean of every `stride`th sample, which is one channel of a converter that samples
+/// several in turn; at most 65536 samples.
 pub fn store_mean(scalar: Scalar, samples: &[u16], stride: usize, element: &mut [u8]) {
-    // The sum of so many and half their number are less than 2 to the 32.
+    // The sum of that many samples and half their number is less than 2^32.
     const SAMPLES_MAX: usize = 0x1_0000;
     let (mut sum, mut count) = (0_u32, 0_u32);
     for sample in samples.iter().step_by(stride.max(1)).take(SAMPLES_MAX) {
@@ -202,10 +203,10 @@ pub fn store_mean(scalar: Scalar, samples: &[u16], stride: usize, element: &mut 
     }
 }
 
-/// Microseconds in milliseconds, which wrap.
+/// Microseconds as milliseconds, which wrap.
 #[must_use]
 pub const fn milliseconds(now_us: u64) -> u32 {
-    // In two halves, so that no division of 64 bits is linked for it.
+    // In two halves, so that no 64-bit division is linked for it.
     let high = (now_us >> 32) as u32;
     let low = now_us as u32;
     let upper = (high % 1000) << 16 | low >> 16;

@@ -1,13 +1,12 @@
-//! Counts: what a hardware counter of 16 bits has counted in all, and when an unchanged count is
-//! told again.
+//! Counts: the total of a 16-bit hardware counter, and when an unchanged count is reported again.
 //!
-//! A count wraps in its type, as a counter does, so that the difference of two values is right
-//! whatever lies between.
+//! A count wraps in its type, as a counter does, so that the difference of two values is right even
+//! across a wrap.
 
 use crate::convert::store_signed;
 use crate::scalar::Scalar;
 
-/// The total of a hardware counter of 16 bits, which is 0 at the start as well.
+/// The total of a 16-bit hardware counter, which must also start at 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counter {
     total: i32,
@@ -15,25 +14,25 @@ pub struct Counter {
 }
 
 impl Counter {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { total: 0, last: 0 };
 
-    /// The hardware counter was read. Between two calls it moves by at most 32767 up or 32768 down;
-    /// else a wrap is lost.
+    /// The hardware counter was read. Between two calls it may move by at most 32767 up or 32768
+    /// down; otherwise a wrap is lost.
     pub fn step(&mut self, now: u16) {
         let moved = now.wrapping_sub(self.last).cast_signed();
         self.total = self.total.wrapping_add(i32::from(moved));
         self.last = now;
     }
 
-    /// Counts since the start; backwards is negative.
+    /// The counts since the start; negative if backwards.
     #[must_use]
     pub const fn total(&self) -> i32 {
         self.total
     }
 }
 
-/// Stores a count as one element: integers get its low bits, so that it wraps; bool is "not zero".
+/// Stores a count as one element: integers get its low bits, so that they wrap; bool is "not zero".
 pub fn store_count(scalar: Scalar, count: i64, element: &mut [u8]) {
     match scalar {
         Scalar::Bool | Scalar::Float32 | Scalar::Float64 => store_signed(scalar, count, element),
@@ -48,7 +47,7 @@ pub fn store_count(scalar: Scalar, count: i64, element: &mut [u8]) {
     }
 }
 
-/// When a value that does not change is told again.
+/// When an unchanged value is reported again.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Repeat {
     told_ms: u32,
@@ -56,10 +55,11 @@ pub struct Repeat {
 }
 
 impl Repeat {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { told_ms: 0, has_told: false };
 
-    /// True when a value is to be told: it has changed, was never told, or not for `repeat_ms`.
+    /// True if a value must be reported: it has changed, or was never reported, or not for
+    /// `repeat_ms`.
     pub fn is_due(&mut self, has_changed: bool, repeat_ms: u32, now_ms: u32) -> bool {
         if self.has_told && !has_changed && now_ms.wrapping_sub(self.told_ms) < repeat_ms {
             return false;

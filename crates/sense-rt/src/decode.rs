@@ -1,12 +1,13 @@
-//! From a byte stream to what its frames say: any split of the stream, any garbage between frames.
+//! From a byte stream to the content of its frames, however it is split and whatever garbage is
+//! between frames.
 //!
-//! A candidate for a frame that cannot become a valid one loses its first byte only, and the rest is
-//! looked at again: so the first valid frame is found wherever it starts. A frame that lies whole in
-//! the bytes of one call is read there; only what a call leaves unfinished is copied.
+//! A candidate that cannot become a valid frame loses only its first byte, and the rest is scanned
+//! again, so the first valid frame is found wherever it starts. A frame that is complete within the
+//! bytes of one call is read in place; only what a call leaves unfinished is copied.
 //!
-//! Nothing is kept of candidates that failed, so the worst stream costs a look at the longest frame
-//! for each of its digits. Frames towards a board are short; the decoders of hosts, which read long
-//! ones, keep what they found out.
+//! Nothing is kept of failed candidates, so in the worst case the longest frame is scanned again
+//! for each digit in the stream. Frames to a board are short; the decoders of hosts, which read
+//! long ones, keep what they have found out.
 
 use core::ops::{Deref, DerefMut};
 
@@ -19,14 +20,14 @@ use crate::schema::{
     STAMP_BYTES, Schema,
 };
 
-/// What a frame that is valid to its last byte says.
+/// The content of a frame that is valid to its last byte.
 #[derive(Clone, Copy, Debug)]
 pub enum Frame<'a> {
-    /// Values, with the stamp where the link has one.
+    /// Values, with the stamp if the link has one.
     Values(Option<Stamp>, Items<'a>),
     /// The hash of the board's schema (board to host).
     Hello(u32),
-    /// The payload of health, as it is (board to host).
+    /// The payload of health, unparsed (board to host).
     Health(&'a [u8]),
     /// The host wants a hello (host to board).
     HelloRequest,
@@ -54,7 +55,7 @@ impl<'a> Iterator for Items<'a> {
     }
 }
 
-/// What the bytes of a candidate can be.
+/// What the bytes of a candidate can become.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Verdict {
     Invalid,
@@ -62,7 +63,7 @@ enum Verdict {
     Complete,
 }
 
-/// What frames of one direction can look like.
+/// The rules for frames of one direction.
 #[derive(Clone, Copy, Debug)]
 struct Rules {
     schema: &'static Schema,
@@ -95,17 +96,17 @@ impl Rules {
     }
 }
 
-/// A candidate; all places are counted from its first byte.
+/// A candidate for a frame; all offsets count from its first byte.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    /// 0 as long as its length has not been read.
+    /// 0 until its length has been read.
     payload_start: usize,
     items_start: usize,
     values_end: usize,
     frame_bytes: usize,
-    /// Where the next identifier is.
+    /// The offset of the next identifier.
     at: usize,
-    /// Up to here the elements of a bool were looked at.
+    /// How far the elements of a bool have been checked.
     looked_at: usize,
     seen: Bits,
 }
@@ -121,7 +122,7 @@ impl Candidate {
         seen: Bits::NONE,
     };
 
-    /// Looks at the bytes from the candidate's first on; what was found out before is not looked at
+    /// Checks the bytes from the candidate's first on; what has been checked before is not checked
     /// again.
     fn look(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
         if self.payload_start == 0 {
@@ -130,7 +131,7 @@ impl Candidate {
                 return verdict;
             }
         }
-        // The cheapest first: most of what only looks like a frame ends wrong.
+        // The cheapest check first: most false candidates end wrong.
         let has_comma = bytes.len() >= self.frame_bytes;
         if has_comma && at(bytes, self.frame_bytes.wrapping_sub(1)) != b',' {
             return Verdict::Invalid;
@@ -182,8 +183,8 @@ impl Candidate {
         Verdict::Incomplete
     }
 
-    /// What a payload is follows from its first byte and its length: passes over a stamp, and over
-    /// the whole of what has no items.
+    /// Determines the type of the payload from its first byte and its length; skips a stamp, or a
+    /// whole payload that has no items.
     fn begin(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
         if self.at != self.payload_start {
             return Verdict::Complete;
@@ -201,7 +202,7 @@ impl Candidate {
         if is_right { Verdict::Complete } else { Verdict::Invalid }
     }
 
-    /// To the host a hello, or a stamp; to the board a request.
+    /// A payload that begins with 0: a hello or a stamp to the host, a request to the board.
     fn begin_with_0(&mut self, rules: &Rules, bytes: &[u8], values_bytes: usize) -> Verdict {
         if rules.direction == Direction::ToHost {
             if values_bytes == HELLO_BYTES {
@@ -230,7 +231,7 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// From identifier to identifier up to the end of the values.
+    /// Walks from identifier to identifier up to the end of the values.
     fn walk(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
         let verdict = self.begin(rules, bytes);
         if verdict != Verdict::Complete {
@@ -257,7 +258,7 @@ impl Candidate {
         Verdict::Complete
     }
 
-    /// The elements of the value `[value, end)`, as many as are there.
+    /// Checks the elements of a bool value `[value, end)`, as many as are there.
     fn look_at_bools(&mut self, bytes: &[u8], value: usize, end: usize) -> Verdict {
         let from = self.looked_at.max(value);
         let to = end.min(bytes.len());
@@ -270,7 +271,7 @@ impl Candidate {
         if to < end { Verdict::Incomplete } else { Verdict::Complete }
     }
 
-    /// What the frame that it has turned out to be says.
+    /// The content of the complete frame.
     fn read<'a>(&self, rules: &Rules, frame: &'a [u8]) -> Frame<'a> {
         let payload = frame.get(self.payload_start..self.values_end).unwrap_or_default();
         match payload {
@@ -296,7 +297,7 @@ impl Candidate {
 pub(crate) struct Machine {
     rules: Rules,
     candidate: Candidate,
-    /// Where in the buffer the candidate starts, and its bytes there.
+    /// The candidate's start and size in the buffer.
     start: usize,
     size: usize,
     frames: u32,
@@ -304,7 +305,7 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// Where the memory is not enough, no frame is taken.
+    /// With too little memory, no frame is accepted.
     pub(crate) const fn new(
         schema: &'static Schema,
         direction: Direction,
@@ -325,8 +326,8 @@ impl Machine {
         self.size == 0
     }
 
-    /// Looks for frames that start before `limit`. Returns where the candidate starts that lacks
-    /// bytes, or where to go on.
+    /// Looks for frames that start before `limit`. Returns the start of the candidate that lacks
+    /// bytes, or the place to continue from.
     fn run(&mut self, bytes: &[u8], limit: usize, on_frame: &mut dyn FnMut(Frame<'_>)) -> usize {
         let mut here = 0;
         while here < limit {
@@ -351,8 +352,8 @@ impl Machine {
         here
     }
 
-    /// Holds some more bytes, as many as the candidate lacks at most; returns how many. While its
-    /// length is read, that is one at a time.
+    /// Buffers more bytes, at most as many as the candidate lacks; returns how many. While its
+    /// length is being read, one at a time.
     fn hold(&mut self, buffer: &mut [u8], bytes: &[u8]) -> usize {
         let missing = match self.candidate.frame_bytes {
             0 => 1,
@@ -375,11 +376,11 @@ impl Machine {
         bytes: &[u8],
         on_frame: &mut dyn FnMut(Frame<'_>),
     ) {
-        // Bytes of this call that are in the buffer, too.
+        // The number of bytes of this call that are also in the buffer.
         let mut taken = 0;
         while self.size > 0 && taken < bytes.len() {
             taken += self.hold(buffer, bytes.get(taken..).unwrap_or_default());
-            // What starts in the bytes of this call is looked for there.
+            // Frames that start in the bytes of this call are looked for there.
             let old_bytes = self.size.saturating_sub(taken);
             let held = part(buffer, self.start, self.size);
             let gone = self.run(held, old_bytes, on_frame);
@@ -410,7 +411,7 @@ pub struct Decoder<B: ?Sized = [u8]> {
 }
 
 impl<const BYTES: usize> Decoder<[u8; BYTES]> {
-    /// `BYTES` is at least [`Schema::frame_bytes`]; otherwise every frame is dropped.
+    /// `BYTES` must be at least [`Schema::frame_bytes`]; otherwise every frame is dropped.
     #[must_use]
     pub const fn new(schema: &'static Schema, direction: Direction) -> Self {
         let is_enough = BYTES >= schema.frame_bytes(direction);
@@ -433,24 +434,24 @@ impl<const BYTES: usize> DerefMut for Decoder<[u8; BYTES]> {
 }
 
 impl Decoder {
-    /// Takes the next bytes of the stream and hands on what each whole frame says.
+    /// Takes the next bytes of the stream and passes on the content of each complete frame.
     pub fn feed(&mut self, bytes: &[u8], on_frame: &mut dyn FnMut(Frame<'_>)) {
         self.machine.feed(&mut self.buffer, bytes, on_frame);
     }
 
-    /// Whether no frame has begun: what comes next is the first byte of a frame, or garbage.
+    /// Whether no frame has begun: the next byte is the first of a frame, or garbage.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         self.machine.is_idle()
     }
 
-    /// Frames so far; wraps.
+    /// The frames so far; wraps.
     #[must_use]
     pub fn frames(&self) -> u32 {
         self.machine.frames()
     }
 
-    /// Bytes so far that were in no valid frame; wraps.
+    /// The bytes so far that were in no valid frame; wraps.
     #[must_use]
     pub fn dropped_bytes(&self) -> u32 {
         self.machine.dropped_bytes

@@ -1,13 +1,13 @@
 //! From one signed value to the two or three outputs of an H-bridge.
 //!
-//! The sign is the direction and the magnitude how strongly; it saturates at full scale. The outputs
-//! are written one after the other in the order given: then the two inputs of the bridge are never
-//! both driven, and no direction is driven with the strength meant for the other.
+//! The sign is the direction, the magnitude the strength; it saturates at full scale. The outputs
+//! are written one after the other in the order given: the two inputs of the bridge are then never
+//! driven at the same time, and no direction is driven with the strength meant for the other.
 
 use crate::convert::load_magnitude;
 use crate::scalar::Scalar;
 
-/// How a bridge is driven.
+/// The way a bridge is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BridgeMode {
     /// Outputs: 0 magnitude (PWM), 1 in1 (high: forward), 2 in2 (high: backward).
@@ -19,13 +19,13 @@ pub enum BridgeMode {
 /// A bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bridge {
-    /// How it is driven.
+    /// The way it is driven.
     pub mode: BridgeMode,
-    /// The greatest magnitude, in the unit of the PWM outputs (as their items take it).
+    /// The greatest magnitude, in the unit of the PWM outputs (that of their items).
     pub full: u32,
 }
 
-/// What was written last; at the start nothing, and then the first value writes every output.
+/// The last direction written; none at the start, so that the first value writes every output.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BridgeState {
     direction: Option<i8>,
@@ -34,13 +34,13 @@ pub struct BridgeState {
 /// One output to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Write {
-    /// See [`BridgeMode`].
+    /// The output's number, as in [`BridgeMode`].
     pub output: u8,
-    /// A magnitude of 0 to `full`, or 0 and 1 of a pin.
+    /// The magnitude, 0 to `full`, or the level of a pin, 0 or 1.
     pub value: u32,
 }
 
-/// What one value writes, in this order.
+/// The writes for one value, in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Writes {
     all: [Write; 4],
@@ -55,7 +55,7 @@ impl Writes {
         }
     }
 
-    /// In order.
+    /// The writes, in order.
     #[must_use]
     pub fn as_slice(&self) -> &[Write] {
         self.all.get(..self.count).unwrap_or_default()
@@ -63,14 +63,14 @@ impl Writes {
 }
 
 impl BridgeState {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self { direction: None };
 }
 
 impl Bridge {
-    /// What is to be written for an element (not a number is 0). Direction pins: with a new direction
-    /// first the magnitude 0, then the pin that goes low, then the one that goes high, then the
-    /// magnitude; both pins are low at 0. Two PWM: first the one that goes to 0.
+    /// The writes for an element (NaN is 0). With direction pins, a new direction first writes the
+    /// magnitude 0, then the pin that goes low, then the one that goes high, then the magnitude;
+    /// both pins are low at 0. With two PWM outputs, the one that goes to 0 is written first.
     #[must_use]
     pub fn drive(&self, state: &mut BridgeState, scalar: Scalar, element: &[u8]) -> Writes {
         let (asked, is_negative) = load_magnitude(scalar, element);

@@ -1,27 +1,27 @@
 //! From values to Netstring frames.
 //!
-//! A frame is written into a buffer of the caller, whole or not at all: where it is smaller than
-//! [`Schema::frame_bytes`] nothing is written and 0 comes back.
+//! A frame is written into a buffer of the caller, whole or not at all: if the buffer is smaller
+//! than [`Schema::frame_bytes`], nothing is written and 0 is returned.
 
 use crate::bits::Bits;
 use crate::bytes::{Writer, move_down};
 use crate::health::{BoardHealth, HealthRow};
 use crate::schema::{Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema};
 
-/// The version of health that is written.
+/// The version of the health format.
 const HEALTH_VERSION: u8 = 1;
 
-/// What a report begins with where the link has stamps.
+/// The start of a report on links with stamps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stamp {
-    /// Microseconds since the start; wraps.
+    /// Microseconds since the start of the board; wraps.
     pub time_us: u32,
-    /// Counts the reports that were put together; wraps.
+    /// The count of reports put together; wraps.
     pub counter: u8,
 }
 
-/// Puts the values whose bit is set in `due` (bit i is `items[i]`) into a frame; `values` has all of
-/// them, as a [`crate::Store`] does. Returns the bytes of the frame; 0 when there is nothing to say.
+/// Puts the values whose bit is set in `due` (bit i is `items[i]`) into a frame; `values` has all
+/// of them, as in a [`crate::Store`]. Returns the size of the frame, 0 if there is nothing to send.
 /// Without stamps on the link, `stamp` is ignored.
 pub fn encode_values(
     schema: &Schema,
@@ -44,8 +44,8 @@ pub fn encode_values(
     encode_each(schema, direction, stamp, &mut put, frame)
 }
 
-/// The same, with `put`, which puts what is due of an item and is called for one after the other: whoever locks the
-/// values locks them for one item at a time.
+/// Like [`encode_values`], but calls `put` for one item after the other to write it if it is due: a
+/// caller that locks the values then locks them for one item at a time.
 pub(crate) fn encode_each(
     schema: &Schema,
     direction: Direction,
@@ -73,7 +73,7 @@ pub fn encode_hello(schema: &Schema, frame: &mut [u8]) -> usize {
     frame_of(schema, Direction::ToHost, frame, 0, &mut put)
 }
 
-/// The health of the board, and of each device as `row_of` says it.
+/// The health of the board, and of each device as given by `row_of`.
 pub fn encode_health(
     schema: &Schema,
     board: &BoardHealth,
@@ -112,8 +112,8 @@ pub fn encode_health_request(schema: &Schema, frame: &mut [u8]) -> usize {
     frame_of(schema, Direction::ToBoard, frame, 0, &mut put)
 }
 
-/// A payload with its checksum, its length and its comma. One that is no longer than `empty_bytes`
-/// says nothing, and there is no frame.
+/// A payload with its checksum, length and comma. A payload of at most `empty_bytes` has no
+/// content, and gives no frame.
 fn frame_of(
     schema: &Schema,
     direction: Direction,
@@ -139,7 +139,7 @@ fn frame_of(
     if out.is_full {
         return 0;
     }
-    // The length is right in front of the payload; a short one leaves room before it.
+    // The length is right before the payload; a short one leaves unused room before it.
     let end = head_bytes + out.size;
     let mut start = head_bytes - 1;
     put_at(frame, start, b':');

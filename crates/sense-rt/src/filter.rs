@@ -1,8 +1,8 @@
-//! What becomes of a value on the board before it is reported: invalid, median, smooth, change with
-//! heartbeat; in this order, each only where the table asks for it.
+//! Filtering of a value on the board before it is reported: invalid, median, smooth, change with
+//! heartbeat; in this order, each only if the table asks for it.
 //!
-//! Integers of all sizes are handled without losing a bit; arrays element by element, but an invalid
-//! element makes the whole value invalid, because half a value cannot be reported.
+//! Integers of all sizes are handled without losing a bit. Arrays are filtered element by element,
+//! but an invalid element makes the whole value invalid, because half a value cannot be reported.
 
 mod real;
 mod smooth;
@@ -21,42 +21,42 @@ pub use smooth::decay;
 /// Bytes of the state of one smoothed element.
 const SMOOTH_BYTES: usize = 16;
 
-/// A number of an item's type, by its bits.
+/// A number of an item's type, as its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number(u64);
 
 impl Number {
-    /// Of bool and unsigned integers; a distance between any integers.
+    /// A bool or an unsigned integer; also a distance between any integers.
     #[must_use]
     pub const fn unsigned(number: u64) -> Self {
         Self(number)
     }
 
-    /// Of signed integers.
+    /// A signed integer.
     #[must_use]
     pub const fn signed(number: i64) -> Self {
         Self(number.cast_unsigned())
     }
 
-    /// Of float32.
+    /// A float32.
     #[must_use]
     pub const fn float32(number: f32) -> Self {
         Self(number.to_bits() as u64)
     }
 
-    /// Of float64.
+    /// A float64.
     #[must_use]
     pub const fn float64(number: f64) -> Self {
         Self(number.to_bits())
     }
 
-    /// As an element has it.
+    /// The bits as an element has them.
     fn bits(self, scalar: Scalar) -> u64 {
         self.0 & (scalar.sign().wrapping_mul(2).wrapping_sub(1))
     }
 }
 
-/// Both ends belong to it; a single value has both ends equal.
+/// A range that includes both ends; for a single value they are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Range {
     /// The lowest number.
@@ -65,21 +65,23 @@ pub struct Range {
     pub high: Number,
 }
 
-/// What is wanted of a filter.
+/// The configuration of a filter.
 #[derive(Clone, Copy, Debug)]
 pub struct FilterTable {
-    /// Raw elements that are not a measurement.
+    /// The ranges of raw elements that are not a measurement.
     pub invalid: &'static [Range],
-    /// [`WIDE`] for a float64 with `smooth_ms` or `change`, otherwise none; without it these two
-    /// leave a float64 alone.
+    /// [`WIDE`] for a float64 with `smooth_ms` or `change`, otherwise `None`; without it these two
+    /// do nothing to a float64.
     pub wide: Option<Wide>,
-    /// Of so many values: odd, 3 to 15; 0: off. At first it is of those that there are.
+    /// The number of values that the median is taken of: odd, 3 to 15; 0: off. At first it is taken
+    /// of those received so far.
     pub median: u8,
     /// Time constant of a first-order low-pass; 0: off.
     pub smooth_ms: u32,
-    /// How far an element must be from what was reported last; none: all is reported. Not negative.
+    /// How far an element must be from the last one reported; `None`: all are reported. Not
+    /// negative.
     pub change: Option<Number>,
-    /// With `change`: the longest time from report to report while values come; 0: any.
+    /// With `change`: the longest time between reports while values come; 0: unlimited.
     pub heartbeat_ms: u32,
 }
 
@@ -88,7 +90,7 @@ impl FilterTable {
     pub const NEW: Self =
         Self { invalid: &[], wide: None, median: 0, smooth_ms: 0, change: None, heartbeat_ms: 0 };
 
-    /// The memory of a [`Filter`] of an item.
+    /// The size of the memory of an item's [`Filter`].
     #[must_use]
     pub const fn bytes(&self, item: &Item) -> usize {
         let told = if self.change.is_some() { item.bytes() } else { 0 };
@@ -128,16 +130,16 @@ pub struct Filter<M: ?Sized = [u8]> {
     table: &'static FilterTable,
     /// When the last valid value came.
     seen_ms: Option<u32>,
-    /// When one was reported last.
+    /// When a value was last reported.
     told_ms: Option<u32>,
     window_at: u8,
     window_count: u8,
-    /// Smoothed elements, what was reported last, the window of the median.
+    /// The smoothed elements, the last value reported, the window of the median.
     memory: M,
 }
 
 impl<const BYTES: usize> Filter<[u8; BYTES]> {
-    /// At the start. `BYTES` is [`FilterTable::bytes`].
+    /// A filter in its initial state. `BYTES` is [`FilterTable::bytes`].
     #[must_use]
     pub const fn new(table: &'static FilterTable) -> Self {
         Self {
@@ -166,8 +168,8 @@ impl<const BYTES: usize> DerefMut for Filter<[u8; BYTES]> {
 }
 
 impl Filter {
-    /// One value, changed in place. Fresh: to be reported. Nothing: valid, but not changed enough to
-    /// be reported. Invalid: not a measurement; the value and the filter are as before.
+    /// Filters one value in place. `Fresh`: report it. `Nothing`: valid, but too little changed to
+    /// be reported. `Invalid`: not a measurement; the value and the filter are unchanged.
     #[must_use]
     pub fn apply(&mut self, item: &Item, now_ms: u32, value: &mut [u8]) -> Outcome {
         if self.table.is_invalid(item, value) {
@@ -228,7 +230,7 @@ impl Filter {
         }
     }
 
-    /// Whether a value is reported, which is then the one reported last.
+    /// Whether a value is reported; if so, it is stored as the last one reported.
     fn is_told(&mut self, item: &Item, change: Number, now_ms: u32, value: &[u8]) -> bool {
         let scalar = item.scalar;
         let told = part(&self.memory, self.table.smooth_bytes(item), item.bytes());
@@ -245,8 +247,8 @@ impl Filter {
         true
     }
 
-    /// Whether the next value would come too late for the heartbeat, by more than a quarter of what
-    /// lies between two.
+    /// Whether the next value would be too late for the heartbeat, assuming that it comes after at
+    /// least three quarters of the present interval.
     fn is_heartbeat(&self, now_ms: u32) -> bool {
         let silent_ms = now_ms.wrapping_sub(self.told_ms.unwrap_or_default());
         let interval_ms = now_ms.wrapping_sub(self.seen_ms.unwrap_or_default());
@@ -255,7 +257,7 @@ impl Filter {
     }
 }
 
-/// The bits of an element as an unsigned number that is in the same order.
+/// The bits of an element as an unsigned number with the same order.
 fn key_of(scalar: Scalar, bits: u64) -> u64 {
     let sign = scalar.sign();
     if scalar.is_real() && bits & sign != 0 {
@@ -268,8 +270,8 @@ fn bits_of_key(scalar: Scalar, key: u64) -> u64 {
     if scalar.is_signed() { key ^ scalar.sign() } else { key }
 }
 
-/// The bits of one element that so many of the window are not above: counting needs no memory for a
-/// sorted copy.
+/// The bits of the median element in the window. It is found by counting, which needs no memory for
+/// a sorted copy.
 fn middle(scalar: Scalar, window: &[u8], index: usize, stride: usize, count: usize) -> u64 {
     let bits_at = |one: usize| {
         let value = window.get(one.wrapping_mul(stride)..).unwrap_or_default();

@@ -1,27 +1,28 @@
-//! How the devices of a board are: what their last readings came to, how long ago, and how often
-//! each fault was met.
+//! The health of a board's devices: the outcome of their last readings, how long ago those were,
+//! and how often each fault occurred.
 
 use core::ops::{Deref, DerefMut};
 
 use crate::outcome::Outcome;
 
-/// The age of a value that there is not yet.
+/// The age of a value that does not exist yet.
 pub const AGE_NEVER: u32 = 0xFFFF_FFFF;
-/// The age of a value so old that the clock cannot tell (24 days).
+/// The age of a value that is older than the clock can tell (24 days).
 pub const AGE_LONG: u32 = 0xFFFF_FFFE;
-/// The load of a processor of which nothing is known.
+/// An unknown load of the processor.
 pub const LOAD_UNKNOWN: u8 = 255;
-/// What is left of stacks of which nothing is known.
+/// An unknown amount of stack left.
 pub const STACK_UNKNOWN: u16 = 65535;
 
-/// A device without a value for so many of its cycles is stale.
+/// A device is stale after this many of its cycles without a value.
 const STALE_CYCLES: u32 = 3;
 /// Half of the clock's range.
 const ANCIENT_MS: u32 = 0x8000_0000;
-/// A value that is so little younger than the time of who asks came meanwhile, from another task.
+/// A value whose time is ahead of the caller's by at most this much came meanwhile, from another
+/// task.
 const AHEAD_MS: u32 = 0x1_0000;
 
-/// How a device is.
+/// The status of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Never read.
@@ -32,29 +33,29 @@ pub enum Status {
     Stale,
     /// The last reading did not come through.
     Failed,
-    /// The last answer was no measurement.
+    /// The last answer was not a measurement.
     Invalid,
 }
 
-/// What can go wrong with a reading: the place of its count.
+/// A kind of failure of a reading; also the index of its count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Nobody has the address, or a byte was refused.
+    /// No device has the address, or a byte was refused.
     NotAcknowledged,
-    /// The bus.
+    /// A bus error.
     Bus,
-    /// Somebody else drove the bus.
+    /// Another master took the bus.
     Arbitration,
-    /// It did not end in time.
+    /// A time-out.
     TimeOut,
     /// A damaged answer.
     Crc,
-    /// No measurement; another device's answers as well.
+    /// Not a measurement; also an answer of the wrong device.
     Invalid,
 }
 
 impl Fault {
-    /// How many there are.
+    /// The number of faults.
     pub const COUNT: usize = 6;
 
     const fn of(outcome: Outcome) -> Option<Self> {
@@ -73,46 +74,46 @@ impl Fault {
 /// Why the board started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cause {
-    /// Nothing tells.
+    /// Unknown.
     #[default]
     Unknown,
-    /// Switched on, or a brown-out.
+    /// Power-on or brown-out.
     Power,
     /// The reset pin.
     Pin,
-    /// The firmware asked for it.
+    /// A reset by the firmware.
     Software,
     /// The watchdog.
     Watchdog,
     /// The window watchdog.
     WindowWatchdog,
-    /// A wrong way into or out of a low-power mode.
+    /// Illegal entry to or exit from a low-power mode.
     LowPower,
-    /// The firmware stopped itself: a panic.
+    /// A panic: the firmware stopped itself.
     Halt,
 }
 
-/// The board itself, as the host is told of it.
+/// The health of the board itself, as reported to the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoardHealth {
-    /// Since the start; wraps.
+    /// Milliseconds since the start; wraps.
     pub uptime_ms: u32,
-    /// Reports that were sent.
+    /// The number of reports sent.
     pub reports_sent: u32,
-    /// Cycles in which something was due and the line had not done with a frame.
+    /// Cycles in which something was due while the line was still busy with a frame.
     pub reports_refused: u32,
-    /// Bytes never used of the fullest stack.
+    /// Bytes of the fullest stack that were never used.
     pub stack_left_bytes: u16,
     /// Why the board started.
     pub reset_cause: Cause,
-    /// After a watchdog's reset the identifier of the first device of the task that hung.
+    /// After a watchdog reset, the identifier of the first device of the task that hung.
     pub reset_device: u8,
-    /// The highest so far, in percent.
+    /// The highest load so far, in percent.
     pub load_percent: u8,
 }
 
 impl BoardHealth {
-    /// Nothing is known.
+    /// A board of which nothing is known.
     pub const NEW: Self = Self {
         uptime_ms: 0,
         reports_sent: 0,
@@ -124,14 +125,14 @@ impl BoardHealth {
     };
 }
 
-/// One device as the host is told of it.
+/// The health of one device, as reported to the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HealthRow {
-    /// How it is.
+    /// Its status.
     pub status: Status,
-    /// How old its value is.
+    /// The age of its value.
     pub age_ms: u32,
-    /// By [`Fault`]; they stop at 65535.
+    /// How often each [`Fault`] occurred; the counts stop at 65535.
     pub counts: [u16; Fault::COUNT],
 }
 
@@ -141,7 +142,7 @@ impl HealthRow {
         Self { status: Status::Never, age_ms: AGE_NEVER, counts: [0; Fault::COUNT] };
 }
 
-/// What is known of one device.
+/// The state of one device.
 #[derive(Clone, Copy, Debug)]
 pub struct Record {
     good_ms: u32,
@@ -152,7 +153,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self {
         good_ms: 0,
         counts: [0; Fault::COUNT],
@@ -192,7 +193,7 @@ impl Record {
     }
 }
 
-/// What is known of all devices, in `[Record; SCHEMA.items.len()]`.
+/// The health of all devices, in `[Record; SCHEMA.items.len()]`.
 #[derive(Debug)]
 pub struct Health<R: ?Sized = [Record]> {
     cycles_ms: &'static [u32],
@@ -201,8 +202,8 @@ pub struct Health<R: ?Sized = [Record]> {
 }
 
 impl<const ITEMS: usize> Health<[Record; ITEMS]> {
-    /// `cycles_ms`: for each item how often it is read; 0, or no entry: only when something happens,
-    /// and then it is never stale.
+    /// `cycles_ms`: how often each item is read; 0, or no entry: only when something happens, and
+    /// then it is never stale.
     #[must_use]
     pub const fn new(cycles_ms: &'static [u32]) -> Self {
         Self { cycles_ms, looked_at: 0, records: [Record::NEW; ITEMS] }
@@ -224,13 +225,13 @@ impl<const ITEMS: usize> DerefMut for Health<[Record; ITEMS]> {
 }
 
 impl Health {
-    /// How often an item is read; 0 where it has no cycle.
+    /// How often an item is read; 0 if it has no cycle.
     pub(crate) fn cycle_ms(&self, index: usize) -> u32 {
         self.cycles_ms.get(index).copied().unwrap_or_default()
     }
 
-    /// What a reading of an item came to, before any filter keeps it from the host. `Nothing` says
-    /// nothing of it.
+    /// Notes the outcome of a reading of an item, before any filter withholds it from the host.
+    /// `Nothing` is ignored.
     pub fn note(&mut self, index: usize, outcome: Outcome, now_ms: u32) {
         let Some(record) = self.records.get_mut(index).filter(|_| outcome != Outcome::Nothing)
         else {
@@ -251,7 +252,8 @@ impl Health {
         }
     }
 
-    /// Now and then, at least so often that each device has its turn within 24 days: the clock wraps.
+    /// Must be called from time to time, so often that each device has its turn within 24 days,
+    /// because the clock wraps.
     pub fn tick(&mut self, now_ms: u32) {
         match self.records.get_mut(self.looked_at) {
             Some(record) => {
@@ -262,7 +264,7 @@ impl Health {
         }
     }
 
-    /// How a device is.
+    /// The health of a device.
     #[must_use]
     pub fn row(&self, index: usize, now_ms: u32) -> HealthRow {
         let record = self.records.get(index).unwrap_or(&Record::NEW);

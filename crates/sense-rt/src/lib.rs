@@ -1,21 +1,24 @@
-//! The runtime of Rust firmware: everything between the hardware of a board and its link that
-//! knows no hardware.
+//! The runtime of Rust firmware: everything between the hardware of a board and its link that does
+//! not depend on the hardware.
 //!
-//! In: what pins, buses and ports gave, and the time as a number. Out: values, frames, transfers to
-//! make. Nothing waits, allocates, locks or panics, and nothing is unsafe; whoever has a HAL, be it
-//! blocking or async, executes what a state machine here asks for.
+//! In: what was read from pins, buses and ports, and the time as a number. Out: values, frames,
+//! transfers to make. Nothing here waits, allocates, locks or panics, and nothing is unsafe; the
+//! code that owns the HAL, blocking or async, carries out what these state machines ask for.
 //!
 //! **Tables are constants.** A generator prints them: [`Schema`], [`ChipTable`], [`MessageTable`] …
-//! Each has a `NEW` where every member has its usual value, so that only what differs is printed.
+//! Each has a `NEW` in which every member has its usual value, so that only the differences are
+//! printed.
 //!
-//! **A value is its bytes on the wire**: elements one behind the other in network byte order, as
-//! [`Scalar`] reads and writes them. So a report is copied together, and one code serves all types.
+//! **A value is its bytes on the wire**: its elements one after the other in network byte order, as
+//! [`Scalar`] reads and writes them. A report is therefore assembled by copying, and the same code
+//! serves all types.
 //!
 //! **State has its memory inside**, sized by a constant function of its table, and can be a
 //! `static`: `Store<[u8; SCHEMA.values_bytes()]>`. Each such type dereferences to its unsized form
 //! (`Store<[u8]>`), which has the methods: one copy of the code serves all sizes.
 //!
-//! `crates/firmware-c/runtime` is the same in C; tests hold both to the same vectors and to each other.
+//! `crates/firmware-c/runtime` is the same runtime in C; tests hold both to the same vectors and to
+//! each other.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,5 @@
-//! What a reporter hears its host with: a decoder, or without actuators what finds the requests alone.
+//! How a reporter listens to its host: with a decoder, or without actuators with a scanner for the
+//! requests.
 
 use crate::decode::Frame;
 #[cfg(feature = "actuators")]
@@ -22,7 +23,7 @@ impl Listener {
 
 #[cfg(feature = "actuators")]
 impl Listener {
-    /// Where the memory is not enough, no frame is taken.
+    /// With too little memory, no frame is accepted.
     pub(crate) const fn new(schema: &'static Schema, is_enough: bool) -> Self {
         Self(Inner::new(schema, crate::schema::Direction::ToBoard, is_enough))
     }

@@ -1,9 +1,9 @@
 //! The byte stream of a serial device: from bytes to messages, from messages to values.
 //!
-//! A message is `start`, the body, a checksum, `end`; the body has `length` bytes, or ends where
-//! checksum and `end` do. A candidate that cannot become a message loses its first byte only, and the
-//! rest is looked at again: so the first whole message is found wherever it starts, however the
-//! stream is cut. A body without length and checksum has no `start` in it.
+//! A message is `start`, the body, a checksum, `end`; the body has `length` bytes, or ends at the
+//! checksum and `end`. A candidate that cannot become a message loses only its first byte, and the
+//! rest is scanned again, so the first complete message is found wherever it starts, however the
+//! stream is split. A body without length and checksum cannot contain `start`.
 
 mod start;
 mod table;
@@ -18,18 +18,18 @@ pub use self::start::MessageStart;
 use self::table::Verdict;
 pub use self::table::{FieldFormat, MessageChecksum, MessageField, MessageTable};
 
-/// What came of a stream; all of it wraps.
+/// Event counts of a stream; each wraps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StreamCounts {
-    /// Whole messages.
+    /// Complete messages.
     pub messages: u32,
     /// Bytes that were in no message.
     pub dropped_bytes: u32,
-    /// Candidates with a start, a length and an end, but not the checksum.
+    /// Candidates with a start, a length and an end, but a wrong checksum.
     pub wrong_checksum: u32,
     /// Fresh values.
     pub values: u32,
-    /// Values that were none.
+    /// Values that were not a measurement.
     pub invalid: u32,
 }
 
@@ -46,7 +46,7 @@ pub struct MessageStream<B: ?Sized = [u8]> {
 }
 
 impl<const BYTES: usize> MessageStream<[u8; BYTES]> {
-    /// At the start. `BYTES` is [`MessageTable::stream_bytes`].
+    /// The state at the start. `BYTES` is [`MessageTable::stream_bytes`].
     #[must_use]
     pub const fn new(table: &'static MessageTable, schema: &'static Schema) -> Self {
         let counts = StreamCounts {
@@ -75,14 +75,14 @@ impl<const BYTES: usize> DerefMut for MessageStream<[u8; BYTES]> {
 }
 
 impl MessageStream {
-    /// What came of the stream so far.
+    /// The event counts so far.
     #[must_use]
     pub fn counts(&self) -> &StreamCounts {
         &self.counts
     }
 
-    /// Takes the next bytes of the stream, and says the values of each whole message. `Nothing`: the
-    /// field is empty. `WrongCrc`: the checksum of its message does not fit.
+    /// Takes the next bytes of the stream, and reports the values of each complete message.
+    /// `Nothing`: the field is empty. `WrongCrc`: the checksum of its message is wrong.
     pub fn feed(&mut self, bytes: &[u8], sink: &mut Sink<'_>) {
         let least = self.table.frame_bytes() + usize::from(self.table.length);
         let room = usize::from(self.table.bytes_max).min(self.memory.len());
@@ -99,10 +99,10 @@ impl MessageStream {
         }
     }
 
-    /// The line was silent for longer than within a message (an idle line tells): what has begun is
-    /// dropped, and the next byte is taken for the first of a message. Devices with a weak start and
-    /// no checksum need it: with SBUS a byte of the channels can look like the start, in every
-    /// message at the same place.
+    /// The line was silent for longer than within a message (an idle line interrupt reports this):
+    /// an unfinished message is dropped, and the next byte is taken for the first of a message.
+    /// Devices with a weak start and no checksum need it: with SBUS a byte of the channels can look
+    /// like the start, at the same place in every message.
     pub fn gap(&mut self) {
         self.drop_bytes(self.size);
         self.is_aligned = true;
@@ -119,7 +119,7 @@ impl MessageStream {
         self.counts.dropped_bytes = self.counts.dropped_bytes.wrapping_add(count as u32);
     }
 
-    /// Takes off the first byte, and what follows it up to the next that a message could begin with.
+    /// Drops the first byte and those after it, up to the next at which a message could begin.
     fn drop_candidate(&mut self) {
         let count = match self.table.start.first() {
             None => 1,
@@ -131,7 +131,7 @@ impl MessageStream {
         self.drop_bytes(count);
     }
 
-    /// Before the first end, it is unknown where a message began. True when the byte was taken.
+    /// Before the first end, the start of a message is unknown. True if the byte was consumed.
     fn align(&mut self) -> bool {
         if self.is_aligned || !self.table.needs_alignment() {
             return false;
@@ -141,7 +141,7 @@ impl MessageStream {
             self.drop_bytes(self.size);
             self.is_aligned = true;
         } else if self.size >= end.len() {
-            // Enough stays to recognise the end.
+            // Enough remains to recognise the end.
             self.drop_bytes(1);
         }
         true
@@ -167,7 +167,8 @@ impl MessageStream {
                 Verdict::Bad => {}
             }
             if self.table.needs_alignment() {
-                // Either too long, and its end is still to come, or at its end and wrong.
+                // Either it is too long, and its end is still to come, or it is at its end and
+                // wrong.
                 self.is_aligned = self.held().ends_with(self.table.end);
                 self.drop_bytes(self.size);
             } else {
@@ -176,8 +177,8 @@ impl MessageStream {
         }
     }
 
-    /// A damaged message is told of all values that it has. Without a start or an end nobody knows
-    /// that it is one.
+    /// A damaged message is reported for all its values. Without a start or an end it cannot be
+    /// recognised as a message.
     fn say_damaged(&self, sink: &mut Sink<'_>) {
         if self.table.start.is_empty() && self.table.end.is_empty() {
             return;

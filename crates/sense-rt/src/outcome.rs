@@ -1,33 +1,33 @@
-//! What a reading, a message or a transfer came to, and why.
+//! The outcome of a reading, a message or a transfer.
 
-/// What came of one attempt to get a value.
+/// The outcome of one attempt to get a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Not due, not ready, not measured: the last value remains valid.
     Nothing,
-    /// A new value; a transfer that went through.
+    /// A new value, or a transfer that succeeded.
     Fresh,
     /// The device answered with something that is not a measurement.
     Invalid,
-    /// Its answer was damaged on the way: the device's own checksum does not fit.
+    /// The answer was damaged on the way: the device's own checksum is wrong.
     WrongCrc,
-    /// Nobody has its address, or a byte was refused.
+    /// No device has the address, or a byte was refused.
     NotAcknowledged,
-    /// A misplaced start or stop, an overrun, a DMA's failure, no such transfer.
+    /// A misplaced start or stop, an overrun, a DMA failure, or an impossible transfer.
     BusError,
-    /// Somebody else drove the bus.
+    /// Another master took the bus.
     ArbitrationLost,
-    /// It did not end in time, or the bus hangs.
+    /// A time-out, or the bus hangs.
     TimedOut,
-    /// Another device answers.
+    /// Another device answered.
     WrongIdentity,
 }
 
 impl Outcome {
-    /// How many there are.
+    /// The number of outcomes.
     pub const COUNT: usize = 9;
 }
 
-/// Where values go: the index of the item in the schema, what its reading came to, and its bytes.
-/// These are empty unless it is fresh, and may be changed (a filter does).
+/// The receiver of values: the index of the item in the schema, the outcome of its reading, and its
+/// bytes. These are empty unless it is fresh, and may be changed in place (a filter does).
 pub type Sink<'a> = dyn FnMut(usize, Outcome, &mut [u8]) + 'a;

@@ -1,8 +1,8 @@
-//! Numbers in the text of a device, into the type of an item. Integers are rounded half away from
-//! zero and saturate.
+//! Numbers in the text of a device, converted to the type of an item. Integers are rounded half
+//! away from zero and saturate.
 //!
-//! Spaces around a number are ignored. An empty text gives `Nothing`; a text that is not a number
-//! gives `Invalid`. Neither stores anything.
+//! Spaces around a number are ignored. Empty text gives `Nothing`; text that is not a number gives
+//! `Invalid`. Neither stores anything.
 
 use crate::convert::{divide, store_signed_ratio, store_unsigned};
 use crate::outcome::Outcome;
@@ -14,7 +14,7 @@ const MINUTES_DIGITS: u32 = 9;
 const NANOMINUTES: u64 = 6000;
 const NANO: u64 = 1_000_000_000;
 
-/// Field `index` of a text; none where there are fewer. With separator 0 the whole text is field 0.
+/// Field `index` of a text; `None` if there are fewer. With separator 0 the whole text is field 0.
 #[must_use]
 pub fn field(text: &[u8], separator: u8, index: usize) -> Option<&[u8]> {
     text.split(|byte| separator != 0 && *byte == separator).nth(index)
@@ -34,9 +34,9 @@ const fn power_of_ten(exponent: u32) -> u64 {
 /// Digits, a point, digits: the number is `digits / 10^places`.
 struct Decimal {
     digits: u64,
-    /// What is behind these is cut off.
+    /// The number of digits after the point; further ones are cut off.
     places: u32,
-    /// Digits in front of the point.
+    /// The number of digits before the point.
     whole_count: u32,
     is_too_large: bool,
 }
@@ -74,8 +74,8 @@ impl Decimal {
     }
 }
 
-/// The number times `10^decimals` (0 to 18): sign, digits, a point, digits. Also `.5` and `5.`. Of
-/// the digits behind the point those count that are among the first 19 in all.
+/// The number times `10^decimals` (0 to 18): sign, digits, a point, digits; also `.5` and `5.`.
+/// Digits after the point count only if they are among the first 19 digits in all.
 #[must_use]
 pub fn parse_decimal(text: &[u8], decimals: u8, scalar: Scalar, element: &mut [u8]) -> Outcome {
     let text = trimmed(text);
@@ -100,8 +100,8 @@ pub fn parse_decimal(text: &[u8], decimals: u8, scalar: Scalar, element: &mut [u
     Outcome::Fresh
 }
 
-/// `[d]ddmm.mmmm` and its hemisphere, in 1e-7 degrees; minutes below 60, at most 90 degrees of
-/// latitude and 180 of longitude.
+/// `[d]ddmm.mmmm` and its hemisphere, in 1e-7 degrees; minutes are below 60, latitude is at most 90
+/// degrees, longitude at most 180.
 #[must_use]
 pub fn parse_degrees(
     text: &[u8],

@@ -1,11 +1,11 @@
-//! From the value of a PWM output to the width of its pulses: servos, speed controllers, duty.
+//! From the value of a PWM output to its pulse width: servos, speed controllers, duty cycle.
 //!
-//! A value goes from 0 (the least pulse) to 10000 (the greatest); less and more saturate.
+//! A value goes from 0 (the shortest pulse) to 10000 (the longest); values beyond saturate.
 
 use crate::convert::load_magnitude;
 use crate::scalar::Scalar;
 
-/// The value of the greatest pulse.
+/// The value of the longest pulse.
 pub const LEVEL_FULL: u32 = 10_000;
 
 /// The pulses of an output.
@@ -32,7 +32,7 @@ impl PulseWidth {
     }
 }
 
-/// The value of one element, rounded, 0 to 10000. Negative and not a number is 0.
+/// The value of one element, rounded, 0 to 10000. Negative numbers and NaN are 0.
 #[must_use]
 pub fn pulse_level(scalar: Scalar, element: &[u8]) -> u32 {
     let (level, is_negative) = load_magnitude(scalar, element);

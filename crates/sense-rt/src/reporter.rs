@@ -1,8 +1,8 @@
-//! One end of a link on a board: takes what the host sends, and sends what is due.
+//! The board's end of a link: takes what the host sends, and sends what is due.
 //!
 //! The owner of the link calls [`Reporter::cycle`] at its rate. Nothing waits. A report is only put
-//! together when the one before it has left the channel, so that its values have waited for one
-//! report at most, however slow the line. A frame that the channel does not take at once is finished
+//! together when the one before it has left the channel, so that its values have waited for at most
+//! one report, however slow the line is. A frame that the channel does not take at once is finished
 //! in the next cycles.
 
 use core::ops::{Deref, DerefMut};
@@ -19,69 +19,69 @@ use crate::silence::Silence;
 use crate::store::Store;
 use crate::uses;
 
-/// Bytes that are read at a time, and how often in a cycle: a host that sends without end must not
-/// keep reports waiting.
+/// Bytes per read and reads per cycle: a host that sends without end must not delay reports.
 const READ_BYTES: usize = 64;
 const READS_MAX: usize = 16;
-/// A value that has waited for more of its device's cycles, or of the reporter's, is not fresh.
+/// A value that has waited for more of its device's cycles, or of the reporter's, is too old.
 const FRESH_CYCLES: u32 = 2;
 
-/// What bytes go through: a port, an endpoint, or a queue before either. Nothing in it waits.
+/// A channel for bytes: a port, an endpoint, or a queue before either. Its methods must not wait.
 pub trait Channel {
-    /// Whether somebody listens, as far as the channel can tell.
+    /// Whether the other end listens, as far as the channel can tell.
     fn is_open(&mut self) -> bool;
-    /// Takes what has come, as much as `bytes` has room for; returns how many bytes.
+    /// Reads the bytes that have arrived, as many as fit into `bytes`; returns how many.
     fn read(&mut self, bytes: &mut [u8]) -> usize;
-    /// How many bytes [`Self::write`] takes now.
+    /// The number of bytes that [`Self::write`] accepts now.
     fn room(&mut self) -> usize;
-    /// Whether all that it took has left: then a report may be put together.
+    /// Whether all bytes that it accepted have left: then a report may be put together.
     fn is_empty(&mut self) -> bool;
-    /// Takes all of the bytes, which are no more than there is room for. False: the other end has
+    /// Accepts all of the bytes, which are no more than [`Self::room`]. False if the other end has
     /// gone.
     fn write(&mut self, bytes: &[u8]) -> bool;
 }
 
-/// What a reporter does with the board.
+/// The board, as the reporter needs it.
 pub trait Host {
-    /// Hands the store and the health of the devices to a task; locks them where others use them.
+    /// Passes the store and the health of the devices to a task; locks them if others use them.
     fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health));
-    /// The host has set an actuator: puts the value into the store, and sets it.
+    /// The host has set an actuator: stores the value and sets the output.
     fn apply(&mut self, index: usize, value: &[u8]);
-    /// The host has been silent for too long.
+    /// The host has been silent for too long: applies the failsafe values.
     fn failsafe(&mut self) {}
-    /// Completes what is known of the board: cause of the reset, load and stack.
+    /// Completes the health of the board: reset cause, load and stack.
     fn describe(&mut self, board: &mut BoardHealth) {
         let _ = board;
     }
-    /// A byte between two frames, before the reporter gets it: true when it was meant for somebody
-    /// else.
+    /// Sees each byte between two frames before the reporter does; returns true if it was meant for
+    /// something else.
     fn intercept(&mut self, byte: u8) -> bool {
         let _ = byte;
         false
     }
 }
 
-/// What a generator says of a link.
+/// The configuration of a link, printed by a generator.
 #[derive(Clone, Copy, Debug)]
 pub struct ReporterConfig {
-    /// What is on the wire.
+    /// The schema of the link.
     pub schema: &'static Schema,
-    /// How often [`Reporter::cycle`] is called.
+    /// The time between calls of [`Reporter::cycle`].
     pub cycle_ms: u32,
-    /// Actuators fall back after this time without a frame from the host, 10 to 3600000; 0: never.
+    /// The time without a frame from the host after which actuators take their failsafe values, 10
+    /// to 3600000; 0: never.
     pub silence_ms: u32,
 }
 
-/// Since the start; they wrap.
+/// Event counts since the start; each wraps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReporterCounts {
-    /// Reports.
+    /// The reports sent.
     pub reports_sent: u32,
-    /// Cycles in which something was due and the line had not done with a frame.
+    /// Cycles in which something was due while the line was still busy with a frame.
     pub reports_refused: u32,
-    /// The other end went away in the middle of a frame.
+    /// Frames that were cut off because the other end went away.
     pub frames_torn: u32,
-    /// Values that were too old to be reported when the channel had room.
+    /// Values that were dropped because they were too old when the channel had room.
     pub values_dropped: u32,
 }
 
@@ -93,25 +93,25 @@ pub struct Reporter<B: ?Sized = [u8]> {
     silence: Silence,
     counts: ReporterCounts,
     now_us: u64,
-    /// Of the frame that is being sent; 0 for none.
+    /// The size of the frame that is being sent; 0 for none.
     frame_size: usize,
     frame_sent: usize,
-    /// Values of the report that is being sent.
+    /// The values in the report that is being sent.
     taken: Bits,
     is_report: bool,
     counter: u8,
     is_open: bool,
     hello_due: bool,
     health_due: bool,
-    /// With the last frame: a report's turn is next.
+    /// True if the last frame was an answer: a report's turn is next.
     has_answered: bool,
     /// A frame to the host, then the buffer of the decoder.
     memory: B,
 }
 
 impl<const BYTES: usize> Reporter<[u8; BYTES]> {
-    /// At the start, when the clock is 0. `BYTES` is [`Schema::reporter_bytes`]; with less nothing
-    /// is sent.
+    /// The state at the start, with the clock at 0. `BYTES` is [`Schema::reporter_bytes`]; with
+    /// less, nothing is sent.
     #[must_use]
     pub const fn new(config: ReporterConfig) -> Self {
         let is_enough = BYTES >= config.schema.reporter_bytes();
@@ -155,19 +155,19 @@ impl<const BYTES: usize> DerefMut for Reporter<[u8; BYTES]> {
 }
 
 impl Reporter {
-    /// The host has its time from now on; for a start at another time than 0.
+    /// Restarts the host's time limit now, for a start with the clock not at 0.
     pub fn begin_at(&mut self, now_us: u64) {
         self.now_us = now_us;
         self.silence = Silence::new(self.config.silence_ms, self.now_ms());
     }
 
-    /// What happened since the start.
+    /// The event counts since the start.
     #[must_use]
     pub fn counts(&self) -> &ReporterCounts {
         &self.counts
     }
 
-    /// One cycle.
+    /// Runs one cycle.
     pub fn cycle(&mut self, now_us: u64, channel: &mut dyn Channel, host: &mut dyn Host) {
         let is_open = channel.is_open();
         self.begin_cycle(now_us, is_open, host);
@@ -180,8 +180,8 @@ impl Reporter {
         }
     }
 
-    /// Instead of a cycle while somebody else has the channel: frames begin with a hello when their
-    /// turn comes again.
+    /// Replaces a cycle while something else uses the channel: when it is free again, frames begin
+    /// with a hello.
     pub fn pause(&mut self, now_us: u64, host: &mut dyn Host) {
         self.begin_cycle(now_us, false, host);
         self.fall_back(host);
@@ -218,7 +218,7 @@ impl Reporter {
             }
             let (hello_due, health_due) = (&mut self.hello_due, &mut self.health_due);
             self.listener.feed(buffer, core::slice::from_ref(byte), &mut |frame| match frame {
-                // In the order of the schema, whatever that of the frame is.
+                // In the order of the schema, regardless of the order in the frame.
                 Frame::Values(_, items) if uses::ACTUATORS => {
                     for index in 0..count {
                         let own = |(of, _): &(usize, &[u8])| *of == index;
@@ -236,7 +236,7 @@ impl Reporter {
 
     // ---- to the host ----
 
-    /// What is being sent is given up; the values of a report are due again.
+    /// Gives up the frame that is being sent; the values of a report become due again.
     fn give_up(&mut self, host: &mut dyn Host) {
         if self.frame_size == 0 {
             return;
@@ -248,7 +248,7 @@ impl Reporter {
         }
     }
 
-    /// Sends as much as there is room for; true when nothing is left to be sent.
+    /// Sends as much as there is room for; true if nothing is left to send.
     fn push(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) -> bool {
         if self.frame_size == 0 {
             return true;
@@ -302,7 +302,7 @@ impl Reporter {
         self.send(size, false, channel, host);
     }
 
-    /// What the host has asked for; true when it is on its way.
+    /// Answers the host's requests; true if an answer is on its way.
     fn answer(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) -> bool {
         if core::mem::take(&mut self.hello_due) {
             let schema = self.config.schema;
@@ -325,7 +325,8 @@ impl Reporter {
         let (schema, taken) = (self.config.schema, &mut self.taken);
         let (mut dropped, mut at) = (0, 0);
         *taken = Bits::NONE;
-        // The host locks for one item at a time: where it masks interrupts, ports have characters to take meanwhile.
+        // The host locks for one item at a time: if that masks interrupts, ports can take
+        // characters in between.
         let mut put = |index: usize, out: &mut Writer<'_>| {
             let Some(item) = schema.items.get(index) else { return };
             host.with(&mut |store, health| {
@@ -345,7 +346,7 @@ impl Reporter {
         }
     }
 
-    /// One frame at a time, so that none waits behind another; answers and reports take turns.
+    /// Sends one frame at a time, so that none waits for another; answers and reports take turns.
     fn transmit(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
         if self.push(channel, host) && channel.is_empty() {
             self.has_answered = !self.has_answered && self.answer(channel, host);
@@ -362,7 +363,7 @@ impl Reporter {
 
     // ---- the cycle ----
 
-    /// What is done with the channel in either mode; `is_open`: frames have it.
+    /// Updates the state at the start of a cycle; `is_open`: frames may use the channel.
     fn begin_cycle(&mut self, now_us: u64, is_open: bool, host: &mut dyn Host) {
         self.now_us = now_us;
         let now_ms = self.now_ms();
@@ -381,7 +382,7 @@ impl Reporter {
     }
 }
 
-/// A value that waited while the channel had no room, and that no reading has followed since.
+/// Whether a value has waited too long for room in the channel without a newer reading.
 fn is_old(health: &Health, index: usize, now_ms: u32, own_ms: u32) -> bool {
     let device_ms = health.cycle_ms(index);
     let cycle_ms = device_ms.max(own_ms);

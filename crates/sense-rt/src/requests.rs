@@ -1,4 +1,5 @@
-//! What a board without actuators hears of its host: two requests, each of them always the same bytes.
+//! The requests of a host to a board without actuators: there are two, and each always has the same
+//! bytes.
 
 use crate::checksum::Checksum;
 use crate::decode::Frame;
@@ -13,18 +14,19 @@ const fn requests(checksum: Checksum) -> (&'static [u8], &'static [u8]) {
     }
 }
 
-/// Finds the requests in a stream. A [`crate::Decoder`] finds the same where the schema has no
-/// actuator, and is six times as long.
+/// Finds the requests in a stream. A [`crate::Decoder`] finds the same ones if the schema has no
+/// actuators, but its code is six times as large.
 #[derive(Clone, Copy, Debug)]
 pub struct Requests {
     checksum: Checksum,
-    /// So many bytes of each request are the last ones of the stream.
+    /// The number of bytes of each request that the stream now ends with.
     hello: usize,
     health: usize,
     frames: u32,
 }
 
-/// One more byte of a request; its first byte comes once in it, so that nothing else begins in it.
+/// Advances by one byte; a request contains its first byte only once, so no other request can begin
+/// within it.
 fn follow(request: &[u8], place: &mut usize, byte: u8) -> bool {
     if request.get(*place) != Some(&byte) {
         *place = 0;
@@ -34,13 +36,13 @@ fn follow(request: &[u8], place: &mut usize, byte: u8) -> bool {
 }
 
 impl Requests {
-    /// At the start.
+    /// The state at the start.
     #[must_use]
     pub const fn new(schema: &Schema) -> Self {
         Self { checksum: schema.checksum, hello: 0, health: 0, frames: 0 }
     }
 
-    /// Takes the next bytes of the stream and hands on each request.
+    /// Takes the next bytes of the stream and passes on each request.
     pub fn feed(&mut self, bytes: &[u8], on_frame: &mut dyn FnMut(Frame<'_>)) {
         let (hello, health) = requests(self.checksum);
         for byte in bytes {
@@ -57,13 +59,13 @@ impl Requests {
         }
     }
 
-    /// Whether no request has begun: what comes next is the first byte of one, or garbage.
+    /// Whether no request has begun: the next byte is the first of one, or garbage.
     #[must_use]
     pub const fn is_idle(&self) -> bool {
         self.hello == 0 && self.health == 0
     }
 
-    /// Requests so far; wraps.
+    /// The requests so far; wraps.
     #[must_use]
     pub const fn frames(&self) -> u32 {
         self.frames

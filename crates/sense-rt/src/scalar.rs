@@ -41,13 +41,13 @@ impl Scalar {
         }
     }
 
-    /// Whether it is an integer with a sign.
+    /// Whether it is a signed integer.
     #[must_use]
     pub const fn is_signed(self) -> bool {
         matches!(self, Self::Int8 | Self::Int16 | Self::Int32 | Self::Int64)
     }
 
-    /// Whether it is a number in floating point.
+    /// Whether it is a floating-point number.
     #[must_use]
     pub const fn is_real(self) -> bool {
         uses::REALS && matches!(self, Self::Float32 | Self::Float64)
@@ -63,8 +63,8 @@ impl Scalar {
         }
     }
 
-    /// The bits of the element that `bytes` begin with, as an unsigned number of its size; 0 where
-    /// it is not whole.
+    /// The bits of the element at the start of `bytes`, as an unsigned number of its size; 0 if it
+    /// is incomplete.
     #[must_use]
     pub fn load(self, bytes: &[u8]) -> u64 {
         match self.bytes() {
@@ -75,7 +75,7 @@ impl Scalar {
         }
     }
 
-    /// Writes the low bits as the element that `bytes` begin with; nothing where it does not fit.
+    /// Writes the low bits as the element at the start of `bytes`; does nothing if it does not fit.
     pub fn store(self, bits: u64, bytes: &mut [u8]) {
         match self.bytes() {
             1 => {
@@ -112,7 +112,7 @@ impl Scalar {
         self.store(bits, value.get_mut(index.wrapping_mul(self.bytes())..).unwrap_or_default());
     }
 
-    /// The bits of an element as a number with a sign, where the type has one.
+    /// The bits of an element, sign-extended if the type is signed.
     #[must_use]
     pub const fn extend(self, bits: u64) -> i64 {
         if self.is_signed() {

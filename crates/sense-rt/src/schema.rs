@@ -1,15 +1,15 @@
-//! What is on the wire of one board: a constant table that a generator prints.
+//! The values that one board sends and receives: a constant table that a generator prints.
 
 use crate::checksum::Checksum;
 use crate::scalar::Scalar;
 
 /// Identifier of the link's hello, and of the stamp that a report may begin with.
 pub(crate) const ID_HELLO: u8 = 0;
-/// Identifier that health begins with as the first byte of a payload.
+/// Identifier of health, the first byte of its payload.
 pub(crate) const ID_HEALTH: u8 = 255;
 /// Identifier of the checksum, which comes last.
 pub(crate) const ID_CHECKSUM: u8 = 255;
-/// What follows the 0 of a request for health.
+/// The byte after the 0 of a request for health.
 pub(crate) const HEALTH_REQUEST: u8 = 1;
 
 pub(crate) const HELLO_BYTES: usize = 5;
@@ -20,28 +20,28 @@ pub(crate) const HEALTH_DEVICE_BYTES: usize = 17;
 
 /// A schema has at most one item for each identifier 1 to 254.
 pub const ITEMS_MAX: usize = 254;
-/// Bytes of the longest frame that there can be: its length has at most four digits.
+/// The size of the longest possible frame: its length has at most four digits.
 pub const FRAME_BYTES_LIMIT: usize = 4 + 1 + 9999 + 1;
 
-/// Which way an item or a frame travels.
+/// The direction in which an item or a frame travels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// Of sensors: board to host.
+    /// From a sensor: board to host.
     ToHost,
-    /// Of actuators: host to board.
+    /// To an actuator: host to board.
     ToBoard,
 }
 
-/// A value of the link.
+/// A value on the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// 1 to 254.
+    /// The identifier, 1 to 254.
     pub id: u8,
-    /// Of each element.
+    /// The type of each element.
     pub scalar: Scalar,
-    /// Elements; 1 for a scalar.
+    /// The number of elements; 1 for a scalar.
     pub count: u16,
-    /// Which way it travels.
+    /// The direction in which it travels.
     pub direction: Direction,
 }
 
@@ -58,36 +58,36 @@ impl Item {
         Self { id, scalar, count, direction: Direction::ToBoard }
     }
 
-    /// Bytes of the value, without its identifier.
+    /// The size of the value without its identifier.
     #[must_use]
     pub const fn bytes(&self) -> usize {
         self.scalar.bytes() * self.count as usize
     }
 }
 
-/// All values of a board in the order of the user's file, and the properties of its link. An item
-/// is named by its index here.
+/// All values of a board in the order of the user's file, and the properties of its link. An item's
+/// index here is its name in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Schema {
-    /// At most 254, with identifiers of their own in each direction.
+    /// The items, at most 254, with unique identifiers in each direction.
     pub items: &'static [Item],
-    /// What the hello says.
+    /// The hash that the hello carries.
     pub hash: u32,
     /// Whether reports begin with the board's time and a counter.
     pub stamp: bool,
-    /// What payloads end with.
+    /// The checksum at the end of payloads.
     pub checksum: Checksum,
 }
 
 impl Schema {
-    /// The item of that identifier in a direction, with its index.
+    /// The item with this identifier in a direction, with its index.
     #[must_use]
     pub fn find(&self, direction: Direction, id: u8) -> Option<(usize, &'static Item)> {
         let mut all = self.items.iter().enumerate();
         all.find(|(_, item)| item.id == id && item.direction == direction)
     }
 
-    /// Bytes of all values: the memory of a [`crate::Store`].
+    /// The size of all values: the memory of a [`crate::Store`].
     #[must_use]
     pub const fn values_bytes(&self) -> usize {
         let mut bytes = 0;
@@ -99,7 +99,7 @@ impl Schema {
         bytes
     }
 
-    /// Where the value of an item is in this memory.
+    /// The place of an item's value in this memory.
     pub(crate) fn place(&self, index: usize) -> Option<(usize, &'static Item)> {
         let mut at = 0;
         for (here, item) in self.items.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Schema {
         None
     }
 
-    /// Bytes of the largest value: what a value is made in.
+    /// The size of the largest value.
     #[must_use]
     pub const fn value_bytes_max(&self) -> usize {
         let mut bytes = 0;
@@ -125,13 +125,13 @@ impl Schema {
         bytes
     }
 
-    /// Bytes of health, all devices included but not the checksum.
+    /// The size of health, including all devices but not the checksum.
     #[must_use]
     pub const fn health_bytes(&self) -> usize {
         HEALTH_HEAD_BYTES + HEALTH_DEVICE_BYTES * self.items.len()
     }
 
-    /// Bytes of the longest payload of values, its stamp included but not the checksum.
+    /// The size of the longest payload of values, including its stamp but not the checksum.
     pub(crate) const fn report_bytes_max(&self, direction: Direction) -> usize {
         let mut bytes = 0;
         let mut rest = self.items;
@@ -144,12 +144,12 @@ impl Schema {
         bytes + if self.stamps(direction) && bytes > 0 { STAMP_BYTES } else { 0 }
     }
 
-    /// Whether payloads of values begin with a stamp in that direction.
+    /// Whether payloads of values begin with a stamp in this direction.
     pub(crate) const fn stamps(&self, direction: Direction) -> bool {
         self.stamp && matches!(direction, Direction::ToHost)
     }
 
-    /// Bytes of the longest payload but health, without a checksum.
+    /// The size of the longest payload except health, without a checksum.
     pub(crate) const fn short_bytes_max(&self, direction: Direction) -> usize {
         let asked = match direction {
             Direction::ToHost => HELLO_BYTES,
@@ -163,7 +163,7 @@ impl Schema {
         self.checksum.bytes()
     }
 
-    /// Bytes of the longest payload in a direction, with its checksum.
+    /// The size of the longest payload in a direction, with its checksum.
     #[must_use]
     pub const fn payload_bytes_max(&self, direction: Direction) -> usize {
         let short = self.short_bytes_max(direction);
@@ -174,7 +174,7 @@ impl Schema {
         (if health > short { health } else { short }) + self.checksum_bytes()
     }
 
-    /// Bytes of the longest length in a direction and its colon.
+    /// The size of the longest length field in a direction and its colon.
     pub(crate) const fn head_bytes(&self, direction: Direction) -> usize {
         let mut bytes = 2;
         let mut rest = self.payload_bytes_max(direction);
@@ -185,14 +185,14 @@ impl Schema {
         bytes
     }
 
-    /// Bytes of the longest frame in a direction: what it is put together in, and the memory of a
+    /// The size of the longest frame in a direction: the buffer for encoding, and the memory of a
     /// [`crate::Decoder`].
     #[must_use]
     pub const fn frame_bytes(&self, direction: Direction) -> usize {
         self.head_bytes(direction) + self.payload_bytes_max(direction) + 1
     }
 
-    /// Bytes of the memory of a [`crate::Reporter`]: a frame each way.
+    /// The size of the memory of a [`crate::Reporter`]: a frame each way.
     #[must_use]
     pub const fn reporter_bytes(&self) -> usize {
         self.frame_bytes(Direction::ToHost) + self.frame_bytes(Direction::ToBoard)

@@ -9,22 +9,23 @@ pub struct Silence {
 }
 
 impl Silence {
-    /// `limit_ms` is 10 to 3600000, or 0: never. At the start the host has its time as after a frame.
+    /// `limit_ms` is 10 to 3600000, or 0: never. The start counts as a frame from the host.
     #[must_use]
     pub const fn new(limit_ms: u32, now_ms: u32) -> Self {
         Self { limit_ms, heard_ms: now_ms, is_silent: false }
     }
 
-    /// A valid frame of the host has come.
+    /// A valid frame from the host has arrived.
     pub fn heard(&mut self, now_ms: u32) {
         self.heard_ms = now_ms;
         self.is_silent = false;
     }
 
-    /// In each cycle: true when the actuators are to fall back now, once for each silence.
+    /// Must be called in each cycle: true if the actuators must fall back now, once for each
+    /// silence.
     pub fn step(&mut self, now_ms: u32) -> bool {
         let is_short = now_ms.wrapping_sub(self.heard_ms) < self.limit_ms;
-        // Once silent it stays so, also when the clock comes round.
+        // Once silent, it remains so, even when the clock wraps.
         if self.limit_ms == 0 || self.is_silent || is_short {
             return false;
         }

@@ -1,8 +1,8 @@
-//! The latest value of every item, and which of them a report owes the host.
+//! The latest value of every item, and which of them must still be reported to the host.
 //!
-//! An item becomes due each time it is read, and is reported once; so a payload holds whatever is
-//! due, in the order of the schema, and never a zero that nobody measured. Where several tasks share
-//! a store the caller locks it.
+//! An item becomes due each time it is read, and is reported once; so a payload contains exactly
+//! what is due, in the order of the schema, and never a zero that nobody measured. If several tasks
+//! share a store, the caller locks it.
 
 use core::ops::{Deref, DerefMut};
 
@@ -23,7 +23,8 @@ pub struct Store<V: ?Sized = [u8]> {
 }
 
 impl<const BYTES: usize> Store<[u8; BYTES]> {
-    /// Nothing is known. `BYTES` is [`Schema::values_bytes`]; what has no room is never stored.
+    /// A store without values. `BYTES` is [`Schema::values_bytes`]; a value that has no room is
+    /// never stored.
     #[must_use]
     pub const fn new(schema: &'static Schema) -> Self {
         Self { schema, due: Bits::NONE, known: Bits::NONE, values: [0; BYTES] }
@@ -45,13 +46,13 @@ impl<const BYTES: usize> DerefMut for Store<[u8; BYTES]> {
 }
 
 impl Store {
-    /// What it has values of.
+    /// The schema of the values.
     #[must_use]
     pub fn schema(&self) -> &'static Schema {
         self.schema
     }
 
-    /// Takes over the value of an item; that of a sensor is then due.
+    /// Stores the value of an item; that of a sensor is then due.
     pub fn put(&mut self, index: usize, value: &[u8]) {
         let Some((at, item)) = self.schema.place(index) else { return };
         let wanted = value.get(..item.bytes());
@@ -65,15 +66,15 @@ impl Store {
         }
     }
 
-    /// The value of an item; none while nothing was read.
+    /// The value of an item; `None` until it was first read.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<&[u8]> {
         let (at, item) = self.schema.place(index).filter(|_| self.known.has(index))?;
         self.values.get(at..at.wrapping_add(item.bytes()))
     }
 
-    /// What a reading came to: puts a fresh value through the filter, if there is one, keeps what is
-    /// to be reported, which is then due, and notes how the device is.
+    /// Takes the outcome of a reading: puts a fresh value through the filter, if there is one,
+    /// stores what must be reported, which is then due, and notes the health of the device.
     #[inline]
     pub fn tell(
         &mut self,
@@ -90,7 +91,8 @@ impl Store {
         }
     }
 
-    /// What a filter makes of a reading, for who must not hold the store for so long; [`Self::tell_told`] takes it.
+    /// The outcome of filtering a reading, for [`Self::tell_told`]: a caller that must not hold the
+    /// store for that long filters first.
     pub fn filtered(
         schema: &Schema,
         filter: &mut Filter,
@@ -105,7 +107,7 @@ impl Store {
         }
     }
 
-    /// A reading that came to `outcome`, and what its filter has made of it.
+    /// Takes the outcome of a reading, and the outcome after its filter.
     pub fn tell_told(
         &mut self,
         health: &mut Health,
@@ -115,14 +117,14 @@ impl Store {
         now_ms: u32,
     ) {
         if told == Outcome::Nothing {
-            // The device answered; the filter keeps the value from the host.
+            // The device answered; the filter withholds the value from the host.
             health.note(index, outcome, now_ms);
         } else {
             self.tell_plain(health, index, told, value, now_ms);
         }
     }
 
-    /// The same without a filter: who has none anywhere calls this, and nothing of filters is linked.
+    /// Like [`Self::tell`] without a filter: a program that only calls this links no filter code.
     pub fn tell_plain(
         &mut self,
         health: &mut Health,
@@ -156,19 +158,19 @@ impl Store {
         !self.due.is_empty()
     }
 
-    /// Whether an item is.
+    /// Whether an item is due.
     #[must_use]
     pub fn has_due(&self, index: usize) -> bool {
         self.due.has(index)
     }
 
-    /// The value of an item is not to be reported.
+    /// Makes an item no longer due.
     pub fn forget(&mut self, index: usize) {
         self.due.clear(index);
     }
 
-    /// Puts the value of an item, which is at `at` in the memory, behind its identifier where it is due, and takes it off
-    /// the list; `taken` says that it was.
+    /// Writes the identifier and the value of an item, which is at `at` in the memory, if it is
+    /// due, and makes it no longer due; `taken` notes it.
     pub(crate) fn hand_out(
         &mut self,
         (index, item, at): (usize, &Item, usize),
@@ -184,7 +186,7 @@ impl Store {
         }
     }
 
-    /// Makes the items of a frame due again that could not be sent.
+    /// Makes items due again after their frame could not be sent.
     pub fn restore(&mut self, taken: &Bits) {
         self.due.add(taken);
     }

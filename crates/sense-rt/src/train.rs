@@ -1,28 +1,28 @@
-//! The pulse train of a model receiver (PPM sum): one interval between edges for each channel, and a
-//! gap.
+//! The pulse train of a model receiver (PPM sum): one interval between edges for each channel, then
+//! a gap.
 //!
-//! A train counts if it is between two gaps and each of its intervals is long enough.
+//! A train counts if it is between two gaps and all its intervals are long enough.
 
 use crate::convert::store_ratio;
 use crate::outcome::Outcome;
 use crate::schema::Item;
 
-/// Trains with more channels are not taken.
+/// The most channels of a train; trains with more are ignored.
 pub const CHANNELS_MAX: usize = 16;
 const US_PER_S: u64 = 1_000_000;
 
-/// What a train looks like.
+/// The shape of a train.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TrainConfig {
-    /// Of the timer, at least 1.
+    /// The clock of the timer, at least 1.
     pub tick_hz: u32,
-    /// A longer interval starts a train: 2.7 ms.
+    /// An interval longer than this starts a train: 2.7 ms.
     pub gap_ticks: u32,
-    /// A shorter one is a disturbance and spoils the train: 0.5 ms; 0: none is.
+    /// An interval shorter than this is a disturbance and spoils the train: 0.5 ms; 0: none does.
     pub min_ticks: u32,
 }
 
-/// What was seen of a train: written by the side that captures, copied by the reader.
+/// The train so far: written by the capturing side, copied by the reader.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Train {
     last_ticks: Option<u32>,
@@ -36,7 +36,7 @@ pub struct Train {
 }
 
 impl Train {
-    /// At the start.
+    /// The state at the start.
     pub const NEW: Self = Self {
         last_ticks: None,
         building: [0; CHANNELS_MAX],
@@ -48,7 +48,7 @@ impl Train {
         is_inside: false,
     };
 
-    /// Trains with a disturbance or too many channels; wraps.
+    /// The trains with a disturbance or too many channels; wraps.
     #[must_use]
     pub const fn spoilt(&self) -> u32 {
         self.spoilt
@@ -69,14 +69,14 @@ impl Train {
         self.spoilt = self.spoilt.wrapping_add(1);
     }
 
-    /// An edge was not taken in time: the train that it is of does not count.
+    /// An edge was missed: its train does not count.
     pub fn on_loss(&mut self) {
         if self.is_inside {
             self.spoil();
         }
     }
 
-    /// The time between two edges of one direction, where the timer measures that itself.
+    /// The time between two edges of the same direction, for timers that measure it.
     pub fn on_interval(&mut self, config: &TrainConfig, interval_ticks: u32) {
         if interval_ticks > config.gap_ticks {
             self.end();
@@ -91,15 +91,16 @@ impl Train {
         }
     }
 
-    /// The time of an edge (all of one direction), from a counter that wraps at 2^32.
+    /// The time of an edge (all of the same direction), from a counter that wraps at 2^32.
     pub fn on_edge(&mut self, config: &TrainConfig, time_ticks: u32) {
         if let Some(last) = self.last_ticks.replace(time_ticks) {
             self.on_interval(config, time_ticks.wrapping_sub(last));
         }
     }
 
-    /// The channels in us, rounded, when a train has come since the last look (`seen` remembers it):
-    /// fresh; invalid when it has fewer channels than the item has elements. More are left out.
+    /// The channels in us, rounded, if a train has come since the last call (`seen` remembers it):
+    /// `Fresh`; `Invalid` if it has fewer channels than the item has elements. Further channels are
+    /// ignored.
     pub fn read(
         &self,
         config: &TrainConfig,
@@ -147,7 +148,8 @@ mod tests {
             train.read(&CONFIG, &mut seen, &ITEM, &mut value)
         };
         assert_eq!(feed(None), Outcome::Fresh);
-        // The interval that ends with the missed edge never comes, and the next one is told with the loss.
+        // The interval that ends with the missed edge never comes; the next one comes after the
+        // loss is reported.
         assert_eq!(feed(Some(2)), Outcome::Nothing);
         assert_eq!(feed(None), Outcome::Fresh);
         assert_eq!(train.spoilt(), 1);

@@ -1,6 +1,6 @@
-//! What the values of a program need of the runtime: features of the crate, all of them by default.
+//! The parts of the runtime that a program needs: features of the crate, all on by default.
 //!
-//! What a program turns off is left out of it, and its tables must not ask for it.
+//! A part whose feature is off is left out, and tables must not use it.
 
 /// Values that the host sets.
 pub(crate) const ACTUATORS: bool = cfg!(feature = "actuators");
@@ -16,15 +16,15 @@ pub(crate) const WORD_CRC: bool = cfg!(feature = "word-crc");
 pub(crate) const MEDIAN: bool = cfg!(feature = "median");
 /// Filters that smooth.
 pub(crate) const SMOOTH: bool = cfg!(feature = "smooth");
-/// Filters that report changes alone.
+/// Filters that report only changes.
 pub(crate) const CHANGE: bool = cfg!(feature = "change");
 /// Chips that are written to before they measure.
 pub(crate) const CHIP_INIT: bool = cfg!(feature = "chip-init");
-/// Chips that say who they are.
+/// Chips with an identity.
 pub(crate) const CHIP_IDENTITY: bool = cfg!(feature = "chip-identity");
 /// Chips with formulas, and with calibration.
 pub(crate) const CHIP_FORMULAS: bool = cfg!(feature = "chip-formulas");
-/// Chips that are told values.
+/// Chips with commands.
 pub(crate) const CHIP_COMMANDS: bool = cfg!(feature = "chip-commands");
 /// Chips that send and receive at the same time.
 pub(crate) const CHIP_EXCHANGES: bool = cfg!(feature = "chip-exchanges");

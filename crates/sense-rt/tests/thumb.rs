@@ -1,7 +1,8 @@
-//! Built for small cores, nothing in the crate can panic: no symbol of it is left.
+//! Built for small cores, nothing in the crate can panic: no symbol of `core::panicking` is left.
 //!
-//! It takes a toolchain with the sources of `core`, which Debian has as `rustc-web` and
-//! `rust-web-src`, and a minute, so only a run that is asked for everything does it (`SENSEDSL_THOROUGH=2`).
+//! This takes a toolchain with the sources of `core`, which Debian has as `rustc-web` and
+//! `rust-web-src`, and a minute, so it runs only if everything is asked for
+//! (`SENSEDSL_THOROUGH=2`).
 #![expect(clippy::disallowed_methods, reason = "a test builds and runs programs")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 

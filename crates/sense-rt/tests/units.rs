@@ -1,5 +1,5 @@
-//! What the C has no counterpart of, or in another form: the watch over tasks, the setting up of a
-//! serial device, a store with its filter, memory that is too small.
+//! What has no counterpart in C, or a different one: the watch over tasks, the setup of a serial
+//! device, a store with its filter, too little memory.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sense_rt::{
@@ -24,7 +24,7 @@ fn a_task_that_hangs_is_found() {
     watch.beat(0, 1500);
     assert_eq!(watch.hanging(1500), None);
     assert_eq!(watch.hanging(1501), Some(1));
-    // A beat that came while somebody asked, and a clock that has come round.
+    // A beat that came during the call, and a clock that has wrapped.
     watch.beat(1, 1600);
     watch.beat(0, 1600);
     assert_eq!(watch.hanging(1599), None);
@@ -98,7 +98,7 @@ fn a_transfer_whose_end_nobody_told_is_lost() {
     let none = &mut |_: usize, _: Outcome, _: &mut [u8]| panic!("it has no readings");
     assert_eq!(chip.write(&COMMANDS[0], &[0, 5]).err(), Some(Outcome::Nothing));
     assert_eq!(chip.next(0), Step::Write(&[1, 2]));
-    // Begun again instead of ended: from the start.
+    // Called again without reporting the outcome: it starts over.
     assert_eq!(chip.next(3), Step::Write(&[1, 2]));
     chip.done(Outcome::Fresh, none);
     assert_eq!(chip.next(3), Step::Wait(10));
@@ -134,7 +134,8 @@ fn a_pause_is_counted_from_the_end_of_the_transfer_before_it() {
     assert_eq!(chip.next(17), Step::Write(&[3]));
 }
 
-/// Each command changes its own bits of a register, whatever the others have told it; a new start changes nothing.
+/// Each command changes only its own bits of a register, whatever the others have written; a new
+/// start changes nothing.
 #[test]
 fn commands_share_a_register() {
     static SCHEMA: Schema = Schema {
@@ -157,12 +158,12 @@ fn commands_share_a_register() {
     for (at, (command, value, byte)) in steps.into_iter().enumerate() {
         let _ = chip.next(at as u32);
         assert_eq!(chip.write(&COMMANDS[command], &[value]), Ok(Step::Write(&[0x15, byte])));
-        // What did not get through is not forgotten either.
+        // A value is remembered even if its write failed.
         chip.done(if at == 2 { Outcome::TimedOut } else { Outcome::Fresh }, none);
     }
 }
 
-/// A channel that takes all, and a board that has nothing.
+/// A channel that accepts everything, and a board without outputs.
 struct Line(Vec<u8>, Vec<u8>);
 
 impl Channel for Line {
@@ -218,8 +219,8 @@ fn with_too_little_memory_nothing_is_said_and_nothing_breaks() {
     assert!(line.1.starts_with(b"5:\0") && board.2 == 3);
 }
 
-/// A host masks interrupts while it has the store, so a port loses characters where that takes as long as one of them:
-/// a report takes the values out one at a time.
+/// A host masks interrupts while it holds the store, and a port loses characters if that takes as
+/// long as one of them; so a report takes the values out one at a time.
 #[test]
 fn a_host_has_the_store_for_one_value_at_a_time() {
     const ITEMS: &[Item] = &[
@@ -254,7 +255,7 @@ fn a_host_has_the_store_for_one_value_at_a_time() {
     assert_eq!(board.2, 1);
 }
 
-/// With sensors alone: streams of pieces of requests, and of what only looks like one.
+/// Sensors only: streams of pieces of requests, and of bytes that only look like one.
 #[test]
 fn requests_are_what_a_decoder_finds() {
     const fn schema(checksum: Checksum) -> Schema {

@@ -1,4 +1,4 @@
-//! The codec against the vectors that every codec of the project must pass, cut at every place.
+//! The codec against the vectors that every codec of the project must pass, split at every place.
 #![expect(clippy::disallowed_methods, reason = "a test reads its data")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
@@ -32,7 +32,7 @@ fn scalar(name: &str) -> Scalar {
     }
 }
 
-/// Elements in network byte order, by the standard library alone.
+/// Elements in network byte order, made only with the standard library.
 fn element(scalar: Scalar, text: &str) -> Vec<u8> {
     match scalar {
         Scalar::Bool => vec![u8::from(text.parse::<bool>().unwrap())],
@@ -49,7 +49,7 @@ fn element(scalar: Scalar, text: &str) -> Vec<u8> {
     }
 }
 
-/// Everything in memory of its own.
+/// A frame with its own copy of the content.
 #[derive(Clone, Debug, PartialEq)]
 enum Event {
     Values(Option<Stamp>, Vec<(usize, Vec<u8>)>),
@@ -131,8 +131,8 @@ fn row(words: &[&str]) -> HealthRow {
     }
 }
 
-/// What stands between length and checksum, with numbers that no board sends as well:
-/// `UPTIME_MS CAUSE DEVICE SENT REFUSED LOAD STACK`, then `ID=STATUS/AGE_MS/COUNTS` a device.
+/// The bytes between length and checksum, including numbers that no board sends: `UPTIME_MS CAUSE
+/// DEVICE SENT REFUSED LOAD STACK`, then `ID=STATUS/AGE_MS/COUNTS` per device.
 fn health_payload(words: &[&str]) -> Vec<u8> {
     let mut payload = vec![255, 1];
     let mut put = |bytes: usize, text: &str| {
@@ -221,7 +221,7 @@ impl Case {
     }
 }
 
-/// What a file has said of its schema so far, for good.
+/// The schema that a file has described so far, leaked.
 fn fixed(schema: Schema, items: &[Item]) -> &'static Schema {
     Box::leak(Box::new(Schema { items: items.to_vec().leak(), ..schema }))
 }
@@ -311,7 +311,7 @@ fn hello_and_requests_are_these_bytes() {
     assert_eq!(&frame[..size], b"1:\0,");
     let summed = Schema { checksum: Checksum::Crc16, ..plain };
     let size = encode_health_request(&summed, &mut frame);
-    // CRC-16/CCITT-FALSE of 00 01, worked out bit by bit.
+    // CRC-16/CCITT-FALSE of 00 01, computed by hand bit by bit.
     assert_eq!(&frame[..size], b"5:\0\x01\xFF\x0D\x2E,".as_slice());
     assert_eq!(encode_hello(&plain, &mut frame[..8]), 0, "a frame is whole or not at all");
 }

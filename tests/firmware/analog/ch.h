@@ -1,4 +1,4 @@
-/* What the runtime's converter and output files need of the kernel: nothing. */
+/* The kernel interface that the runtime's converter and output files need: nothing. */
 #ifndef CH_H
 #define CH_H
 #endif

@@ -1,6 +1,6 @@
 /*
- * Converters and outputs as ChibiOS' drivers show them, but for a test: a conversion ends as the test says, and locks
- * are counted.
+ * The interface of ChibiOS' drivers for converters and outputs, for a test: the test decides how a conversion ends, and
+ * locks are counted.
  */
 #ifndef HAL_H
 #define HAL_H
@@ -36,7 +36,7 @@ struct ADCDriver {
   thread_reference_t thread;
   const ADCConversionGroup *group;
   uint32_t up_errors;
-  int locks; /* 1 while somebody has it */
+  int locks; /* 1 while the unit is locked */
 };
 
 typedef struct {

@@ -1,4 +1,4 @@
-/* Threads of analog sensors and voltages of outputs, on drivers that do what the test says. */
+/* Threads of analog sensors, and voltages of outputs, on drivers that the test controls. */
 #include <stdio.h>
 #include <string.h>
 
@@ -69,7 +69,7 @@ void adcStopConversion(ADCDriver *driver) {
 msg_t osalThreadSuspendTimeoutS(thread_reference_t *thread, sysinterval_t timeout) {
   const int unit = thread == &units[0].thread ? 0 : 1;
 
-  /* Whoever waits has started all of its groups. */
+  /* A thread that waits has started all of its groups. */
   CHECK(is_locked);
   CHECK(started == 2);
   CHECK(endings[unit] != ENDS_EARLY);
@@ -120,7 +120,8 @@ void up_result(size_t field, up_result_t result, void *value) {
   }
 }
 
-/* The first unit has two rows of two columns of twelve bits, the second two of three and sixteen bits. */
+/* The first unit has two rows of two columns with twelve bits, the second two rows of three columns with sixteen
+ * bits. */
 static adcsample_t narrow[4], wide[6];
 static const ADCConversionGroup narrow_group = {.num_channels = 2U, .error_cb = up_adc_on_error};
 static const ADCConversionGroup wide_group = {.num_channels = 3U, .error_cb = up_adc_on_error};
@@ -162,7 +163,7 @@ static void samples_become_values(void) {
   float mean;
   int32_t warm;
 
-  /* Rows of: column 0, 1 (and 2). */
+  /* Each row has columns 0, 1 (and 2). */
   memcpy(narrow, (const adcsample_t[]){100U, 4095U, 101U, 4095U}, sizeof narrow);
   memcpy(wide, (const adcsample_t[]){65535U, 32768U, 16U, 0U, 32767U, 32U}, sizeof wide);
   cycle(ENDS, ENDS_EARLY);
@@ -170,10 +171,10 @@ static void samples_become_values(void) {
   memcpy(line, &values[FIELD_LINE], sizeof line);
   CHECK(line[0] == 1U);    /* (16 + 32) / 2 of 65535: 1.4997 of 4095 */
   CHECK(line[1] == 4095U); /* full scale of twelve bits */
-  CHECK(line[2] == 4095U); /* the first row alone; full scale of sixteen bits is not 4096 */
+  CHECK(line[2] == 4095U); /* only the first row; full scale of sixteen bits is not 4096 */
   memcpy(&mean, &values[FIELD_MEAN], sizeof mean);
   CHECK(mean > 100.49F && mean < 100.51F);
-  /* Half of the supply: the thermistor has what the resistor has, at 25 degrees. */
+  /* Half of the supply: the thermistor has the same resistance as the resistor, at 25 degrees. */
   memcpy(&warm, &values[FIELD_WARM], sizeof warm);
   CHECK(results[FIELD_WARM] == UP_FRESH && warm >= 2490 && warm <= 2510);
 }
@@ -191,7 +192,7 @@ static void a_unit_that_fails_tells_of_its_values(void) {
   CHECK(results[FIELD_MEAN] == UP_BUS_ERROR);
   CHECK(results[FIELD_LINE] == UP_BUS_ERROR); /* one of its elements */
   CHECK(results[FIELD_WARM] == UP_INVALID);
-  /* What went wrong is forgotten. */
+  /* The failure is forgotten. */
   cycle(ENDS, ENDS);
   CHECK(results[FIELD_MEAN] == UP_FRESH && results[FIELD_LINE] == UP_FRESH);
 }

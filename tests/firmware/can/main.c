@@ -1,6 +1,6 @@
 /*
- * Bit times of CAN buses, as the runtime computes them: a line "clock bitrate" in, and out what it makes of it, with
- * what stands in the register: "prescaler before behind jump", or "halt" where it refuses.
+ * Bit times of CAN buses, as the runtime computes them. Input is a line "clock bitrate"; output is "prescaler before
+ * behind jump", with the values in the register, or "halt" if the rate is refused.
  */
 #include <setjmp.h>
 #include <stdio.h>

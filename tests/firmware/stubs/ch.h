@@ -1,6 +1,6 @@
 /*
- * A stub of ChibiOS/RT's interface, written from our own use of it: see README.md. It compiles, it does not run, and
- * it proves nothing about ChibiOS.
+ * A stub of ChibiOS/RT's interface, written from our own use of it: see README.md. It compiles but does not run, and it
+ * proves nothing about ChibiOS.
  */
 #ifndef CH_H
 #define CH_H

@@ -1,1 +1,1 @@
-/* Stands for the three configuration files of a demo, which the generated ones include and change. */
+/* Replaces the three configuration files of a demo, which the generated ones include and change. */

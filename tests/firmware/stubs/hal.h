@@ -1,5 +1,5 @@
 /*
- * A stub of ChibiOS/HAL's interface on STM32, written from our own use of it: see README.md. It compiles, it does not
+ * A stub of ChibiOS/HAL's interface on STM32, written from our own use of it: see README.md. It compiles but does not
  * run, and it proves nothing about ChibiOS.
  */
 #ifndef HAL_H
@@ -44,7 +44,7 @@
 #define PAL_USE_CALLBACKS FALSE
 #endif
 
-/* Clocks that a board's facts may leave out: what a demo has is then not known here. */
+/* Clocks that a board's facts may leave out; the values of a demo are then not known here. */
 #if !defined(STM32_HCLK)
 #define STM32_HCLK 64000000U
 #endif
@@ -64,7 +64,7 @@
 #define STM32_CORE_CK 400000000U
 #endif
 
-/* What drives a bus, as the demos have it; the families that have no constant for the bus's own clock. */
+/* The clock sources of buses, as the demos choose them; by family, without the constants for the bus's own clock. */
 #if defined(STUB_G0)
 #define STM32_I2C1SEL_PCLK 0U
 #define STM32_I2C1SEL STM32_I2C1SEL_PCLK
@@ -128,7 +128,7 @@ typedef void (*palcallback_t)(void *parameter);
 #define PAL_EVENT_MODE_FALLING_EDGE 2U
 #define PAL_EVENT_MODE_BOTH_EDGES 3U
 #if STUB_GPIO == 1
-/* The pads of STM32F1 have no alternate functions by number. */
+/* The pads of STM32F1 have no numbered alternate functions. */
 #define PAL_MODE_STM32_ALTERNATE_PUSHPULL 16U
 #define PAL_MODE_STM32_ALTERNATE_OPENDRAIN 17U
 typedef struct {
@@ -138,7 +138,7 @@ extern AFIO_TypeDef stub_afio;
 #define AFIO (&stub_afio)
 #define AFIO_MAPR_SWJ_CFG 0x7000000U
 #define AFIO_MAPR_SWJ_CFG_JTAGDISABLE 0x2000000U
-/* A field and where it begins. */
+/* A field, with its width and position. */
 #define STUB_FIELD(bits, position) ((uint32_t)(bits) << (position))
 #define AFIO_MAPR_SPI1_REMAP_Pos 0U
 #define AFIO_MAPR_SPI1_REMAP STUB_FIELD(1U, AFIO_MAPR_SPI1_REMAP_Pos)

@@ -1,4 +1,4 @@
-/* A stub: see README.md. Words of the converters' registers, by version of the driver. */
+/* A stub: see README.md. Names in the converters' registers, by version of the driver. */
 #ifndef STUB_ADC_H
 #define STUB_ADC_H
 

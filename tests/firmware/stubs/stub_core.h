@@ -2,7 +2,7 @@
 #ifndef STUB_CORE_H
 #define STUB_CORE_H
 
-/* ---- why the MCU started ---- */
+/* ---- reset causes ---- */
 
 #if defined(STUB_H7)
 #define RCC_RSR_RMVF 0x10000U
@@ -47,7 +47,7 @@ extern RCC_TypeDef stub_rcc;
 #define RCC (&stub_rcc)
 void NVIC_SystemReset(void);
 
-/* ---- the clock that follows a host's frames: the MCUs with an oscillator of 48 MHz ---- */
+/* ---- clock recovery from a host's frames: the MCUs with a 48 MHz oscillator ---- */
 
 #if defined(STUB_F0) || defined(STUB_G0) || defined(STUB_G4) || defined(STUB_L4) || defined(STUB_H7)
 typedef struct {
@@ -69,7 +69,7 @@ extern CRS_TypeDef stub_crs;
 #endif
 #endif
 
-/* ---- while a debugger holds the core ---- */
+/* ---- freeze while a debugger halts the core ---- */
 
 #if defined(STUB_G0)
 typedef struct {
@@ -111,7 +111,7 @@ extern CoreDebug_Type stub_core_debug;
 #define CoreDebug_DHCSR_C_DEBUGEN_Msk 1U
 #endif
 
-/* ---- the MCU's own number ---- */
+/* ---- the MCU's unique identifier ---- */
 
 #define UID_BASE ((uintptr_t)0x1FFF7000U)
 

@@ -1,10 +1,10 @@
-/* A stub: see README.md. The driver objects: each is there only where mcuconf.h turns its unit on, as in the tree. */
+/* A stub: see README.md. The driver objects: each exists only if mcuconf.h enables its unit, as in the tree. */
 #ifndef STUB_UNITS_H
 #define STUB_UNITS_H
 
-/* Zero, where an option is TRUE; no option, or one that is FALSE, does not compile. */
+/* Zero if an option is TRUE; an option that is missing or FALSE does not compile. */
 #define STUB_ON(option) (0U * sizeof(char[((option) == TRUE) ? 1 : -1]))
-/* The object of a driver, of those that have the type. */
+/* The driver object with this number, from the objects of its type. */
 #define STUB_OBJECT(objects, number, option) objects[(number) + STUB_ON(option)]
 
 #if HAL_USE_ICU == TRUE
@@ -47,7 +47,7 @@ extern PWMDriver stub_pwmd[21];
 #define PWMD20 STUB_OBJECT(stub_pwmd, 20U, STM32_PWM_USE_TIM20)
 #endif
 
-/* On STM32H7 the first two converters are one object. */
+/* On STM32H7, the first two converters share an object. */
 #if HAL_USE_ADC == TRUE
 extern ADCDriver stub_adcd[6];
 #if STUB_ADC == 4
@@ -61,7 +61,7 @@ extern ADCDriver stub_adcd[6];
 #define ADCD5 STUB_OBJECT(stub_adcd, 5U, STM32_ADC_USE_ADC5)
 #endif
 
-/* Each output of a converter is an object. */
+/* Each DAC output has an object. */
 #if HAL_USE_DAC == TRUE
 extern DACDriver stub_dacd[5];
 #define DACD1 STUB_OBJECT(stub_dacd, 1U, STM32_DAC_USE_DAC1_CH1)

@@ -1,4 +1,4 @@
-//! Disks that are full: file systems in memory, of different sizes and numbers of files.
+//! Full disks: file systems in memory, with different sizes and numbers of files.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,11 +7,11 @@ use sensedsl_tests::{Ran, missing};
 
 use super::{Stage, asked, identity, nothing_beside, run};
 
-/// A file system of its own, as long as it lives.
+/// A file system of the test's own, unmounted on drop.
 struct Disk(PathBuf);
 
 impl Disk {
-    /// None where this user may not mount.
+    /// `None` if this user may not mount.
     fn new(at: PathBuf) -> Option<Self> {
         std::fs::create_dir_all(&at).unwrap();
         let disk = Self(at);
@@ -24,7 +24,7 @@ impl Disk {
         mount.stderr(Stdio::null()).status().is_ok_and(|status| status.success())
     }
 
-    /// Leaves so much room for more.
+    /// Leaves free space for this number of bytes and files.
     fn leave(&self, bytes: u64, files: u64) {
         let used = rustix::fs::statvfs(&self.0).unwrap();
         let size = (used.f_blocks - used.f_bfree) * used.f_frsize + bytes;
@@ -49,13 +49,14 @@ fn a_full_disk_leaves_the_old_tree() {
             missing("the right to mount a small disk (root has it)");
             return;
         };
-        // Every fourth output folder is a disk itself: nothing can be made beside it.
+        // Every fourth output folder is the disk itself, so that nothing can be created beside it.
         let is_disk = number % 4 == 3;
         let out = if is_disk { disk.0.clone() } else { disk.0.join("out") };
         let _ = run(&stage.designs[0], &out).exits(0);
         stage.settle_in(&out);
         let own = identity(&out);
-        // From nearly nothing to nearly enough, in bytes and in files by turns.
+        // The free space goes from nearly nothing to nearly enough, alternating between bytes and
+        // files.
         let part = (number / 2 + 1) as u64;
         let parts = (count / 2 + 2) as u64;
         match number % 2 {
@@ -77,7 +78,7 @@ fn a_full_disk_leaves_the_old_tree() {
     assert!(full > count / 2, "{full} of {count} were full");
 }
 
-/// Whether the run found the disk full; it has written the other tree if not.
+/// Whether the disk was full for the run; if not, the run has written the other tree.
 #[track_caller]
 fn is_refused(stage: &Stage, ran: &Ran, out: &Path) -> bool {
     let now = stage.which(out);

@@ -1,4 +1,4 @@
-//! Signals at random moments of writing.
+//! Signals at random moments while a run writes.
 
 use std::fs;
 use std::os::unix::process::ExitStatusExt as _;
@@ -10,25 +10,25 @@ use sensedsl_tests::{Random, sensedsl};
 
 use super::{Stage, asked, identity, nothing_beside, run, start};
 
-/// Where the signals met the run.
+/// How often the signal came at each stage of the run.
 #[derive(Debug, Default)]
 struct Met {
-    /// The new tree was being written beside the old one.
+    /// The run was writing the new tree beside the old one.
     before: usize,
-    /// The new tree had the folder's name, and the old one was becoming the same.
+    /// The new tree already had the folder's name, and the old one was being replaced.
     within: usize,
-    /// The new tree was there, and what stood beside it was being removed.
+    /// The new tree was complete, and the remains beside it were being removed.
     after: usize,
-    /// The run was over.
+    /// The run had ended.
     late: usize,
 }
 
-/// From when on the moment is chosen.
+/// The event from which the random moment is counted.
 #[derive(Clone, Copy)]
 enum Sign {
-    /// Writing begins: the lock is there.
+    /// Writing has begun: the lock exists.
     Locked,
-    /// The new tree has the folder's name.
+    /// The new tree has taken the folder's name.
     Switched,
 }
 
@@ -48,11 +48,11 @@ fn signals_at_any_moment_of_writing() {
         for number in 0..count {
             let old = stage.which(&out);
             let new = 1 - old;
-            // Now and then the other board's folder for the user has to be made anew.
+            // Sometimes the user's folder of the other board has to be created again.
             if new == 1 && random.below(3) == 0 {
                 let _ = fs::remove_dir_all(out.join("firmware/Rover/user"));
             }
-            // Every third in the shortest part of it, which others seldom meet.
+            // Every third signal comes in the shortest stage, which the others seldom hit.
             let sign = if number % 3 == 2 { Sign::Switched } else { Sign::Locked };
             let now = one(&stage, new, signal, (sign, writing), &mut random, &mut met);
             assert!(now == old || now == new);
@@ -62,7 +62,8 @@ fn signals_at_any_moment_of_writing() {
             let _ = check.arg("-o").arg(&out).run().exits(0);
             let began = Instant::now();
             let _ = run(&stage.designs[wanted], &out).exits(0);
-            // How long it takes is found out on the way, as other tests run at the same time.
+            // The duration of writing is estimated along the way, as other tests run at the same
+            // time.
             if wanted != now {
                 writing = (writing * 3 + began.elapsed()) / 4;
             }
@@ -75,7 +76,7 @@ fn signals_at_any_moment_of_writing() {
     }
 }
 
-/// Starts a run, stops it while it writes, and says which tree is there.
+/// Starts a run, stops it while it writes, and returns which tree is there.
 fn one(
     stage: &Stage,
     new: usize,
@@ -102,7 +103,7 @@ fn one(
         Sign::Switched => writing / 5,
     };
     let moment = span.as_micros() as usize * random.below(1000) / 1000;
-    // Sleeping is too coarse for the shortest parts of it.
+    // Sleeping is too coarse for the shortest spans.
     let began = Instant::now();
     while began.elapsed() < Duration::from_micros(moment as u64) {
         std::hint::spin_loop();

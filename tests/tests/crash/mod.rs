@@ -1,9 +1,9 @@
-//! `generate` is stopped while it writes, runs at the same time as others, and meets full disks:
-//! the folder holds the old tree or the new one, the next run needs no help, and what is the
-//! user's stays what it was.
+//! `generate` is stopped while it writes, runs at the same time as others, and meets full disks. In
+//! each case the folder contains the old tree or the new one, the next run needs no help, and the
+//! user's files are unchanged.
 //!
-//! A few of each run with the other tests. `SENSEDSL_CRASHES=300` asks for so many SIGKILL, a
-//! third as many SIGTERM, SIGINT and rounds of four runs, and a fifteenth as many full disks.
+//! A few cases of each kind run with the other tests. `SENSEDSL_CRASHES=300` requests 300 SIGKILL,
+//! a third as many SIGTERM, SIGINT and rounds of four runs, and a fifteenth as many full disks.
 #![cfg(target_os = "linux")]
 #![expect(clippy::print_stderr, reason = "a test that measures")]
 
@@ -19,25 +19,25 @@ use std::process::{Child, Command, Stdio};
 
 use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, state, tree};
 
-/// How much is asked for; none for the few that always run.
+/// The number of crashes requested; `None` for the few that always run.
 fn asked() -> Option<usize> {
     std::env::var("SENSEDSL_CRASHES").ok().map(|text| text.parse().unwrap())
 }
 
 type Tree = BTreeMap<String, Vec<u8>>;
 
-/// A folder that two designs are written to in turn. They differ in the board's name, so most
-/// files of one are not there, or are others, in the other.
+/// A folder that two designs are written to in turn. They differ in the board's name, so most files
+/// of one are missing or different in the other.
 struct Stage {
     scratch: Scratch,
     designs: [PathBuf; 2],
-    /// The trees without what is the user's.
+    /// The trees without the user's files.
     trees: [Tree; 2],
 }
 
 const NAMES: [&str; 2] = ["Robot", "Rover"];
 
-/// A file of the user's, and what stands in it.
+/// The user's files: path and content.
 const MINE: [(&str, &str); 4] = [
     ("firmware/Robot/user/user.c", "/* mine */\n"),
     ("firmware/Robot/user/more/own.h", "/* mine too */\n"),
@@ -62,12 +62,12 @@ impl Stage {
         Self { scratch, designs, trees }
     }
 
-    /// The output folder, with nothing beside it but what `generate` puts there.
+    /// The output folder; beside it there is only what `generate` puts there.
     fn out(&self) -> PathBuf {
         self.scratch.join("here/out")
     }
 
-    /// Which of the two trees stands in a folder.
+    /// The index of the tree that is in a folder.
     #[track_caller]
     fn which(&self, out: &Path) -> usize {
         let found = generated(out);
@@ -78,7 +78,7 @@ impl Stage {
         })
     }
 
-    /// Puts things of the user's into a folder that holds the first tree.
+    /// Puts the user's files into a folder that contains the first tree.
     fn settle_in(&self, out: &Path) {
         for (path, text) in MINE {
             fs::create_dir_all(out.join(path).parent().unwrap()).unwrap();
@@ -88,7 +88,7 @@ impl Stage {
     }
 }
 
-/// The files that are generated, as whoever goes by their names sees them.
+/// The generated files, selected by their names.
 fn generated(out: &Path) -> Tree {
     let theirs = |path: &str| path.split('/').any(|part| ["user", "build", ".git"].contains(&part));
     let mut files = if out.exists() { tree(out) } else { Tree::new() };
@@ -96,7 +96,8 @@ fn generated(out: &Path) -> Tree {
     files
 }
 
-/// What no run may change of the user's files, all that `stat` tells but for the last reading.
+/// The properties of the user's files that no run may change: all that `stat` reports, except for
+/// the access time.
 fn identity(out: &Path) -> Vec<(String, u64, u32, u64, i64, i64)> {
     let mut all = Vec::new();
     for (path, _) in MINE {
@@ -122,7 +123,7 @@ fn start(file: &Path, out: &Path) -> Child {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Fails when there is anything in a folder but the output folder.
+/// Fails if there is anything beside the output folder.
 #[track_caller]
 fn nothing_beside(out: &Path) {
     let above = fs::read_dir(out.parent().unwrap()).unwrap();

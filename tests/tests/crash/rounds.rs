@@ -1,4 +1,4 @@
-//! Four runs at the same time, and somebody who looks.
+//! Four runs at the same time, with a check of the folder after each round.
 
 use super::{Stage, asked, identity, nothing_beside, run, start};
 

@@ -1,4 +1,4 @@
-//! All decoders say the same, and what the definition says, however a stream is cut.
+//! All decoders agree with each other and with the definition, however a stream is cut.
 
 use sensedsl_tests::{Random, few, is_thorough};
 use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
@@ -7,7 +7,7 @@ use super::program::{Answer, Program, rust, schema_bytes};
 use super::streams::{frame, hard_schemas, hard_stream, overlapping_walks, schema, wide_schema};
 use super::{OTHERS, naive, scratch, tools};
 
-/// How often; the variable is for long runs.
+/// The number of rounds; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
     let wanted = std::env::var("SENSEDSL_DECODER_ROUNDS").ok();
     wanted.map_or(usual, |text| text.parse().expect("SENSEDSL_DECODER_ROUNDS is a number"))
@@ -68,8 +68,8 @@ fn c_and_cpp_say_what_the_definition_says() {
     }
 }
 
-/// What can be chosen of the decoder in C, as it comes first. Its buffer is one frame here: the
-/// least it works with.
+/// The configurations of the C decoder, the default first. Its buffer is one frame here: the
+/// minimum that it works with.
 const BUILDS: [(&str, &[&str]); 4] = [
     ("agree", &["-DDECODERS_C_FRAMES=1"]),
     ("agree-more", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=3U"]),
@@ -92,8 +92,8 @@ fn c_and_cpp_agree(folder: &str, more: &[&str]) {
     });
 }
 
-/// Within the value of a frame whose checksum is wrong: a frame whose checksum is right, though one
-/// of its bools is 2, and a good one.
+/// A frame with a wrong checksum whose value contains two frames: one with a right checksum,
+/// although one of its bools is 2, and a good one.
 fn bools_within_a_failed_frame(checksum: Checksum) -> (Schema, Vec<u8>) {
     let schema = schema(checksum, &[(b'a', ScalarType::Uint8, 400), (1, ScalarType::Bool, 100)]);
     let mut bools = [[1].as_slice(), &[0; 100]].concat();
@@ -107,7 +107,7 @@ fn bools_within_a_failed_frame(checksum: Checksum) -> (Schema, Vec<u8>) {
     (schema, stream)
 }
 
-/// All decoders say of the streams what the definition says: at once, byte by byte and in pieces.
+/// All decoders must agree with the definition on the streams: at once, byte by byte and in pieces.
 fn all_agree(folder: &str, schema: &Schema, streams: &[Vec<u8>]) {
     let bytes = schema_bytes(schema, Direction::Sensor);
     let has_tools = tools(&["gcc", "g++"]);
@@ -137,8 +137,8 @@ fn sums_excuse_no_value() {
     }
 }
 
-/// A frame of `first` and all of `chain`, within two that fail behind it: the first of them only
-/// walks, the second leaves leaps over the chain, and the frame comes upon these.
+/// A frame of `first` and all of `chain`, within two frames that fail after it. The first of the
+/// two only walks; the second leaves leaps over the chain, and the inner frame meets these.
 fn frame_over_leaps(schema: &Schema, first: u8, chain: &[u8]) -> Vec<u8> {
     let mut payload = vec![first, 0];
     payload.extend(chain.iter().flat_map(|&id| [id, 0]));
@@ -149,7 +149,8 @@ fn frame_over_leaps(schema: &Schema, first: u8, chain: &[u8]) -> Vec<u8> {
 
 #[test]
 fn leaps_excuse_no_repeat() {
-    // None of them the fresh one, `a` or `b`; each leap has some of each quarter of all identifiers.
+    // The chain has neither the fresh identifier nor `a` or `b`; each leap has some of each quarter
+    // of all identifiers.
     let (chain, fresh): (Vec<u8>, u8) =
         ((0..49_u16).map(|at| (1 + at * 10 % 49 * 5) as u8).collect(), 2);
     let folders = ["leaps", "leaps-crc16", "leaps-crc32"];
@@ -160,10 +161,11 @@ fn leaps_excuse_no_repeat() {
         let schema = schema(checksum, &items);
         let good = frame_over_leaps(&schema, fresh, &chain);
         assert!(naive::decode(&schema, Direction::Sensor, &good).contains(&b'R'));
-        // Each identifier of the chain, so wherever in a leap it stands.
+        // Repeats each identifier of the chain, so that the repeat is at every position within a
+        // leap.
         let mut streams: Vec<Vec<u8>> =
             chain.iter().map(|&first| frame_over_leaps(&schema, first, &chain)).collect();
-        // And each of them once more behind the leaps.
+        // Also repeats each of them after the leaps.
         let (_, others) = chain.split_last().unwrap();
         let again = others.iter().map(|&last| [others, &[last]].concat());
         streams.extend(again.map(|chain| frame_over_leaps(&schema, fresh, &chain)));
@@ -176,11 +178,12 @@ fn leaps_excuse_no_repeat() {
     }
 }
 
-/// The identifiers of two ways through the same bytes: one byte and its value, and one byte behind.
+/// The identifiers on two paths through the same bytes: one path takes a byte as an identifier and
+/// the next as its value; the other path is offset by one byte.
 const WAYS: (std::ops::Range<u8>, std::ops::Range<u8>) = (150..168, 170..187);
 
 fn schema_of_ways() -> Schema {
-    // The values of `a` and `b` end where the ways start.
+    // The values of `a` and `b` end where the paths start.
     let mut items = vec![(b'a', ScalarType::Uint8, 8), (b'b', ScalarType::Uint8, 5)];
     let others = WAYS.0.chain(WAYS.1).chain([b',', b'f', 200]);
     items.extend(others.map(|id| (id, ScalarType::Uint8, 1)));
@@ -190,8 +193,8 @@ fn schema_of_ways() -> Schema {
 #[test]
 fn one_walk_does_not_stand_for_another() {
     let schema = schema_of_ways();
-    // `a` goes the first way and `b` the second, each until its length ends within an item; `f` is a
-    // frame that goes on by the second, to an identifier of the first.
+    // `a` takes the first path and `b` the second, each until its length ends within an item; `f`
+    // is a frame that continues on the second path, up to an identifier of the first.
     let mut bytes: Vec<u8> = WAYS.0.zip(WAYS.1.chain(*b",")).flat_map(<[u8; 2]>::from).collect();
     assert_eq!(bytes.pop(), Some(b','), "{bytes:?}");
     let ends_a = bytes.len();
@@ -207,12 +210,13 @@ fn one_walk_does_not_stand_for_another() {
 
 #[test]
 fn what_stands_behind_a_frame_is_not_in_it() {
-    // Behind the frame of `f` the way of `a` goes on, by the comma and another `f`, to nothing.
+    // After the frame of `f`, the path of `a` continues over the comma and another `f`, and leads
+    // to no frame.
     let schema = schema_of_ways();
     let items: Vec<u8> = WAYS.0.flat_map(|id| [id, 0]).collect();
     let inner = frame(&schema, &[b"f\0", &items[..]].concat());
     let (head, way) = inner.split_at(inner.iter().position(|&byte| byte == b'f').unwrap() + 2);
-    // The value of `a` is what stands before the way.
+    // The value of `a` is the bytes before the path.
     let mut value = vec![7; 8 - head.len()];
     value.extend(head);
     let outer = frame(&schema, &[b"a", &value[..], way, b"\0f\0\x03\0"].concat());
@@ -220,8 +224,8 @@ fn what_stands_behind_a_frame_is_not_in_it() {
     all_agree("behind", &schema, &[outer]);
 }
 
-/// Nanoseconds a byte where a candidate starts every few bytes, stays right up to the last one and
-/// fails there.
+/// Nanoseconds per byte for a stream in which a candidate starts every few bytes, is right up to
+/// its last byte, and fails there.
 fn ns_per_byte(program: &mut Program, who: &str, payload_bytes: u16, bytes: usize) -> f64 {
     let schema = schema(Checksum::None, &[(b'a', ScalarType::Uint8, payload_bytes - 1)]);
     let mut value = format!("{payload_bytes}:a").repeat(usize::from(payload_bytes)).into_bytes();
@@ -232,7 +236,7 @@ fn ns_per_byte(program: &mut Program, who: &str, payload_bytes: u16, bytes: usiz
     }
     let stream = nearly.repeat(bytes.div_ceil(nearly.len()));
     let schema = schema_bytes(&schema, Direction::Sensor);
-    // The least of several: other programs can only make it more.
+    // The minimum of several runs: other programs can only increase the time.
     let times = (0..5).map(|_| program.time(who, 1, &schema, &stream, &[64]));
     times.min().unwrap() as f64 / stream.len() as f64
 }

@@ -1,4 +1,4 @@
-//! What damage costs: wrong values delivered, undamaged frames lost.
+//! The cost of damage: wrong values delivered, undamaged frames lost.
 //!
 //! `SENSEDSL_DAMAGED_FRAMES=1000000 cargo test -p sensedsl-tests decoders::damage -- --nocapture`
 //! prints the table of `docs/wire.md`.
@@ -13,20 +13,20 @@ use super::program::{Program, rust, schema_bytes};
 use super::streams::{fig2, frame};
 use super::{OTHERS, scratch, tools};
 
-/// What happens to a frame on its way.
+/// The damage to a frame on its way.
 #[derive(Clone, Copy, Debug)]
 enum Mode {
-    /// One bit is another.
+    /// One bit is flipped.
     Bit,
-    /// Of up to 16 bits in a row the first, the last and any between are others.
+    /// Of up to 16 consecutive bits, the first, the last and any of those between are flipped.
     Burst,
-    /// The same with 17 to 64 bits, which is more than a CRC-16 promises to find.
+    /// Like `Burst`, but with 17 to 64 bits, which is more than a CRC-16 is guaranteed to detect.
     LongBurst,
-    /// The rest is missing.
+    /// The end of the frame is missing.
     Torn,
     /// Some bytes are missing.
     Hole,
-    /// Some bytes come twice.
+    /// Some bytes are repeated.
     Duplicate,
 }
 
@@ -71,7 +71,7 @@ fn damage(random: &mut Random, mode: Mode, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Of all frames of a mode.
+/// Counts over all frames of a mode.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     damaged: usize,
@@ -87,7 +87,8 @@ fn payloads(answer: &[u8]) -> Vec<&[u8]> {
     let mut payloads = Vec::new();
     let mut at = 0;
     while answer[at] != b'E' {
-        // What reaches a host; a hello and health of another version have no length of their own.
+        // Frames that reach a host; the answer has no length for a hello or for health of another
+        // version.
         let (start, size) = match answer[at] {
             b'H' => (at, 5),
             b'V' => (at, 2),
@@ -102,7 +103,7 @@ fn payloads(answer: &[u8]) -> Vec<&[u8]> {
     payloads
 }
 
-/// One stream of about as many damaged as undamaged frames, and what all decoders make of it.
+/// A stream with about as many damaged as undamaged frames, and the answers of all decoders to it.
 fn stream(
     random: &mut Random,
     schema: &Schema,
@@ -115,7 +116,7 @@ fn stream(
     let mut sent = BTreeMap::new();
     let before = counts.damaged;
     let mut behind = 0;
-    // Two undamaged frames at the end, so that nothing is left to wait for.
+    // The stream ends with two undamaged frames, so that no decoder waits for more.
     while behind < 2 {
         let mut payload = Vec::new();
         for (id, bytes) in [(17, 2), (18, 2), (19, 1), (20, 4)] {

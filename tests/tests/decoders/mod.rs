@@ -1,4 +1,4 @@
-//! The three decoders of the wire, in Rust, C and C++, against the definition and each other.
+//! The three decoders of the wire, in Rust, C and C++, compared with the definition and each other.
 
 mod agree;
 mod damage;
@@ -8,15 +8,15 @@ mod streams;
 
 use std::path::{Path, PathBuf};
 
-/// Those beside the one in Rust. The one in C knows neither stamps nor health yet.
+/// The decoders other than the one in Rust. The one in C does not support stamps or health yet.
 const OTHERS: [&str; 2] = ["c", "cpp"];
 
-/// A folder of a test's own.
+/// The path of a folder for one test.
 fn scratch(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("decoders").join(name)
 }
 
-/// Whether all are here; otherwise says so, or fails where tools are required.
+/// Whether all tools are here; if not, reports it, or fails if tools are required.
 fn tools(names: &[&str]) -> bool {
     names.iter().all(|name| sensedsl_tests::has(name))
 }

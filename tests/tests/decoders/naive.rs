@@ -1,4 +1,5 @@
-//! The definition of decoding, as plain as it can be and as slow: at each place, is this a frame?
+//! The definition of decoding, as plain as possible and therefore slow: at each position, is this a
+//! frame?
 
 use sensedsl_wire::{
     Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
@@ -10,11 +11,11 @@ use super::program::Answer;
 enum Verdict {
     Invalid,
     Incomplete,
-    /// A payload without its checksum, and the bytes of the frame.
+    /// A payload without its checksum, and the length of the frame in bytes.
     Complete(Vec<u8>, usize),
 }
 
-/// What must be said of a stream.
+/// The required answer to a stream.
 pub(crate) fn decode(schema: &Schema, direction: Direction, stream: &[u8]) -> Vec<u8> {
     let mut answer = Answer::default();
     let (mut at, mut frames, mut dropped) = (0, 0, 0);
@@ -63,7 +64,7 @@ fn look(schema: &Schema, direction: Direction, bytes: &[u8]) -> Verdict {
         tail = [&[ID_CHECKSUM], &sum[..], b","].concat();
     }
     let there = here.get(values_bytes..).unwrap_or_default();
-    // The first bytes of the sum alone prove nothing: it is compared when all are there.
+    // Only the first bytes of the checksum prove nothing: it is compared when all of it is there.
     for (index, (is, should)) in there.iter().zip(&tail).enumerate() {
         let is_in_sum = (1..=sum.len()).contains(&index);
         if is != should && !(is_in_sum && there.len() <= sum.len()) {
@@ -78,7 +79,8 @@ fn look(schema: &Schema, direction: Direction, bytes: &[u8]) -> Verdict {
     }
 }
 
-/// Bytes of the longest payload but health, without the checksum; and of health, 0 where there is none.
+/// The maximum length in bytes of a payload other than health, without the checksum; and the length
+/// of health, 0 if there is none.
 fn lengths(schema: &Schema, direction: Direction) -> (usize, usize) {
     let items = schema.items.iter().filter(|item| item.direction == direction);
     let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
@@ -91,7 +93,7 @@ fn lengths(schema: &Schema, direction: Direction) -> (usize, usize) {
     }
 }
 
-/// None when they can never be; true when all are there.
+/// `None` if the bytes cannot become values; otherwise whether all of them are there.
 fn are_values(schema: &Schema, direction: Direction, here: &[u8], bytes: usize) -> Option<bool> {
     let (short_bytes, health_bytes) = lengths(schema, direction);
     if bytes > short_bytes && bytes != health_bytes {

@@ -1,5 +1,5 @@
-//! The decoders in C and C++ as a program, and the one in Rust, all answering in the same bytes
-//! (`tests/decoders/decoders.h` says which).
+//! The decoders in C and C++ as a program, and the decoder in Rust. All answer in the same bytes,
+//! which `tests/decoders/decoders.h` defines.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use sensedsl_wire::{
     Checksum, Decoder, Direction, Frame, HealthFrame, ID_HEALTH, ScalarType, Schema, encode_health,
 };
 
-/// What a decoder said.
+/// The answer of a decoder.
 #[derive(Default)]
 pub(crate) struct Answer(Vec<u8>);
 
 impl Answer {
-    /// A frame by its payload without the checksum.
+    /// Adds a frame, given its payload without the checksum.
     pub(crate) fn frame(&mut self, payload: &[u8]) {
         match payload {
             [0] => self.0.push(b'Q'),
@@ -78,7 +78,7 @@ pub(crate) fn rust(
     answer.end(decoder.frames(), decoder.dropped_bytes())
 }
 
-/// Health as it stood in its frame, put together again from what was read.
+/// The payload of a health frame, encoded again from the decoded values.
 fn health_payload(schema: &Schema, health: HealthFrame<'_>) -> Vec<u8> {
     let bare = Schema { checksum: Checksum::None, ..schema.clone() };
     let frame = encode_health(&bare, &health.read()).unwrap();
@@ -86,7 +86,7 @@ fn health_payload(schema: &Schema, health: HealthFrame<'_>) -> Vec<u8> {
     frame[start..frame.len() - 1].to_vec()
 }
 
-/// The schema in the bytes that the program takes.
+/// The schema in the byte format that the program reads.
 pub(crate) fn schema_bytes(schema: &Schema, direction: Direction) -> Vec<u8> {
     let checksum = match schema.checksum {
         Checksum::None => 0,
@@ -169,7 +169,7 @@ impl Program {
         stdin.flush().unwrap();
     }
 
-    /// What the decoder (`c` or `cpp`) says of a stream that is cut into pieces.
+    /// The answer of a decoder (`c` or `cpp`) to a stream that is cut into pieces.
     pub(crate) fn say(
         &mut self,
         who: &str,
@@ -185,7 +185,7 @@ impl Program {
         answer
     }
 
-    /// The nanoseconds that the decoder takes for the stream, over and over.
+    /// The time in nanoseconds that a decoder takes to decode the stream `repeats` times.
     pub(crate) fn time(
         &mut self,
         who: &str,

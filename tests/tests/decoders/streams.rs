@@ -1,5 +1,5 @@
-//! Schemas and streams that are hard on a decoder: frames, what looks like frames, frames within
-//! values within frames, and damage.
+//! Schemas and streams that are difficult for a decoder: frames, bytes that look like frames,
+//! frames within values within frames, and damage.
 
 use sensedsl_tests::Random;
 use sensedsl_wire::{
@@ -25,12 +25,12 @@ pub(crate) fn fig2(checksum: Checksum) -> Schema {
     schema(checksum, &[(17, Uint16, 1), (18, Uint16, 1), (19, Uint8, 1), (20, Uint32, 1)])
 }
 
-/// The same with stamps.
+/// The schema, with stamps.
 pub(crate) fn stamped(schema: Schema) -> Schema {
     Schema { stamp: true, ..schema }
 }
 
-/// Designs whose values and identifiers can be mistaken for framing.
+/// Schemas whose values and identifiers can be mistaken for framing.
 pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
     use ScalarType::{Bool, Int64, Uint8, Uint16};
     let digits_and_marks = (b'0'..=b':').chain([b',']).map(|id| (id, Uint8, 1));
@@ -48,7 +48,7 @@ pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
         Schema { checksum, stamp: true, ..Schema::default() },
         stamped(fig2(checksum)),
         stamped(schema(checksum, &[(b'1', Bool, 3), (b'9', Uint8, 2), (b',', Uint16, 1)])),
-        // As long as health of its devices: 19 and 17 for each.
+        // As long as the health of its devices: 19 bytes, plus 17 for each device.
         schema(checksum, &[(b'a', Uint8, 43), (1, Bool, 8)]),
         stamped(schema(checksum, &[(b'a', Uint8, 60), (b':', Uint8, 5)])),
         schema(checksum, &digits_and_marks.collect::<Vec<_>>()),
@@ -58,7 +58,7 @@ pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
     ]
 }
 
-/// A schema of all identifiers, some of them wide, so that candidates overlap and are long.
+/// A schema with all identifiers, some of them wide, so that candidates overlap and are long.
 pub(crate) fn wide_schema(checksum: Checksum) -> Schema {
     let item = |id| match id {
         b'a' => (id, ScalarType::Uint8, 341),
@@ -70,8 +70,8 @@ pub(crate) fn wide_schema(checksum: Checksum) -> Schema {
     schema(checksum, &(1..=254).map(item).collect::<Vec<_>>())
 }
 
-/// Candidates that come from many places upon the same identifiers, and end at some comma there;
-/// now and then an identifier is unknown, out of turn or a byte late.
+/// Candidates from many positions that reach the same identifiers, and end at some comma there;
+/// sometimes an identifier is unknown, out of turn or one byte late.
 pub(crate) fn overlapping_walks(random: &mut Random, schema: &Schema) -> Vec<u8> {
     let heads = 10 + random.below(50);
     let mut pad = Vec::new();
@@ -105,14 +105,14 @@ pub(crate) fn overlapping_walks(random: &mut Random, schema: &Schema) -> Vec<u8>
     stream
 }
 
-/// The frame of a payload, with the checksum the schema asks for.
+/// The frame of a payload, with the checksum that the schema requires.
 pub(crate) fn frame(schema: &Schema, payload: &[u8]) -> Vec<u8> {
     let mut payload = payload.to_vec();
     schema.checksum.append(&mut payload);
     [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
 }
 
-/// A payload of some items in any order, `depth` levels of streams within its values.
+/// A payload of some items in any order, with `depth` levels of streams nested in its values.
 fn payload(random: &mut Random, schema: &Schema, direction: Direction, depth: usize) -> Vec<u8> {
     let mut items: Vec<&Item> =
         schema.items.iter().filter(|item| item.direction == direction).collect();
@@ -149,7 +149,7 @@ fn likely(random: &mut Random, schema: &Schema) -> u8 {
     }
 }
 
-/// Health of any numbers; now and then of another version or length.
+/// Health with arbitrary numbers; sometimes of another version or length.
 fn health(random: &mut Random, schema: &Schema) -> Vec<u8> {
     let mut counts = [0; 6];
     let devices = schema.items.iter().map(|item| {
@@ -183,7 +183,7 @@ fn health(random: &mut Random, schema: &Schema) -> Vec<u8> {
     frame(schema, &payload)
 }
 
-/// Whole frames, damaged frames and what looks like them.
+/// Complete frames, damaged frames and bytes that look like frames.
 pub(crate) fn hard_stream(
     random: &mut Random,
     schema: &Schema,
@@ -204,7 +204,7 @@ pub(crate) fn hard_stream(
             3 if direction == Direction::Sensor => stream.extend(encode_hello(schema)),
             3 if random.below(2) == 0 => stream.extend(encode_hello_request(schema)),
             3 => stream.extend(encode_health_request(schema)),
-            // What an actuator of that identifier would be told, or a wrong request.
+            // A command as for an actuator with the identifier 0, or a wrong request.
             12 if direction == Direction::Actuator => {
                 stream.extend(frame(schema, &[0, random.below(3) as u8]));
             }

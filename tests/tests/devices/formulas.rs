@@ -1,10 +1,11 @@
-//! The formulas of the BME280 in integers wide enough for anything, and in floating point.
+//! The formulas of the BME280, in integers that are wide enough for any value and in floating
+//! point.
 
 use sensedsl_tests::Random;
 
 use super::{ask, hex, program, rounds};
 
-/// Trimming of one part.
+/// The trimming values of one part.
 struct Trimming {
     t: [i128; 3],
     p: [i128; 9],
@@ -12,7 +13,7 @@ struct Trimming {
 }
 
 impl Trimming {
-    /// Near that of real parts, which differ by some percent.
+    /// Values near those of real parts, which differ by a few percent.
     fn random(random: &mut Random) -> Self {
         let mut near = |centre: i128, spread: usize| {
             centre - spread as i128 / 2 + random.below(spread + 1) as i128
@@ -50,7 +51,7 @@ impl Trimming {
         bytes
     }
 
-    /// As the data sheet writes it, with integers that never overflow.
+    /// The formulas as in the data sheet, with integers that never overflow.
     fn integers(&self, adc: [i128; 3]) -> [i128; 3] {
         let ([t1, t2, t3], [p1, p2, p3, p4, p5, p6, p7, p8, p9]) = (self.t, self.p);
         let [h1, h2, h3, h4, h5, h6] = self.h;
@@ -72,7 +73,7 @@ impl Trimming {
         [(fine * 5 + 128) >> 8, pascal, water.clamp(0, 419_430_400) >> 12]
     }
 
-    /// The data sheet's other way: degC, Pa and %.
+    /// The other formulas of the data sheet: degC, Pa and %.
     fn reals(&self, adc: [i128; 3]) -> [f64; 3] {
         let [t1, t2, t3] = self.t.map(|number| number as f64);
         let [p1, p2, p3, p4, p5, p6, p7, p8, p9] = self.p.map(|number| number as f64);

@@ -1,5 +1,5 @@
-//! Messages in streams: whatever is cut, damaged or hidden in something else, the messages are those that a search from
-//! place to place finds.
+//! Messages in streams: however the stream is cut, damaged or filled with other data, the decoder
+//! finds the same messages as a search from byte to byte.
 
 use sensedsl_tests::Random;
 
@@ -12,7 +12,7 @@ const IBUS: usize = 3;
 const CRC8: usize = 4;
 const NMEA: usize = 5;
 
-/// What messages look like.
+/// The form of messages.
 #[derive(Debug)]
 struct Form {
     start: Vec<u8>,
@@ -23,11 +23,11 @@ struct Form {
     bytes_max: usize,
 }
 
-/// What a candidate at one place is.
+/// The verdict on a candidate at one position.
 enum Verdict {
-    /// A message of so many bytes.
+    /// A message with this number of bytes.
     Whole(usize),
-    /// None.
+    /// Not a message.
     Bad,
     /// The stream ends too early to tell.
     Open,
@@ -52,7 +52,7 @@ impl Form {
             0 => form.least() + random.below(12),
             _ => form.least() + random.below(2),
         };
-        // Nothing at all to hold on to is not a message.
+        // A message must have at least one byte.
         form.bytes_max = form.bytes_max.max(1);
         form
     }
@@ -65,7 +65,7 @@ impl Form {
         self.start.len() + self.length + self.sum_bytes() + self.end.len()
     }
 
-    /// The checksum of all that stands before it.
+    /// The checksum of all bytes before it.
     fn sum(&self, before: &[u8]) -> Vec<u8> {
         let summed = &before[self.from.min(before.len())..];
         let total: u32 = summed.iter().map(|byte| u32::from(*byte)).sum();
@@ -122,7 +122,7 @@ impl Form {
         if stream.len() < self.bytes_max { Verdict::Open } else { Verdict::Bad }
     }
 
-    /// Lines without a start: what is behind one end and before the next.
+    /// Lines without a start: the bytes after one end and before the next.
     fn lines(&self, stream: &[u8]) -> (String, usize) {
         let mut found = String::new();
         let (mut dropped, mut begun, mut is_aligned) = (0, 0, false);
@@ -139,13 +139,13 @@ impl Form {
             }
         }
         if !is_aligned {
-            // Of a line that has not begun only so much is kept as may be the first bytes of its end.
+            // Of a line that has not begun, only as many bytes are kept as may begin its end.
             dropped += (stream.len() - begun).saturating_sub(self.end.len() - 1);
         }
         (found, dropped)
     }
 
-    /// The bodies of all messages, and how many bytes are in none of them.
+    /// The bodies of all messages, and the number of bytes that are in none of them.
     fn search(&self, stream: &[u8]) -> (String, usize) {
         if self.start.is_empty() && self.length == 0 {
             return self.lines(stream);
@@ -171,7 +171,7 @@ impl Form {
         (found, dropped)
     }
 
-    /// A message, mostly a good one.
+    /// A message; mostly a good one.
     fn message(&self, random: &mut Random) -> Vec<u8> {
         let size = if self.length > 0 { self.length } else { random.below(8) };
         let mut bytes = self.start.clone();

@@ -1,6 +1,7 @@
-//! The core's device code in C against plain definitions in Rust, on random and hostile input, under sanitizers.
+//! The core's device code in C, compared with plain definitions in Rust on random and hostile
+//! input, under sanitizers.
 //!
-//! `tests/devices/main.c` answers a line for a line; it is compiled once and asked in batches.
+//! `tests/devices/main.c` answers each line with a line; it is compiled once and run in batches.
 
 mod formulas;
 mod messages;
@@ -14,7 +15,7 @@ use std::sync::OnceLock;
 
 use sensedsl_tests::{has, root};
 
-/// The program, or nothing where there is no compiler.
+/// The program, or `None` without a compiler.
 fn program() -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
     PROGRAM.get_or_init(|| has("gcc").then(build)).as_deref()
@@ -39,7 +40,7 @@ fn build() -> PathBuf {
     program
 }
 
-/// An answer for each request, in their order.
+/// The answer to each request, in order.
 fn ask(program: &Path, requests: &[String]) -> Vec<String> {
     let mut child = Command::new(program)
         .stdin(Stdio::piped())
@@ -50,7 +51,7 @@ fn ask(program: &Path, requests: &[String]) -> Vec<String> {
     let mut stdin = child.stdin.take().unwrap();
     let text = requests.join("\n") + "\n";
     let writer = std::thread::spawn(move || {
-        // A program that a sanitizer ends reads no more; its status says so below.
+        // A program that a sanitizer has ended reads no more; its status is checked below.
         let _ = stdin.write_all(text.as_bytes());
     });
     let output = child.wait_with_output().unwrap();
@@ -62,7 +63,7 @@ fn ask(program: &Path, requests: &[String]) -> Vec<String> {
     answers
 }
 
-/// Asks all of them, and holds each answer to the one wanted.
+/// Sends all requests, and compares each answer with the wanted one.
 fn check(cases: &[(String, String)]) {
     let Some(program) = program() else { return };
     let requests: Vec<_> = cases.iter().map(|(request, _)| request.clone()).collect();
@@ -71,7 +72,7 @@ fn check(cases: &[(String, String)]) {
     }
 }
 
-/// `-` for none.
+/// The bytes in hexadecimal; `-` if there are none.
 fn hex(bytes: &[u8]) -> String {
     if bytes.is_empty() {
         return "-".to_owned();
@@ -79,7 +80,7 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// How often; the variable is for long runs.
+/// The number of rounds; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
     let wanted = std::env::var("SENSEDSL_DEVICE_ROUNDS").ok();
     wanted.map_or(usual, |text| text.parse().expect("SENSEDSL_DEVICE_ROUNDS is a number"))
@@ -119,7 +120,7 @@ impl Scalar {
         }
     }
 
-    /// The bits in memory of a whole number, saturated.
+    /// The bits of a whole number in memory, saturated.
     fn store(self, number: i128) -> u64 {
         match self {
             Self::Bool => u64::from(number != 0),
@@ -133,7 +134,7 @@ impl Scalar {
         }
     }
 
-    /// The whole number of these bits.
+    /// The whole number that these bits represent.
     fn load(self, bits: u64) -> i128 {
         match self {
             Self::Bool | Self::Unsigned(_) => i128::from(bits),

@@ -17,7 +17,7 @@ fn digits(random: &mut Random, count: usize) -> String {
     (0..count).map(|_| char::from(b'0' + random.below(10) as u8)).collect()
 }
 
-/// Digits, shifted and rounded as one would on paper.
+/// The digits shifted and rounded as on paper.
 fn decimal(text: &str, decimals: usize, scalar: Scalar) -> Option<u64> {
     let (sign, rest) = match text.as_bytes().first()? {
         b'-' => (-1, &text[1..]),

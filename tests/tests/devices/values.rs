@@ -11,7 +11,7 @@ const FLOAT: usize = 1;
 const BCD: usize = 2;
 const PACKED: usize = 3;
 
-/// How a value is coded, and its bytes.
+/// The coding of a value, and its bytes.
 #[derive(Debug)]
 struct Case {
     code: usize,
@@ -42,7 +42,7 @@ fn mask(bits: u32) -> u64 {
     if bits >= 64 { u64::MAX } else { (1 << bits) - 1 }
 }
 
-/// Two decimal digits, now and then none.
+/// Two decimal digits; sometimes a digit above nine.
 fn digits(random: &mut Random) -> u8 {
     let limit = if random.below(40) == 0 { 16 } else { 10 };
     (random.below(limit) << 4 | random.below(limit)) as u8
@@ -101,7 +101,7 @@ impl Case {
         }
     }
 
-    /// The bits that count of a word.
+    /// The significant bits of a word.
     fn word(&self, at: usize) -> u64 {
         if self.code == PACKED {
             let bit = |at: usize| u64::from(self.bytes[at / 8] >> (at % 8) & 1);
@@ -117,7 +117,7 @@ impl Case {
         word >> self.low & mask(self.bits)
     }
 
-    /// The bits in memory of an element; nothing for what is no number.
+    /// The bits of an element in memory; `None` if the word is not a number.
     fn element(&self, at: usize) -> Option<u64> {
         let word = self.word(at);
         match self.code {
@@ -137,7 +137,7 @@ impl Case {
         }
     }
 
-    /// The bits that count of the word that an element is written as.
+    /// The significant bits of the word that an element is written as.
     fn encoded(&self, element: u64) -> u64 {
         let number = self.scalar.load(element);
         let mask = mask(self.bits);
@@ -148,7 +148,7 @@ impl Case {
                 let digits = u64::from_str_radix(&number.max(0).to_string(), 16);
                 digits.ok().filter(|digits| *digits <= mask).unwrap_or(greatest)
             }
-            // A float holds no number beyond 64 bits that a word could.
+            // No float holds a number beyond 64 bits that a word could hold.
             _ if self.is_signed => {
                 number.clamp(-(1 << (self.bits - 1)), (1 << (self.bits - 1)) - 1) as u64 & mask
             }
@@ -258,7 +258,7 @@ fn checksums_are_remainders() {
     check(&cases);
 }
 
-/// In the order of the numbers that the bits stand for.
+/// The window sorted by the numbers that the bits represent.
 fn sorted(scalar: Scalar, mut window: Vec<u64>) -> Vec<u64> {
     window.sort_by(|&left, &right| match scalar {
         Scalar::Float32 => f32::from_bits(left as u32).total_cmp(&f32::from_bits(right as u32)),

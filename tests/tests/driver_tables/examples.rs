@@ -1,16 +1,17 @@
-//! Every driver on boards of several families: a file that uses all its values is wired, or it is known why not.
+//! Every driver on boards of several families: a file that uses all its values is wired, or the
+//! reason against it is known.
 
 use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_wiring::{Solved, Wiring};
 
 use super::library::examples;
 
-/// The board has no unit for it. No check reports that; the solver does (E0401).
+/// The board has no unit for the driver. No check reports that, only the solver (E0401).
 const NO_UNIT: &str = "";
 
-/// Boards of different families, and the drivers that they cannot carry, with the reason's code: an RP2040 decodes no
-/// quadrature, and its pins stand no 5 V (the message names the resistors that help); the serial ports of F1 and F4 do not
-/// invert.
+/// Boards of different families, with the drivers that they cannot carry and the code of the
+/// reason. An RP2040 does not decode quadrature, and its pins do not tolerate 5 V (the message
+/// names resistors that help); the serial ports of F1 and F4 cannot invert.
 const BOARDS: [(&str, &[(&str, &str)]); 4] = [
     ("NUCLEO_F446RE", &[("sbus", "E0320"), ("maxsonar_serial", "E0320")]),
     ("NUCLEO_G474RE", &[]),
@@ -61,7 +62,7 @@ fn every_driver_is_wired_on_boards_of_several_families() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The codes of why a file is not wired; none where it is.
+/// The codes of the reasons why a file is not wired; `None` if it is wired.
 fn refusal(text: &str) -> Option<String> {
     let request = Request { path: "example.sense", text, ..Request::default() };
     let resolved = resolve(&request, &NoFiles);

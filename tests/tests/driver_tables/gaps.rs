@@ -1,4 +1,5 @@
-//! What no firmware does yet is refused, never left out in silence; everything else is still written.
+//! A device that firmware does not support yet is refused, never left out silently; everything else
+//! is still written.
 
 use sensedsl_tests::{Ran, Scratch, sensedsl};
 
@@ -22,8 +23,8 @@ fn what_firmware_would_ignore_is_an_error() {
     let _ = generate(body, &["--without", "firmware"]).exits(0);
 }
 
-/// What a driver of the first edition says is served as before, and so are chips and parts of words on buses, and a
-/// curve, which is the host's.
+/// Drivers of the first edition are served as before. So are chips, parts of words on buses, and a
+/// curve, which the host applies.
 #[test]
 fn what_is_made_is_served() {
     let ranger = "sensor A returns uint16 { id = 1; driver = srf08; address = 0xE0; }";

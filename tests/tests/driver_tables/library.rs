@@ -1,4 +1,4 @@
-//! The library as parts of designs: one driver with all its values each.
+//! The library as parts of designs, each with one driver and all its values.
 
 use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Design, Device, Part};
@@ -14,7 +14,7 @@ use sensedsl_wire::Direction;
 
 use super::vectors::{self, Case};
 
-/// A driver in a design of its own, which has nothing else.
+/// A driver in a design that contains nothing else.
 pub struct Unit {
     pub driver: String,
     pub design: Design,
@@ -39,7 +39,7 @@ pub fn units() -> Vec<Unit> {
         .flat_map(|driver| {
             let name = driver.name().unwrap().text().to_owned();
             let cases = vectors::read(&name, &text(&format!("tests/vectors/drivers/{name}.txt")));
-            // A driver without readings is as many units as its vectors have types.
+            // A driver without readings becomes one unit for each type in its vectors.
             let mut types: Vec<Option<String>> = Vec::new();
             for case in &cases {
                 if !types.contains(&case.ty) {
@@ -65,8 +65,9 @@ pub fn units() -> Vec<Unit> {
     units
 }
 
-/// What no driver of the library does, so that its tables are compiled too: filters over numbers of all kinds, a bus of
-/// registers of two bytes, floats, packed numbers, words out of order, hostile texts.
+/// Drivers for what no driver of the library does, so that these tables are compiled too: filters
+/// over all kinds of numbers, a bus with two-byte registers, floats, packed numbers, words out of
+/// order, hostile texts.
 pub fn others() -> Vec<Unit> {
     const TEXTS: [&str; 3] = [
         r#"driver every_filter for i2c {
@@ -108,7 +109,8 @@ pub fn others() -> Vec<Unit> {
     TEXTS.iter().map(unit).collect()
 }
 
-/// A board with a part that has all values of a driver. `number` tells several of one driver apart.
+/// A board with a part that has all values of a driver. `number` distinguishes several parts with
+/// the same driver.
 pub fn example(driver: &ast::Driver, board: &str, number: usize, ty: Option<&str>) -> String {
     let name = driver.name().unwrap().text().to_owned();
     let mut part = capital(&name);
@@ -145,7 +147,7 @@ pub fn example(driver: &ast::Driver, board: &str, number: usize, ty: Option<&str
     )
 }
 
-/// All drivers with their texts for a board.
+/// All drivers, each with the text of its example on a board.
 pub fn examples(board: &str) -> Vec<(String, String)> {
     let one = |driver: &ast::Driver| {
         let name = driver.name().unwrap().text().to_owned();
@@ -162,7 +164,7 @@ fn capital(word: &str) -> String {
     first.into_iter().chain(letters).collect()
 }
 
-/// The design, or what is wrong with it. Nothing is to be said of a file that does no more than name a driver.
+/// The design, or what is wrong with it. A file that only names a driver must give no diagnostics.
 fn design(text: &str) -> Result<Design, String> {
     let request = Request { path: "example.sense", text, ..Request::default() };
     let resolved = resolve(&request, &NoFiles);
@@ -184,7 +186,7 @@ impl Unit {
         self.design.devices.iter()
     }
 
-    /// Those that something is to be done for between wires and value.
+    /// The devices whose values are coded between wires and schema.
     pub fn coded(&self) -> impl Iterator<Item = &Device> {
         self.devices().filter(|device| has_coding(device, self.part()))
     }
@@ -193,7 +195,8 @@ impl Unit {
         has_coding(&self.design.devices[field], self.part())
     }
 
-    /// Bytes of a frame: as far as its last value, unless the driver says so.
+    /// The length of a frame in bytes: up to the end of its last value, unless the driver states
+    /// it.
     pub fn frame_bytes(&self, of: &Can) -> usize {
         let own = self.devices().filter_map(|device| Some((device, device.kind.can()?)));
         let own =
@@ -206,7 +209,7 @@ impl Unit {
         of.length.map_or(end, usize::from)
     }
 
-    /// What the vectors call a value.
+    /// The name of a value in the vectors.
     pub fn value_name(device: &Device) -> String {
         device
             .coding

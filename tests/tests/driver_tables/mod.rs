@@ -1,8 +1,8 @@
-//! Every driver of the library, from its vector file through the generator's tables and the runtime's core to values:
-//! what a board would report, and what a host would show of it.
+//! Every driver of the library, from its vector file through the generator's tables and the
+//! runtime's core to values: what a board would report, and what a host would show.
 //!
-//! The tables of all drivers are compiled into one program, `tests/drivers/main.c`, under sanitizers. `rust` is the same
-//! program by the runtime in Rust, and `same` holds the two together.
+//! The tables of all drivers are compiled into one program, `tests/drivers/main.c`, under
+//! sanitizers. `rust` is the same program on the runtime in Rust, and `same` compares the two.
 
 mod examples;
 mod gaps;
@@ -25,10 +25,10 @@ use library::{Unit, others, units};
 use program::{Outcome, ask, program};
 use vectors::{Case, Command, Expected, Given};
 
-/// What is wrong with a driver, one line each.
+/// The mistakes of a driver, one a line.
 type Wrong = Vec<String>;
 
-/// The library with the outcomes of all its cases; nothing where there is no compiler.
+/// The library with the outcomes of all its cases; `None` without a compiler.
 fn outcomes() -> Option<Vec<(Unit, Vec<Outcome>)>> {
     let (mut units, others) = (units(), others());
     let count = units.len();
@@ -38,7 +38,7 @@ fn outcomes() -> Option<Vec<(Unit, Vec<Outcome>)>> {
     for (index, unit) in units.iter().enumerate() {
         requests.extend(unit.cases.iter().map(|case| request(index, unit, case)));
     }
-    // Those without cases only say whether the sizes of their buffers are what the runtime counts.
+    // Units without cases only report whether their buffers have the sizes that the runtime counts.
     requests.extend((count..units.len()).map(|index| format!("unit {index}\nend")));
     let mut answers = ask(program, &requests).into_iter();
     units.truncate(count);
@@ -65,7 +65,7 @@ fn every_driver_agrees_with_its_vectors() {
     assert!(statements > 500, "only {statements} statements");
 }
 
-/// Each statement of each vector file, made wrong by one, is told.
+/// If any statement of any vector file is changed by one, the test reports it.
 #[test]
 fn what_disagrees_is_told() {
     let Some(all) = outcomes() else { return };
@@ -103,7 +103,8 @@ fn what_disagrees_is_told() {
     }
 }
 
-/// Whatever is decoded is expected at least once; so is a wrong identity, and what is not a measurement.
+/// Every value that is decoded is expected at least once; so are a wrong identity and answers that
+/// are not a measurement.
 #[test]
 fn every_driver_has_vectors_of_all_it_does() {
     let mut wrong = Wrong::new();
@@ -138,7 +139,7 @@ fn every_driver_has_vectors_of_all_it_does() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The files of vectors are those of the drivers.
+/// There is exactly one vector file for each driver.
 #[test]
 fn vectors_and_drivers_are_the_same_set() {
     let folder = sensedsl_tests::root().join("tests/vectors/drivers");
@@ -154,7 +155,7 @@ fn the_tables_are_the_same_each_time() {
     assert_eq!(print(), print());
 }
 
-/// What the program is asked for a case.
+/// The request to the program for a case.
 fn request(index: usize, unit: &Unit, case: &Case) -> String {
     let mut lines = vec![format!("unit {index}")];
     let protocol = unit.protocol();
@@ -197,7 +198,7 @@ fn given_line(unit: &Unit, given: &Given) -> String {
         Given::Exchange(sent, received) => format!("exchange {} {}", hex(sent), hex(received)),
         Given::Stream(bytes) => format!("feed {}", hex(bytes)),
         Given::Raw(what, number) => {
-            // The one sensor that no bus carries.
+            // The only sensor that is on no bus.
             let mut sensors =
                 unit.devices().enumerate().filter(|(_, one)| one.direction == Direction::Sensor);
             let (field, device) = sensors.next().unwrap();
@@ -219,7 +220,7 @@ fn given_line(unit: &Unit, given: &Given) -> String {
     }
 }
 
-/// What the hardware hands on for a pulse, a level …
+/// The raw value that the hardware reports for a pulse, a level and so on.
 fn measured(device: &Device, what: &str, number: i64) -> i64 {
     match &device.kind {
         Kind::Icu(icu) if what == "pulse" => number * i64::from(icu.tick_hz) / 1_000_000,
@@ -228,7 +229,7 @@ fn measured(device: &Device, what: &str, number: i64) -> i64 {
     }
 }
 
-/// What is wrong with the outcome of a case.
+/// The differences between a case and its outcome.
 fn judge(unit: &Unit, case: &Case, outcome: &Outcome) -> Wrong {
     let mut wrong = Wrong::new();
     let is_stranger = case.expected.iter().any(|(_, what)| *what == Expected::WrongIdentity);
@@ -279,7 +280,7 @@ fn judge(unit: &Unit, case: &Case, outcome: &Outcome) -> Wrong {
     wrong
 }
 
-/// As a host shows it.
+/// The value that a host shows.
 fn visible(shown: &Presentation, raw: i64) -> f64 {
     let value = raw as f64 * shown.scale.unwrap_or(1.0) + shown.offset.unwrap_or(0.0);
     let (Some(first), Some(last)) = (shown.curve.first(), shown.curve.last()) else { return value };
@@ -294,7 +295,8 @@ fn visible(shown: &Presentation, raw: i64) -> f64 {
     }
 }
 
-/// What is wrong with what a command does. `levels` are those of the part's wires so far.
+/// The differences between a command's expected and actual effects. `levels` are the current levels
+/// of the part's wires.
 fn effects<'a>(
     unit: &Unit,
     command: &Command,
@@ -329,12 +331,12 @@ fn effects<'a>(
     missing.map(|effect| format!("{}: {found:?}, not {effect}", command.name)).collect()
 }
 
-/// An identifier with three digits, or with eight where it has 29 bits.
+/// A frame identifier as three digits, or as eight if it has 29 bits.
 fn frame_name(can: &Can) -> String {
     if can.is_extended { format!("{:08X}", can.frame_id) } else { format!("{:03X}", can.frame_id) }
 }
 
-/// What an output makes of a value without any code of ours.
+/// The effect of a value on an output, computed without the code under test.
 fn plain_effect(device: &Device, value: i64) -> String {
     match &device.kind {
         Kind::Pwm(pwm) => {

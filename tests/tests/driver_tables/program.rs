@@ -1,4 +1,5 @@
-//! The C program: the tables of all units printed and compiled once, and asked a case for a case.
+//! The C program: the tables of all units are printed and compiled once, and the program is run on
+//! one case at a time.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -17,18 +18,18 @@ use sensedsl_wire::{Direction, ScalarType};
 use super::library::Unit;
 use super::vectors::Expected;
 
-/// What became of a case.
+/// The outcome of a case.
 #[derive(Debug, Default)]
 pub struct Outcome {
-    /// What each field came to, in the words of the vectors.
+    /// The outcome of each field, in the words of the vectors.
     pub fields: BTreeMap<usize, Expected>,
-    /// What each command wrote: bytes with spaces, or outputs and their values.
+    /// What each command wrote: bytes separated by spaces, or outputs and their values.
     pub written: Vec<Vec<String>>,
-    /// Of a part on a bus.
+    /// Whether the identity was wrong; only for a part on a bus.
     pub is_wrong_identity: Option<bool>,
 }
 
-/// `-` for none.
+/// The bytes in hexadecimal; `-` if there are none.
 pub fn hex(bytes: &[u8]) -> String {
     if bytes.is_empty() {
         return "-".to_owned();
@@ -36,7 +37,7 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The program, or nothing where there is no compiler.
+/// The program, or `None` without a compiler.
 pub fn program(units: &[Unit]) -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
     PROGRAM.get_or_init(|| has("gcc").then(|| build(units))).as_deref()
@@ -54,7 +55,7 @@ fn build(units: &[Unit]) -> PathBuf {
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
     command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
-    // Where buffers lie is the target's.
+    // On a board, the target decides where buffers are placed.
     command.arg("-DUP_DMA_BUFFER=").arg("-I").arg(&core).arg("-I").arg(&folder);
     command.arg(root().join("tests/drivers/main.c")).args(files(&core, "c"));
     let output = command.arg("-o").arg(&program).output().unwrap();
@@ -70,7 +71,7 @@ fn type_macro(scalar: ScalarType) -> String {
     format!("UP_TYPE_{}", scalar.name().to_uppercase())
 }
 
-/// The schema of a unit, and its part's tables.
+/// The schema of a unit, and the tables of its part.
 pub fn tables(unit: &Unit) -> String {
     let (part, mut text) = (&unit.part().name.value, String::new());
     let names = unit.devices().map(|device| format!("SENSE_FIELD_{}", device.name.value));
@@ -100,7 +101,7 @@ pub fn tables(unit: &Unit) -> String {
     text
 }
 
-/// What each device has in the tables.
+/// The table rows of each device.
 fn unit_fields(unit: &Unit) -> String {
     let part = &unit.part().name.value;
     let plan = plan(unit);
@@ -119,7 +120,7 @@ fn unit_fields(unit: &Unit) -> String {
     format!("{codings}static const unit_field_t unit_fields_{part}[] = {{\n{all}}};\n")
 }
 
-/// How a value of CAN is coded, as a constant.
+/// The coding of a value in a CAN frame, as a C constant.
 fn frame_coding(device: &Device, part: &str) -> Option<String> {
     device.kind.can()?;
     let how = ValuePlan::new(&Words::of(device)?);
@@ -132,7 +133,7 @@ fn frame_coding(device: &Device, part: &str) -> Option<String> {
     ))
 }
 
-/// The same as it is named.
+/// The reference to the constant of [`frame_coding`].
 fn in_frame(device: &Device, part: &str) -> String {
     device.kind.can().map_or("NULL, 0U".to_owned(), |can| {
         format!("&can_{part}_{}, {}U", device.name.value, can.byte)
@@ -176,12 +177,12 @@ fn entry(unit: &Unit) -> String {
     text
 }
 
-/// An outcome for each request, in their order.
+/// The outcome of each request, in order.
 pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
     say(program, requests).iter().map(|answer| read(answer)).collect()
 }
 
-/// What the program says to each request.
+/// The answer of the program to each request.
 pub fn say(program: &Path, requests: &[String]) -> Vec<String> {
     let mut child = Command::new(program)
         .stdin(Stdio::piped())
@@ -192,7 +193,7 @@ pub fn say(program: &Path, requests: &[String]) -> Vec<String> {
     let mut stdin = child.stdin.take().unwrap();
     let text = requests.join("\n") + "\n";
     let writer = std::thread::spawn(move || {
-        // A program that a sanitizer ends reads no more; its status says so below.
+        // A program that a sanitizer has ended reads no more; its status is checked below.
         let _ = stdin.write_all(text.as_bytes());
     });
     let output = child.wait_with_output().unwrap();
@@ -234,7 +235,7 @@ pub fn read(answer: &str) -> Outcome {
     outcome
 }
 
-/// `407FF0` as `40 7F F0`.
+/// Separates bytes by spaces: `407FF0` becomes `40 7F F0`.
 fn spaced(digits: &str) -> String {
     let pairs = digits.as_bytes().chunks(2).map(|pair| String::from_utf8_lossy(pair).into_owned());
     pairs.collect::<Vec<_>>().join(" ")

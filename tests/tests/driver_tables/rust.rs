@@ -1,5 +1,5 @@
-//! The same program as `tests/drivers/main.c` in Rust: it reads the same requests and says the same
-//! lines, by the runtime in Rust.
+//! The program `tests/drivers/main.c` again, in Rust: it reads the same requests and prints the
+//! same lines, using the runtime in Rust.
 
 use std::fmt::Write as _;
 
@@ -27,7 +27,7 @@ struct Entry {
     bytes: Vec<u8>,
 }
 
-/// The part on its bus.
+/// A part on its bus.
 #[derive(Default)]
 struct Bus {
     register_bytes: usize,
@@ -150,7 +150,7 @@ fn unhex(text: &str) -> Vec<u8> {
         .collect()
 }
 
-/// What is told, of which field, and how it comes out of its filter.
+/// The outcomes reported for each field, and their values after the filters.
 struct Told<'a> {
     tables: &'a Tables,
     filters: Vec<Option<Filter<[u8; MEMORY_BYTES]>>>,
@@ -209,7 +209,7 @@ impl<'a> Told<'a> {
     }
 }
 
-/// A case.
+/// A run of one case.
 struct Run<'a> {
     tables: &'a Tables,
     bus: Bus,
@@ -220,7 +220,7 @@ struct Run<'a> {
     out: String,
 }
 
-/// What the program says to a request.
+/// The answer of the program to a request.
 pub fn answer(units: &[(Unit, Tables)], request: &str) -> String {
     let mut words = request.split_whitespace();
     assert_eq!(words.next(), Some("unit"));
@@ -281,7 +281,7 @@ impl Run<'_> {
         self.bus.entries.push(Entry { kind, trigger: unhex(trigger), bytes: unhex(bytes) });
     }
 
-    /// One step of the chip; returns how long it has nothing to do.
+    /// One step of the chip; returns how long the chip then has nothing to do.
     fn step(&mut self) -> u32 {
         let Self { bus, chip, told, out, .. } = self;
         let chip = chip.as_mut().unwrap();

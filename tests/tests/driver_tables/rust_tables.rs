@@ -1,4 +1,5 @@
-//! The tables of a part for the runtime in Rust, from the same plan that the C is printed of.
+//! The tables of a part for the runtime in Rust, from the same plan that the C tables are printed
+//! from.
 
 use sense_rt::{
     Bridge, BridgeMode, Calibration, ChipTable, Code, Coding, Command, Crc, FieldFormat,
@@ -17,14 +18,14 @@ use sensedsl_wire::{Direction, ScalarType};
 
 use super::library::Unit;
 
-/// What a device has beside the tables of its part.
+/// The tables of a device besides those of its part.
 #[derive(Clone, Copy, Default)]
 pub struct Own {
     pub filter: Option<&'static FilterTable>,
     pub formula: Option<(Formula, &'static [i32], u8)>,
     pub train: Option<TrainConfig>,
     pub bridge: Option<Bridge>,
-    /// Of a value in a frame of CAN, and its first byte there.
+    /// The coding of a value in a CAN frame, and the index of its first byte.
     pub can: Option<(Coding, u8)>,
 }
 

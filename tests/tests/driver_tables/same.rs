@@ -1,5 +1,5 @@
-//! The runtime in Rust with the same tables: it agrees with the vectors, and with the one in C on
-//! whatever parts answer, buses fail and time does.
+//! The runtime in Rust with the same tables. It agrees with the vectors, and with the runtime in C
+//! for any answers of parts, failures of buses and passage of time.
 
 use sensedsl_model::kind::Kind;
 use sensedsl_tests::{Random, is_thorough};
@@ -34,7 +34,7 @@ fn rust_agrees_with_the_vectors() {
 }
 
 fn some_bytes(random: &mut Random, count: usize) -> Vec<u8> {
-    // Ends of ranges are what formulas and filters look at.
+    // Formulas and filters depend on the ends of ranges, so these are frequent.
     let style = random.below(4);
     let one = |random: &mut Random| match (style, random.below(3)) {
         (0, _) => 0,
@@ -45,7 +45,7 @@ fn some_bytes(random: &mut Random, count: usize) -> Vec<u8> {
     (0..count).map(|_| one(random)).collect()
 }
 
-/// A part on a bus that says the right identity now and then, answers anything, and fails.
+/// A part on a bus that sometimes has the right identity, answers arbitrary bytes, and fails.
 fn on_bus(index: usize, unit: &Unit, random: &mut Random) -> String {
     let mut lines = vec![format!("unit {index}")];
     let protocol = unit.protocol();
@@ -66,7 +66,7 @@ fn on_bus(index: usize, unit: &Unit, random: &mut Random) -> String {
             let (sent, count) = (&device.coding.exchange, device.coding.exchange.len());
             lines.push(format!("exchange {} {}", hex(sent), hex(&some_bytes(random, count))));
         }
-        // Once without faults, so that what follows a long start is seen as well.
+        // The first turn has no faults, so that the behaviour after a long start is seen as well.
         lines.push(format!("faults {}", if turn == 0 { 0 } else { 1 + random.below(1 << 20) }));
         lines.push(format!("steps {}", 10 + random.below(40)));
         for (field, device) in unit.devices().enumerate() {
@@ -87,7 +87,7 @@ fn number(random: &mut Random) -> i64 {
     (random.next() as i64) >> bits
 }
 
-/// Messages of the vectors, whole and damaged, with noise between them, in pieces.
+/// Messages of the vectors, intact and damaged, with noise between them, in pieces.
 fn on_port(index: usize, unit: &Unit, random: &mut Random) -> String {
     let mut lines = vec![format!("unit {index}"), "trace 1".to_owned()];
     let streams: Vec<&Vec<u8>> = unit
@@ -119,7 +119,7 @@ fn on_port(index: usize, unit: &Unit, random: &mut Random) -> String {
     lines.join("\n")
 }
 
-/// What no bus carries: analog values, levels, trains, bridges.
+/// Inputs and outputs that are on no bus: analog values, levels, pulse trains, bridges.
 fn on_pins(index: usize, unit: &Unit, random: &mut Random) -> String {
     let mut lines = vec![format!("unit {index}"), "trace 1".to_owned()];
     for _ in 0..20 {

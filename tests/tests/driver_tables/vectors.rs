@@ -1,6 +1,7 @@
-//! The vector files: text in, cases out. `tests/vectors/drivers/README.md` says what the lines mean.
+//! The vector files: text goes in, cases come out. `tests/vectors/drivers/README.md` defines the
+//! lines.
 
-/// A case: what the part gives, and what is to come of it.
+/// A case: what the part sends, and the values expected of it.
 #[derive(Debug, Default)]
 pub struct Case {
     pub title: String,
@@ -8,29 +9,29 @@ pub struct Case {
     pub ty: Option<String>,
     pub given: Vec<Given>,
     pub expected: Vec<(String, Expected)>,
-    /// What a host shows.
+    /// The texts that a host shows.
     pub shown: Vec<(String, Vec<String>)>,
     pub commands: Vec<Command>,
 }
 
 #[derive(Debug)]
 pub enum Given {
-    /// Registers from that one on; in the first place what must have been written last.
+    /// Registers from an address on; the first field is what must have been written last.
     Registers(Option<Vec<u8>>, u32, Vec<u8>),
     WrongIdentity(u32, Vec<u8>),
     Answer(Option<Vec<u8>>, Vec<u8>),
     Exchange(Vec<u8>, Vec<u8>),
     Stream(Vec<u8>),
-    /// A frame of CAN: its identifier as `frame_name` writes it.
+    /// A CAN frame: its identifier as `frame_name` writes it, and its bytes.
     Frame(String, Vec<u8>),
-    /// `analog`, `level`, `pulse`, `frequency`, `counts`: what the hardware has measured.
+    /// A measurement of the hardware: `analog`, `level`, `pulse`, `frequency` or `counts`.
     Raw(String, i64),
     Edges(Vec<u32>),
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// The elements, give or take.
+    /// The elements, and their tolerance.
     Values(Vec<i64>, i64),
     Invalid,
     Nothing,
@@ -41,7 +42,7 @@ pub enum Expected {
 pub struct Command {
     pub name: String,
     pub values: Vec<i64>,
-    /// `written 40 7F F0`, `in1 = 1`
+    /// The effects of the command, such as `written 40 7F F0` or `in1 = 1`.
     pub effects: Vec<String>,
 }
 

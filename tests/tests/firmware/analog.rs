@@ -1,4 +1,5 @@
-//! Analog sensors and voltages of generated applications: what is converted together, and where the samples go.
+//! Analog sensors and outputs of generated applications: what is converted together, and where the
+//! samples are stored.
 
 use std::process::Command;
 
@@ -9,7 +10,7 @@ fn hardware(text: &str, board: &str) -> String {
     files(text)[&format!("{board}/generated/sense_hw.c")].clone()
 }
 
-/// PF pins belong to the third converter alone, PA4 and PA5 to the others.
+/// The PF pins belong only to the third converter, PA4 and PA5 only to the others.
 const SPREAD: &str = "board Spread on NUCLEO_F446ZE {
     sensor Line returns uint16[4] { id = 1; type = analog; delay = 20 ms; pin = [PF3, PA6, PF4, PA7]; }
     sensor Near returns float32 { id = 2; type = analog; delay = 20 ms; samples = 5; pin = PB0; }
@@ -18,7 +19,7 @@ const SPREAD: &str = "board Spread on NUCLEO_F446ZE {
 }
 ";
 
-/// All elements are converted together, and the value is put once all are there.
+/// All elements are converted together, and the value is stored once all are there.
 #[test]
 fn an_array_over_two_converters_is_one_thread() {
     let text = hardware(SPREAD, "Spread");
@@ -46,7 +47,7 @@ fn a_formula_is_computed_on_the_board() {
     assert!(text.contains(".column = 0U, .formula = &warm_formula},"), "{text}");
 }
 
-/// The start value is that of the failsafe: an output has it before the host speaks.
+/// The start value is the failsafe value: an output has it before the host sends anything.
 #[test]
 fn an_output_starts_where_it_falls_back_to() {
     let text = hardware(SPREAD, "Spread");
@@ -62,7 +63,8 @@ fn an_output_starts_where_it_falls_back_to() {
     assert!(settings.contains("#define STM32_DAC_USE_DAC1_CH1 TRUE"), "{settings}");
 }
 
-/// The basic controller of the third converter reaches one memory alone, and no cache stands before either.
+/// The basic DMA controller of the third converter reaches only one memory, and neither memory is
+/// cached.
 #[test]
 fn samples_lie_where_the_controller_reaches_them() {
     let text = "board Fast on NUCLEO_H743ZI {
@@ -84,7 +86,8 @@ fn samples_lie_where_the_controller_reaches_them() {
     assert!(!hardware.contains("two drivers have one DMA stream"), "{hardware}");
 }
 
-/// The thread and the outputs on drivers that do what the test says: conversions that end, fail and hang.
+/// Runs the thread and the outputs on drivers that do what the test requests: conversions that end,
+/// fail and hang.
 fn runtime_says(scratch_name: &str, change: Option<(&str, &str)>) -> Option<(bool, String)> {
     if !has("gcc") {
         return None;

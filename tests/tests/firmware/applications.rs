@@ -1,4 +1,4 @@
-//! The designs that firmware is generated for, from text to files.
+//! The designs that firmware is generated for, and their way from text to files.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use sensedsl_wiring::{Search, Solved, Wiring};
 /// The paper's Fig. 2.
 pub(crate) const FIG2: &str = include_str!("../../../examples/fig2.sense");
 
-/// The car whose firmware was written by hand in 2014, as far as ChibiOS can capture.
+/// The car whose firmware was written by hand in 2014, as far as ChibiOS can capture it.
 pub(crate) const CAR: &str = include_str!("../../../examples/miniature_car.sense");
 
-/// Words of C as names, every property that changes the code, a serial link with a checksum.
+/// C keywords as names, every property that changes the code, a serial link with a checksum.
 pub(crate) const ODD: &str = "
 board Odd on \"odd.csv\" {
     link { transport = uart; unit = USART3; baud = 460800; checksum = crc16; rate = 50 Hz; }
@@ -34,7 +34,7 @@ board Odd on \"odd.csv\" {
 }
 ";
 
-/// A board of the user with what Table 1 lacks.
+/// A board of the user's with usages that Table 1 lacks.
 const ODD_TABLE: &str = "\
 # mcu = STM32F407VGT6
 Pin,ADC,I2C,ICU,UART
@@ -54,7 +54,7 @@ PD8,-,-,-,USART3_TX
 PD9,-,-,-,USART3_RX
 ";
 
-/// Two boards of one file, each with its own devices.
+/// Two boards in one file, each with its own devices.
 pub(crate) const TWO: &str = "
 board Front on STM32F4DiscoveryBoard {
     sensor Left returns uint16 { id = 1; type = analog; delay = 20; }
@@ -65,7 +65,7 @@ board Rear on STM32F4DiscoveryBoard {
 }
 ";
 
-/// Every way to use timers and pins: arrays, chips, edges, bridges, a receiver, rangers.
+/// All uses of timers and pins: arrays, chips, edges, bridges, a receiver, rangers.
 pub(crate) const PINS: &str = "
 board Pins on NUCLEO_F446RE {
     link { transport = uart; }
@@ -88,7 +88,7 @@ board Pins on NUCLEO_F446RE {
 }
 ";
 
-/// The files a design may name.
+/// The files that a design may name.
 struct Tables;
 
 impl Files for Tables {
@@ -105,7 +105,7 @@ impl Files for Tables {
     }
 }
 
-/// What becomes of a text: files, or what is wrong.
+/// The files for a text, or its diagnostics.
 pub(crate) fn generate(text: &str) -> Result<FileSet, Vec<Diagnostic>> {
     generate_for(None, text)
 }
@@ -120,7 +120,7 @@ fn generate_for(target: Option<&str>, text: &str) -> Result<FileSet, Vec<Diagnos
     }
 }
 
-/// The files of a design that must generate, by path.
+/// The files of a design for which generation must succeed, by path.
 pub(crate) fn files(text: &str) -> BTreeMap<String, String> {
     let files = generate(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:#?}"));
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
@@ -171,7 +171,7 @@ fn one_thread_serves_what_is_alike() {
     assert_eq!(hardware.matches("THD_WORKING_AREA(").count(), 2);
     assert_eq!(hardware.matches("up_adc_t adc1_").count(), 1);
     assert_eq!(hardware.matches("static const I2CConfig").count(), 1);
-    // Seven captures have every timer but one of the two that share PA1.
+    // Seven captures take every timer, except for one of the two that share PA1.
     let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
     assert!(settings.contains("#define STM32_ST_USE_TIMER 5\n"), "{settings}");
     assert_eq!(settings.matches("STM32_ICU_USE_TIM").count(), 14);
@@ -189,7 +189,8 @@ fn the_kernel_takes_the_tick_when_devices_have_its_timers() {
     assert!(odd["Odd/cfg/chconf.h"].contains("#define CH_CFG_ST_TIMEDELTA 0\n"));
 }
 
-/// What an actuator falls back to goes the way of a value from the host, whatever it is connected to.
+/// The failsafe value of an actuator is handled like a value from the host, whatever it is
+/// connected to.
 #[test]
 fn a_failsafe_is_a_value_of_the_type() {
     let text = "board NUCLEO_F446RE {
@@ -224,7 +225,7 @@ fn a_failsafe_is_a_value_of_the_type() {
     assert!(files["NUCLEO_F446RE/cfg/up_conf.h"].contains("#define UP_SILENCE_MS 500U"));
 }
 
-/// An element of an array is called what a device may be called as well.
+/// The name of an array's element can also be the name of a device.
 #[test]
 fn names_of_elements_and_devices_differ() {
     let text = "board STM32F407G_DISC1 {
@@ -258,7 +259,7 @@ fn boards_stand_beside_each_other() {
     assert!(files["Rear/cfg/halconf.h"].contains("HAL_USE_ADC FALSE"));
 }
 
-/// The driver halts the board where its clock does not divide, and spins while a bus is busy.
+/// The driver halts the board if its clock does not divide evenly, and spins while a bus is busy.
 #[test]
 fn a_bus_gets_a_clock_that_the_driver_accepts() {
     let text = "board STM32F4DiscoveryBoard {
@@ -281,11 +282,12 @@ fn timers_and_pins_read_as_written_by_hand() {
     let files = files(PINS);
     let hardware = &files["Pins/generated/sense_hw.c"];
     for expected in [
-        // Both edges of the wheel, and a train that a wrap of the timer ends.
+        // Both edges of the wheel, and a train that is ended when the timer wraps.
         "up_capture_on_width(&wheel_encoder_raw, (uint32_t)icuGetWidthX(driver), true);",
         "up_ppm_on_interval(&rc_train_config, &rc_raw, UINT32_MAX);",
         "up_icu_start(&ICUD2, &wheel_encoder_icu_config);",
-        // An encoder has its timer by registers; 16 bits are read in time.
+        // The timer of an encoder is set through its registers; a counter of 16 bits is read in
+        // time.
         "  rccEnableTIM4(true);\n  rccResetTIM4();\n  up_encoder_start(&position_counters[0]);",
         ".state = &position_states[0], .filter = 5U, .is_wide = false}",
         // Four speed controllers on one timer: 1 to 2 ms in the finest tick.
@@ -295,13 +297,13 @@ fn timers_and_pins_read_as_written_by_hand() {
         // A bridge in the order of its wires, stopped at the start and when the host is silent.
         "    {.pwm = &speed_outputs[0]},\n    {.line = PAL_LINE(GPIOA, 10U)},",
         "      up_bridge_set(&speed_bridge, value);",
-        // Levels before modes.
+        // Levels are set before modes.
         "/* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_OUTPUT_PUSHPULL, PAL_HIGH}",
         "/* PC4 */ {PAL_LINE(GPIOC, 4U), PAL_MODE_OUTPUT_PUSHPULL, PAL_HIGH}",
         "    .lasting = UP_LASTING_US(5000U),\n    .edge = UP_EDGE_BOTH,",
         "/* digital 20 ms: Bumper, Line */",
         "  up_digital_start(&clicks_digital);",
-        // The second of two rangers waits until the first has heard its echo.
+        // The second of two rangers waits until the first has received its echo.
         "    {.line = PAL_LINE(GPIOC, 12U), .apart_ms = 39U},\n",
         "    {.line = PAL_LINE(GPIOD, 2U)},\n",
         "STM32_TIMCLK1 % 90000000U == 0U",
@@ -319,7 +321,7 @@ fn timers_and_pins_read_as_written_by_hand() {
     assert!(files["Pins/cfg/halconf.h"].contains("PAL_USE_CALLBACKS TRUE"));
 }
 
-/// Silently pad 0 of port A, once.
+/// An unknown port once became pad 0 of port A silently.
 #[test]
 fn a_pin_of_an_unknown_port_is_refused() {
     for (pin, known) in [("PB0", true), ("AIN8", false), ("PZ0", false), ("PB16", false)] {

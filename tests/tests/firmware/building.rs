@@ -1,6 +1,6 @@
-//! `sensedsl build` and `flash`: whatever is missing is told by its code before anything is written or
-//! built. Make, compiler and flashing tools are small scripts here, the tree a few empty files; what the
-//! real ones do is tried where `CHIBIOS` names a tree.
+//! `sensedsl build` and `flash`: whatever is missing is reported with its code before anything is
+//! written or built. Here, make, compiler and flashing tools are small scripts, and the tree is a
+//! few empty files; the real ones are tried if `CHIBIOS` names a tree.
 #![cfg(unix)]
 
 use std::fs;
@@ -13,7 +13,7 @@ use super::applications::{FIG2, TWO};
 
 const GCC: &str = "arm-none-eabi-gcc";
 
-/// A machine with a tree of ChibiOS, make and a compiler, none of which does anything.
+/// A machine with a ChibiOS tree, make and a compiler, all of which do nothing.
 struct Machine {
     scratch: Scratch,
 }
@@ -52,7 +52,7 @@ impl Machine {
         self.tool(GCC, &script);
     }
 
-    /// Runs in its folder, with its tools and its tree.
+    /// Runs the program in the machine's folder, with its tools and its tree.
     fn run(&self, arguments: &[&str], settings: &[(&str, &str)]) -> Ran {
         let path = |name: &str| self.scratch.join(name).display().to_string();
         let mut call = sensedsl(arguments).within(self.scratch.path());
@@ -64,7 +64,7 @@ impl Machine {
         call.run()
     }
 
-    /// Refused with that code before anything was written or built.
+    /// The command must be refused with this code before anything is written or built.
     #[track_caller]
     fn refuses(&self, arguments: &[&str], settings: &[(&str, &str)], code: &str, words: &[&str]) {
         let ran = self.run(arguments, settings).exits(2);
@@ -76,14 +76,14 @@ impl Machine {
         assert_eq!(self.calls(), "", "{code}: something was built");
     }
 
-    /// What make was called with to build.
+    /// The arguments of make in its calls that build.
     fn calls(&self) -> String {
         let log = fs::read_to_string(self.scratch.join("log")).unwrap_or_default();
         log.lines().filter(|line| *line != "--version").map(|line| format!("{line}\n")).collect()
     }
 }
 
-/// What the board of Fig. 2 is built from, by its own Makefile.
+/// The files that the board of Fig. 2 is built from, according to its Makefile.
 fn wanted_by_fig2() -> Vec<String> {
     let makefile = super::applications::files(FIG2)["STM32F4DiscoveryBoard/Makefile"].clone();
     let mut wanted: Vec<String> = makefile
@@ -100,7 +100,7 @@ fn wanted_by_fig2() -> Vec<String> {
     wanted
 }
 
-/// The same for Embassy.
+/// A design for Embassy.
 const RUST: &str = "board STM32F407G_DISC1 {\n    target = embassy;\n    \
                     sensor Light returns uint16 { id = 1; type = analog; }\n}\n";
 
@@ -123,7 +123,7 @@ fn a_board_for_embassy_is_built_by_cargo() {
     let failed = machine.run(&build, &[&settings[..], &[("CARGO_ENDS", "101")]].concat()).exits(1);
     assert!(failed.stderr.contains("error[E0521]"), "{}", failed.stderr);
     assert!(failed.stderr.contains("cargo ended with status 101"), "{}", failed.stderr);
-    // A tool that takes no ELF file gets the bytes of one.
+    // A tool that does not read ELF files gets the contents of one as plain bytes.
     machine.tool("st-info", "echo Found 1 stlink programmers");
     machine.tool("st-flash", "echo \"$@\" >> \"$LOG\"");
     let mut program = vec![0x7F, b'E', b'L', b'F', 1, 1, 1];
@@ -156,7 +156,7 @@ fn a_tree_that_will_not_do_is_told() {
     machine.refuses(BUILD, &[("CHIBIOS", "nowhere")], "E0513", &["no such folder", clone]);
     machine.refuses(BUILD, &[("CHIBIOS", "fig2.sense")], "E0513", &["it is a file"]);
     machine.refuses(BUILD, &[("CHIBIOS", "bin")], "E0513", &["os/rt/rt.mk"]);
-    // The command line wins over the variable.
+    // The command line takes precedence over the variable.
     machine.refuses(&["build", "fig2.sense", "--chibios", "bin"], &[], "E0513", &["`bin`"]);
     machine.file("with space/os/rt/rt.mk", "");
     machine.refuses(BUILD, &[("CHIBIOS", "with space")], "E0513", &["make cannot read", "link"]);
@@ -177,7 +177,7 @@ fn another_release_is_told() {
 #[test]
 fn a_tree_with_holes_is_told() {
     for path in wanted_by_fig2() {
-        // Without this it is no tree at all.
+        // Without these files it is not a tree at all.
         if path == "os/rt/rt.mk" || path.contains("compilers/GCC/mk/") {
             continue;
         }
@@ -230,7 +230,7 @@ fn boards_are_told_apart() {
 fn a_place_without_firmware_is_told() {
     let machine = Machine::new();
     machine.refuses(&["build", "tree"], &[], "E0520", &["`tree`", ".sense"]);
-    // Two files, and nobody says which.
+    // There are two files, and none is named.
     machine.refuses(&["build"], &[], "E0520", &["name a `.sense` file"]);
     let made = ["generate", "fig2.sense", "-o", "made", "--without", "firmware"];
     let _ = machine.run(&made, &[]).exits(0);
@@ -292,7 +292,7 @@ fn nothing_to_flash_with_is_told_before_the_build() {
     machine.refuses(&with, &[], "E0518", &["looked for probe-rs (not installed)"]);
 }
 
-/// Flashes with the tools that are there, and gives what the tool was called with.
+/// Flashes with the available tools, and returns the arguments of the last call.
 fn flashed(machine: &Machine, with: &[&str]) -> String {
     let ran = machine.run(&[FLASH, with].concat(), &[]).exits(0);
     assert!(ran.stdout.contains("flashed STM32F4DiscoveryBoard"), "{}", ran.stdout);
@@ -335,7 +335,7 @@ fn a_tool_that_fails_and_an_mcu_that_is_not_known_are_told() {
         "{}",
         ran.stderr
     );
-    // The folder of a board alone does not say its MCU, which OpenOCD wants to be told.
+    // The folder of a board by itself does not give the MCU, which OpenOCD needs.
     machine.tool("openocd", "");
     let board = "build/firmware/STM32F4DiscoveryBoard";
     fs::rename(machine.scratch.join(board), machine.scratch.join("moved")).unwrap();
@@ -343,7 +343,7 @@ fn a_tool_that_fails_and_an_mcu_that_is_not_known_are_told() {
     assert!(ran.stderr.contains("error[E0522]") && ran.stderr.contains("MCU"), "{}", ran.stderr);
 }
 
-/// The real tree and the real tools.
+/// Builds with the real tree and the real tools.
 #[test]
 fn fig2_is_built_with_the_real_tree() {
     let Some(tree) = super::chibios::tree() else { return };

@@ -1,5 +1,6 @@
-//! Bit times of CAN buses: whatever the tool accepts for a board, the runtime makes of the board's clock, within half a
-//! per cent and with the sample late in the bit; for bxCAN and for FDCAN.
+//! Bit times of CAN buses: the runtime produces every rate that the tool accepts for a board from
+//! the board's clock, within half a per cent and with the sample point late in the bit; for bxCAN
+//! and for FDCAN.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -13,7 +14,8 @@ use sensedsl_tests::text;
 use super::stubs;
 use super::tools::{has, root, run, scratch};
 
-/// Usual rates, the least and the greatest that a design may ask for, and some that no clock divides to.
+/// Usual rates, the least and the greatest that a design may request, and some that no clock
+/// divides to.
 const RATES: [u32; 24] = [
     10_000, 20_000, 33_333, 47_619, 50_000, 62_500, 83_333, 95_238, 100_000, 125_000, 200_000,
     250_000, 307_692, 333_333, 400_000, 500_000, 600_000, 666_666, 700_000, 750_000, 800_000,
@@ -54,8 +56,8 @@ fn compile(is_fdcan: bool) -> PathBuf {
     program
 }
 
-/// What the runtime makes of each: prescaler, steps before and behind the sample, steps to jump; nothing where it
-/// halts.
+/// The runtime's bit times for each request: prescaler, steps before and after the sample point,
+/// jump width; `None` if it halts.
 fn bit_times(is_fdcan: bool, asked: &[(u32, u32)]) -> Vec<Option<[u32; 4]>> {
     let mut child = Command::new(program(is_fdcan));
     let mut child = child.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -73,7 +75,7 @@ fn bit_times(is_fdcan: bool, asked: &[(u32, u32)]) -> Vec<Option<[u32; 4]>> {
     made
 }
 
-/// What is wrong with a bit time; nothing where all is well.
+/// The mistake in a bit time; `None` if it is right.
 fn fault(is_fdcan: bool, (clock, rate): (u32, u32), time: [u32; 4]) -> Option<String> {
     let [prescaler, before, behind, jump] = time;
     let steps = 1 + before + behind;
@@ -81,7 +83,7 @@ fn fault(is_fdcan: bool, (clock, rate): (u32, u32), time: [u32; 4]) -> Option<St
     let off = (made - f64::from(rate)).abs() / f64::from(rate);
     let sample = f64::from(1 + before) / f64::from(steps);
     let prescalers = if is_fdcan { 512 } else { 1024 };
-    // Half a per cent, and the integers that are rounded to.
+    // Half a per cent, plus the rounding to whole numbers.
     let is_right = off <= 0.005 + 2.0 / f64::from(rate)
         && (0.77..=0.875).contains(&sample)
         && (8..=25).contains(&steps)
@@ -93,7 +95,7 @@ fn fault(is_fdcan: bool, (clock, rate): (u32, u32), time: [u32; 4]) -> Option<St
     (!is_right).then(|| format!("{rate} of {clock}: {time:?}, {made} Hz, sample at {sample}"))
 }
 
-/// The clock of a board's CAN, and whether it is an FDCAN.
+/// The CAN clock of each board, and whether its controller is an FDCAN.
 fn clocks() -> Vec<(String, u32, bool)> {
     let mut seen = BTreeSet::new();
     let mut clocks = Vec::new();
@@ -127,7 +129,7 @@ fn every_bit_rate_that_is_accepted_is_made() {
                 match stubs::codes(&text).as_slice() {
                     [] => accepted.push(true),
                     ["E0620"] => accepted.push(false),
-                    // The board has no such pins, or its link takes them.
+                    // The board lacks such pins, or its link takes them.
                     _ => continue,
                 }
                 asked.push((hz, rate));
@@ -152,7 +154,8 @@ fn every_bit_rate_that_is_accepted_is_made() {
     assert!(made[0] >= 100 && made[1] >= 15 && refused > 0, "{made:?} {refused}");
 }
 
-/// Each whole number of steps and each prescaler of a clock, so that no rate between them is forgotten.
+/// Every whole number of steps with every prescaler of a clock, so that no rate between them is
+/// forgotten.
 #[test]
 fn every_rate_that_a_clock_divides_to_is_made_exactly() {
     if !has("cc") {

@@ -1,4 +1,4 @@
-//! Generated applications, built with the user's ChibiOS tree: no warning may come from our files.
+//! Generated applications, built with the user's ChibiOS tree: our files must not give any warning.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use super::applications::{self, CAR, FIG2, ODD, PINS, TWO};
 use super::tools::{has, run, scratch};
 
-/// The tree, where the machine has one. No registry has ChibiOS, so that its absence is no failure.
+/// The tree, if the machine has one. No registry has ChibiOS, so its absence is not a failure.
 pub(crate) fn tree() -> Option<PathBuf> {
     let Ok(tree) = std::env::var("CHIBIOS") else {
         eprintln!("SKIPPED: CHIBIOS names no ChibiOS tree, generated firmware is not built");
@@ -25,7 +25,7 @@ pub(crate) fn write(name: &str, text: &str) -> PathBuf {
     folder
 }
 
-/// Builds one board and returns what `size` says.
+/// Builds one board and returns the output of `size`.
 pub(crate) fn build(tree: &Path, board: &Path, mode: &str) -> String {
     let mut make = Command::new("make");
     make.current_dir(board).arg("-j2").arg(format!("UP_MODE={mode}"));
@@ -75,7 +75,7 @@ fn timers_and_pins_build() {
     builds("pins", PINS, &["Pins"]);
 }
 
-/// The guards are there for trees that are not what the wiring was made for.
+/// The guards stop the build for a tree that differs from what the wiring was made for.
 #[test]
 fn guards_stop_a_tree_that_does_not_fit() {
     let Some(tree) = tree() else { return };

@@ -1,4 +1,5 @@
-//! The C that is generated for a wire by itself, for the schemas of the vectors and of the core's own tests.
+//! The C code that is generated only for a wire, for the schemas of the vectors and of the core's
+//! own tests.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -6,7 +7,7 @@ use std::path::{Path, PathBuf};
 use sensedsl_firmware_c::{self as c, Role};
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 
-/// Schemas of tests that are no vectors, in the words of these.
+/// Schemas of tests that are not vectors, written in the same words.
 const OWN: &str = "\
 schema model
 checksum none
@@ -44,7 +45,7 @@ fn item(line: &str) -> Item {
     }
 }
 
-/// All schemas of a text with lines of the vectors.
+/// All schemas in a text with lines of vector files.
 fn schemas(text: &str) -> Vec<(String, Schema)> {
     let mut schemas: Vec<(String, Schema)> = Vec::new();
     for line in text.lines() {
@@ -65,7 +66,7 @@ fn schemas(text: &str) -> Vec<(String, Schema)> {
     schemas
 }
 
-/// Writes the codecs of all schemas side by side: each with a name of its own in place of `sense`.
+/// Writes the codecs of all schemas side by side, each with its own name in place of `sense`.
 pub(super) fn write(folder: &Path, vectors: &[PathBuf]) {
     let texts = vectors.iter().map(|path| std::fs::read_to_string(path).unwrap());
     let all: String = texts.chain([OWN.to_owned()]).collect();

@@ -1,4 +1,5 @@
-//! The portable core: every compiler and CPU, then its tests where they can run.
+//! The portable core: compiled by every compiler and for every CPU, then tested wherever the tests
+//! can run.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ fn vectors() -> Vec<PathBuf> {
     vectors
 }
 
-/// The generated codecs that the tests need, in a folder of their own: see `codecs.rs`.
+/// The generated codecs that the tests need, in their own folder: see `codecs.rs`.
 fn codecs() -> PathBuf {
     static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
         let folder = scratch("codecs");
@@ -51,7 +52,7 @@ fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
     command.args([include("crates/firmware-c/runtime"), include("tests/firmware")]);
     command.arg(format!("-I{}", codecs().display()));
     command.args(sources).arg("-o").arg(output);
-    // The tests compare with the C library's functions; the core itself has none of them.
+    // The tests compare with functions of the C library; the core itself uses none of them.
     run(if flags.contains(&"-c") { &mut command } else { command.arg("-lm") });
 }
 
@@ -79,7 +80,7 @@ fn compiles_for_every_cortex_m() {
     }
 }
 
-/// What a source file leaves to others, compiled for a core without floating point.
+/// The symbols that a source file leaves undefined, compiled for a CPU without floating point.
 fn undefined(source: &Path, object: &Path) -> Vec<String> {
     let flags = ["-mcpu=cortex-m0", "-mthumb", "-ffreestanding", "-c"];
     compile("arm-none-eabi-gcc", &flags, &[source.to_owned()], object);
@@ -88,8 +89,9 @@ fn undefined(source: &Path, object: &Path) -> Vec<String> {
     text.split_whitespace().filter(|word| *word != "U").map(str::to_owned).collect()
 }
 
-/// Emulated doubles cost kilobytes and hundreds of cycles an operation: only a `float64` that is filtered and the
-/// shell's text have any. Of the C library nothing is used but what copies and compares memory.
+/// Emulated doubles cost kilobytes and hundreds of cycles for each operation, so only the filter of
+/// a `float64` and the shell's text use any. The only functions of the C library in use copy and
+/// compare memory.
 #[test]
 fn needs_neither_doubles_nor_a_library() {
     if !has("arm-none-eabi-gcc") {
@@ -159,7 +161,7 @@ fn runs_on_an_emulated_cortex_m4() {
         &[sources(), tests_with_codecs(), vec![start]].concat(),
         &program,
     );
-    // Semihosting hands on arguments and opens the vector files of the host.
+    // Semihosting passes arguments and opens the vector files of the host.
     let arguments = vectors().iter().fold(String::from("arg=core"), |all, path| {
         let name = path.file_name().unwrap().to_string_lossy();
         format!("{all},arg={name}")
@@ -172,7 +174,7 @@ fn runs_on_an_emulated_cortex_m4() {
     assert!(checks(&output.stdout, vectors().len()) > 10_000);
 }
 
-/// A test that cannot fail proves nothing: a broken core must be noticed.
+/// A test that cannot fail proves nothing: it must notice a broken core.
 #[test]
 fn notices_a_broken_core() {
     if !has("gcc") {
@@ -291,7 +293,7 @@ fn notices_a_broken_core() {
     let mut files = BTreeSet::new();
     let mut unnoticed = Vec::new();
     for (file, original, broken) in breakages {
-        // One of each file every day, all of them where everything is asked for.
+        // One breakage of each file in ordinary runs, all of them in exhaustive runs.
         if !files.insert(file) && !is_exhaustive() {
             continue;
         }
@@ -299,7 +301,7 @@ fn notices_a_broken_core() {
         let text = std::fs::read_to_string(source).unwrap();
         assert!(text.contains(original), "{file} has no `{original}` any more");
         let copy = folder.join(file);
-        // The first place is the one meant; a buffer overrun must not go unnoticed either.
+        // Only the first occurrence is meant; a buffer overrun must be noticed as well.
         std::fs::write(&copy, text.replacen(original, broken, 1)).unwrap();
         let damaged = folder.join("broken.o");
         compile(&copy, &damaged);

@@ -1,5 +1,6 @@
-//! The second reader's other half (see `facts`): how often is sampled, times and buffers of buses, what is started and
-//! looked at, the pads of the link, filters, the button, and the settings that all of it stands on.
+//! The other half of the second reader (see `facts`): numbers of samples, times and buffers of
+//! buses, which drivers are started and polled, the pads of the link, filters, the button, and the
+//! settings that all of these need.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +11,7 @@ use sensedsl_wiring::assignment::BoardAssignment;
 
 use super::facts::{Differences, Folder, after, numbers};
 
-/// What every transfer is given beside the time of its bits, for interrupts and other threads.
+/// The time that every transfer is given in addition to its bits, for interrupts and other threads.
 const PATIENCE_MS: i64 = 10;
 
 pub(super) fn details(
@@ -53,12 +54,12 @@ fn statements<'a>(hardware: &'a str, function: &str) -> Vec<&'a str> {
     body.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('/')).collect()
 }
 
-/// `PAL_LINE(GPIOA, 8U)` of `PA8`.
+/// The line of a pin: `PAL_LINE(GPIOA, 8U)` for `PA8`.
 fn line_of(pin: &PinName) -> String {
     format!("PAL_LINE(GPIO{}, {}U)", pin.port().unwrap(), pin.number().unwrap())
 }
 
-/// The pins of a USB link have the function that the MCU's data sheet gives for D- and D+.
+/// The pins of a USB link must have the function that the MCU's data sheet gives for D- and D+.
 fn usb_pads(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let board = design.board(on.board).unwrap();
     if on.link.is_some() {
@@ -79,7 +80,8 @@ fn usb_pads(design: &Design, on: &BoardAssignment, hardware: &str, differences: 
     }
 }
 
-/// Each analog sensor has the mean of as many samples as the design says, and the unit makes as many.
+/// Each analog sensor must average as many samples as the design states, and the unit must take as
+/// many.
 fn samples(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let devices = on.devices.iter().filter_map(|one| design.device(one.device));
     for device in devices {
@@ -98,7 +100,7 @@ fn samples(design: &Design, on: &BoardAssignment, hardware: &str, differences: &
     differences.same("room for samples", rooms, depths);
 }
 
-/// Each I2C bus: its wires for the recovery, its duty cycle, and a time-out that is longer than a transfer.
+/// Each I2C bus: its wires for the recovery, its duty cycle, and a time-out longer than a transfer.
 fn ports(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let board = design.board(on.board).unwrap();
     for (name, port) in tables(hardware, "up_i2c_port_t") {
@@ -116,7 +118,7 @@ fn ports(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
         let Some(speed_hz) = numbers(config, ".clock_speed = ").first().copied() else { continue };
         let is_fast = config.contains(".duty_cycle = FAST_DUTY_CYCLE_");
         differences.same(&format!("duty cycle of {unit}"), is_fast, speed_hz > 100_000);
-        // Nine clocks a byte, and the longest of all transfers is on the slowest of all buses.
+        // Nine clocks a byte, assuming that the longest of all transfers is on this bus.
         let longest = numbers(hardware, "_work[").into_iter().max().unwrap_or(0);
         let least_ms = PATIENCE_MS + longest * 9 * 1_000 / speed_hz;
         let timeout_ms = numbers(port, ".timeout_ms = ")[0];
@@ -125,7 +127,7 @@ fn ports(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     }
 }
 
-/// A chip's buffer has room for all that one of its transfers writes and reads.
+/// A chip's buffer must have room for everything that one of its transfers writes and reads.
 fn buffers(hardware: &str, differences: &mut Differences) {
     for (name, transfers) in tables(hardware, "up_chip_transfer_t") {
         let most = transfers.split("\n    {").skip(1).map(|one| {
@@ -140,7 +142,7 @@ fn buffers(hardware: &str, differences: &mut Differences) {
     }
 }
 
-/// Every driver that a table names is started, and every capture is looked at.
+/// Every driver that a table names must be started, and every capture polled.
 fn started(hardware: &str, differences: &mut Differences) {
     let starts = statements(hardware, "sense_start");
     for driver in after(hardware, ".driver = &").into_iter().collect::<BTreeSet<_>>() {
@@ -162,7 +164,8 @@ fn started(hardware: &str, differences: &mut Differences) {
     }
 }
 
-/// Each thread has work of its own, reads what has its cycle, and bears the number of a device of that cycle.
+/// Each thread must have its own work, read the devices of its cycle, and carry the number of a
+/// device of that cycle.
 fn works(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let mut works = after(hardware, ".work = &");
     let stacks = after(hardware, ".stack = ");
@@ -191,7 +194,7 @@ fn works(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     }
 }
 
-/// A filter for each value that the design filters, at its place, and its invalid values.
+/// Each value that the design filters must have a filter at its index, with its invalid values.
 fn filters(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let devices: Vec<_> = on.devices.iter().filter_map(|one| design.device(one.device)).collect();
     let rows = tables(hardware, "up_filtered_t");
@@ -207,7 +210,7 @@ fn filters(design: &Design, on: &BoardAssignment, hardware: &str, differences: &
     differences.same("what is invalid", numbers(&found, ".low.u = UINT64_C("), invalid);
 }
 
-/// The button of the board's facts.
+/// The button must be that of the board's facts.
 fn button(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let board = design.board(on.board).unwrap();
     let Some(button) = board.facts.as_ref().and_then(|facts| facts.button.as_ref()) else { return };
@@ -217,7 +220,8 @@ fn button(design: &Design, on: &BoardAssignment, hardware: &str, differences: &m
     differences.same("level of the button", after(hardware, ".button_pressed = "), vec![level]);
 }
 
-/// Every unit in use is on, the kernel has a timer of its own, and the watchdog its oscillator.
+/// Every unit in use must be enabled; the kernel needs a timer of its own, and the watchdog its
+/// oscillator.
 fn settings(on: &BoardAssignment, folder: &Folder, differences: &mut Differences) {
     let settings = &folder["cfg/mcuconf.h"];
     let value = |name: &str| after(settings, &format!("#define {name} ")).first().copied();

@@ -1,9 +1,9 @@
-//! A generated application on an emulated STM32F4: kernel, shell, link and bus recovery, with all of
-//! the kernel's own checks on.
+//! A generated application on an emulated STM32F4: kernel, shell, link and bus recovery, with all
+//! of the kernel's own checks enabled.
 //!
-//! The emulator has neither DMA nor I2C: analog conversions never end there and every I2C transfer
-//! times out, which is what the test wants of them. Clocks are not started, for the emulator's
-//! hang, and the kernel has the core's tick.
+//! The emulator has neither DMA nor I2C: analog conversions never end and every I2C transfer times
+//! out, as the test requires. Clocks are not started, because the emulator's hang, and the kernel
+//! uses the core's tick.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -55,7 +55,7 @@ fn schema() -> Schema {
         item(2, Direction::Sensor, "Ranger", ScalarType::Uint8),
         item(3, Direction::Sensor, "Wheel", ScalarType::Uint32),
         item(4, Direction::Actuator, "Lamp", ScalarType::Uint8),
-        // An array of one is no scalar: the text of the schema says so.
+        // An array with one element is not a scalar: the text of the schema shows the difference.
         Item {
             value: ValueType { scalar: ScalarType::Uint8, length: Some(1) },
             ..item(5, Direction::Sensor, "Echo", ScalarType::Uint8)
@@ -64,7 +64,7 @@ fn schema() -> Schema {
     Schema { checksum: Checksum::Crc16, stamp: false, items }
 }
 
-/// Gives the application what the emulator needs, and a user's part.
+/// Changes the application as the emulator needs, and adds a user's file.
 fn adapt(board: &Path, user: &str) {
     let change = |path: &str, original: &str, changed: &str| {
         let path = board.join(path);
@@ -91,7 +91,7 @@ fn adapt(board: &Path, user: &str) {
     std::fs::copy(user, board.join("user/user.c")).unwrap();
 }
 
-/// The running board: what it says can be waited for.
+/// The running board, whose output can be waited for.
 struct Board {
     emulator: Child,
     output: Receiver<Vec<u8>>,
@@ -124,7 +124,7 @@ impl Board {
         stdin.flush().unwrap();
     }
 
-    /// Waits until `found` likes what was said since the last time; takes it.
+    /// Waits until `found` accepts the output since the last call, and clears that output.
     fn wait<T>(&mut self, what: &str, found: impl Fn(&[u8]) -> Option<T>) -> T {
         let end = Instant::now() + Duration::from_secs(60);
         loop {
@@ -151,7 +151,7 @@ impl Board {
         })
     }
 
-    /// Asks until the answer has the words.
+    /// Repeats a command until its answer has the words.
     fn shows(&mut self, command: &str, words: &str) {
         let end = Instant::now() + Duration::from_secs(60);
         loop {
@@ -163,7 +163,7 @@ impl Board {
         }
     }
 
-    /// Reports from now on, until there are `count`.
+    /// The reports from now on, as soon as there are `count`.
     fn reports(&mut self, schema: &Schema, count: usize) -> Vec<Vec<(u8, Vec<Scalar>)>> {
         self.wait(&format!("{count} reports"), |said| {
             let mut decoder = Decoder::new(schema, Direction::Sensor);
@@ -177,7 +177,7 @@ impl Board {
         })
     }
 
-    /// Waits until the frames in what was said contain all of `wanted`; returns all of them.
+    /// Waits until the frames in the output contain all of `wanted`; returns all frames.
     fn events(&mut self, wanted: &[Event]) -> Vec<Event> {
         let schema = schema();
         self.wait(&format!("{wanted:?}"), |said| {
@@ -206,7 +206,7 @@ board Buses on \"emulated.csv\" {
 }
 ";
 
-/// `1 frame` of the host, with its checksum.
+/// A frame from the host, with its checksum.
 fn frame(values: &[u8]) -> Vec<u8> {
     let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
         (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
@@ -241,21 +241,21 @@ fn an_application_runs_on_an_emulated_board() {
         assert!(threads.contains(name), "{threads}");
     }
     assert!(board.ask("mem").contains("core free memory"));
-    // A host that has not spoken is as silent as one that speaks no more.
+    // A host that has never sent anything counts as silent, like one that has stopped sending.
     board.shows("print Lamp", "  4 Lamp                     9 (");
     assert!(board.ask("print Wheel").contains("  3 Wheel                    7 ("));
     assert!(board.ask("print Nobody").contains("no such sensor: Nobody"));
-    // The emulator has no DMA: a conversion that never ends is given up and told. Nothing was measured, so nothing is
-    // shown: no zero out of thin air.
+    // The emulator has no DMA: a conversion that never ends is abandoned and counted. Nothing was
+    // measured, so no value is shown, not even a zero.
     let sensors = board.ask("sensors");
     let given_up = sensors.split("  1 IR                       - ").nth(1);
     assert!(given_up.is_some_and(|rest| number_before(rest, "errors") > 0), "{sensors}");
     assert!(number_before(&sensors, "errors") > 0, "{sensors}");
-    // The emulator's pads read low, so that a bus that timed out is not free after it.
+    // The emulator's pads read low, so a bus that timed out stays stuck.
     let link = board.ask("link");
     let (_, stuck) = link.split_once("stayed stuck").unwrap();
     assert!(number_before(stuck, "times") > 0, "{link}");
-    // The very text that the schema hash is made of: hosts compare theirs with it.
+    // The text from which the schema hash is computed; hosts compare it with theirs.
     let text = schema().canonical_text().replace('\n', "\r\n");
     assert!(board.ask("schema").contains(&text));
 
@@ -271,14 +271,14 @@ fn an_application_runs_on_an_emulated_board() {
 
     board.say(b"q");
     board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
-    // The host is silent again: the lamp falls back.
+    // The host is silent again, so the lamp falls back to its failsafe value.
     board.shows("print Lamp", "  4 Lamp                     9 (");
-    // A host that knows nothing of shells asks for a hello, and gets frames.
+    // A host that does not know the shell requests a hello, and gets frames.
     board.say(&frame(&[0]));
     board.events(&[hello, wheel]);
 }
 
-/// A bus that hangs busy must not starve the reporter; and a byte is read as one.
+/// A bus that hangs busy must not starve the reporter, and one byte must be read as one byte.
 #[test]
 fn a_bus_that_hangs_leaves_the_reports_alone() {
     let Some(tree) = tree() else { return };
@@ -287,7 +287,7 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
     }
     let folder = write("buses", BUSES).join("Buses");
     adapt(&folder, "emulated_buses.c");
-    // The runtime's calls of the driver come to the user's part first.
+    // The runtime's calls of the driver go through the user's file first.
     let wrap = "USE_LTO := no\nUSE_LDOPT := --wrap=i2cMasterTransmitTimeout\n";
     std::fs::write(folder.join("user/user.mk"), wrap).unwrap();
     build(&tree, &folder, "production");
@@ -314,8 +314,8 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
         };
         reports.iter().filter_map(of_report).collect::<Vec<_>>()
     };
-    // The wheel tells the board's milliseconds, each report has one.
-    // The input itself has no edges, and says so once a second.
+    // The wheel gives the board's milliseconds; each report has one. The input itself has no edges,
+    // and reports that once a second.
     let is_time = |value: &Scalar| *value != Scalar::Unsigned(0);
     let times: Vec<_> = values(3).into_iter().filter(is_time).collect();
     let (Some(Scalar::Unsigned(first)), Some(Scalar::Unsigned(last))) =
@@ -326,7 +326,7 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
     let per_second = 1_000 * (times.len() as u64 - 1) / (last - first);
     assert!(per_second >= 95, "{per_second} reports a second, {times:?}");
     assert!(values(1).is_empty());
-    // The wrapper answers with how many bytes it was asked for.
+    // The wrapper answers with the number of bytes that it was asked for.
     let bytes = values(2);
     assert!(
         bytes.len() > 20 && bytes.iter().all(|value| *value == Scalar::Unsigned(1)),

@@ -1,5 +1,6 @@
-//! Generated files read back and held against the wiring and the design: a second reader, which shares nothing
-//! with the generator. It knows a few forms of our own C: what pads, tables and options look like.
+//! Generated files are read back and compared with the wiring and the design by a second reader,
+//! which shares nothing with the generator. It only knows a few forms of the generated C: those of
+//! pads, tables and options.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,10 +14,10 @@ use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use super::applications::{CAR, FIG2};
 use super::details;
 
-/// The files of one board, by path in its folder.
+/// The files of one board, by their path in its folder.
 pub(crate) type Folder = BTreeMap<String, String>;
 
-/// No design here names another file.
+/// A source of files that has none, because no design here names another file.
 struct Alone;
 
 impl Files for Alone {
@@ -25,7 +26,7 @@ impl Files for Alone {
     }
 }
 
-/// Solves and generates a design of one board, and hands its files with the rest to `then`.
+/// Solves and generates a design with one board, and passes the results to `then`.
 pub(crate) fn with<T>(text: &str, then: impl FnOnce(&Design, &Assignment, Folder) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("facts.sense", text);
@@ -41,7 +42,7 @@ pub(crate) fn with<T>(text: &str, then: impl FnOnce(&Design, &Assignment, Folder
     then(design, wiring, folder)
 }
 
-/// What stands after each `prefix`, up to the first sign that is not of a number or a word.
+/// The text after each `prefix`, up to the first character that is not part of a number or a word.
 pub(super) fn after<'a>(text: &'a str, prefix: &str) -> Vec<&'a str> {
     let rest = text.split(prefix).skip(1);
     let word = |rest: &'a str| {
@@ -51,7 +52,7 @@ pub(super) fn after<'a>(text: &'a str, prefix: &str) -> Vec<&'a str> {
     rest.map(word).collect()
 }
 
-/// The same as numbers: `17U`, `0x73U`, `-3`.
+/// The numbers after each `prefix`: `17U`, `0x73U`, `-3`.
 pub(super) fn numbers(text: &str, prefix: &str) -> Vec<i64> {
     let number = |word: &str| {
         let word = word.trim_end_matches('U');
@@ -66,7 +67,7 @@ fn set<T: Ord + Clone>(all: &[T]) -> BTreeSet<T> {
     all.iter().cloned().collect()
 }
 
-/// Notes what differs.
+/// Collects the differences.
 pub(super) struct Differences(Vec<String>);
 
 impl Differences {
@@ -77,7 +78,7 @@ impl Differences {
     }
 }
 
-/// What of the files is not as the wiring and the design have it.
+/// All differences of the files from the wiring and the design.
 pub(crate) fn differences(design: &Design, wiring: &Assignment, folder: &Folder) -> Vec<String> {
     let mut differences = Differences(Vec::new());
     let (on, _) = wiring.used(design).next().unwrap();
@@ -93,7 +94,7 @@ pub(crate) fn differences(design: &Design, wiring: &Assignment, folder: &Folder)
     differences.0
 }
 
-/// Each pin by its own number, and with the function of its wire.
+/// Each pin must have its own number, and the function of its wire.
 fn pads(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let board = design.board(on.board).unwrap();
     let mut modes = BTreeMap::new();
@@ -132,7 +133,7 @@ fn pads(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut
     }
 }
 
-/// The driver objects are those of the units in the wiring; the channels those of the signals.
+/// The driver objects must be those of the units in the wiring, the channels those of the signals.
 fn units(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let board = design.board(on.board).unwrap();
     for (unit, driver) in [("ADC", "&ADCD"), ("I2C", "&I2CD"), ("TIM", "&ICUD")] {
@@ -162,7 +163,7 @@ fn units(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     differences.same("capture channels", found, captured);
 }
 
-/// What the devices of buses are asked with.
+/// Checks how devices on buses are read: addresses, registers, lengths, waits and so on.
 fn buses(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let all: Vec<_> = on
         .devices
@@ -205,7 +206,7 @@ fn buses(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     differences.same("clocks", clocks.iter().all(|hz| *hz <= fastest && *hz * 2 > fastest), true);
 }
 
-/// Edges and ticks.
+/// Checks edges and ticks.
 fn captures(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
     let mut ticks = Vec::new();
     for one in &on.devices {
@@ -234,7 +235,7 @@ fn captures(design: &Design, on: &BoardAssignment, hardware: &str, differences: 
     differences.same("falling edges", falling, wanted.count());
 }
 
-/// A thread a class, with its cycle and priority.
+/// Each class must have a thread with its cycle and priority.
 fn threads(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &mut Differences) {
     let (hardware, conf) = (&folder["generated/sense_hw.c"], &folder["cfg/up_conf.h"]);
     let devices = on.devices.iter().filter_map(|one| design.device(one.device));
@@ -250,7 +251,7 @@ fn threads(design: &Design, on: &BoardAssignment, folder: &Folder, differences: 
     differences.same("cycles and priorities", pulses || found == pairs, true);
     let tasks = i64::try_from(hardware.matches("        .cycle = ").count()).unwrap();
     differences.same("number of threads", numbers(conf, "UP_TASKS_COUNT "), vec![tasks]);
-    // Each sensor is read in one place.
+    // Each sensor must be read in exactly one place.
     let names = on.devices.iter().filter_map(|one| design.device(one.device));
     let mut names: Vec<&str> = names.map(|one| one.name.value.as_str()).collect();
     let mut read = after(hardware, ".field = SENSE_FIELD_");
@@ -259,7 +260,7 @@ fn threads(design: &Design, on: &BoardAssignment, folder: &Folder, differences: 
     differences.same("who is read", read, names);
 }
 
-/// Identifiers, types and directions in the file's order.
+/// Identifiers, types and directions, in the file's order.
 fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &mut Differences) {
     let model = &folder["generated/sense_model.c"];
     let indices: Vec<_> = on.devices.iter().map(|one| one.device).collect();
@@ -304,7 +305,7 @@ fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &
     }
 }
 
-/// The streams of the wiring, each where its option says.
+/// The DMA streams of the wiring, each as its option states.
 fn streams(on: &BoardAssignment, settings: &str, differences: &mut Differences) {
     let wanted: BTreeSet<String> = on
         .dma

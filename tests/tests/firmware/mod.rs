@@ -1,9 +1,11 @@
-//! Firmware: the runtime's core compiled for host and Cortex-M, run against the shared wire vectors
-//! with sanitizers and on an emulated Cortex-M4; and generated applications built with ChibiOS.
+//! Firmware: the runtime's core, compiled for host and Cortex-M and run against the shared wire
+//! vectors, both with sanitizers and on an emulated Cortex-M4; and generated applications built
+//! with ChibiOS.
 //!
-//! What a machine may lack is skipped loudly (`SKIPPED: …` on stderr); with `SENSEDSL_REQUIRE_TOOLS=1`
-//! a tool that package registries have is then a failure. `CHIBIOS` names a ChibiOS 21.11 source
-//! tree, which no registry has: without it the generated applications are only looked at.
+//! Tests whose tools are missing are skipped with a notice (`SKIPPED: …` on stderr); with
+//! `SENSEDSL_REQUIRE_TOOLS=1`, a missing tool that package registries have is a failure. `CHIBIOS`
+//! names a ChibiOS 21.11 source tree, which no registry has: without it, generated applications are
+//! read but not built.
 
 mod analog;
 mod applications;

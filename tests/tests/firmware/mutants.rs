@@ -1,9 +1,11 @@
-//! Mistakes put into generated files, one at a time, and who notices: the second reader (`facts`, `details`), and a
-//! compiler with the stub headers (`stubs`). Golden files see every change, so they say nothing here.
+//! Mistakes put into generated files, one at a time, with the checks that notice them: the second
+//! reader (`facts`, `details`), and a compiler with the stub headers (`stubs`). Golden files see
+//! every change, so they are not counted here.
 //!
-//! `docs/mutants.md` is the table, written by `SENSEDSL_BLESS=1 cargo test --workspace --test all firmware::mutants`.
-//! What only a compiler with the real tree notices counts as not noticed, for most machines have none; `-- --ignored
-//! firmware::mutants --nocapture` asks the tree as well (`CHIBIOS`).
+//! `docs/mutants.md` has the table; `SENSEDSL_BLESS=1 cargo test --workspace --test all
+//! firmware::mutants` writes it. A mistake that only a compiler with the real tree notices counts
+//! as unnoticed, because most machines have no tree; `-- --ignored firmware::mutants --nocapture`
+//! checks with the tree too (`CHIBIOS`).
 
 use std::path::Path;
 use std::process::Command;
@@ -19,10 +21,10 @@ const MODEL_H: &str = "generated/sense_model.h";
 const MCU: &str = "cfg/mcuconf.h";
 const CONF: &str = "cfg/up_conf.h";
 
-/// What is wrong, in which file, and the text that is replaced: the first one that there is.
+/// A mistake: its name, its file, the text whose first occurrence is replaced, and the replacement.
 type Mutant = (&'static str, &'static str, &'static str, &'static str);
 
-/// Of Fig. 2.
+/// Mistakes in the files of Fig. 2.
 const MUTANTS: &[Mutant] = &[
     ("pad of another number", HARDWARE, "PAL_LINE(GPIOB, 1U)", "PAL_LINE(GPIOB, 2U)"),
     ("pad of another port", HARDWARE, "PAL_LINE(GPIOB, 4U)", "PAL_LINE(GPIOC, 4U)"),
@@ -120,10 +122,11 @@ const MUTANTS: &[Mutant] = &[
     ("number of threads", CONF, "UP_TASKS_COUNT 3U", "UP_TASKS_COUNT 2U"),
 ];
 
-/// Those that nobody notices, and why that stays so: what a board on the bench would have to show.
+/// Mistakes that nothing notices, and the reason: only a board on the bench would show them.
 const UNSEEN: &[(&str, &str)] = &[];
 
-/// Those that survived once, or that only the tree noticed: the check that notices them was written after that.
+/// Mistakes that once survived, or that only the tree noticed; the checks that notice them were
+/// written later.
 const SURVIVED: [&str; 15] = [
     "alternate function of the link",
     "samples",
@@ -142,7 +145,8 @@ const SURVIVED: [&str; 15] = [
     "the kernel's timer",
 ];
 
-/// The files compiled with the tree: ours, and those of the tree that read our settings.
+/// The files compiled with the tree: the generated ones, and those of the tree that read the
+/// generated settings.
 const OBJECTS: [&str; 7] =
     ["sense_hw", "sense_model", "up_rt", "up_report", "hal_st_lld", "hal_adc_lld", "hal_icu_lld"];
 
@@ -150,7 +154,7 @@ fn write(folder: &Path, files: &Folder) {
     for (path, text) in files {
         let path = folder.join(path);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        // What has not changed keeps its time, so that make compiles what has.
+        // An unchanged file keeps its time, so that make compiles only what has changed.
         if std::fs::read_to_string(&path).is_ok_and(|there| there == *text) {
             continue;
         }
@@ -158,7 +162,7 @@ fn write(folder: &Path, files: &Folder) {
     }
 }
 
-/// Whether the real tree's compiler, or a guard, stops or warns.
+/// Whether the compiler with the real tree, or a guard, stops or warns.
 fn tree_notices(tree: &Path, folder: &Path) -> bool {
     let mut make = Command::new("make");
     make.current_dir(folder).arg("-j2").arg(format!("CHIBIOS={}", tree.display()));
@@ -167,7 +171,7 @@ fn tree_notices(tree: &Path, folder: &Path) -> bool {
     !output.status.success() || String::from_utf8_lossy(&output.stderr).contains("warning")
 }
 
-/// A design's files with one mutant after the other in them, and what `then` makes of each.
+/// Puts one mutant after the other into a design's files, and passes each result to `then`.
 fn each(name: &str, mut then: impl FnMut(&'static Mutant, [bool; 2], &Path)) {
     facts::with(FIG2, |design, wiring, folder| {
         let macros = stubs::macros_of("STM32F4DiscoveryBoard");
@@ -183,10 +187,10 @@ fn each(name: &str, mut then: impl FnMut(&'static Mutant, [bool; 2], &Path)) {
             assert!(text.contains(find), "{what}: {path} has no `{find}`");
             *text = text.replacen(find, with, 1);
             write(&place, &mutated);
-            // A header is read by many, a source by itself.
+            // A header is included in many files; a source is compiled by itself.
             let changed = if path.ends_with(".c") { vec![*path] } else { sources.clone() };
             let notices = [
-                // What it cannot read at all it has noticed as well.
+                // If the reader cannot read the files at all, it has noticed as well.
                 std::panic::catch_unwind(|| {
                     !facts::differences(design, wiring, &mutated).is_empty()
                 })
@@ -213,7 +217,7 @@ survived once, or only the real tree noticed it, and the check that notices it w
 than the others, because the check was made for it. The page is written by the test that makes the mistakes.
 ";
 
-/// What a file is about.
+/// The subject of a file.
 fn class(path: &str) -> &'static str {
     match path {
         HARDWARE => "Wires, drivers and threads",
@@ -286,7 +290,7 @@ fn mutants_are_noticed_by_the_tree() {
     assert!(seen >= 8, "{seen}");
 }
 
-/// Each mutant is of a text that is there, so that the list follows the templates.
+/// The text that each mutant replaces must exist, so that the list follows the templates.
 #[test]
 fn mutants_are_of_texts_that_are_there() {
     facts::with(FIG2, |_, _, folder| {

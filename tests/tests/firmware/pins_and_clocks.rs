@@ -1,4 +1,5 @@
-//! What only some families have: pins that move by the block (STM32F1), and a clock that divides to little (STM32L4).
+//! Features of only some families: pins that are remapped in blocks (STM32F1), and a clock with few
+//! divisors (STM32L4).
 
 use super::applications::files;
 use super::stubs;
@@ -7,7 +8,8 @@ fn hardware(text: &str, board: &str) -> String {
     files(text)[&format!("{board}/generated/sense_hw.c")].clone()
 }
 
-/// The field of each peripheral gets the number of the block in which its pins are, by the tables of RM0008.
+/// The field of each peripheral gets the number of the block that has its pins, according to the
+/// tables of RM0008.
 #[test]
 fn remaps_of_f1_are_those_of_the_pins() {
     let icu = |pin: &str| format!("sensor A returns uint32 {{ id = 1; type = icu; pin = {pin}; }}");
@@ -43,7 +45,7 @@ fn remaps_of_f1_are_those_of_the_pins() {
         assert!(wanted.is_some_and(|set| text.contains(&set)), "{device}\n{text}");
         let cleared = text.split("& ~(").nth(1).unwrap().split("))").next().unwrap();
         assert!(cleared.contains(&field), "{device}: {cleared}");
-        // What is read of the debug port's field is not what was written.
+        // The value read from the debug port's field is not the value that was written.
         assert!(cleared.starts_with("AFIO_MAPR_SWJ_CFG | "), "{device}: {cleared}");
         assert!(text.contains("AFIO_MAPR_SWJ_CFG_JTAGDISABLE"), "{device}");
         let says = text.contains("the debug port on two wires");
@@ -52,8 +54,8 @@ fn remaps_of_f1_are_those_of_the_pins() {
     }
 }
 
-/// The demos of STM32L4 run at 79.96 MHz: what does not divide within a thousandth is refused, and what is made is what
-/// is said.
+/// The demos of STM32L4 run at 79.96 MHz: a rate that does not divide to within a thousandth is
+/// refused, and the generated code has the rates that it states.
 #[test]
 fn the_clock_of_l4_is_what_it_is() {
     const HZ: u32 = 79_960_000;
@@ -88,6 +90,6 @@ fn the_clock_of_l4_is_what_it_is() {
     };
     let (tick_hz, period) = (number("frequency"), number("period"));
     assert_eq!(HZ % tick_hz, 0, "{tick_hz}");
-    // 50 Hz, to a per mille.
+    // 50 Hz, within a per mille.
     assert!(tick_hz.abs_diff(50 * period) <= tick_hz / 1_000, "{tick_hz} / {period}");
 }

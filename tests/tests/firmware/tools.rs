@@ -1,4 +1,4 @@
-//! Compilers and emulators: found or loudly missed, run with their output kept.
+//! Compilers and emulators: found or reported as missing, and run with their output kept.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -8,7 +8,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf()
 }
 
-/// A folder of this test's own, empty.
+/// An empty folder for this test.
 pub(crate) fn scratch(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware").join(name);
     if folder.exists() {
@@ -18,7 +18,7 @@ pub(crate) fn scratch(name: &str) -> PathBuf {
     folder
 }
 
-/// True when the tool runs; otherwise says so, or fails where tools are required.
+/// True if the tool runs; otherwise reports it, or fails if tools are required.
 pub(crate) fn has(tool: &str) -> bool {
     let found = Command::new(tool).arg("--version").output().is_ok_and(|out| out.status.success());
     if !found {
@@ -41,7 +41,7 @@ pub(crate) fn run(command: &mut Command) -> Output {
     output
 }
 
-/// Files of a folder with an ending, sorted.
+/// The files of a folder with this extension, sorted.
 pub(crate) fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());

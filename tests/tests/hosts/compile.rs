@@ -9,7 +9,7 @@ use sensedsl_tests::few;
 
 use super::{designs, files, tools};
 
-/// Holds all sources of a generated host to their language, as the host says.
+/// Compiles all sources of a generated host with the options that the host states.
 pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Path]) {
     for source in files::sources(folder, compiler.extension) {
         let mut command = Command::new(compiler.program);
@@ -24,7 +24,7 @@ pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Pat
     }
 }
 
-/// Those that include a middleware are compiled where its tree is: `middleware.rs`.
+/// Hosts that include a middleware are compiled in `middleware.rs`, if its tree is available.
 #[test]
 fn every_host_is_of_its_language() {
     for host in HOSTS {

@@ -6,7 +6,7 @@ use sensedsl_job::host::HostBoard;
 use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 
-/// `17 sensor IRFront uint16`, a line each.
+/// A board from lines such as `17 sensor IRFront uint16`.
 pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
     let items = items.lines().map(str::trim).filter(|line| !line.is_empty()).map(item).collect();
     HostBoard {
@@ -45,7 +45,7 @@ pub(crate) fn fig2() -> Vec<HostBoard> {
     vec![board("STM32F4DiscoveryBoard", Checksum::None, items)]
 }
 
-/// Each type alone and as an array, both ways, every value shown scaled.
+/// Each type as a single value and as an array, in both directions, with every value scaled.
 pub(crate) fn all_types() -> Vec<HostBoard> {
     let mut lines = String::new();
     for (index, scalar) in ScalarType::ALL.into_iter().enumerate() {
@@ -78,8 +78,8 @@ pub(crate) fn all_types() -> Vec<HostBoard> {
     vec![board]
 }
 
-/// Names that mean something in C++, in the system's headers or in the generated files, and texts
-/// that try to leave their literal or comment.
+/// Names that have a meaning in C++, in system headers or in the generated files, and texts that
+/// try to break out of their literal or comment.
 pub(crate) fn hostile() -> Vec<HostBoard> {
     let names = "default int class namespace and ECHO EOF linux NULL assert errno stdin B0 CR1 \
                  sense sensedsl std core odcore cluon main id name raw value schema Decoder \
@@ -113,7 +113,8 @@ pub(crate) fn hostile() -> Vec<HostBoard> {
     vec![board]
 }
 
-/// Three boards: one with checksum, stamps and a limit of silence, one that only listens, one with neither sensor nor actuator.
+/// Three boards: one with checksum, stamps and a silence limit, one that only listens, one with
+/// neither sensor nor actuator.
 pub(crate) fn several_boards() -> Vec<HostBoard> {
     let mut front =
         board("Front", Checksum::Crc16, "1 sensor Left uint16\n2 actuator Steering int16");
@@ -126,7 +127,7 @@ pub(crate) fn several_boards() -> Vec<HostBoard> {
     ]
 }
 
-/// Every design with a name for its folders.
+/// Every design, with a name for its folders.
 pub(crate) fn all() -> Vec<(&'static str, Vec<HostBoard>)> {
     vec![
         ("fig2", fig2()),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use sensedsl_generate::host;
 use sensedsl_job::host::{HostBoard, HostPlan};
 
-/// A folder of this test run, empty.
+/// An empty folder for this test run.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts").join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -13,12 +13,12 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Writes one host of a design, called `robot`, into an own folder.
+/// Writes one host of a design, called `robot`, into a folder of its own.
 pub(crate) fn generate(host: &str, test: &str, boards: &[HostBoard]) -> PathBuf {
     generate_as("robot", host, test, boards)
 }
 
-/// The same with another name.
+/// Like [`generate`], with another name.
 pub(crate) fn generate_as(name: &str, host: &str, test: &str, boards: &[HostBoard]) -> PathBuf {
     let path = folder(&format!("{test}-{host}"));
     let files = host::find(host).unwrap().render(&HostPlan::new(name, boards));

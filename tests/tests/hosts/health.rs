@@ -1,4 +1,4 @@
-//! Stamps and health at the example of host `cpp`, this test playing a board that has them.
+//! Stamps and health in the example of host `cpp`; the test plays a board that sends them.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -49,7 +49,7 @@ fn healthy() -> Health {
     }
 }
 
-/// The monitor on a line, and the board that it takes for its own.
+/// The monitor on a line, and the state of the board that the test plays.
 struct Scene {
     line: Line,
     schema: Schema,
@@ -107,7 +107,8 @@ fn health_becomes_lines_and_warnings() {
          212 bytes of stack left\n  IRFront  good, 12 ms ago\n  Servo    never set\n  Wheel    good, 1.2 s ago\n",
     );
     assert!(!scene.monitor.output().contains("IRFront: "), "{}", scene.monitor.output());
-    // Told once however often it is said, with its causes, and once when it is over.
+    // A failure is reported once with its causes, however often it arrives, and once when it is
+    // over.
     let mut failed = healthy();
     failed.devices[0].status = Status::Failed;
     failed.devices[0].causes =
@@ -125,7 +126,7 @@ fn health_becomes_lines_and_warnings() {
             "  IRFront  failed, 12 ms ago: 19 not acknowledged, 65535 or more timed out\n"
         )
     );
-    // A watchdog's reset is told once for each start.
+    // A reset by the watchdog is reported once for each start.
     let hung = Health {
         uptime_ms: 1_500,
         reset_cause: ResetCause::Watchdog,
@@ -181,18 +182,18 @@ fn stamps_tell_the_time_and_what_was_lost() {
     let mut scene = Scene::start(&program, &["--time"]);
     scene.report(1_500_000, 254, 300);
     scene.report(1_520_000, 255, 301);
-    // Two are lost, and counter and time wrap.
+    // Two reports are lost, and counter and time wrap.
     scene.report(1_580_007, 2, 302);
     scene
         .monitor
         .wait_for("1.500000  IRFront = 300\n1.520000  IRFront = 301\n1.580007  IRFront = 302\n");
-    // The board starts anew: nothing is known of what was lost meanwhile.
+    // The board restarts: the reports lost meanwhile cannot be counted.
     scene.report(20, 0, 303);
     scene.report(20_020, 1, 304);
     scene.monitor.wait_for("0.000020  IRFront = 303\n0.020020  IRFront = 304\n");
     let Scene { line, monitor, .. } = scene;
     drop(line);
-    // The hello is a frame as well.
+    // The hello counts as a frame too.
     monitor.wait_for("6 frames, 0 bytes dropped, 2 reports lost\n");
 }
 
@@ -209,7 +210,7 @@ fn typed_commands_are_held() {
         .unwrap();
     line.hear(4, LONG);
     line.say(&encode_hello(&schema));
-    // The silence of the design is 200 ms; a machine that is busy is late now and then.
+    // The design's silence is 200 ms; a busy machine is sometimes late.
     let (mut frames, start) = (0, Instant::now());
     let mut decoder = Decoder::new(&schema, Direction::Actuator);
     while start.elapsed() < Duration::from_secs(2) {

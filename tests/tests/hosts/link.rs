@@ -1,5 +1,6 @@
-//! What each host does when its board goes, comes back, is another one, or is somebody else's already:
-//! the same scenes on a pseudo-terminal for all of them, this test playing the board.
+//! The behaviour of each host when its board goes, comes back, is a different one, or is already in
+//! use by another program. All hosts go through the same scenes on a pseudo-terminal; the test
+//! plays the board.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -13,9 +14,9 @@ use super::terminal::Line;
 use super::tools::Background;
 use super::{designs, files};
 
-/// A host application of Fig. 2 that prints each value as `IRFront = 300` and what else happens.
+/// A host application of Fig. 2 that prints each value as `IRFront = 300`, and other events.
 pub(crate) struct Application<'a> {
-    /// For folders and messages.
+    /// The name for folders and messages.
     pub(crate) name: &'static str,
     /// The program's own name, as the system knows it.
     pub(crate) program: &'static str,
@@ -23,7 +24,7 @@ pub(crate) struct Application<'a> {
     pub(crate) start: &'a dyn Fn(&Path) -> Background,
 }
 
-/// Fig. 2 with a cycle of 40 ms for each sensor.
+/// Fig. 2 with a cycle time of 40 ms for each sensor.
 pub(crate) fn design() -> Vec<HostBoard> {
     let mut boards = designs::fig2();
     for id in [17, 18, 19, 20] {
@@ -38,8 +39,8 @@ fn frame(schema: &Schema, front: u64) -> Vec<u8> {
     encode_report(schema, Direction::Sensor, &values).unwrap()
 }
 
-/// A board on a thread: it answers requests with its hello, has a shell where it is given one, and
-/// says `IRFront = front` every 20 ms whether it was asked or not.
+/// A board on a thread: it answers requests with its hello, has a shell if `has_shell`, and sends
+/// `IRFront = front` every 20 ms whether it was asked or not.
 struct Board {
     stop: Sender<()>,
     thread: Option<JoinHandle<()>>,
@@ -79,7 +80,7 @@ impl Drop for Board {
     }
 }
 
-/// A name for the board's device that stays, as `/dev/serial/by-id` has them.
+/// Gives the board's device a stable name, like those in `/dev/serial/by-id`.
 fn name_for(link: &Path, device: &Path) {
     let fresh = link.with_extension("new");
     let _ = std::fs::remove_file(&fresh);
@@ -87,13 +88,14 @@ fn name_for(link: &Path, device: &Path) {
     std::fs::rename(fresh, link).unwrap();
 }
 
-/// The board is unplugged, and its name with it: the next terminal that any other test opens may have its number.
+/// Unplugs the board and removes its name, because the next terminal that another test opens may
+/// get its number.
 fn unplug(link: &Path, board: Board) {
     std::fs::remove_file(link).unwrap();
     drop(board);
 }
 
-/// The same for every host.
+/// The scenes, which are the same for every host.
 pub(crate) fn scenes(application: &Application<'_>) {
     unplugged_and_plugged_again(application);
     the_second_opener_is_told(application);
@@ -105,7 +107,7 @@ fn folder(application: &Application<'_>, scene: &str) -> PathBuf {
     files::folder(&format!("{scene}-{}", application.name))
 }
 
-/// The time is that of the quickest of three: the machine may be busy.
+/// Judges the fastest of three tries, because the machine may be busy.
 fn unplugged_and_plugged_again(application: &Application<'_>) {
     let boards = design();
     let link = folder(application, "replug").join("board");
@@ -143,7 +145,7 @@ fn the_second_opener_is_told(application: &Application<'_>) {
     let told = format!(
         "cannot open {}: {} (process {}) has it open: end that program first\n",
         device.display(),
-        // The system keeps 15 characters of a name.
+        // The system keeps only 15 characters of a name.
         application.program.get(..15).unwrap_or(application.program),
         first.child.id()
     );
@@ -162,7 +164,8 @@ fn other_firmware_shows_not_one_value(application: &Application<'_>) {
     for has_shell in [true, false] {
         let mut line = Line::new();
         let device = line.device.clone();
-        // Queued before the host opens it, and more before it is asked.
+        // Some values are queued before the host opens the device, and more before it asks the
+        // board.
         for front in 0..10 {
             line.say(&frame(&design()[0].schema, front));
         }
@@ -180,7 +183,7 @@ fn other_firmware_shows_not_one_value(application: &Application<'_>) {
     }
 }
 
-/// The first three requests are lost, and so are the values that come with them.
+/// The first three requests are lost; the values that arrive with them must not be shown.
 fn asked_until_answered(application: &Application<'_>) {
     let board = &design()[0];
     let mut line = Line::new();
@@ -194,6 +197,6 @@ fn asked_until_answered(application: &Application<'_>) {
     host.wait_for("IRFront = 300\n");
     assert!(!host.output().contains("IRFront = 0\n"), "{}", host.output());
     assert!(!host.output().contains("IRFront = 2\n"), "{}", host.output());
-    // Before its board is gone, whose terminal it would wait for.
+    // The host must end before its board is gone; otherwise it would wait for the board's terminal.
     drop(host);
 }

@@ -1,5 +1,6 @@
-//! The libcluon and OpenDaVINCI hosts with those projects' trees, where they are given: compiled, run on
-//! a pseudo-terminal, and heard and commanded by other programs.
+//! The libcluon and OpenDaVINCI hosts with the trees of those projects, if given: compiled, run on
+//! a pseudo-terminal, and connected to other programs that receive their messages and send
+//! commands.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,12 +18,12 @@ use super::terminal::Line;
 use super::tools::{self, Background};
 use super::{designs, files, link, shown};
 
-/// A session of its own for each test and run.
+/// A session identifier that is unique to a test and a run.
 fn session(test: u32) -> String {
     (10 + 9 * (std::process::id() % 27) + test).to_string()
 }
 
-/// How the host says that its sources are compiled.
+/// The compiler and options that the host states for its sources.
 fn compiler(name: &str) -> Compile {
     host::find(name).unwrap().compile()
 }
@@ -36,7 +37,7 @@ fn have_pycluon() -> bool {
     found
 }
 
-/// One report of every sensor of design `all-types`, with telling values.
+/// One report with every sensor of the design `all-types`, with values that reveal mistakes.
 fn full_report(board: &HostBoard) -> Vec<u8> {
     let sensors = board.schema.items.iter().filter(|item| item.direction == Direction::Sensor);
     let values: Vec<(u8, Vec<Scalar>)> = sensors
@@ -60,7 +61,7 @@ fn full_report(board: &HostBoard) -> Vec<u8> {
     encode_report(&board.schema, Direction::Sensor, &values).unwrap()
 }
 
-/// Waits until the board has heard these commands, each at least once, and nothing else.
+/// Waits until the board has received each of these commands at least once, and nothing else.
 fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar>)]) {
     let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
     let mut heard = Vec::new();
@@ -70,7 +71,8 @@ fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar
         let bytes = line.hear(1, Duration::from_millis(100));
         decoder.feed(&bytes, |event| match event {
             Event::Report(_, values) => heard.extend(values),
-            // The host asks until it is answered: one more may have been on its way.
+            // The host repeats its request until it is answered, so one more may have been on its
+            // way.
             Event::HelloRequest | Event::HealthRequest => {}
             Event::Hello(_) | Event::Health(_) | Event::OtherHealth(_) => panic!("{event:?}"),
         });
@@ -127,7 +129,7 @@ fn libcluon_compiles() {
     }
 }
 
-/// As its README says.
+/// Builds the host as its README states.
 fn build_libcluon(tree: &Path, folder: PathBuf) -> (PathBuf, PathBuf) {
     let build = folder.join("build");
     let mut configure = Command::new("cmake");
@@ -184,7 +186,7 @@ fn libcluon_speaks_with_an_independent_peer() {
     );
     greet(&mut line, &boards[0]);
     line.say(&full_report(&boards[0]));
-    // Number and sender stamp, raw, and where the design asks for it the scaled value.
+    // Number and sender stamp, the raw value, and the scaled value if the design has one.
     for expected in [
         "21001 1 raw=True\n",
         "21003 3 raw=-128 value=-64.0\n",
@@ -253,12 +255,12 @@ fn libcluon_shows_values_through_curves() {
     }
 }
 
-/// Two commands of design `all-types` for `commander.cpp`.
+/// Two commands of the design `all-types` for `commander.cpp`.
 const BIG_AND_PAIR: &str = "sense::robot::T7 big; big.setRaw(0x0123456789ABCDEFU); \
     SEND(sense::robot::T7, big) sense::robot::B4 pair; pair.setRaw(0, -300); pair.setRaw(1, 32767); \
     SEND(sense::robot::B4, pair)";
 
-/// One of the two OpenDaVINCI hosts and where its tree has what.
+/// One of the two OpenDaVINCI hosts, with the paths in its tree.
 struct OpenDavinci {
     host: &'static str,
     include: PathBuf,
@@ -319,7 +321,7 @@ impl OpenDavinci {
         program
     }
 
-    /// A program that sends these commands again and again.
+    /// Builds a program that sends these commands repeatedly.
     fn commander(&self, folder: &Path, commands: &str) -> PathBuf {
         let header = folder.join("include/commands.h");
         std::fs::write(header, format!("#define COMMANDS {commands}\n")).unwrap();
@@ -342,7 +344,7 @@ impl OpenDavinci {
         found
     }
 
-    /// What happens to its board.
+    /// Checks how the host reacts when its board goes and comes back.
     fn comes_back(&self, cid: &str) {
         if !self.can_run() {
             return;
@@ -362,7 +364,7 @@ impl OpenDavinci {
         link::scenes(&link::Application { name: self.host, program: "robot_Board", start: &start });
     }
 
-    /// Values through curves, and arrays, both ways, as the design's file has them.
+    /// Values through curves, and arrays, in both directions, as the design's file defines them.
     fn shows(&self, cid: &str) {
         if !self.can_run() {
             return;
@@ -394,8 +396,8 @@ impl OpenDavinci {
         application.wait_for(&format!("Winch: not sent: {}\n", shown::REFUSED));
     }
 
-    /// The board's values reach another application as Containers, another application's Containers
-    /// reach the board.
+    /// The board's values reach another application as Containers, and another application's
+    /// Containers reach the board.
     fn run(&self, cid: &str) {
         if !self.can_run() {
             return;

@@ -1,5 +1,5 @@
-//! The table of `docs/hosts.md` is what the hosts say of themselves.
-//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests hosts::page` writes it anew.
+//! The table of `docs/hosts.md` agrees with the hosts' own descriptions. `SENSEDSL_BLESS=1 cargo
+//! test -p sensedsl-tests hosts::page` rewrites it.
 
 use sensedsl_generate::host::HOSTS;
 use sensedsl_tests::{root, text};

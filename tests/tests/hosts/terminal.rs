@@ -1,4 +1,4 @@
-//! The example of host `cpp` on a pseudo-terminal, this test playing the board.
+//! The example of host `cpp` on a pseudo-terminal; the test plays the board.
 
 use std::fs::File;
 use std::io::{Read as _, Write as _};
@@ -14,8 +14,8 @@ use sensedsl_wire::{
 
 use super::{designs, files, tools};
 
-/// The board's end of a serial line. The host's end starts as a login terminal would: it echoes and
-/// waits for whole lines, unless the host makes it raw.
+/// The board's end of a serial line. The host's end starts like a login terminal: it echoes and
+/// waits for whole lines, until the host makes it raw.
 pub(crate) struct Line {
     board: File,
     /// The device that the host opens.
@@ -34,7 +34,7 @@ impl Line {
         Self { board: File::from(board), device: device.into() }
     }
 
-    /// As a board does, whether anybody listens or not.
+    /// Sends like a board, whether anybody listens or not.
     pub(crate) fn say(&mut self, bytes: &[u8]) {
         match self.board.write_all(bytes) {
             Err(error) if error.kind() != std::io::ErrorKind::WouldBlock => panic!("{error}"),
@@ -42,7 +42,7 @@ impl Line {
         }
     }
 
-    /// All of the bytes, however slowly the host takes them.
+    /// Sends all of the bytes, however slowly the host takes them.
     pub(crate) fn say_all(&mut self, mut bytes: &[u8]) {
         let start = Instant::now();
         while !bytes.is_empty() {
@@ -57,14 +57,14 @@ impl Line {
         }
     }
 
-    /// What the host has sent.
+    /// Bytes that the host has sent.
     pub(crate) fn heard(&mut self) -> Vec<u8> {
         let mut bytes = [0_u8; 256];
         let count = self.board.read(&mut bytes).unwrap_or(0);
         bytes[..count].to_vec()
     }
 
-    /// What the host sends within the time, or the first `enough` bytes of it.
+    /// The bytes that the host sends within the time, or the first `enough` of them.
     pub(crate) fn hear(&mut self, enough: usize, time: Duration) -> Vec<u8> {
         let start = Instant::now();
         let mut heard = Vec::new();
@@ -79,7 +79,7 @@ impl Line {
     }
 }
 
-/// Compiles the example as its README says and hands back the program.
+/// Compiles the example as its README states, and returns the folder and the program.
 pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(PathBuf, PathBuf)> {
     if !tools::have("g++") {
         return None;
@@ -97,7 +97,7 @@ pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(Pa
     Some((folder, program))
 }
 
-/// A host asks what it likes meanwhile.
+/// Whether an event is a command; hosts send requests whenever they like.
 pub(crate) fn is_command(event: &Event) -> bool {
     !matches!(event, Event::HelloRequest | Event::HealthRequest)
 }
@@ -121,7 +121,8 @@ fn the_paper_s_frames_become_lines() {
     line.say(&encode_hello(&boards[0].schema));
     assert_eq!(fig2_frame(300, 0, 255, 100_000).len(), 17);
     line.say(&fig2_frame(300, 0, 255, 100_000));
-    // Every byte that a terminal likes to act on: interrupt, end of file, return, flow control, stop, erase.
+    // All bytes that a terminal may act on: interrupt, end of file, return, flow control, stop,
+    // erase.
     line.say(&fig2_frame(0x0304, 0x0d11, 0x13, 0x1a1c_7f0a));
     line.say(b"ch> \r\n9:");
     line.say(&fig2_frame(1, 2, 3, 4)[..10]);
@@ -151,7 +152,7 @@ fn a_board_of_another_design_is_told() {
     command.arg(&line.device).stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = command.spawn().unwrap();
     line.hear(4, Duration::from_secs(10));
-    // In one piece: what comes behind the hello must not be shown either.
+    // The stream is sent in one piece: values after the hello must not be shown either.
     let mut stream = encode_hello(&designs::several_boards()[1].schema);
     stream.extend(fig2_frame(1, 2, 3, 4));
     line.say(&stream);

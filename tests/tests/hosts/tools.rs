@@ -1,4 +1,4 @@
-//! Finding and running the programs of this machine.
+//! Finding and running this machine's programs.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
-/// Whether the program answers `--version`. Loudly says so when not; a failure when tools are required.
+/// Whether the program answers `--version`. If not, it is reported; the test fails if tools are
+/// required.
 pub(crate) fn have(program: &str) -> bool {
     let status =
         Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -17,7 +18,7 @@ pub(crate) fn have(program: &str) -> bool {
     found
 }
 
-/// Says what a test had to leave out.
+/// Reports what a test had to leave out; fails if tools are required.
 pub(crate) fn missing(what: &str) {
     assert!(
         std::env::var("SENSEDSL_REQUIRE_TOOLS").as_deref() != Ok("1"),
@@ -26,7 +27,7 @@ pub(crate) fn missing(what: &str) {
     eprintln!("SKIPPED: {what} is not here");
 }
 
-/// The tree that the variable names; without it the test is skipped, loudly.
+/// The tree that the environment variable names; without it the test is skipped, with a notice.
 pub(crate) fn tree(variable: &str) -> Option<PathBuf> {
     let path = std::env::var(variable).ok().map(PathBuf::from);
     if path.is_none() {
@@ -35,7 +36,7 @@ pub(crate) fn tree(variable: &str) -> Option<PathBuf> {
     path
 }
 
-/// Runs to the end; panics with the output when it fails.
+/// Runs a command to its end; panics with its output if it fails.
 pub(crate) fn run(command: &mut Command) -> String {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -47,17 +48,17 @@ pub(crate) fn run(command: &mut Command) -> String {
 /// A program in the background that ends with the test.
 pub(crate) struct Background {
     pub(crate) child: Child,
-    /// What it printed.
+    /// The file with its output.
     log: PathBuf,
 }
 
 impl Background {
-    /// Starts it, its output in a file of `folder`.
+    /// Starts it, with its output in a file in `folder`.
     pub(crate) fn start(command: &mut Command, folder: &Path) -> Self {
         Self::start_with(command, folder, |output| output.try_clone().unwrap())
     }
 
-    /// The same, with what it says on standard error in a file of that name.
+    /// Like [`Self::start`], with standard error in a file named `errors`.
     pub(crate) fn start_apart(command: &mut Command, folder: &Path, errors: &str) -> Self {
         Self::start_with(command, folder, |_| File::create(folder.join(errors)).unwrap())
     }
@@ -71,12 +72,12 @@ impl Background {
         Self { child: child.unwrap_or_else(|error| panic!("{command:?}: {error}")), log }
     }
 
-    /// What it printed so far.
+    /// Its output so far.
     pub(crate) fn output(&self) -> String {
         String::from_utf8_lossy(&std::fs::read(&self.log).unwrap()).into_owned()
     }
 
-    /// Waits until it has ended; none when a signal ended it.
+    /// Waits until it has ended; `None` if a signal ended it.
     pub(crate) fn exit_status(&mut self) -> Option<i32> {
         let start = Instant::now();
         loop {

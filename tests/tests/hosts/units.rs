@@ -1,4 +1,4 @@
-//! The shared files of the C++ hosts, function by function, and what their command lines say.
+//! The shared files of the C++ hosts, function by function, and the output of their command lines.
 
 use std::path::Path;
 use std::process::Command;
@@ -76,12 +76,12 @@ fn two_designs_are_installed_and_found_by_one_program() {
         return;
     }
     let prefix = files::folder("prefix");
-    // Names that CMake itself has are no trouble.
+    // Names that CMake itself uses cause no trouble.
     for name in ["car", "test"] {
         let folder = files::generate_as(name, "cpp", &format!("installed-{name}"), &design());
         let build = folder.join("build");
         tools::run(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&build));
-        // The headers are all there is: nothing needs to be built.
+        // The library consists only of headers: nothing needs to be built.
         tools::run(
             Command::new("cmake")
                 .arg(format!("-DCMAKE_INSTALL_PREFIX={}", prefix.display()))

@@ -1,5 +1,5 @@
-//! The shared wire vectors, and random streams against the reference decoder, through the decoder
-//! and encoder of the C++ hosts.
+//! The shared wire vectors through the decoder and encoder of the C++ hosts, and random streams
+//! compared with the reference decoder.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use super::designs::{board, item};
 use super::files;
 use super::tools;
 
-/// What is asked of the C++ program, and its answer.
+/// The requests to the C++ program, and the expected answers.
 #[derive(Default)]
 struct Exchange {
     asked: String,
@@ -36,7 +36,7 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Turns a vector file into one exchange and the schema it needs. All numbers stay text.
+/// Turns a vector file into one exchange and the schema that it needs. All numbers stay text.
 fn read(path: &Path) -> (Schema, Exchange) {
     let text = std::fs::read_to_string(path).unwrap();
     let mut schema = Schema::default();
@@ -82,12 +82,12 @@ fn read(path: &Path) -> (Schema, Exchange) {
     (schema, exchange)
 }
 
-/// Compiles the driver for a schema and holds it to the exchange.
+/// Compiles the driver program for a schema and compares its answer with the exchange.
 fn run(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) {
     assert_eq!(answer(compiler, name, schema, exchange), exchange.expected, "{name} {compiler:?}");
 }
 
-/// Compiles the driver for a schema and asks it.
+/// Compiles the driver program for a schema and returns its answer.
 fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -> String {
     let mut vectors = board("Vectors", schema.checksum, "");
     vectors.schema = schema.clone();
@@ -117,7 +117,8 @@ fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -
     talk(&program, &exchange.asked)
 }
 
-/// The same answer with the values of each float32 in one form: the languages write them in different ones.
+/// The answer with each float32 value in a common form, because the languages print them
+/// differently.
 fn with_reals_alike(schema: &Schema, answer: &str) -> String {
     let is_real = |id: &str| {
         let mut items = schema.items.iter().filter(|item| item.id.to_string() == id);
@@ -155,7 +156,7 @@ fn vector_files() -> Vec<PathBuf> {
     files
 }
 
-/// The oldest and the newest C++ that hosts are written in, and the sanitizers.
+/// The oldest and the newest C++ for which hosts are written, and the sanitizers.
 const COMPILERS: [&[&str]; 3] = [
     &["g++", "-std=c++98", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"],
     &["g++", "-std=c++17", "-O2"],
@@ -176,7 +177,7 @@ fn shared_vectors_cut_at_every_place() {
     }
 }
 
-/// What the reference says of a stream, in the words of a vector file.
+/// The reference decoder's reading of a stream, in the words of a vector file.
 fn reference(schema: &Schema, stream: &[u8]) -> String {
     let mut answer = String::new();
     let mut decoder = Decoder::new(schema, Direction::Sensor);
@@ -217,7 +218,7 @@ fn health_words(health: &Health) -> String {
     words
 }
 
-/// Numbers that are the same in each run.
+/// Pseudorandom numbers that are the same in each run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -228,8 +229,8 @@ impl Numbers {
     }
 }
 
-/// Whole frames among bytes that look like them: from the vectors' frames by dropping, doubling and
-/// changing bytes, so that most of it is nearly right.
+/// Complete frames among bytes that look like them. The bytes come from the vectors' frames by
+/// dropping, doubling and changing some, so that most of the stream is nearly right.
 fn damaged(numbers: &mut Numbers, frames: &[Vec<u8>]) -> Vec<u8> {
     const LIKELY: &[u8] = b"0123456789:,\x00\x11\x12\x13\x14\xff";
     let mut stream = Vec::new();

@@ -1,4 +1,5 @@
-//! A browser opens the picture of the pins, and the wiring sheet as HTML: it must show text, and run nothing.
+//! A browser opens the picture of the pins, and the wiring sheet as HTML: it must show text, and
+//! run no script.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,7 +8,7 @@ use sensedsl_tests::{Scratch, has, read};
 
 use super::corpus::projects;
 
-/// What the browser made of a file after all scripts had run.
+/// The browser's document for a file, after all scripts have run.
 fn page(browser_folder: &Path, file: &Path) -> String {
     let mut command = Command::new("chromium");
     command.args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run"]);
@@ -25,12 +26,13 @@ fn the_picture_shows_hostile_text_and_runs_nothing() {
         return;
     }
     let scratch = Scratch::new("browser");
-    // A page that holds all pictures, so that the browser starts once; each is checked as XML besides.
+    // One page contains all pictures, so that the browser starts once; each picture is also checked
+    // as XML.
     let mut html = String::from("<!doctype html><meta charset=utf-8><title>calm</title>\n");
     for project in projects() {
         html.push_str(&read(&project.output.join("pinout.svg")));
     }
-    // A text that would be one more script, to see that this test would notice.
+    // A page with one more script, to check that this test would notice it.
     let control =
         scratch.write("control.html", format!("{html}<script>document.title='owned'</script>"));
     let calm = scratch.write("calm.html", html);
@@ -40,7 +42,7 @@ fn the_picture_shows_hostile_text_and_runs_nothing() {
     for element in ["<script", "<img", "<a ", "<foreignObject", "onerror=\""] {
         assert!(!shown.contains(element), "{element} in\n{shown}");
     }
-    // Places are cut to what there is room for.
+    // Places are cut to the available room.
     for text in ["&lt;script&gt;doc", "=cmd|'/c calc'!", "[31mred", "שלום"] {
         assert!(shown.contains(text), "{text} is missing in\n{shown}");
     }

@@ -1,4 +1,4 @@
-//! Make and `CMake` in a folder whose name they would take for something else.
+//! Make and `CMake` in a folder with a name that they could misinterpret.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -7,10 +7,11 @@ use sensedsl_tests::{Scratch, few, has, text, tree};
 
 use super::corpus::{OWNED, generate, words_design};
 
-/// Make's functions and comments, the shell's separators; no `:` and no `=`, which no Make can have there.
+/// Make's functions and comments, and the shell's separators; without `:` and `=`, which no Make
+/// supports in a path.
 const FOLDER: &str = "a $(shell touch owned-by-injection) b #c;`touch owned-by-injection` & 'd' %";
 
-/// `CMake` takes a `;` in a path for the end of an item.
+/// `CMake` takes a `;` in a path as the end of a list item.
 const FOLDER_OF_CMAKE: &str =
     "a $(shell touch owned-by-injection) b #c`touch owned-by-injection` & 'd' %";
 
@@ -18,7 +19,7 @@ fn is_owned(folder: &Path) -> bool {
     tree(folder).keys().any(|path| path.rsplit('/').next() == Some(OWNED))
 }
 
-/// A tree of `ChibiOS` as far as Make looks at it before it builds anything.
+/// A `ChibiOS` tree with only the files that Make includes before it builds anything.
 fn empty_tree(scratch: &Scratch, makefile: &str) -> std::path::PathBuf {
     for line in makefile.lines() {
         let included = line.trim().strip_prefix("include $(CHIBIOS)/");
@@ -60,7 +61,7 @@ fn make_takes_a_folder_of_any_name() {
         sources.contains("generated/sense_hw.c") && sources.contains("user/user.c"),
         "{sources}"
     );
-    // The line that `generate` tells to type next is one that a shell takes.
+    // The line that `generate` suggests typing next must be valid for a shell.
     let typed = next.lines().find_map(|line| line.strip_prefix("next: sensedsl build ")).unwrap();
     let typed = format!("printf '%s\\n' {typed}");
     let said = said(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
@@ -69,7 +70,7 @@ fn make_takes_a_folder_of_any_name() {
     assert!(!is_owned(scratch.path()));
 }
 
-/// What `CMake` says of a host's folder in that output; it builds in a folder of the scratch.
+/// The output of `CMake` for a host's folder in `output`; it builds in a scratch folder.
 fn configured(output: &Path, host: &str, scratch: &Scratch) -> Output {
     let mut command = Command::new("cmake");
     command.arg("-S").arg(output.join("host").join(host));

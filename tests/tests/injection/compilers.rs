@@ -1,4 +1,4 @@
-//! C and C++ compilers over what is generated, with every warning on and trigraphs in force.
+//! C and C++ compilers read the generated files, with every warning on and trigraphs enabled.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -15,7 +15,8 @@ fn run(command: &mut Command) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// The firmware's model, which has all names; the rest of the firmware needs a `ChibiOS` tree.
+/// Compiles the firmware's model, which has all names; the rest of the firmware needs a `ChibiOS`
+/// tree.
 fn compile_model(compiler: &str, board: &Path) {
     let mut command = Command::new(compiler);
     command.args([
@@ -31,8 +32,8 @@ fn compile_model(compiler: &str, board: &Path) {
     run(command.arg(board.join("generated/sense_model.c")));
 }
 
-/// The headers of the host without middleware, which have all names and texts; its programs are the same
-/// for all designs but for the types they name.
+/// Compiles the headers of the host without middleware, which have all names and texts; its
+/// programs are the same for all designs, except for the types that they name.
 fn compile_host(compiler: &str, host: &Path) {
     let include = host.join("include");
     let scratch = Scratch::new("headers");
@@ -78,7 +79,8 @@ fn hostile_labels_and_quantities_compile_in_cpp() {
     }
 }
 
-/// A program that uses the generated library prints what the design says, hidden characters by their codes.
+/// A program that uses the generated library prints the texts of the design, with hidden characters
+/// as codes.
 #[test]
 fn a_program_prints_a_hostile_quantity_as_it_is() {
     if !has("g++") {
@@ -103,7 +105,7 @@ fn a_program_prints_a_hostile_quantity_as_it_is() {
     assert_eq!(said, expected.collect::<String>());
 }
 
-/// Nothing that turns text around, colours a terminal or cannot be seen is in any generated file.
+/// No generated file has a character that reverses text, colours a terminal or is invisible.
 #[test]
 fn no_generated_file_has_a_hidden_character() {
     for project in projects() {

@@ -1,5 +1,5 @@
-//! Hostile text, in one place: what may come in as a label, a quantity or a cell of a table, and
-//! names that mean something to somebody who reads what is generated.
+//! Hostile text, in one place: labels, quantities and table cells, and names that have a meaning
+//! for a reader of generated files.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,10 @@ use std::sync::OnceLock;
 
 use sensedsl_tests::sensedsl;
 
-/// A file that a command in a text would make, were it run.
+/// A file that a command in a text would create if it were run.
 pub(crate) const OWNED: &str = "owned-by-injection";
 
-/// Texts. Each stands in a label, a quantity, and the cells of a pin.
+/// Each text is used as a label, as a quantity, and in the cells of a pin.
 pub(crate) const TEXTS: &[&str] = &[
     // Quotes and escapes of C and its kin.
     "\"; int main() { return 1; } //",
@@ -69,7 +69,7 @@ pub(crate) const TEXTS: &[&str] = &[
     "°C, µs and Ω",
 ];
 
-/// Words of the languages that read what is generated, of their libraries, and our own.
+/// Words of the languages of generated files, of their libraries, and of SenseDSL itself.
 pub(crate) const WORDS: &[&str] = &[
     "auto",
     "break",
@@ -227,26 +227,26 @@ pub(crate) const WORDS: &[&str] = &[
     "COM1_",
 ];
 
-/// The pins with an ADC that texts stand beside.
+/// The pins with an ADC whose rows contain the texts.
 const PINS: [&str; 16] = [
     "PA0", "PA1", "PA2", "PA3", "PA4", "PA5", "PA6", "PA7", "PB0", "PB1", "PC0", "PC1", "PC2",
     "PC3", "PC4", "PC5",
 ];
 
-/// A design with some of [`TEXTS`], and where it was generated.
+/// A design with some of [`TEXTS`], and its output folder.
 pub(crate) struct Project {
     pub(crate) texts: &'static [&'static str],
     pub(crate) source: PathBuf,
     pub(crate) output: PathBuf,
 }
 
-/// A text as a string of the language.
+/// A text as a string literal of the language.
 fn string(text: &str) -> String {
     let mut out = String::from("\"");
     for character in text.chars() {
         match character {
             '"' | '\\' => out.extend(['\\', character]),
-            // Half of them raw, half by their codes.
+            // Some of these characters raw, the others as escapes.
             '\n' | '\r' => write!(out, "\\u{{{:x}}}", u32::from(character)).unwrap(),
             _ if u32::from(character) % 2 == 1 && !character.is_ascii_graphic() => {
                 write!(out, "\\u{{{:x}}}", u32::from(character)).unwrap();
@@ -257,7 +257,7 @@ fn string(text: &str) -> String {
     out + "\""
 }
 
-/// A text as a cell.
+/// A text as a table cell.
 fn cell(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
@@ -289,7 +289,7 @@ fn design(texts: &[&str]) -> String {
     design + "}\n"
 }
 
-/// The projects of all texts, generated once.
+/// The projects with all texts, generated once.
 pub(crate) fn projects() -> &'static [Project] {
     static PROJECTS: OnceLock<Vec<Project>> = OnceLock::new();
     PROJECTS.get_or_init(|| {
@@ -307,7 +307,7 @@ pub(crate) fn projects() -> &'static [Project] {
     })
 }
 
-/// A folder that several tests of a run look into, empty at first.
+/// A folder that several tests of a run use, empty at first.
 fn shared(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("injection").join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -315,7 +315,7 @@ fn shared(name: &str) -> PathBuf {
     folder
 }
 
-/// A project whose boards and devices are called by [`WORDS`], generated once.
+/// A project whose boards and devices are named by [`WORDS`], generated once.
 pub(crate) fn words() -> &'static Path {
     static WORDS_PROJECT: OnceLock<PathBuf> = OnceLock::new();
     WORDS_PROJECT.get_or_init(|| {
@@ -327,7 +327,7 @@ pub(crate) fn words() -> &'static Path {
     })
 }
 
-/// One board, and a device on its bus for each word.
+/// One board, with a device on its bus for each word.
 pub(crate) fn words_design() -> String {
     let mut design = String::from("board default on STM32F407G_DISC1 {\n");
     let mut seen = std::collections::BTreeSet::new();

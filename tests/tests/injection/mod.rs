@@ -1,6 +1,6 @@
-//! Hostile text through to whoever reads it: names, labels, cells and paths come in, and the real
-//! consumer (compilers, Make, `CMake`, a browser, parsers of Markdown, CSV, JSON, Prolog, a terminal) must
-//! see text and nothing else. There is no generator of Rust yet, so no Rust is compiled.
+//! Hostile text, followed to its readers: names, labels, cells and paths go in, and the real
+//! consumer (compilers, Make, `CMake`, a browser, parsers of Markdown, CSV, JSON, Prolog, a
+//! terminal) must see text and nothing else. Generated Rust is not compiled here.
 #![expect(
     clippy::indexing_slicing,
     clippy::panic,

@@ -1,4 +1,4 @@
-//! Names: what cannot be told apart, cannot be seen, or cannot be a file is refused.
+//! Names that cannot be told apart, cannot be seen, or cannot be a file name are refused.
 
 use sensedsl_diagnostics::is_hidden;
 use sensedsl_tests::sensedsl;
@@ -25,14 +25,14 @@ fn sensor(name: &str) -> String {
 
 #[test]
 fn names_are_letters_digits_and_underscores_of_ascii() {
-    // Marks of direction, joiners, line ends and whatever else is no letter.
+    // Direction marks, joiners, line ends and other characters that are not letters.
     let marks = "\u{202a}\u{202b}\u{202c}\u{202d}\u{202e}\u{2066}\u{2067}\u{2068}\u{2069}\u{200e}\u{200f}\u{61c}\
                  \u{200b}\u{200c}\u{200d}\u{2060}\u{feff}\u{ad}\u{2028}\u{2029}\u{85}\u{0}\u{1b}\u{7f}\u{9b}$%&'`@!?:/\\*|<>~^";
     for mark in marks.chars() {
         for name in [format!("A{mark}b"), format!("{mark}Ab")] {
             for text in [sensor(&name), board(&name)] {
                 let codes = codes(text);
-                // What could be an operator is unexpected there, anything else an unknown character.
+                // A possible operator is unexpected there; anything else is an unknown character.
                 let told = |code: &String| code == "E0102" || code == "E0101";
                 assert!(codes.iter().any(told), "{name:?}: {codes:?}");
             }
@@ -65,7 +65,7 @@ fn no_board_is_a_device_of_windows() {
             assert_eq!(codes(board(&name)), ["E0221"], "{name}");
         }
     }
-    // The rest of the list cannot be a name at all.
+    // The other names of the list cannot be names at all.
     for name in ["COM¹", "COM²", "LPT³", "CONIN$", "CONOUT$", "NUL.txt", "CON ."] {
         assert!(!codes(board(name)).is_empty(), "{name}");
     }

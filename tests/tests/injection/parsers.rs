@@ -1,4 +1,4 @@
-//! Parsers of Markdown, XML, CSV, JSON, SARIF and of GitHub's commands over what is printed.
+//! Parsers of Markdown, XML, CSV, JSON, SARIF and GitHub's commands read the output.
 
 use std::path::Path;
 use std::process::Command;
@@ -15,7 +15,7 @@ fn output(command: &mut Command) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// What Python's reader makes of the wiring as CSV.
+/// The wiring in CSV, as Python's reader parses it.
 fn rows(project: &Project) -> Vec<Vec<String>> {
     let script = "
 import csv, json, sys
@@ -49,8 +49,8 @@ fn csv_has_a_cell_for_each_and_no_formula() {
     }
 }
 
-/// Without the links to mail addresses, which no escape keeps GitHub's dialect from making: they go
-/// where their text says.
+/// The HTML without links to mail addresses, which no escape prevents in GitHub's dialect; they
+/// lead where their text says.
 fn without_mail(html: &str) -> String {
     let mut parts = html.split("<a href=\"mailto:");
     let mut out = parts.next().unwrap().to_owned();
@@ -64,7 +64,7 @@ fn without_mail(html: &str) -> String {
     out
 }
 
-/// Text of HTML, as far as cmark writes it.
+/// The text of HTML in the form that cmark writes.
 fn unescaped(html: &str) -> String {
     let text = html.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
     text.replace("&amp;", "&")
@@ -108,7 +108,7 @@ fn markdown_shows_text_in_cells() {
         assert_eq!(rows.len() + 1, expected.len(), "{html}");
         for (row, expected) in rows.iter().zip(expected.iter().skip(1)) {
             assert_eq!(row.len(), 8, "{row:?}");
-            // The apostrophe belongs to spreadsheets alone.
+            // The apostrophe is only for spreadsheets.
             let place = expected[8]
                 .strip_prefix('\'')
                 .filter(|rest| rest.starts_with(['=', '+', '-', '@']));
@@ -159,7 +159,7 @@ fn json_says_the_very_text() {
     }
 }
 
-/// A file with a mistake beside each text, under a hostile name.
+/// A file with a mistake beside each text, and with a hostile name.
 fn mistaken(folder: &Path, project: &Project) -> std::path::PathBuf {
     let text = read(&project.source).replace("type = analog;", "type = \"x\";");
     let text = text.replace("label = ", "unit = ");

@@ -1,4 +1,4 @@
-//! SWI-Prolog consults a program whose devices are called like its own predicates.
+//! SWI-Prolog runs a program whose devices have the names of its own predicates.
 
 use std::fmt::Write as _;
 use std::process::Command;

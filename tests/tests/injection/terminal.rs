@@ -1,5 +1,5 @@
-//! What a terminal gets, from every command, holds nothing that would move its cursor, colour it, or
-//! turn its text around.
+//! The output of every command on a terminal contains nothing that would move its cursor, colour
+//! it, or reverse its text.
 
 use std::ffi::OsString;
 
@@ -8,7 +8,7 @@ use sensedsl_tests::{Ran, sensedsl};
 
 use super::corpus::projects;
 
-/// A name of a file with a line end, an escape sequence and a mark of direction in it.
+/// A file name with a line end, an escape sequence and a direction mark.
 const NAME: &str = "x\u{1b}]0;owned\u{7}\u{202e}\n::error::owned.sense";
 
 #[track_caller]
@@ -41,7 +41,7 @@ fn no_command_lets_a_hostile_text_through() {
         is_calm(&sensedsl(["explain", "wiring"]).arg(source).arg("S1").run());
         is_calm(&sensedsl(["explain", "wiring"]).arg(source).arg(NAME).run());
         is_calm(&sensedsl(["import", "robot.csv"]).within(folder).run());
-        // Mistakes beside each text, in a file and a table of hostile names.
+        // Mistakes beside each text, in a file and a table with hostile names.
         let text = sensedsl_tests::read(source)
             .replace("analog", "anal\u{1b}[31mog")
             .replace(';', "\u{202e}");
@@ -80,7 +80,8 @@ fn arguments_are_shown_as_text() {
     }
 }
 
-/// On a real terminal, where colours are on: the only sequences are colours of our own.
+/// On a real terminal, where colours are on, the only escape sequences are the program's own
+/// colours.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_terminal_gets_no_sequence_but_our_colours() {

@@ -18,7 +18,7 @@ fn answers_to_keep() {
     expect(&folder, &["solve", "--keep", "zeros.json", design], NOT_KEPT, "E0");
 }
 
-/// The status where an answer is not one.
+/// The exit status if an answer cannot be kept.
 const NOT_KEPT: i32 = 2;
 
 #[test]
@@ -35,10 +35,10 @@ fn certificates() {
     }
 }
 
-/// Nothing that it could be of.
+/// A subject without any files.
 const SUBJECT: &str = r#"{"tool":"","options":{},"files":{},"built_in":{}}"#;
 
-/// A certificate that claims that there is no wiring.
+/// A certificate which claims that there is no wiring.
 fn certificate(devices: &str, dma: &str, swaps: &str, steps: &str) -> String {
     let problem = format!(
         r#"{{"boards":{{"B":false}},"pins":{{"PA1":1}},"shared":[],"dma":{{{dma}}},"devices":{{{devices}}}}}"#
@@ -49,14 +49,14 @@ fn certificate(devices: &str, dma: &str, swaps: &str, steps: &str) -> String {
     )
 }
 
-/// A step that removes nothing, and looks at everything for it.
+/// A step that removes nothing, but has to check everything.
 const STEP: &str = r#"{"narrowed":{"scale":1}}"#;
 
 fn alternative(roles: &str) -> String {
     format!(r#"{{"board":"B","claims":{{}},"violates":[],"dma":[],"roles":{{{roles}}}}}"#)
 }
 
-/// A device with so many candidates for its one wire, and `more` alternatives.
+/// A device with this number of candidates for its one wire, and the alternatives in `more`.
 fn device(name: &str, candidates: usize, more: &str) -> String {
     let candidate = |at| {
         format!(

@@ -1,4 +1,4 @@
-//! Names that lead to something else than a file of the project.
+//! Names that lead to something other than a file of the project.
 
 use std::os::unix::fs::symlink;
 
@@ -52,7 +52,7 @@ fn nothing_outside_of_the_project_is_read() {
 #[test]
 fn files_that_use_each_other_end() {
     let folder = Scratch::new("limits");
-    // So many once overflowed the stack.
+    // This many files once overflowed the stack.
     for at in 0..16_000 {
         folder.write(&format!("c{at}.sense"), format!("use \"c{}.sense\";\n", at + 1));
     }

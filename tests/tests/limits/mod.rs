@@ -1,11 +1,11 @@
-//! Hostile input in, a coded refusal out: for each class of input that once took the program's
-//! time or memory, a file is made, the real program runs on it, and its status and code are those
-//! that `docs/limits.md` promises.
+//! Hostile input goes in, a coded refusal comes out. For each class of input that once exhausted
+//! the program's time or memory, a test makes a file and runs the real program on it. Exit status
+//! and code must be those that `docs/limits.md` promises.
 //!
-//! Nothing is timed and then judged, but for ratios within one run (`scaling`). The kernel holds the limits: a run that takes more than
-//! [`CPU_S_MAX`] of the processor is ended by a signal, one that takes more than
-//! [`MEMORY_KIB_MAX`] of memory gets no more and aborts, and both are another status than the
-//! expected one. [`WALL`] ends what waits for ever.
+//! No test judges absolute times, only ratios within one run (`scaling`). The kernel enforces the
+//! limits: a signal ends a run that takes more than [`CPU_S_MAX`] of processor time; a run that
+//! takes more than [`MEMORY_KIB_MAX`] gets no more memory and aborts. In both cases the status
+//! differs from the expected one. [`WALL`] ends a run that waits for ever.
 #![cfg(target_os = "linux")]
 
 mod answers;
@@ -24,24 +24,24 @@ use std::time::{Duration, Instant};
 
 use sensedsl_tests::{Scratch, binary};
 
-/// The head of a board with an MCU.
+/// The head of a board that has an MCU.
 const BOARD: &str = "board STM32F4DiscoveryBoard {\n";
-/// Seconds of the processor in a build that is hardly optimised, on a machine that does other
-/// things too; a release build takes less than one.
+/// Processor time in seconds for a build with little optimisation, on a machine that does other
+/// things too; a release build takes less than one second.
 const CPU_S_MAX: u32 = 5;
 /// Memory for data: 200 MB.
 const MEMORY_KIB_MAX: u32 = 200_000;
-/// How long a run may wait.
+/// The maximum wall time of a run.
 const WALL: Duration = Duration::from_secs(60);
 
-/// Runs the program in a folder and holds it to its limits. It must exit with that status and say
-/// that code; an empty code is for input that is accepted.
+/// Runs the program in a folder under the limits. It must exit with this status and report this
+/// code; the code is empty for input that is accepted.
 #[track_caller]
 fn expect(folder: &Scratch, arguments: &[&str], status: i32, code: &str) {
     expect_of(binary(), folder, arguments, status, code);
 }
 
-/// It must be wrong, and say that code and no other error.
+/// Like `expect` for a refusal: the program must report this code and no other error.
 #[track_caller]
 fn expect_alone(folder: &Scratch, arguments: &[&str], code: &str) {
     let said = expect_of(binary(), folder, arguments, 1, code);
@@ -86,7 +86,7 @@ fn expect_of(
     said.into_owned()
 }
 
-/// `check` on one text refuses it with that code.
+/// `check` or `import` must refuse the text with this code.
 #[track_caller]
 fn refuses(name: &str, text: impl AsRef<[u8]>, code: &str) {
     let folder = Scratch::new("limits");
@@ -95,12 +95,12 @@ fn refuses(name: &str, text: impl AsRef<[u8]>, code: &str) {
     expect(&folder, &[command, name], 1, code);
 }
 
-/// `n` pieces, each made of its number.
+/// `n` pieces, each made from its index.
 fn repeat(n: usize, piece: impl Fn(usize) -> String) -> String {
     (0..n).map(piece).collect()
 }
 
-/// A file of that size with nothing in it, which takes no place on the disk.
+/// A file of this size without content, which takes no space on the disk.
 fn sparse(folder: &Scratch, name: &str, bytes: u64) {
     File::create(folder.join(name)).unwrap().set_len(bytes).unwrap();
 }

@@ -1,9 +1,9 @@
-//! What is within the limits takes time in proportion: the real program runs on an input, on one
-//! twice and on one four times as large, and takes about twice and four times the processor's time
-//! of the first; where a loop is within another it takes four times and sixteen times.
+//! Input within the limits takes time in proportion to its size. The real program runs on an input,
+//! on one twice as large and on one four times as large. It should take about twice and four times
+//! the processor time of the first; with a nested loop it would take four and sixteen times.
 //!
-//! Only runs of one test are compared with each other. One that seems too slow is run again, since
-//! the machine does other things too.
+//! Only runs of one test are compared with each other. A run that seems too slow is repeated,
+//! because the machine does other things too.
 
 use std::fs::{self, File};
 use std::process::{Command, Stdio};
@@ -14,13 +14,14 @@ use sensedsl_tests::{Scratch, binary};
 use super::{BOARD, repeat};
 
 const TIMES: usize = 4;
-/// A logarithm, and what the machine does meanwhile, of two and of four times.
+/// Allows for a logarithmic factor and for other work on the machine, at twice and four times the
+/// size.
 const RATIO_MAX: f64 = 1.6;
-/// What differs between two runs on the same input.
+/// The difference between two runs on the same input.
 const NOISE_MS: f64 = 25.0;
 const RUNS: usize = 5;
 
-/// Writes the inputs that are named by `make` and a size, and compares the runs on them.
+/// Writes the inputs that `make` gives for each size, and compares the runs on them.
 #[track_caller]
 fn grows(command: &str, n: usize, name: &str, make: impl Fn(usize) -> Vec<(&'static str, String)>) {
     let folder = Scratch::new("scaling");
@@ -53,7 +54,7 @@ fn grows(command: &str, n: usize, name: &str, make: impl Fn(usize) -> Vec<(&'sta
     panic!("{said}");
 }
 
-/// The time of the processor that the program takes on a file in that folder.
+/// The processor time that the program takes on a file in the folder.
 fn cpu_ms(folder: &std::path::Path, command: &str, name: &str) -> f64 {
     let mut call = Command::new(binary());
     call.args([command, name]).current_dir(folder).stdin(Stdio::null());
@@ -61,7 +62,7 @@ fn cpu_ms(folder: &std::path::Path, command: &str, name: &str) -> f64 {
     call.stderr(File::create(folder.join(".err")).unwrap());
     let mut child = call.spawn().unwrap();
     let pid = Pid::from_child(&child);
-    // The kernel keeps the figures until the child is waited for.
+    // The kernel keeps the figures until the parent waits for the child.
     waitid(WaitId::Pid(pid), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT).unwrap();
     let figures = fs::read_to_string(format!("/proc/{}/schedstat", child.id())).unwrap();
     let status = child.wait().unwrap();
@@ -69,7 +70,7 @@ fn cpu_ms(folder: &std::path::Path, command: &str, name: &str) -> f64 {
     figures.split(' ').next().unwrap().parse::<f64>().unwrap() / 1e6
 }
 
-/// The same, for one file.
+/// Like [`grows`], for an input of one file.
 #[track_caller]
 fn one_grows(command: &str, n: usize, name: &'static str, make: impl Fn(usize) -> String) {
     grows(command, n, name, |n| vec![(name, make(n))]);
@@ -100,7 +101,7 @@ fn texts() {
 
 #[test]
 fn rules() {
-    // All grow: rules, pins that they name, and warnings of rules that name none. One pin is left.
+    // Rules, pins that they name and warnings about rules without effect all grow. One pin is left.
     grows("check", 450, "t.sense", |n| {
         let rule =
             |at| format!("reserve PX{at}; reserve P{at}A; release PART{at}; allow W0604 \"x\";\n");
@@ -134,7 +135,7 @@ fn xml() {
         let pin = |at| format!("<Pin Name=\"P{at}A\" Position=\"{at}\" Type=\"I/O\"/>");
         format!("<Mcu RefName=\"STM32F405RGTx\">{}</Mcu>", repeat(n, pin))
     });
-    // The reader compares the attributes of an element in pairs; there are few of them.
+    // The reader compares the attributes of an element in pairs; an element has few of them.
     one_grows("import", 200, "attributes.xml", |n| {
         let attributes = repeat(60, |at| format!(" a{at}=\"\""));
         format!("<Mcu RefName=\"X\">{}</Mcu>", format!("<a{attributes}/>").repeat(n))

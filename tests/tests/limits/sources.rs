@@ -31,7 +31,7 @@ fn hwdef_lines() {
 
 #[test]
 fn hwdef_mcus() {
-    // Each name begins those of hundreds of parts, which are looked through for the pin's input.
+    // Each name is the prefix of hundreds of parts, which are searched for the pin's input.
     let lines = ["", "F", "L", "H", "G", "U"];
     let mcu = |at: usize| format!("MCU STM32 STM32{}XX\nPA0 X ADC1\n", lines[at]);
     refuses("hwdef.dat", repeat(6, mcu), "E0807");
@@ -60,7 +60,7 @@ fn dbc_parts() {
     refuses("messages.dbc", format!("BU_: A\n{}", repeat(180_000, message)), "E0801");
 }
 
-/// What names a signal is looked up, not searched for.
+/// Lines that name signals look them up instead of searching for them.
 #[test]
 fn dbc_lines_that_name_signals() {
     let signal = |at: usize| format!(" SG_ s{at} : 0|8@1+ (1,0) [0|0] \"\" A\n");
@@ -97,7 +97,7 @@ fn tables_in_other_encodings() {
         "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
     refuses("wide.csv", wide, "E0317");
     refuses("latin.csv", [&b"Pin,ADC\n"[..], &b"PA1,\xe4\n".repeat(600_000)].concat(), "E0317");
-    // Nothing but guesses, a byte each.
+    // The text is all guesses, one for each byte.
     refuses("guesses.csv", [&b"Pin,ADC\nPA1,"[..], &b"\xe4 ".repeat(1_500_000)].concat(), "E0117");
 }
 

@@ -4,7 +4,7 @@ use sensedsl_tests::Scratch;
 
 use super::{expect, repeat};
 
-/// A design on that table is refused with that code.
+/// `check` must refuse a design on this table with this code.
 #[track_caller]
 fn refused(table: &str, code: &str) {
     let folder = Scratch::new("limits");

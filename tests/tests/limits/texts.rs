@@ -1,4 +1,4 @@
-//! Texts of the language that are nothing but more and more of one thing.
+//! Texts of the language that repeat one construct without end.
 
 use sensedsl_tests::Scratch;
 
@@ -67,7 +67,7 @@ fn many_properties_and_rules() {
 fn constants_that_grow() {
     let chain = repeat(7_000, |at| format!("const C{at} = C{} + 1;\n", at + 1));
     refuses("chain.sense", format!("{chain}const C7000 = 1;\n"), "E0315");
-    // Each holds the one before ten times.
+    // Each list holds the one before it ten times.
     let tens = repeat(12, |at| {
         format!("const L{} = [{}];\n", at + 1, vec![format!("L{at}"); 10].join(", "))
     });

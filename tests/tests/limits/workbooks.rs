@@ -1,4 +1,4 @@
-//! Workbooks: archives that are larger inside than outside, and sheets that repeat themselves.
+//! Workbooks: archives that expand to far more than their size, and sheets that repeat themselves.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -12,7 +12,7 @@ use super::{expect, repeat};
 const MAIN: &str = "xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\"";
 const RELATION: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
 
-/// An archive of these files is imported with that status and code.
+/// Imports an archive of these files and expects this status and code.
 #[track_caller]
 fn archive(name: &str, files: &[(&str, &str)], status: i32, code: &str) {
     let folder = Scratch::new("limits");
@@ -25,13 +25,13 @@ fn archive(name: &str, files: &[(&str, &str)], status: i32, code: &str) {
     expect(&folder, &["import", name], status, code);
 }
 
-/// A workbook of one sheet.
+/// Imports a workbook of one sheet.
 #[track_caller]
 fn xlsx(sheet: &str, strings: Option<&str>, status: i32, code: &str) {
     xlsx_of(1, sheet, strings, status, code);
 }
 
-/// A workbook with so many sheets, which are all the same file in it.
+/// Imports a workbook with `count` sheets, which are all the same file in the archive.
 #[track_caller]
 fn xlsx_of(count: usize, sheet: &str, strings: Option<&str>, status: i32, code: &str) {
     let types = "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\"/>";
@@ -61,13 +61,13 @@ fn xlsx_of(count: usize, sheet: &str, strings: Option<&str>, status: i32, code: 
     archive("a.xlsx", &files, status, code);
 }
 
-/// A sheet of rows, each with the cells that `row` makes of its number.
+/// A sheet of rows; `row` makes the cells of each from its number.
 fn sheet(rows: usize, row: impl Fn(usize) -> String) -> String {
     let rows = repeat(rows, |at| format!("<row r=\"{}\">{}</row>", at + 1, row(at + 1)));
     format!("<worksheet {MAIN}><sheetData>{rows}</sheetData></worksheet>")
 }
 
-/// A workbook of one table.
+/// Imports a workbook of one table and expects a refusal with this code.
 #[track_caller]
 fn ods(rows: &str, code: &str) {
     let content = format!(
@@ -128,7 +128,7 @@ fn cells_and_attributes() {
     xlsx(&sheet(19_000, full), None, 1, "E0807");
 }
 
-/// 33 kB that were 962 MB.
+/// 33 kB that would expand to 962 MB.
 #[test]
 fn sheets_that_are_all_one_file() {
     let row =

@@ -1,4 +1,4 @@
-//! Worlds of `simulate` that are large in memory, or that would never end.
+//! Worlds of `simulate` that take much memory, or that would never end.
 
 use sensedsl_tests::Scratch;
 

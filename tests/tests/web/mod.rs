@@ -1,7 +1,7 @@
-//! The WebAssembly module says in Node what the same code says here, byte for byte, for every example
-//! and the whole corpus.
+//! The WebAssembly module answers in Node exactly as the same code does here, byte for byte, for
+//! every example and the whole corpus.
 //!
-//! `SENSEDSL_WASM` names the module, which `cargo xtask web` builds.
+//! `SENSEDSL_WASM` is the path of the module, which `cargo xtask web` builds.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::{fs, io::Write as _};
 
 use sensedsl_tests::{has, missing, read, root};
 
-/// All files in the language below a folder.
+/// All `.sense` files below a folder.
 fn texts(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut found: Vec<PathBuf> =
@@ -19,13 +19,13 @@ fn texts(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// A request for a file with all files beside it that are texts.
+/// A request for a file, together with the text files beside it.
 fn request(file: &Path) -> String {
     let entries = fs::read_dir(file.parent().unwrap()).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
     let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
     let is_near = |path: &PathBuf| {
-        // Files of the corpus are many and use none of the others but tables.
+        // The corpus has many files; they use none of the others except tables.
         path == file || path.extension().is_some_and(|end| end == "csv")
     };
     let files = paths.filter(is_near).filter_map(|path| {
@@ -65,7 +65,7 @@ fn the_module_says_what_the_program_says() {
     }
 }
 
-/// What the page's function gives is what the commands print.
+/// The page's function returns what the commands print.
 #[test]
 fn the_answer_is_that_of_the_commands() {
     for file in texts(&root().join("examples")) {
@@ -78,7 +78,8 @@ fn the_answer_is_that_of_the_commands() {
     }
 }
 
-/// What the page's function says of a file is what `check` says, firmware that there is none of included.
+/// The page's function reports the same diagnostics as `check`, including those about missing
+/// firmware.
 #[test]
 fn the_diagnostics_are_those_of_check() {
     let folders = ["examples", "tests/corpus/ok", "tests/firmware/kinds"];

@@ -35,7 +35,7 @@ pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
         })
 }
 
-/// `span` is the `(` of something with commas.
+/// `span` is the `(` of a list with commas.
 #[must_use]
 pub fn parentheses_around_list(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "a list is written in brackets, not in parentheses")
@@ -43,7 +43,7 @@ pub fn parentheses_around_list(span: Span) -> Diagnostic {
         .help("write a list as `[1, 2]`")
 }
 
-/// A pin stands where the type does; `head` is the head with a type, and a type of device that fits it.
+/// A pin is in the place of the type; `head` is the head with a type, and `kind` a type of device that fits the pin.
 #[must_use]
 pub fn pin_in_head(span: Span, head: &str, kind: &str, pin: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, "a pin stands in the block, and a type behind the name")

@@ -23,14 +23,14 @@ quotes.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The character as it stands in the text.
+/// `found` is the character as it is in the text.
 #[must_use]
 pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{}` means nothing here", visible(found)))
         .help("remove it; text belongs between straight quotes or in a comment")
 }
 
-/// A `#` and the rest of its line, which is meant to be a comment.
+/// A `#` and the rest of its line, meant as a comment.
 #[must_use]
 pub fn comment_with_hash(span: Span) -> Diagnostic {
     let hash = Span { end: span.start + 1, ..span };
@@ -40,7 +40,7 @@ pub fn comment_with_hash(span: Span) -> Diagnostic {
         .replace("change to `//`", hash, "//")
 }
 
-/// A `:`, which is meant to be a `=`.
+/// A `:` instead of `=`.
 #[must_use]
 pub fn colon(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`:` means nothing here")
@@ -49,7 +49,7 @@ pub fn colon(span: Span) -> Diagnostic {
         .replace("change to `=`", span, "=")
 }
 
-/// The single character that word processors make of three dots.
+/// The single character that word processors make out of three dots.
 #[must_use]
 pub fn ellipsis(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`…` means nothing here")

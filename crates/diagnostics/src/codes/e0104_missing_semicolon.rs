@@ -19,7 +19,7 @@ Way out: add `;` there.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `span` is the empty place behind the last token.
+/// `span` is the empty place after the last token.
 #[must_use]
 pub fn missing_semicolon(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`;` is missing")

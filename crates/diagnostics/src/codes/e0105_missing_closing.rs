@@ -18,7 +18,7 @@ Way out: add the closing one.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `closing` is `}` or `]`; `opened` is where its partner stands.
+/// `closing` is `}` or `]`; `opened` is the place of its counterpart.
 #[must_use]
 pub fn missing_closing(span: Span, closing: &str, opened: Option<Span>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{closing}` is missing"))

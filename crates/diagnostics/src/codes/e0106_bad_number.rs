@@ -20,7 +20,7 @@ Way out: write it in one of these forms.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The number as written and what is wrong with it.
+/// `text` is the number as written, `why` what is wrong with it.
 #[must_use]
 pub fn bad_number(span: Span, text: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{text}` is not a number: {why}"))

@@ -18,7 +18,7 @@ Way out: correct the spelling.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The word as written and the keyword that was meant.
+/// `found` is the word as written, `meant` the keyword that was meant.
 #[must_use]
 pub fn misspelled_keyword(span: Span, found: &str, meant: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{found}` is not a keyword"))

@@ -19,7 +19,7 @@ Way out: remove brackets, or give parts of a long expression names: `const TOTAL
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `most` is the depth that is still read.
+/// `most` is the greatest depth allowed.
 #[must_use]
 pub fn nested_too_deep(span: Span, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("this is nested more than {most} deep"))

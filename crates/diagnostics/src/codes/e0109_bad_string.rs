@@ -1,4 +1,4 @@
-//! E0109: a string holds an unknown escape.
+//! E0109: a string contains an unknown escape.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -19,7 +19,7 @@ Way out: write two backslashes where you mean one.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The escape as written.
+/// `escape` is the escape as written.
 #[must_use]
 pub fn bad_string(span: Span, escape: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{escape}` is not an escape"))

@@ -20,7 +20,7 @@ Way out: move it where it belongs.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What stands there and where it belongs.
+/// `what` is the item, `belongs` the place where it belongs.
 #[must_use]
 pub fn misplaced_item(span: Span, what: &str, belongs: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} does not belong here"))

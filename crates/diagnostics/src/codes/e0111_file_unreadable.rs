@@ -18,7 +18,7 @@ Way out: correct the path, look at the permissions of the file and its folders, 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path and the reason, in words.
+/// `why` is the reason, in words.
 #[must_use]
 pub fn file_unreadable(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("cannot read {path}: {why}"))

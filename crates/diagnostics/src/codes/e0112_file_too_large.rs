@@ -20,7 +20,7 @@ Way out: name the right file, or split it with `use`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path, what the limit is for, and how many bytes are read at most.
+/// `what` is what the limit is for, `bytes_max` the most bytes that are read.
 #[must_use]
 pub fn file_too_large(span: Span, path: &str, what: &str, bytes_max: usize) -> Diagnostic {
     let most = bytes_max >> 20;
@@ -28,7 +28,7 @@ pub fn file_too_large(span: Span, path: &str, what: &str, bytes_max: usize) -> D
         .help("name the file that is meant, or take out what does not belong to it")
 }
 
-/// The path that is one too many, and how many bytes all files have at most.
+/// `path` is the file with which the limit is exceeded, `bytes_max` the most bytes for all files.
 #[must_use]
 pub fn all_too_large(span: Span, path: &str, bytes_max: usize) -> Diagnostic {
     let most = bytes_max >> 20;

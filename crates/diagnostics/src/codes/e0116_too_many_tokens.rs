@@ -19,7 +19,7 @@ Way out: take out what does not belong to the design.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `most` is the number that is still read.
+/// `most` is the greatest number allowed.
 #[must_use]
 pub fn too_many_tokens(span: Span, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the design has more than {most} words, signs and spaces"))

@@ -18,7 +18,7 @@ Way out: name the right file, or mend the mistakes that are listed and run the c
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `listed` is the number of mistakes that are listed, `more` that of the others.
+/// `listed` is the number of mistakes that are listed, `more` the number of the others.
 #[must_use]
 pub fn more_mistakes(span: Span, listed: usize, more: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there are {more} more mistakes; {listed} are listed"))

@@ -19,7 +19,7 @@ Way out: name a file; for the output of a program use `-` or `<(program)` on the
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path and what stands there: `a pipe`.
+/// `what` is what is there instead: `a pipe`.
 #[must_use]
 pub fn not_a_file(span: Span, path: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{path} is {what}, not a file"))

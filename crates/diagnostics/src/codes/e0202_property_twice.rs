@@ -18,7 +18,7 @@ Way out: remove one of them.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `first` is where the name stood before.
+/// `first` is the earlier place of the name.
 #[must_use]
 pub fn property_twice(span: Span, name: &str, first: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` is given twice"))

@@ -19,7 +19,7 @@ Way out: add the line.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `of` describes the owner; `example` is a line that would do.
+/// `of` describes the owner; `example` is a line that would be valid.
 #[must_use]
 pub fn missing_property(span: Span, name: &str, of: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{of} needs `{name}`"))

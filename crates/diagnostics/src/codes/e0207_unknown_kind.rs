@@ -19,7 +19,7 @@ Way out: use one of these.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The name of a part of the library in the place of a kind.
+/// The name of a library part in the place of a kind.
 #[must_use]
 pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` is a part, not a kind of connection"))
@@ -27,7 +27,7 @@ pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
         .help(format!("`driver = {driver};` says how it is connected: `sensedsl drivers {driver}` shows it"))
 }
 
-/// `known` are all kinds; `meant` the nearest.
+/// `known` lists all kinds; `meant` is the nearest.
 #[must_use]
 pub fn unknown_kind(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a kind of device"))

@@ -19,7 +19,7 @@ Way out: write a value of the sort that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What the property takes, with an example, and what stands there.
+/// `takes` is what the property accepts, with an example; `found` is what is there.
 #[must_use]
 pub fn wrong_value(span: Span, name: &str, takes: &str, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` takes {takes}, not {found}"))

@@ -19,7 +19,7 @@ Way out: take a value inside the range that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// A time without a unit, which is taken for milliseconds, and what was probably meant.
+/// A time without a unit, which is read as milliseconds; `written` is the time as written.
 #[must_use]
 pub fn bare_time(span: Span, name: &str, written: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {written} ms"))
@@ -28,7 +28,7 @@ pub fn bare_time(span: Span, name: &str, written: &str, range: &str) -> Diagnost
         .replace(format!("change to `{written} us`"), span, format!("{written} us"))
 }
 
-/// A list that has another number of entries than the array has elements.
+/// A list whose number of entries differs from the number of elements of the array.
 #[must_use]
 pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> Diagnostic {
     let message = format!("`{name}` has {entries} entries, and the array has {elements} elements");
@@ -37,7 +37,7 @@ pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> D
         .help("add or remove entries, or change the length of the array")
 }
 
-/// The value as written and the range as text ("1 to 254").
+/// `value` is the value as written, `range` the range as text ("1 to 254").
 #[must_use]
 pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}"))

@@ -18,7 +18,7 @@ Way out: use one of the words that the message lists.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `words` lists what is possible.
+/// `words` lists the possible words.
 #[must_use]
 pub fn unknown_word(span: Span, name: &str, found: &str, words: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` cannot be `{found}`"))

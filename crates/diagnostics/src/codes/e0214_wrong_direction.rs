@@ -1,4 +1,4 @@
-//! E0214: a device of this kind cannot go that way.
+//! E0214: a device of this kind cannot have that direction.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -19,7 +19,7 @@ Way out: declare the device the other way round, or change its `type`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `kind` and the keyword it can be used with.
+/// `can` is the keyword that the kind can be used with.
 #[must_use]
 pub fn wrong_direction(span: Span, kind: &str, can: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{kind} can only be {can}"))

@@ -22,7 +22,7 @@ write address.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The address as written and why it cannot be.
+/// `address` is the address as written, `why` the reason why it is impossible.
 #[must_use]
 pub fn bad_address(span: Span, address: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{address} is not an I2C address: {why}"))

@@ -18,7 +18,7 @@ Way out: change the device's `type`, or take another driver.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The driver, its kind, and the device's kind.
+/// `its` is the kind of the driver, `kind` that of the device.
 #[must_use]
 pub fn driver_of_other_kind(span: Span, driver: &str, its: &str, kind: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{driver}` is {its}, and the device is {kind}"))

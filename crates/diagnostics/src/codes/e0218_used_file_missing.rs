@@ -18,7 +18,7 @@ Way out: correct the path.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path as resolved and the machine's reason.
+/// `path` is the resolved path, `why` the operating system's reason.
 #[must_use]
 pub fn used_file_missing(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("cannot read `{path}`: {why}"))

@@ -18,7 +18,7 @@ Way out: move what both need into a third file.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The files of the circle, in order.
+/// `circle` lists the files of the circle, in order.
 #[must_use]
 pub fn use_cycle(span: Span, circle: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("these files use each other in a circle: {circle}"))

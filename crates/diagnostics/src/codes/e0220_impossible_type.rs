@@ -19,7 +19,7 @@ Way out: use a type that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The kind, the type as written and which types do.
+/// `found` is the type as written, `can` the possible types.
 #[must_use]
 pub fn impossible_type(span: Span, kind: &str, found: &str, can: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{kind} cannot give {found}"))

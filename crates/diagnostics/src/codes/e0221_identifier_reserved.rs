@@ -19,7 +19,7 @@ Way out: choose another name.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The name and why it cannot be.
+/// `why` is the reason why the name cannot be used.
 #[must_use]
 pub fn identifier_reserved(span: Span, name: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be a name: {why}"))

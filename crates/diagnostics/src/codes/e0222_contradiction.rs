@@ -18,7 +18,7 @@ Way out: change or remove one of them.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is impossible, and the other place.
+/// `message` says what is impossible; `other` is the other place, with its words.
 #[must_use]
 pub fn contradiction(span: Span, message: &str, other: Span, other_words: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).here("this").label(other, other_words).help(help)

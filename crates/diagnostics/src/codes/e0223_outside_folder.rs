@@ -21,7 +21,7 @@ Way out: copy the file into the folder, or allow its folder on the command line:
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path as the file names it, and a folder that would have to be allowed.
+/// `path` is the path as the file names it, `folder` the folder that would have to be allowed.
 #[must_use]
 pub fn outside_folder(span: Span, path: &str, folder: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{path}` is outside of the project's folder"))

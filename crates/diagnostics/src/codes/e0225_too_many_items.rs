@@ -19,7 +19,7 @@ Way out: remove what does not belong to the design, or split it into designs wit
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What there is too much of, and how much of it is read.
+/// `what` is what there is too much of, `most` the greatest number allowed.
 #[must_use]
 pub fn too_many_items(span: Span, what: &str, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the design has more than {most} {what}"))

@@ -19,7 +19,7 @@ Way out: print the answer again, and give the file as it is.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path and what is wrong with it.
+/// `why` is what is wrong with the file at `path`.
 #[must_use]
 pub fn not_an_answer(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{path} is not a JSON answer of `solve`: {why}"))

@@ -19,13 +19,13 @@ Way out: the message says what is wrong; a name in an expression must be that of
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is wrong, and what to do.
+/// `message` says what is wrong, `help` what to do.
 #[must_use]
 pub fn cannot_compute(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help(help)
 }
 
-/// A name that is not a constant's.
+/// A name that is not the name of a constant.
 #[must_use]
 pub fn not_a_constant(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a constant"));

@@ -1,4 +1,4 @@
-//! E0228: constants that need each other.
+//! E0228: constants that depend on each other.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -18,7 +18,7 @@ Way out: give one of them a value that needs none of the others.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The circle as `A -> B -> A`.
+/// `circle` is the circle in the form `A -> B -> A`.
 #[must_use]
 pub fn constants_in_a_circle(span: Span, circle: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("constants are defined in a circle: {circle}"))

@@ -20,7 +20,7 @@ Way out: the message says what; `sensedsl drivers NAME` shows a driver of the li
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is wrong.
+/// `message` says what is wrong.
 #[must_use]
 pub fn wrong_driver(span: Span, message: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help("correct the driver: `sensedsl drivers` lists those of the library to compare with")

@@ -19,7 +19,7 @@ Way out: take one of the names that the message lists; `sensedsl drivers NAME` s
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What the part lacks, what it has, and the nearest name.
+/// `message` says what the part lacks, `has` what it has; `meant` is the nearest name.
 #[must_use]
 pub fn unknown_reading(span: Span, message: &str, has: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, message);

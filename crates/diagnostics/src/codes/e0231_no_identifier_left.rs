@@ -19,7 +19,7 @@ Way out: give devices smaller identifiers; `sensedsl fmt --ids` writes all of th
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device, and the greatest identifier there is.
+/// `last` is the greatest possible identifier.
 #[must_use]
 pub fn no_identifier_left(span: Span, device: &str, last: u8) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{device}` has no `id`, and none is left behind {last}"))

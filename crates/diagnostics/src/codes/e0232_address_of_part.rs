@@ -21,7 +21,7 @@ gets a driver of the file with its own `addresses`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The address as 7-bit form, the driver, the addresses that it has, and what to write.
+/// `address` is the 7-bit address, `has` lists the addresses of the driver's part, `help` says what to write.
 #[must_use]
 pub fn address_of_part(span: Span, address: u8, driver: &str, has: &str, help: &str) -> Diagnostic {
     let message = format!("0x{address:02X} is not an address of `{driver}`, whose part can have {has}");

@@ -1,4 +1,4 @@
-//! E0233: a bus clock that is over the part's greatest.
+//! E0233: a bus clock above the part's maximum.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ has a clock that the part takes.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The property, the clock that is asked for, the driver and the greatest that its part takes.
+/// `asked` is the requested clock, `most` the greatest that the driver's part allows.
 #[must_use]
 pub fn clock_over_part(span: Span, property: &str, asked: &str, driver: &str, most: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{asked} is too fast for `{driver}`, which takes {most} at most"))

@@ -21,7 +21,7 @@ Way out: write the value in the unit that the message names, or its code behind 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What does not fit, and what to write.
+/// `message` says what does not fit, `help` what to write.
 #[must_use]
 pub fn value_does_not_fit(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).here("this value").help(help)

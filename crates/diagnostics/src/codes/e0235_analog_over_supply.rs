@@ -1,4 +1,4 @@
-//! E0235: a voltage to expect that an analog input cannot measure.
+//! E0235: an expected voltage that an analog input cannot measure.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -21,7 +21,7 @@ device to the pin, and from there to ground). The shown value is multiplied by w
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device, the voltage to expect, what the input measures up to, and the resistors that help.
+/// `max` is the expected voltage, `supply` the greatest that the input measures, `help` names resistors that help.
 #[must_use]
 pub fn analog_over_supply(span: Span, device: &str, max: &str, supply: &str, help: &str) -> Diagnostic {
     let message = format!("{device} goes up to {max}, but its input measures {supply} at most");

@@ -21,7 +21,7 @@ Way out: write the bound in the unit that is shown, within the range that the me
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The property, its value, the device and its range.
+/// `bound` is the value of the property, `range` the range of the device.
 #[must_use]
 pub fn bound_out_of_reach(
     span: Span,

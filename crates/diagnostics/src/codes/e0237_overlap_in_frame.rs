@@ -20,7 +20,7 @@ selector with `mux`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What both take, in words.
+/// `name` and `other` are the commands, `frame` is the frame in words.
 #[must_use]
 pub fn overlap_in_frame(span: Span, name: &str, other: &str, other_span: Span, frame: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{name} and {other} take the same bits of frame {frame}"))

@@ -21,7 +21,7 @@ Way out: let the value begin earlier, take fewer bits or a smaller type, or a lo
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Where the value ends, in words.
+/// `ends` says in words where the value ends.
 #[must_use]
 pub fn outside_frame(span: Span, name: &str, ends: &str, frame_bytes: u8) -> Diagnostic {
     let bytes = if frame_bytes == 1 { "byte" } else { "bytes" };

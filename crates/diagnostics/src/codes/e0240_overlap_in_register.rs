@@ -20,7 +20,7 @@ Way out: take out one of the two. In a driver, give each command bits of its own
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What both take, in words; `register` is its number, if it has one.
+/// `name` and `other` are the commands; `register` is the register's number, if it has one.
 #[must_use]
 pub fn overlap_in_register(
     span: Span,

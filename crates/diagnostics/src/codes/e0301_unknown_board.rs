@@ -20,8 +20,8 @@ Way out: correct the name, or say which table is meant.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `meant` is the nearest built-in board or part; it is shown as a file has to spell it. `is_own` tells
-/// that the block says nothing with `on`, and its own name was looked for.
+/// `meant` is the nearest built-in board or part, shown as a file has to spell it. `is_own` is true if the block has no
+/// `on`, so that its own name was looked up.
 #[must_use]
 pub fn unknown_board(span: Span, name: &str, meant: Option<&str>, is_own: bool) -> Diagnostic {
     let diagnostic =

@@ -19,7 +19,7 @@ Way out: correct the path, or export the spreadsheet as CSV (UTF-8).
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path and the reason.
+/// `why` is the reason why the table at `path` cannot be read.
 #[must_use]
 pub fn table_unreadable(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("cannot read the table `{path}`: {why}"))

@@ -21,7 +21,7 @@ Way out: add what is missing.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is missing ("the column `Pin`", "rows").
+/// `missing` is what is missing ("the column `Pin`", "rows").
 #[must_use]
 pub fn table_empty(span: Span, missing: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the table lacks {missing}"))

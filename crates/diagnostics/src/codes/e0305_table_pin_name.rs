@@ -18,7 +18,7 @@ Way out: correct the cell.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The row and the cell's text.
+/// `row` is the number of the row, `found` the cell's text.
 #[must_use]
 pub fn table_pin_name(span: Span, row: usize, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("row {row}, column Pin: `{found}` is not a pin name"))

@@ -20,7 +20,7 @@ Way out: correct the spelling.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Place by row and column, the cell's text, and the spelling that was meant.
+/// `found` is the text of the cell at `row` and `column`, `meant` the spelling that was meant.
 #[must_use]
 pub fn table_signal(span: Span, row: usize, column: &str, found: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic =

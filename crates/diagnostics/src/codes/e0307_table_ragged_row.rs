@@ -18,7 +18,7 @@ Way out: add or remove separators.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Cells of the row and of the head.
+/// `cells` is the number of cells of the row, `columns` that of the head.
 #[must_use]
 pub fn table_ragged_row(span: Span, row: usize, cells: usize, columns: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("row {row} has {cells} cells, the head has {columns} columns"))

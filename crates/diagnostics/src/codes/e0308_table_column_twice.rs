@@ -18,7 +18,7 @@ Way out: rename or merge one of them.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The column's name and its earlier place.
+/// `first` is the earlier place of the column's name.
 #[must_use]
 pub fn table_column_twice(span: Span, column: &str, first: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there are two columns `{column}`"))

@@ -18,7 +18,7 @@ Way out: remove one of the two.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The usage and its earlier place.
+/// `first` is the earlier place of the usage.
 #[must_use]
 pub fn table_usage_twice(span: Span, row: usize, usage: &str, first: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("row {row} lists `{usage}` twice"))

@@ -19,7 +19,7 @@ Way out: use one of the units that the message lists.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `units` lists what there is for this kind.
+/// `units` lists the units that exist for this kind.
 #[must_use]
 pub fn unknown_unit(span: Span, unit: &str, kind: &str, units: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{unit}` cannot serve {kind}"))

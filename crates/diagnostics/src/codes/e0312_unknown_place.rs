@@ -18,7 +18,7 @@ Way out: use one of the names that the message lists, or add the column to the t
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `what` is "side" or "header"; `names` what the table knows.
+/// `what` is "side" or "header"; `names` lists those of the table.
 #[must_use]
 pub fn unknown_place(span: Span, what: &str, name: &str, names: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no pin of the board is on the {what} `{name}`"))

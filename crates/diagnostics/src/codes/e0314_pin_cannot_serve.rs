@@ -18,7 +18,8 @@ Way out: take one of the pins that the message lists, or leave the choice to the
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Two pins of a device that would do the other way round: what they are, and both lines as they should be.
+/// Two pins of a device that would fit if they were swapped; `needs` is what their roles need, `lines` has both lines
+/// corrected.
 #[must_use]
 pub fn pins_swapped(span: Span, pin: &str, needs: &str, other: Span, lines: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
@@ -27,7 +28,7 @@ pub fn pins_swapped(span: Span, pin: &str, needs: &str, other: Span, lines: &str
         .help(format!("the two are swapped: write `{lines}`"))
 }
 
-/// What the role needs, where the pin's usages stand, and which pins would do.
+/// `needs` is what the role needs, `row` the place of the pin's usages, `pins` lists the pins that fit.
 #[must_use]
 pub fn pin_cannot_serve(span: Span, pin: &str, needs: &str, row: Option<Span>, pins: &str) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))

@@ -19,7 +19,7 @@ Way out: choose another pin, or `release` it where the part is not needed or the
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Who has the pin, and where that is said.
+/// `by` is what has the pin, `place` where that is stated.
 #[must_use]
 pub fn pin_not_available(span: Span, pin: &str, by: &str, place: Option<Span>, help: &str) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("{pin} is taken by {by}")).here("fixed here").help(help);

@@ -19,7 +19,7 @@ Way out: name the right file, and remove rows, columns and cells that do not des
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What there is too much of, and how much of it is read.
+/// `what` is what there is too much of, `most` the greatest number allowed.
 #[must_use]
 pub fn table_too_large(span: Span, what: &str, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the table has more than {most} {what}"))

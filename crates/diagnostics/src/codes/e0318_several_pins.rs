@@ -19,7 +19,7 @@ Way out: write the name of one of them.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `pins` are the pins, in order.
+/// `pins` lists the pins, in order.
 #[must_use]
 pub fn several_pins(span: Span, name: &str, board: &str, pins: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{board} has several pins called {name}"))

@@ -1,4 +1,4 @@
-//! E0321: a device puts more voltage on a pin than it stands.
+//! E0321: a device puts more voltage on a pin than it tolerates.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,8 @@ there to ground); a level shifter, where wires are driven from both ends; or oth
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device and where it is, its level and where that is stated, what the pins tolerate, and what helps.
+/// `span` is the place of the device, `stated` that of its level; `most` is what the pins tolerate, `help` says what to
+/// do.
 #[must_use]
 pub fn too_much_voltage(
     (span, device): (Span, &str),

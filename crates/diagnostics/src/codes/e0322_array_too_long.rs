@@ -21,7 +21,7 @@ another board.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// How many there are of what, and how many are asked for. `most` names where the most are.
+/// `asked` is the number of wires that the array needs; `most` says how many of them there are at most, and where.
 #[must_use]
 pub fn array_too_long(span: Span, array: &str, asked: usize, most: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{array}` needs {asked}, and {most}"))

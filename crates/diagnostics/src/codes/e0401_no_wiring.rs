@@ -24,7 +24,7 @@ move one of the devices, or use a kind that needs something else.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The devices' names as a list, and the resources they fight for.
+/// `devices` lists the devices, `resources` the resources that they compete for.
 #[must_use]
 pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("no wiring: {devices} cannot be connected together"));
@@ -35,7 +35,7 @@ pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
     }
 }
 
-/// One device alone: no pins of the board are what it needs.
+/// A single device: no pins of the board are what it needs.
 #[must_use]
 pub fn nothing_serves(span: Span, device: &str, resources: &str) -> Diagnostic {
     let message = format!("no wiring: no free pins of the board can serve {device}");

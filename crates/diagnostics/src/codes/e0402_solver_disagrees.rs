@@ -20,7 +20,7 @@ it meanwhile.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What the checker said.
+/// `violation` is what the checker found.
 #[must_use]
 pub fn solver_disagrees(span: Span, violation: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("internal: the answer did not pass its check: {violation}"))

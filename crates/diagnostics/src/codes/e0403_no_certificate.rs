@@ -21,7 +21,7 @@ choices are left, the shorter is the proof.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `span` is the board; `why` there is none.
+/// `span` is the board; `why` is the reason why there is none.
 #[must_use]
 pub fn no_certificate(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no certificate: {why}"))

@@ -19,7 +19,7 @@ Way out: allow that many moves, or drop what makes them necessary.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The fewest moves that are possible, and how many are allowed.
+/// `moved` is the least possible number of moves, `most` the number allowed.
 #[must_use]
 pub fn too_many_moves(span: Span, moved: u32, most: u32) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("at least {moved} wires have to move, {most} are allowed"))

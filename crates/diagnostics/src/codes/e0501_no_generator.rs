@@ -21,7 +21,7 @@ it; for firmware, leave the device or the part out of the file.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What a device needs that no firmware does: `the start of a chip`.
+/// `what` is what a device needs and no firmware has: `the start of a chip`.
 #[must_use]
 pub fn not_made_yet(span: Span, device: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no firmware can be generated for {what} yet"))
@@ -29,7 +29,7 @@ pub fn not_made_yet(span: Span, device: &str, what: &str) -> Diagnostic {
         .help("`generate --without firmware` writes the rest; or leave this out")
 }
 
-/// The device's kind, and the kinds that can be generated.
+/// `kind` is the device's kind, `can` lists the kinds that can be generated.
 #[must_use]
 pub fn no_generator(span: Span, kind: &str, can: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no firmware can be generated for {kind} yet"))

@@ -20,7 +20,7 @@ Way out: choose another folder, or move the files that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Some of the foreign files.
+/// `files` lists some of the foreign files.
 #[must_use]
 pub fn foreign_files(span: Span, folder: &str, files: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` holds files that are not generated: {files}"))

@@ -18,7 +18,7 @@ Way out: run `generate` without `--check`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What differs ("missing", "differs", "no longer made") with the paths.
+/// `files` says what differs ("missing", "differs", "no longer made"), with the paths.
 #[must_use]
 pub fn out_of_date(span: Span, folder: &str, files: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` is out of date: {files}"))

@@ -23,7 +23,7 @@ host applications among it.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The board and why there is no firmware for it.
+/// `why` is the reason why there is no firmware for the board.
 #[must_use]
 pub fn no_firmware_target(span: Span, board: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no firmware can be generated for {board}: {why}"))

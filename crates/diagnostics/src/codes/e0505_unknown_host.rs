@@ -18,7 +18,7 @@ Way out: use the names that the message lists.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The name and all there are.
+/// `known` lists all hosts.
 #[must_use]
 pub fn unknown_host(span: Span, name: &str, known: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no host application `{name}`"))

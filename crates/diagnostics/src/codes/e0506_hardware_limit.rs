@@ -20,7 +20,7 @@ Way out: change the value that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What the limit is and how to stay inside.
+/// `message` states the limit, `help` says how to stay within it.
 #[must_use]
 pub fn hardware_limit(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help(help)

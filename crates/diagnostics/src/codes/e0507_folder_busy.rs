@@ -20,7 +20,7 @@ The lock ends with the process that holds it; there is no file to remove.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Which folder, and how long the run has waited.
+/// `waited_s` is how long the run has waited for `folder`.
 #[must_use]
 pub fn folder_busy(span: Span, folder: &str, waited_s: u64) -> Diagnostic {
     let message = format!("another `sensedsl generate` has been writing `{folder}` for {waited_s} s");

@@ -21,14 +21,14 @@ Way out: choose another name, or give `--force` to replace the file.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Which file is in the way, and of what.
+/// `file` is in the way of `what`.
 #[must_use]
 pub fn file_exists(span: Span, file: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{file}` exists and is not replaced by {what}"))
         .help("nothing was written; choose another name, or give `--force` to replace it")
 }
 
-/// Which folder is not empty, and what is in it.
+/// `folder` is not empty: it has `file` in it.
 #[must_use]
 pub fn folder_not_empty(span: Span, folder: &str, file: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` is not empty: it holds `{file}`")).help(

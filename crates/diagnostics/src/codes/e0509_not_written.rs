@@ -22,14 +22,14 @@ needs room for the new files beside the old ones for a moment.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The folder is as it was.
+/// The folder is unchanged.
 #[must_use]
 pub fn not_written(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` could not be written: {why}"))
         .help("it is as it was before; fix what the message says and run `generate` again")
 }
 
-/// The new files are there, or will be when the next run has completed what is left.
+/// The new files are there, or will be when the next run has completed the rest.
 #[must_use]
 pub fn not_completed(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("writing `{folder}` could not be completed: {why}"))

@@ -22,7 +22,7 @@ folder, and run `generate` again.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Which folder.
+/// `folder` is the output folder, `left` what the earlier run left.
 #[must_use]
 pub fn unfinished(span: Span, folder: &str, left: &str) -> Diagnostic {
     let message = format!("`{left}` is left over from an earlier run and does not belong to `{folder}`");

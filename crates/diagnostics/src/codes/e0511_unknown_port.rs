@@ -21,7 +21,7 @@ the board into the column `Label`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The pin, and the letters of the ports that the MCU has.
+/// `ports` has the letters of the ports that the MCU has.
 #[must_use]
 pub fn unknown_port(span: Span, pin: &str, ports: &str) -> Diagnostic {
     let ports: Vec<String> = ports.chars().map(String::from).collect();

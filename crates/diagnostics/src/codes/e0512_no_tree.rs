@@ -22,7 +22,7 @@ Way out: fetch a tree once and name it:
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The release that is wanted: `21.11`.
+/// `version` is the required release: `21.11`.
 #[must_use]
 pub fn no_tree(span: Span, version: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("this firmware needs a source tree of ChibiOS {version}, and none is named"))

@@ -22,7 +22,7 @@ Way out: name that folder, or fetch a tree:
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The folder, and what it lacks, in words that follow a colon.
+/// `why` says what the folder lacks, worded to follow a colon.
 #[must_use]
 pub fn not_a_tree(span: Span, folder: &str, why: &str, version: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` is not a ChibiOS tree: {why}")).help(format!(
@@ -31,7 +31,7 @@ pub fn not_a_tree(span: Span, folder: &str, why: &str, version: &str) -> Diagnos
     ))
 }
 
-/// The folder, and the signs in its path that make takes for something else.
+/// `sign` is a character in the folder's path that make interprets.
 #[must_use]
 pub fn not_readable(span: Span, folder: &str, sign: char) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("make cannot read the path `{folder}`: it has `{sign}` in it"))

@@ -22,7 +22,7 @@ Way out: name a tree of the release that the message asks for, or switch the one
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The tree, its release, and the one that is wanted.
+/// `found` is the release of the tree in `folder`, `version` the required one.
 #[must_use]
 pub fn other_tree(span: Span, folder: &str, found: &str, version: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` is ChibiOS {found}, this firmware needs {version}"))

@@ -22,7 +22,7 @@ Way out: fetch the tree again, whole:
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The tree, the board, and the files that are missing.
+/// `missing` lists the files that the board needs and the tree in `folder` lacks.
 #[must_use]
 pub fn tree_incomplete(span: Span, folder: &str, board: &str, missing: &[String]) -> Diagnostic {
     let all = missing.join("`, `");

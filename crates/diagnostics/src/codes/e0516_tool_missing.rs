@@ -26,12 +26,12 @@ is in a folder that PATH does not name.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is missing, and what it is needed for.
+/// `tool` is the missing tool, `what` what it is needed for.
 #[must_use]
 pub fn tool_missing(span: Span, tool: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{tool}` is missing: {what}")).help(INSTALL)
 }
 
-/// How all of them are installed.
+/// How to install all of them.
 const INSTALL: &str = "Debian, Ubuntu, WSL on Windows: `sudo apt install make gcc-arm-none-eabi \
     libnewlib-arm-none-eabi`; macOS: `brew install make && brew install --cask gcc-arm-embedded`";

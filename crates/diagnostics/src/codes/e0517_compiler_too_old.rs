@@ -22,7 +22,7 @@ builds for every system at https://developer.arm.com/downloads/-/arm-gnu-toolcha
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The version that was found, and the first that will do.
+/// `found` is the version found, `needed` the first one that is sufficient.
 #[must_use]
 pub fn compiler_too_old(span: Span, found: &str, needed: u32) -> Diagnostic {
     Diagnostic::new(

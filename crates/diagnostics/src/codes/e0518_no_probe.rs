@@ -29,7 +29,7 @@ again. `--with TOOL` takes one tool only.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What was looked for, and what came of it.
+/// `looked` says what was looked for, and the result.
 #[must_use]
 pub fn no_tool(span: Span, looked: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no tool to flash with; looked for {looked}")).help(
@@ -37,7 +37,7 @@ pub fn no_tool(span: Span, looked: &str) -> Diagnostic {
     )
 }
 
-/// What was asked, and what came of it.
+/// `looked` says what was asked, and the result.
 #[must_use]
 pub fn no_probe(span: Span, looked: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no board was found to flash; looked with {looked}")).help(

@@ -21,14 +21,14 @@ Way out: give `--board NAME` with one of the names that the message lists.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// There are several: their names.
+/// There are several boards; `boards` has their names.
 #[must_use]
 pub fn several(span: Span, boards: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there are {} boards, and `flash` writes one", boards.len()))
         .help(format!("say which with `--board NAME`: {}", boards.join(", ")))
 }
 
-/// No board has that name: the names that there are.
+/// No board has this name; `boards` has the names of all.
 #[must_use]
 pub fn unknown(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no firmware of a board `{name}`"))

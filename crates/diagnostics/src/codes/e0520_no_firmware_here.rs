@@ -21,7 +21,7 @@ Way out: name a file, or a folder with firmware.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What was named, and what is wrong with it, in words that follow a colon.
+/// `why` says what is wrong with `path`, worded to follow a colon.
 #[must_use]
 pub fn no_firmware_here(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no firmware to build in `{path}`: {why}"))

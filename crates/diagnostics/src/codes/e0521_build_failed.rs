@@ -25,7 +25,7 @@ commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a b
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The board, and how `tool` ended.
+/// `how` says how `tool` ended.
 #[must_use]
 pub fn build_failed(span: Span, board: &str, tool: &str, how: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the firmware of {board} was not built: {tool} ended with {how}"))

@@ -20,14 +20,14 @@ Way out: end the other program, hold the reset button while flashing begins, or 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The board, the command, and how it ended.
+/// `how` says how `command` ended.
 #[must_use]
 pub fn not_flashed(span: Span, board: &str, command: &str, how: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{board} was not flashed: `{command}` ended with {how}"))
         .help("hold the reset button while flashing begins, or try another tool with `--with`")
 }
 
-/// The MCU is not known, which the tool wants to be told.
+/// The MCU is not known, but the tool needs it.
 #[must_use]
 pub fn unknown_mcu(span: Span, board: &str, tool: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{tool} wants to be told the MCU of {board}, which is not known here"))

@@ -21,7 +21,7 @@ for.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `target` is the triple.
+/// `target` is the target triple.
 #[must_use]
 pub fn no_core_library(span: Span, target: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("rustc has no core library for `{target}`"))

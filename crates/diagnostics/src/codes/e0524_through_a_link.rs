@@ -22,14 +22,14 @@ file yourself; where it is not, remove the link.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The output folder is reached through one.
+/// The output folder is reached through a link.
 #[must_use]
 pub fn folder_is_elsewhere(span: Span, link: &str, target: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{link}` is a link that leads to `{target}`"))
         .help("if the link is yours, name the folder that it leads to: `-o` with that path")
 }
 
-/// Files to make are behind one in the folder.
+/// Files to write would be behind a link in the folder.
 #[must_use]
 pub fn files_are_elsewhere(span: Span, folder: &str, files: &str) -> Diagnostic {
     let message = format!("`{folder}` holds links where these files have to be written: {files}");

@@ -24,7 +24,7 @@ and run `generate` again.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What stands there.
+/// `left` is what looks like an unfinished run.
 #[must_use]
 pub fn not_our_work(span: Span, folder: &str, left: &str) -> Diagnostic {
     let message = format!("`{left}` looks like an unfinished run for `{folder}`, and not one of this machine");

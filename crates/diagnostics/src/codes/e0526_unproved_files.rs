@@ -1,4 +1,4 @@
-//! E0526: the output folder was not written by this machine, and changed since.
+//! E0526: the output folder was not written by this machine, and has changed since.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -23,7 +23,7 @@ else move your files away, or choose another folder.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Some of the files.
+/// `files` lists some of the files.
 #[must_use]
 pub fn unproved_files(span: Span, folder: &str, files: &str) -> Diagnostic {
     let message = format!(

@@ -21,7 +21,7 @@ right, one of the two tools is not: please report it, with the file and this mes
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The wire, and what the compiler says.
+/// `wire` is the wire, `why` the compiler's message.
 #[must_use]
 pub fn refused(span: Span, wire: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the compiler refuses {wire}"))

@@ -19,7 +19,7 @@ Way out: install Rust from https://rustup.rs, open a new terminal, and try again
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// That it does not run, and what needs it.
+/// `cargo` does not run, and `what` needs it.
 #[must_use]
 pub fn no_cargo(span: Span, cargo: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{cargo}` does not run, and {what} needs it"))

@@ -1,4 +1,4 @@
-//! E0532: the type check did not come to an end.
+//! E0532: the type check did not finish.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -21,7 +21,7 @@ folder of `CARGO_HOME`; with an old compiler, run `rustup update`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What cargo says.
+/// `said` is cargo's output.
 #[must_use]
 pub fn stopped(span: Span, board: &str, said: &str) -> Diagnostic {
     let help = if said.contains("rustc") && said.contains("requires") {

@@ -20,7 +20,7 @@ Way out: check without `--typecheck`, or name the MCU in the first line of the t
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The board, and why there are none.
+/// `why` is the reason why there are none for the board.
 #[must_use]
 pub fn not_known(span: Span, board: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the wiring of {board} cannot be type-checked: {why}"))

@@ -32,14 +32,14 @@ Way out: mend what the message points at.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is wrong, in the words of the TOML parser.
+/// `why` is the message of the TOML parser.
 #[must_use]
 pub fn not_toml(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the world is not TOML: {why}"))
         .help("a world is a text in TOML: `[devices]`, then a line such as `IRFront = 20.0`")
 }
 
-/// Something of another sort is needed: `a number`, `a table`.
+/// A value of another sort is needed: `a number`, `a table`.
 #[must_use]
 pub fn wrong_sort(span: Span, what: &str, wanted: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} must be {wanted}"))
@@ -47,7 +47,7 @@ pub fn wrong_sort(span: Span, what: &str, wanted: &str, example: &str) -> Diagno
         .help(format!("write for example `{example}`"))
 }
 
-/// Something that is needed is not there.
+/// Something required is missing.
 #[must_use]
 pub fn missing(span: Span, what: &str, needs: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} needs `{needs}`"))

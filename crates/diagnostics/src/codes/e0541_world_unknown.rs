@@ -1,4 +1,4 @@
-//! E0541: a world names something that there is not.
+//! E0541: a world names something that does not exist.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ Way out: write a name or a word that there is; the message has the nearest one, 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// No sensor of the board has that name.
+/// No sensor of the board has this name.
 #[must_use]
 pub fn unknown_device(span: Span, name: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("the board has no sensor called `{name}`"));
@@ -34,7 +34,7 @@ pub fn unknown_device(span: Span, name: &str, near: Option<&str>, all: &str) -> 
     }
 }
 
-/// No actuator of the board has that name.
+/// No actuator of the board has this name.
 #[must_use]
 pub fn unknown_actuator(span: Span, name: &str, near: Option<&str>, all: &[&str]) -> Diagnostic {
     let what = format!("the board has no actuator called `{name}`");
@@ -50,7 +50,7 @@ pub fn unknown_actuator(span: Span, name: &str, near: Option<&str>, all: &[&str]
     }
 }
 
-/// It is an actuator, or on another board.
+/// The device is an actuator, or on another board.
 #[must_use]
 pub fn not_simulated(span: Span, name: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` {why}"))

@@ -26,7 +26,7 @@ Way out: write values within the range that the message tells, or give the devic
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// A value outside of the device's range, in its own unit.
+/// A value is outside the device's range, in its own unit.
 #[must_use]
 pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}: it goes from {range}"))
@@ -34,13 +34,13 @@ pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnos
         .help("choose a value in that range, or give the device a wider type")
 }
 
-/// A value is not in the device's unit: why, and what to write.
+/// A value is not in the device's unit; `why` is the reason, `help` says what to write.
 #[must_use]
 pub fn does_not_fit(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}`: {why}")).here("this value").help(help)
 }
 
-/// An array has another number of elements.
+/// An array has the wrong number of elements.
 #[must_use]
 pub fn wrong_count(span: Span, name: &str, found: usize, wanted: usize) -> Diagnostic {
     let what = format!("`{name}` has {wanted} elements, and there are {found} here");
@@ -48,7 +48,7 @@ pub fn wrong_count(span: Span, name: &str, found: usize, wanted: usize) -> Diagn
         .help(format!("write one value for all of them, or a list of {wanted}"))
 }
 
-/// A count of edges goes down.
+/// A count of edges decreases.
 #[must_use]
 pub fn falls(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot become less"))
@@ -56,7 +56,7 @@ pub fn falls(span: Span, name: &str) -> Diagnostic {
         .help("write for example `{ rate = 25 }` for 25 edges a second")
 }
 
-/// What counts edges would have to turn infinitely fast.
+/// The source of the edges would have to turn infinitely fast.
 #[must_use]
 pub fn jumps(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot jump"))
@@ -64,7 +64,7 @@ pub fn jumps(span: Span, name: &str) -> Diagnostic {
         .help("write for example `{ sine = 200, period = \"4 s\" }`, `{ rate = 25 }` or `steps`, which are joined by lines")
 }
 
-/// Edges come faster than a contact is debounced; both numbers are edges a second.
+/// Edges come faster than a contact is debounced; both numbers are edges per second.
 #[must_use]
 pub fn too_fast(span: Span, name: &str, wanted: &str, most: &str) -> Diagnostic {
     let what = format!("`{name}` cannot count {wanted} edges a second: `debounce` lets fewer than {most} through");

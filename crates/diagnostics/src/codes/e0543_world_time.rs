@@ -1,4 +1,4 @@
-//! E0543: a time in a world cannot be.
+//! E0543: a time in a world is impossible.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};

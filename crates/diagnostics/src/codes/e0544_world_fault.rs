@@ -1,4 +1,4 @@
-//! E0544: a fault is on a wire that is not there.
+//! E0544: a fault is on a wire that does not exist.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -33,14 +33,14 @@ pub fn no_such_wire(span: Span, fault: &str, device: &str, kind: &str, needs: &s
     Diagnostic::new(CODE, span, what).help(format!("`{fault}` is for {needs}"))
 }
 
-/// The fault is of the board or its link, not of a device.
+/// The fault is one of the board or its link, not of a device.
 #[must_use]
 pub fn no_device(span: Span, fault: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the fault `{fault}` is of the board, not of a device"))
         .help("take the line `device` out")
 }
 
-/// The board has no link for it.
+/// The board has no link that could have the fault.
 #[must_use]
 pub fn no_link(span: Span, fault: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the board has no link, so it cannot have the fault `{fault}`"))

@@ -20,14 +20,14 @@ Way out: mend the line that the message names, or name a column that the file ha
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The file was not read.
+/// The file could not be read.
 #[must_use]
 pub fn unread(span: Span, file: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the samples in {file} were not read: {why}"))
         .help("name a CSV file beside the world, or in a folder below")
 }
 
-/// No column has that name.
+/// No column has this name.
 #[must_use]
 pub fn no_column(span: Span, column: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("the samples have no column `{column}`"));
@@ -37,7 +37,7 @@ pub fn no_column(span: Span, column: &str, near: Option<&str>, all: &str) -> Dia
     }
 }
 
-/// A line of the file is not what it should be.
+/// A line of the file is not as it should be.
 #[must_use]
 pub fn bad_line(span: Span, file: &str, line: usize, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("line {line} of {file}: {why}"))

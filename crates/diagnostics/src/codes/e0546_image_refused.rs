@@ -19,14 +19,14 @@ Way out: build the firmware of this file (`sensedsl build FILE`), and give the p
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The machine refuses the image, for that reason.
+/// The emulated MCU rejects the image; `why` is the reason.
 #[must_use]
 pub fn refused(span: Span, image: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{image} cannot run on this board: {why}"))
         .help("build the firmware of this file with `sensedsl build`, and give the `sense.elf` that it names")
 }
 
-/// No machine is there for the MCU.
+/// The MCU cannot be emulated.
 #[must_use]
 pub fn other_mcu(span: Span, board: &str, mcu: &str, known: &str) -> Diagnostic {
     let message = format!("`{board}` has an {mcu}, and only these are emulated: {known}");

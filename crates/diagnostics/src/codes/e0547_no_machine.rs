@@ -1,4 +1,4 @@
-//! E0547: this program has no emulated MCU in it.
+//! E0547: this program does not include an emulated MCU.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};

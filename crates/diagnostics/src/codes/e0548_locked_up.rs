@@ -1,4 +1,4 @@
-//! E0548: the firmware does not run any more.
+//! E0548: the firmware no longer runs.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ Way out: `arm-none-eabi-addr2line -e sense.elf ADDRESS` tells the line of the so
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Where it stood, and why.
+/// `pc` is where it stopped, `why` the reason.
 #[must_use]
 pub fn locked_up(span: Span, pc: u64, why: &str, seconds: &str) -> Diagnostic {
     let what = format!("the firmware locked up after {seconds} s at 0x{pc:08X}: {why}");

@@ -23,7 +23,7 @@ Way out: look at the device that the message names; the table before it has them
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The worst disagreement, in words.
+/// `what` is the worst disagreement, in words.
 #[must_use]
 pub fn disagrees(span: Span, name: &str, what: &str, wrong: u64, all: u64) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` disagrees with the world: {what}"))

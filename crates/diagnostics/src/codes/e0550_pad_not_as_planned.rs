@@ -1,4 +1,4 @@
-//! E0550: the firmware has set up a pad or a port in another way than planned.
+//! E0550: the firmware has set up a pad or a port differently than planned.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -24,7 +24,7 @@ one that the message names out of it.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// How the pad or the port of a device is, and how it should be.
+/// `found` is how the pad or the port of a device is set up, `expected` how it should be.
 #[must_use]
 pub fn not_as_planned(
     span: Span,

@@ -1,4 +1,4 @@
-//! E0551: a world holds more than is read.
+//! E0551: a world contains more than is read.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -19,7 +19,7 @@ Way out: long courses of values belong in a file of samples: `Speed = { csv = "d
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The place of the first table or list that is too much.
+/// `span` is the first table or list that is too much.
 #[must_use]
 pub fn too_large(span: Span, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the world has more than {most} tables and lists"))

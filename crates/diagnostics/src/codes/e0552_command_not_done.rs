@@ -23,7 +23,7 @@ to the wire that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is amiss at a wire: when, after what, what must be there, and what is.
+/// `what` says what is wrong at a wire: when, after which command, the expected level and the actual one.
 #[must_use]
 pub fn not_done(span: Span, name: &str, what: &str, wrong: u64, looks: u64) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` does not do what it is told: {what}")).help(format!(
@@ -31,7 +31,7 @@ pub fn not_done(span: Span, name: &str, what: &str, wrong: u64, looks: u64) -> D
     ))
 }
 
-/// A level that no value changes is not there.
+/// A level that no command changes is missing.
 #[must_use]
 pub fn not_there(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("a level that never changes is wrong: {what}"))

@@ -19,7 +19,7 @@ Way out: build the firmware of this very file (`sensedsl build FILE`), and leave
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// How the watchdog is, and when.
+/// `found` is the state of the watchdog, `seconds` the time.
 #[must_use]
 pub fn no_watchdog(span: Span, found: &str, seconds: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the watchdog {found} after {seconds} s"))

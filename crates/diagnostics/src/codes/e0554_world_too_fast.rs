@@ -19,7 +19,7 @@ Way out: a smaller `rate` or amplitude, a longer `period` or `over`; look for a 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// How much is wanted of a device (`1000000000 edges a second`), and how much there can be.
+/// `wanted` is what is asked of a device (`1000000000 edges a second`), `most` the maximum.
 #[must_use]
 pub fn too_fast(span: Span, name: &str, wanted: &str, most: &str) -> Diagnostic {
     let what = format!("`{name}` cannot have {wanted}: {most} a second are simulated at most");

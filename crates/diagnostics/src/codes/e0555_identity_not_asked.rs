@@ -1,4 +1,4 @@
-//! E0555: the board read a part and not its identity.
+//! E0555: the board read a part but not its identity.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ Way out: build the firmware of this very file (`sensedsl build FILE`).
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The part's name.
+/// `name` is the part's name.
 #[must_use]
 pub fn not_asked(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the board read `{name}` and not its identity"))

@@ -20,7 +20,7 @@ Way out: write the value that the message names. `sensedsl explain timing FILE` 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is asked for and what can be had.
+/// `message` says what is asked for and what is possible, `help` what to do.
 #[must_use]
 pub fn clock_out_of_reach(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help(help)

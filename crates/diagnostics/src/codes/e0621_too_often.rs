@@ -20,7 +20,7 @@ Way out: write the `delay` that the message names: it is the shortest that can b
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is asked for and the shortest that can be kept.
+/// `message` says what is asked for and what is possible, `help` what to do.
 #[must_use]
 pub fn too_often(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).here("asked here").help(help)

@@ -19,7 +19,7 @@ Way out: longer cycle times, a faster link, or a `rate`: then at most so many re
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is asked for and what can be carried.
+/// `message` says what is asked for and what can be carried, `help` what to do.
 #[must_use]
 pub fn link_too_slow(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).here("most of it comes from here").help(help)

@@ -19,7 +19,7 @@ Way out: give all of them the cycle time that the message names, or leave a devi
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Which device finds no turn, and how long all of them take one after the other.
+/// `device` gets no turn; `all_ms` is how long all of them take one after the other.
 #[must_use]
 pub fn no_turns(span: Span, device: &str, group: &str, count: usize, all_ms: u32) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{device} gets no turn in group {group}: its {count} devices take {all_ms} ms together"))

@@ -19,7 +19,7 @@ Way out: shorter arrays, fewer `samples`, fewer different cycle times, or a boar
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Which device takes most, and how many KiB are needed and there.
+/// `device` takes the most memory; `needed_kib` is needed, `there_kib` is available.
 #[must_use]
 pub fn memory_full(span: Span, board: &str, device: &str, needed_kib: u64, there_kib: u32) -> Diagnostic {
     let message = format!("{board} needs {needed_kib} KiB of memory for its values and buffers, and has {there_kib}");

@@ -20,7 +20,7 @@ what it is with `--format`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What could not be read, and why.
+/// `what` could not be read; `why` is the reason.
 #[must_use]
 pub fn import_unreadable(span: Span, what: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("cannot import {what}: {why}")).help(

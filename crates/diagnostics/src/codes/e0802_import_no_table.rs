@@ -19,7 +19,7 @@ Way out: call the column of the pins `Pin`; in a workbook, name the sheet with `
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What was looked for and where.
+/// `what` says what was looked for, and where.
 #[must_use]
 pub fn import_no_table(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no pin table: {what}"))

@@ -18,7 +18,7 @@ Way out: give one of the names in the message, or leave `--sheet` out.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The name that was asked for, and those there are.
+/// `name` is the sheet asked for, `sheets` has the names of all.
 #[must_use]
 pub fn import_no_sheet(span: Span, name: &str, sheets: &[String]) -> Diagnostic {
     let sheets: Vec<String> = sheets.iter().map(|sheet| format!("`{sheet}`")).collect();

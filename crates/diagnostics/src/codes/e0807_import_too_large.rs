@@ -22,7 +22,7 @@ board: of a DBC file the messages that its node sends or receives.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What of the source there is too much of, and how much of it is read.
+/// `what` is what the source has too much of, `most` the greatest number allowed.
 #[must_use]
 pub fn import_too_large(span: Span, name: &str, what: &str, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{name} has more than {most} {what}"))

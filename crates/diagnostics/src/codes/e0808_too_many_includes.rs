@@ -19,7 +19,7 @@ Way out: remove the `include` that leads back.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path, and the limit that it is beyond, in words.
+/// `limit` is the limit exceeded by `path`, in words.
 #[must_use]
 pub fn too_many_includes(span: Span, path: &str, limit: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{path}` is not included: {limit}"))

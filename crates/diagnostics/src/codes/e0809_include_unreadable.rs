@@ -19,7 +19,7 @@ Way out: copy the file there, or allow its folder on the command line: `--allow-
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The path as the source names it, and the reason with the way out.
+/// `path` is the path as the source names it, `why` the reason, `help` the way out.
 #[must_use]
 pub fn include_unreadable(span: Span, path: &str, why: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{path}` is not read: {why}")).help(help.to_owned())

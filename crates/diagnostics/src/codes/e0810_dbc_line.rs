@@ -19,7 +19,7 @@ Way out: correct the line, or export the file again from the program that wrote 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is wrong with the line.
+/// `why` says what is wrong with the line.
 #[must_use]
 pub fn dbc_line(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, why).here("this line").help("correct the line, or export the file again")

@@ -19,7 +19,7 @@ Way out: take one of the names in the message, or leave `--node` out: then every
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The name that was asked for, and those there are.
+/// `node` is the node asked for, `nodes` has the names of all.
 #[must_use]
 pub fn dbc_no_node(span: Span, node: &str, nodes: &[String]) -> Diagnostic {
     let help = if nodes.is_empty() {

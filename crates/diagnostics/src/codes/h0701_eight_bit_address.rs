@@ -20,7 +20,7 @@ Way out: nothing to do; write the 7-bit form if you prefer it.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Both forms.
+/// `eight_bit` is the address as written.
 #[must_use]
 pub fn eight_bit_address(span: Span, eight_bit: u8) -> Diagnostic {
     let seven_bit = eight_bit >> 1;

@@ -1,4 +1,4 @@
-//! H0702: nothing is known of what firmware can do on the board.
+//! H0702: it is not known what firmware can do on the board.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,14 +20,14 @@ Way out: begin the table with a line such as `# mcu = STM32F407VGT6`, or take a 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Why there is no target.
+/// `why` is the reason why there is no target.
 #[must_use]
 pub fn target_none(span: Span, table: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("only the pins of {table} are checked: {why}"))
         .help("begin the table with a line such as `# mcu = STM32F407VGT6`")
 }
 
-/// There is no target profile for the MCU; `covered` are the starts of those there are.
+/// There is no target profile for the MCU; `covered` lists the beginnings of the MCU names that have one.
 #[must_use]
 pub fn no_profile(span: Span, table: &str, mcu: &str, covered: &str) -> Diagnostic {
     let message =

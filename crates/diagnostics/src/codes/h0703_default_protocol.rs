@@ -20,7 +20,7 @@ Way out: nothing to do if it is one; write `driver = srf08;` to say so, or give 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device's name.
+/// `device` is the device's name.
 #[must_use]
 pub fn default_protocol(span: Span, device: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{device} has no protocol; its address says that it is a `{driver}`"))

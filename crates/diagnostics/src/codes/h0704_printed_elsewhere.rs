@@ -18,7 +18,7 @@ Way out: if the other pin is meant, write its name in the MCU.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `other` is the pin that the name is printed at.
+/// `other` is the pin beside which the name is printed.
 #[must_use]
 pub fn printed_elsewhere(span: Span, pin: &str, board: &str, other: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{pin} is taken for the MCU's pin; {board} has {pin} printed beside {other}"))

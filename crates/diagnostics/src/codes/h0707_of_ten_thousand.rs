@@ -21,7 +21,7 @@ number is meant, write it as a code: `raw 50`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The number, and the percent that it is.
+/// `percent` is the percentage that `number` stands for.
 #[must_use]
 pub fn of_ten_thousand(span: Span, number: &str, percent: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{number} of 10000 is {percent} % of the range"))

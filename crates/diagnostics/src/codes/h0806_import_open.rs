@@ -20,7 +20,7 @@ Way out: fill in what is missing and take the comment signs away.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is open.
+/// `what` is what is left open.
 #[must_use]
 pub fn import_open(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, what).help("fill it in and take the comment signs away")

@@ -1,6 +1,6 @@
-//! The registry: one file a code, one line here.
+//! The registry: one file per code, one line here.
 //!
-//! A code is never used for something else, even after its diagnostic is gone.
+//! A code is never used for something else, even after its diagnostic has been removed.
 
 use crate::diagnostic::Severity;
 use std::fmt;
@@ -182,12 +182,12 @@ codes! {
     e0811_dbc_no_node,
 }
 
-/// What is known of a code.
+/// The registry entry of a code.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CodeInfo {
     /// A letter for the severity and four digits.
     pub code: &'static str,
-    /// Severity of its diagnostics.
+    /// The severity of its diagnostics.
     pub severity: Severity,
     /// A line without a full stop.
     pub title: &'static str,
@@ -212,7 +212,7 @@ impl Code {
         self.0.code
     }
 
-    /// The code of that name, whatever its case.
+    /// The code with this name, in upper or lower case.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         ALL.iter().copied().find(|code| code.name().eq_ignore_ascii_case(name))

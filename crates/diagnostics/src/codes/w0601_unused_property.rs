@@ -20,7 +20,7 @@ Way out: remove the line, or say that you know: `allow W0601 "reason";`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The property, the kind, and why it is not used.
+/// `why` is the reason why the property of the kind is not used.
 #[must_use]
 pub fn unused_property(span: Span, name: &str, kind: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` has no effect for {kind}: {why}"))

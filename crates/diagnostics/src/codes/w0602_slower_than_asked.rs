@@ -19,7 +19,7 @@ Way out: give a `delay` of at least the time the message names, or set the devic
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What the device needs, in milliseconds, and what was asked for.
+/// `needs_ms` is what the device needs, `delay_ms` what was asked for.
 #[must_use]
 pub fn slower_than_asked(
     span: Span,

@@ -19,7 +19,7 @@ Way out: use the type that the message names, or scale the value down.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is measured, its range and the type that holds it.
+/// `found` is what is measured, `range` its range, `wider` the type that holds it.
 #[must_use]
 pub fn narrow_type(span: Span, found: &str, range: &str, wider: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{found} cannot hold every measurement ({range})"))

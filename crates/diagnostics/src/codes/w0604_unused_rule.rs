@@ -20,7 +20,7 @@ Way out: correct the name, or remove the rule.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The rule and why it does nothing.
+/// `why` is the reason why the rule has no effect.
 #[must_use]
 pub fn unused_rule(span: Span, rule: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{rule}` has no effect: {why}")).help("remove the line")

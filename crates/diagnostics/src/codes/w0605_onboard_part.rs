@@ -21,7 +21,7 @@ say that you know: `allow W0605 "reason";`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device, the pin and the part.
+/// `part` is the on-board part that shares the pin with the device.
 #[must_use]
 pub fn onboard_part(span: Span, device: &str, pin: &str, part: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{device} shares {pin} with {part}"))

@@ -18,7 +18,7 @@ Way out: correct the cell, or leave it where it is meant.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// Place by row and, where it is one cell, column.
+/// `row` is the row; `column` is the column if a single cell is meant.
 #[must_use]
 pub fn table_oddity(span: Span, row: usize, column: Option<&str>, what: &str) -> Diagnostic {
     let place = column.map_or(String::new(), |column| format!(", column {column}"));

@@ -1,4 +1,4 @@
-//! W0607: a part is not known in full.
+//! W0607: a part is not fully known.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ Way out: write the whole part number, or make a board table from `sensedsl parts
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is not known.
+/// `what` is what is not known.
 #[must_use]
 pub fn part_not_certain(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, what)

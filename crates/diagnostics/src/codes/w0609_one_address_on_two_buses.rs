@@ -20,7 +20,7 @@ chips, give one of them another address where it has an address pin, or fix `uni
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The second device and its unit, the first one and its unit, and the address as it is on the wire.
+/// The second device and its unit come first, then the first one and its unit; `address` is the address on the wire.
 #[must_use]
 pub fn one_address_on_two_buses(
     (span, device, unit): (Span, &str, &str),

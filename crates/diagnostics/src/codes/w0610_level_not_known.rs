@@ -19,7 +19,7 @@ into the column `Voltage` of the board's table, put a `divider` in between, or s
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device, its level and the pin.
+/// `level` is the level of the device at the pin.
 #[must_use]
 pub fn level_not_known(span: Span, device: &str, level: &str, pin: &str) -> Diagnostic {
     let text = format!("{device} puts {level} on {pin}, and the tool does not know whether that pin tolerates it");

@@ -21,7 +21,7 @@ Way out: use the type that the message names. Where the rest of the range is not
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The type and what it holds, the device, what it takes, and the type that holds that.
+/// `holds` is the range of the type `found`, `takes` what the device takes, `wider` the type that holds that.
 #[must_use]
 pub fn narrow_command(
     span: Span,

@@ -22,8 +22,8 @@ value is meant, write its unit (`1500 us`), which says so; where the unit is non
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The number as it is shown, the code that it is, how many more there are in the file, and what to
-/// write where the shown value is meant.
+/// `shown` is the number as shown, `code` the code that it is, `more` how many more there are in the file, `write` what
+/// to write if the shown value is meant.
 #[must_use]
 pub fn shown_not_raw(span: Span, shown: &str, code: &str, more: usize, write: &str) -> Diagnostic {
     let others = match more {

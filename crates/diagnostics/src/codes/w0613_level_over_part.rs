@@ -1,4 +1,4 @@
-//! W0613: a level over the supply that the part stands.
+//! W0613: a level above the supply that the part tolerates.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -20,7 +20,7 @@ module has level shifters, say so: `allow W0613 "the module shifts levels";`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The level, the driver, and the supply that its part stands at most.
+/// `level` is the level, `most` the greatest supply that the driver's part tolerates.
 #[must_use]
 pub fn level_over_part(span: Span, level: &str, driver: &str, most: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{level} on the wires of `{driver}`, whose supply is {most} at most"))

@@ -21,7 +21,7 @@ them, say so: `allow W0614 "four wheels, four frames";`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The part and the commands of it.
+/// `commands` lists the repeated commands of the part.
 #[must_use]
 pub fn several_repeated(span: Span, part: &str, commands: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{part} repeats several commands: {commands}"))

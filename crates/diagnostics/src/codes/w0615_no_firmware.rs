@@ -19,7 +19,7 @@ Way out: take another target or another board, or leave the device out. Where yo
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What `generate` says of a gap, as the warning of somebody who does not generate yet.
+/// The gap that `generate` would report, as a warning for users who do not generate yet.
 #[must_use]
 pub fn no_firmware(gap: Diagnostic, target: &str) -> Diagnostic {
     let message = format!("target {target}: {} ({})", gap.message, gap.code);

@@ -21,8 +21,8 @@ the module has level shifters, say so: `allow W0616 "the module shifts levels";`
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The part's name in the file, the wires that the board drives, its voltage, the driver, and the greatest supply of its
-/// part.
+/// `name` is the part's name in the file, `wires` lists the wires that the board drives, `level` is the board's
+/// voltage, `most` the greatest supply of the driver's part.
 #[must_use]
 pub fn driven_over_part(
     span: Span,

@@ -19,7 +19,7 @@ Way out: longer cycle times, or `allow W0623 "reason";`. `sensedsl explain timin
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// What is busy, and how much.
+/// `part` is what is busy, `percent` how much.
 #[must_use]
 pub fn nearly_busy(span: Span, part: &str, percent: u64) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{part} is busy {percent} % of the time"))

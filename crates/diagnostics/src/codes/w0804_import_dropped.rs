@@ -19,7 +19,7 @@ Way out: look at the place; correct the source and import again, or correct the 
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The place as its program shows it (`Sheet1!C3`; may be empty) and what is left out.
+/// `place` is the place as its program shows it (`Sheet1!C3`; may be empty), `what` is what is left out.
 #[must_use]
 pub fn import_dropped(span: Span, place: &str, what: &str) -> Diagnostic {
     let place = if place.is_empty() { String::new() } else { format!("{place}: ") };

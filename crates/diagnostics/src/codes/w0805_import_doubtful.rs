@@ -19,7 +19,7 @@ Way out: compare the place with the result.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The place as its program shows it (`Sheet1!C3`; may be empty) and how it was read.
+/// `place` is the place as its program shows it (`Sheet1!C3`; may be empty), `what` says how it was read.
 #[must_use]
 pub fn import_doubtful(span: Span, place: &str, what: &str) -> Diagnostic {
     let place = if place.is_empty() { String::new() } else { format!("{place}: ") };

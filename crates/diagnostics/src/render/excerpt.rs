@@ -1,19 +1,19 @@
-//! A source text as it may be shown: hidden characters by their codes, and places moved with them.
+//! A source text in a form that is safe to show: hidden characters as their codes, and places moved accordingly.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::visible::{code, is_hidden};
 
-/// A text to be shown.
+/// A text to show.
 pub(super) struct Excerpt<'a> {
     pub(super) text: Cow<'a, str>,
-    /// For each hidden character: its end in the file, and its end in what is shown.
+    /// For each hidden character: its end in the file, and its end in the shown text.
     ends: Vec<(usize, usize)>,
 }
 
 impl<'a> Excerpt<'a> {
-    /// A mark of the encoding stays where the file starts.
+    /// A byte order mark at the start of the file stays.
     pub(super) fn new(text: &'a str, is_file_start: bool) -> Self {
         let is_shown_as_code = |at: usize, character: char| {
             (at > 0 || !is_file_start || character != '\u{feff}')
@@ -36,12 +36,12 @@ impl<'a> Excerpt<'a> {
         excerpt
     }
 
-    /// Whether anything is shown by its code.
+    /// Whether anything is shown as its code.
     pub(super) fn is_changed(&self) -> bool {
         !self.ends.is_empty()
     }
 
-    /// Where a range of the file is in what is shown.
+    /// The range of the shown text for a range of the file.
     pub(super) fn shown(&self, range: Range<usize>) -> Range<usize> {
         self.moved(range.start)..self.moved(range.end)
     }
@@ -53,7 +53,7 @@ impl<'a> Excerpt<'a> {
     }
 }
 
-/// Line ends and tabs stay.
+/// Whether a character is shown as its code; line ends and tabs are not.
 fn is_shown_as_code(text: &str, at: usize, character: char) -> bool {
     let next = || text.as_bytes().get(at + 1);
     match character {

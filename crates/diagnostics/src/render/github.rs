@@ -1,4 +1,4 @@
-//! Workflow commands of GitHub Actions: one line a diagnostic.
+//! Workflow commands of GitHub Actions: one line per diagnostic.
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::SourceMap;

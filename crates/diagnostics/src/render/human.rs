@@ -1,4 +1,4 @@
-//! For people, in the manner of `rustc`.
+//! Text for people, in the style of `rustc`.
 
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ fn group<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap) -> Group<'a> {
     }
 }
 
-/// The files a diagnostic speaks of, that of the primary place first.
+/// The files that a diagnostic refers to, that of the primary place first.
 fn files(diagnostic: &Diagnostic) -> Vec<FileId> {
     let mut files = vec![diagnostic.primary.span.file];
     for label in &diagnostic.labels {
@@ -50,8 +50,8 @@ fn files(diagnostic: &Diagnostic) -> Vec<FileId> {
     files
 }
 
-/// Adds the places in a file: in one snippet where they are near each other, otherwise each in its
-/// own, so that the text between them is never gone through.
+/// Adds the places in a file: in one snippet if they are close to each other, otherwise in separate ones, so that the
+/// text between them is never scanned.
 fn of_file<'a>(
     mut group: Group<'a>,
     diagnostic: &'a Diagnostic,
@@ -71,7 +71,7 @@ fn of_file<'a>(
     for (kind, label) in here {
         let window = Window::over(std::iter::once(label.span), file, sources).cut(label.span);
         let at = sources.line_column(file, label.span.start);
-        // What is cut has no column of its own, so the place is given.
+        // A piece of a line has no column of its own, so the place is given.
         let origin = Origin::path(path.clone()).line(at.line as usize);
         group = group.element(origin.char_column(at.column as usize));
         group = group.element(window.snippet(&[(kind, label)]));
@@ -79,22 +79,22 @@ fn of_file<'a>(
     group
 }
 
-/// Bytes of text that are shown around the places of a diagnostic.
+/// The most bytes of text that are shown around the places of a diagnostic.
 const WINDOW_MAX: usize = 16 << 10;
-/// Bytes that are shown before and behind a place in a line that is longer than a window.
+/// The bytes that are shown before and after a place in a line that is longer than a window.
 const CUT_BYTES: usize = 60;
 
 /// The lines around some places.
 struct Window<'a> {
     text: &'a str,
-    /// Where it starts in the file.
+    /// The start in the file.
     start: usize,
     /// The number of its first line.
     line: usize,
 }
 
 impl<'a> Window<'a> {
-    /// From a line before the first place to a line after the last.
+    /// The lines from the one before the first place to the one after the last.
     fn over(spans: impl Iterator<Item = Span>, file: FileId, sources: &'a SourceMap) -> Self {
         let (start, end) = spans.fold((u32::MAX, 0), |(start, end), span| {
             (start.min(span.start), end.max(span.start).max(span.end))
@@ -106,7 +106,7 @@ impl<'a> Window<'a> {
         Self { text: text.unwrap_or_default(), start, line: first as usize }
     }
 
-    /// What is left when the line is too long to be shown: a piece of it.
+    /// A piece of the line, if that is too long to show.
     fn cut(self, span: Span) -> Self {
         if self.text.len() <= WINDOW_MAX {
             return self;
@@ -123,7 +123,7 @@ impl<'a> Window<'a> {
         Self { text, start: self.start + begin, line: self.line + line }
     }
 
-    /// What is shown of the text, with its places marked.
+    /// The shown part of the text, with its places marked.
     fn snippet(&self, places: &[(AnnotationKind, &'a Label)]) -> Snippet<'a, Annotation<'a>> {
         let excerpt = Excerpt::new(self.text, self.start == 0);
         let annotations = places.iter().map(|(kind, label)| {
@@ -138,7 +138,7 @@ impl<'a> Window<'a> {
         Snippet::source(excerpt.text).line_start(self.line).annotations(annotations)
     }
 
-    /// The place as a range that surely lies in the text, on character boundaries.
+    /// The place as a range that is certainly within the text, on character boundaries.
     fn range(&self, span: Span) -> Range<usize> {
         let here = |offset: u32| boundary(self.text, (offset as usize).saturating_sub(self.start));
         let (start, end) = (here(span.start), here(span.end));
@@ -146,7 +146,7 @@ impl<'a> Window<'a> {
     }
 }
 
-/// Columns are those of the file, also where some of its characters are shown by longer codes.
+/// Sets columns to those of the file, even if some of its characters are shown as longer codes.
 fn with_columns(mut rendered: String, diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     for label in std::iter::once(&diagnostic.primary).chain(&diagnostic.labels) {
         let (file, offset) = (label.span.file, label.span.start);

@@ -6,14 +6,14 @@ use crate::diagnostic::{Diagnostic, Fix, Label};
 use crate::source::{LineColumn, SourceMap, Span};
 use crate::visible::visible_json;
 
-/// `{ "diagnostics": [ … ] }` with a line break at the end.
+/// `{ "diagnostics": [ … ] }` and a final line break.
 #[must_use]
 pub fn json(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
     let list: Vec<Value> = diagnostics.iter().map(|one| json_value(one, sources)).collect();
     json_text(&json!({ "diagnostics": list }))
 }
 
-/// A value as text that is safe to look at, with a line break at the end.
+/// A value as text that is safe to print, with a final line break.
 #[must_use]
 pub fn json_text(value: &Value) -> String {
     format!("{}\n", visible_json(&format!("{value:#}")))

@@ -86,7 +86,7 @@ fn location(span: Span, sources: &SourceMap) -> Value {
     })
 }
 
-/// Text in which nothing is a link (`[text](target)`) and nothing a placeholder (`{0}`).
+/// Text in which nothing is taken for a link (`[text](target)`) or a placeholder (`{0}`).
 fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
@@ -110,7 +110,7 @@ fn plain(text: &str) -> String {
     out
 }
 
-/// A relative path as a URI reference: `/` as separator, the rest percent-encoded.
+/// A relative path as a URI reference: `/` as separator, everything else percent-encoded.
 fn uri(path: &str) -> String {
     let mut out = String::new();
     for byte in path.bytes() {

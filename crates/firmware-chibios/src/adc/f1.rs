@@ -1,4 +1,4 @@
-//! The driver of STM32F1: one unit, a sequence, twelve bits.
+//! The driver of the STM32F1: one unit, a sequence, twelve bits.
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;

@@ -1,4 +1,4 @@
-//! What one unit converts in one cycle, and the words of its registers.
+//! The conversion group of one unit and cycle, and the contents of its registers.
 
 use std::ops::RangeInclusive;
 
@@ -16,52 +16,52 @@ pub(super) struct Group {
     /// The driver object.
     pub(super) driver: String,
     pub(super) cycle: Cycle,
-    /// Which DMA fills its buffer.
+    /// The kind of DMA that fills its buffer.
     pub(super) buffer: DmaBuffer,
-    /// In the order of conversion, that is by channel.
+    /// The inputs in the order of conversion, which is by channel.
     pub(super) inputs: Vec<Input>,
     pub(super) timeout_ms: u64,
 }
 
-/// One column of a group.
+/// One column of a conversion group's samples.
 #[derive(Clone, Debug)]
 pub(super) struct Input {
-    /// For a comment: device, pin and signal.
+    /// Device, pin and signal, for a comment.
     pub(super) place: String,
-    /// Index into the devices of those whose values are made of it.
+    /// The devices whose values are made of it, as indices.
     pub(super) fields: Vec<usize>,
-    /// Which element of an array it is.
+    /// The element of an array that it is.
     pub(super) element: u16,
-    /// The mean of so many conversions.
+    /// The number of conversions that are averaged.
     pub(super) samples: u16,
     pub(super) channel: u8,
-    /// Sampling time.
+    /// The sampling time.
     pub(super) cycles: Cycles,
 }
 
 impl Group {
-    /// What the names of its tables begin with.
+    /// The prefix of the names of its tables.
     pub(super) fn ident(&self) -> String {
         self.cycle.ident(self.unit.as_str())
     }
 
-    /// For a comment.
+    /// The title, for a comment.
     pub(super) fn title(&self) -> String {
         self.cycle.title(self.unit.as_str())
     }
 
-    /// For a comment: the inputs, a line each.
+    /// The inputs for a comment, one per line.
     pub(super) fn places(&self) -> String {
         let places: Vec<&str> = self.inputs.iter().map(|one| one.place.as_str()).collect();
         places.join(",\n * ")
     }
 
-    /// Rows of samples: the largest number any input averages, made even.
+    /// The number of rows of samples: the most that any input averages, made even.
     pub(super) fn depth(&self) -> u16 {
         depth(self.inputs.iter().map(|one| one.samples))
     }
 
-    /// Sampling times of the inputs in a range of channels: `ADC_SMPR2_SMP_AN8(ADC_SAMPLE_84)`.
+    /// The sampling times of the inputs in a range of channels: `ADC_SMPR2_SMP_AN8(ADC_SAMPLE_84)`.
     pub(super) fn sampling(&self, rule: &str, channels: RangeInclusive<u8>) -> Vec<String> {
         let own = self.inputs.iter().filter(|one| channels.contains(&one.channel));
         let term = |one: &Input| {
@@ -71,7 +71,7 @@ impl Group {
         own.map(term).collect()
     }
 
-    /// The places of a sequence from 1 on that a register has: `ADC_SQR3_SQ1_N(ADC_CHANNEL_IN8)`.
+    /// The positions of the sequence, from 1, that a register contains: `ADC_SQR3_SQ1_N(ADC_CHANNEL_IN8)`.
     pub(super) fn sequence(&self, register: &str, places: RangeInclusive<usize>) -> Vec<String> {
         let own = self.inputs.iter().enumerate().map(|(column, one)| (column + 1, one));
         let own = own.filter(|(place, _)| places.contains(place));
@@ -81,7 +81,7 @@ impl Group {
         own.map(term).collect()
     }
 
-    /// Something of each channel: `ADC_SELMASK_IN8`.
+    /// The rule applied to each channel: `ADC_SELMASK_IN8`.
     pub(super) fn channels(&self, rule: &str) -> Vec<String> {
         let term = |one: &Input| rule.replace("{channel}", &one.channel.to_string());
         self.inputs.iter().map(term).collect()
@@ -98,17 +98,17 @@ impl Group {
     }
 }
 
-/// As the driver's macros spell it: `55P5` for 55.5.
+/// A sampling time as the driver's macros spell it: `55P5` for 55.5.
 pub(super) fn macro_cycles(cycles: Cycles) -> String {
     cycles.to_string().replace('.', "P")
 }
 
-/// The value of a member: macros or-ed together, a line each; `0U` when there is none.
+/// The value of a struct member: macros or-ed together, one per line; `0U` if there are none.
 pub(super) fn member(terms: &[String]) -> String {
     sum(terms, " |\n             ")
 }
 
-/// The same for an element of a member that is an array.
+/// The value of an element of an array member: macros or-ed together, one per line.
 pub(super) fn element(terms: &[String]) -> String {
     sum(terms, " |\n            ")
 }

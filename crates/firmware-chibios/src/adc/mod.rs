@@ -1,7 +1,7 @@
 //! Analog sensors: the driver of the converters.
 //!
-//! `plan.rs` decides what is converted together and by which thread, alike for all versions of the driver; a file each
-//! says how a version is told. `tables.c.txt` has what the runtime is told.
+//! `plan.rs` decides on conversion groups and threads, for all versions of the driver; one file for each version spells
+//! its conversion group. `tables.c.txt` has the runtime's tables.
 
 mod f1;
 mod group;
@@ -19,7 +19,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The analog converters.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "ADC",
     kind: Some(KindName::Analog),

@@ -1,7 +1,7 @@
-//! What is converted together, and by which thread: alike for all versions of the driver.
+//! The conversion groups and their threads, for all versions of the driver.
 //!
-//! The sensors of one unit, cycle and priority are a conversion group. A thread serves one group, or the groups of
-//! several units that have elements of one array, which it starts together.
+//! The sensors of one unit, cycle and priority are a conversion group. A thread serves one group, or groups of several
+//! units that have elements of the same array, which it starts together.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,12 +21,12 @@ use sensedsl_files::block;
 use sensedsl_job::part::FormulaPlan;
 use sensedsl_job::{Cycle, JobConnection};
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [440, 320], filtered: [472, 344] };
 
-/// The slowest converter there is, for the time-out of those whose clock is not known.
+/// The slowest possible converter, for the time-out of converters whose clock is not known.
 const SLOWEST_HZ: u64 = 4_000_000;
-/// What a group is given beside the time that it takes: the tick, and threads that are served first.
+/// The extra time for a group: the tick, and threads that are served first.
 const PATIENCE_MS: u64 = 2;
 
 /// All analog sensors.
@@ -34,28 +34,28 @@ const PATIENCE_MS: u64 = 2;
 #[template(path = "adc/tables.c.txt", escape = "none")]
 struct Tables<'a> {
     tasks: &'a [Task],
-    /// The sample at the reference voltage.
+    /// The sample value at the reference voltage.
     full: u32,
 }
 
-/// What one thread converts.
+/// The conversions of one thread.
 struct Task {
     ident: String,
     title: String,
     cycle: Cycle,
     /// The identifier of its first device.
     device: u8,
-    /// The C of each group, and the group.
+    /// Each group, with its C code.
     groups: Vec<(String, Group)>,
-    /// In the order of fields and elements.
+    /// The inputs in the order of fields and elements.
     inputs: Vec<Column>,
-    /// What code calls the device, and how it is computed.
+    /// The formulas, each with the device's identifier in code.
     formulas: Vec<(String, FormulaPlan)>,
-    /// 64-bit words of the largest value.
+    /// The number of 64-bit words that hold the largest value.
     value_words: usize,
 }
 
-/// Where one element of a value is taken from.
+/// The source of one element of a value.
 struct Column {
     place: String,
     field: String,
@@ -64,14 +64,14 @@ struct Column {
     samples: u16,
     group: usize,
     column: usize,
-    /// Whether a formula makes the value.
+    /// True if a formula computes the value.
     has_formula: bool,
 }
 
-/// The C of a conversion group, as a version of the driver has it.
+/// Prints the C code of a conversion group for a version of the driver.
 pub(super) type GroupText = fn(&Group) -> String;
 
-/// The greatest sample of most converters.
+/// The greatest sample value of most converters.
 const TWELVE_BITS: u32 = 4_095;
 
 /// The section, for a version whose samples go from 0 to `full`.
@@ -102,7 +102,7 @@ pub(super) fn plan(
         .to_vec();
     section.hal.push(Setting::new("ADC_DRIVER_EXT_FIELDS", "uint32_t up_errors;"));
     section.clocks.extend(context.profile.adc.clock.clone());
-    // The converters' clock is told, so that it is what their times were computed with.
+    // The converters' clock is set, so that it is the one their times were computed with.
     section.mcu = context.names.converters(section.units.iter());
     let groups = classes.into_iter().filter_map(|(class, inputs)| group(context, class, inputs));
     let tasks = tasks(context, groups.collect(), text);
@@ -150,7 +150,7 @@ fn group(
     Some(group)
 }
 
-/// Twice the time that a group takes, and some.
+/// The time-out of a group: twice its conversion time, and some more.
 fn timeout_ms(context: &Context<'_>, group: &Group) -> u64 {
     let facts = &context.profile.adc;
     let clocks = &context.chibios.clocks_hz;
@@ -184,7 +184,7 @@ fn tasks(context: &Context<'_>, groups: Vec<Group>, text: GroupText) -> Vec<Task
 }
 
 impl Group {
-    /// The devices that it has elements of.
+    /// The devices with elements in this group.
     fn fields(&self) -> impl Iterator<Item = usize> {
         self.inputs.iter().flat_map(|input| input.fields.iter().copied())
     }
@@ -192,7 +192,7 @@ impl Group {
 
 impl Task {
     fn new(context: &Context<'_>, mut groups: Vec<Group>, text: GroupText) -> Option<Self> {
-        // All threads take units in one order, so that none waits for another that waits for it.
+        // All threads take units in the same order, so that no two of them wait for each other.
         groups.sort_by(|a, b| a.unit.cmp(&b.unit));
         let first = groups.first()?;
         let (ident, cycle) = (first.ident(), first.cycle);
@@ -234,7 +234,7 @@ impl Task {
         Some(Self { ident, title, cycle, device, groups, inputs, formulas, value_words })
     }
 
-    /// By unit, then by cycle.
+    /// The sorting key: by unit, then by cycle.
     fn order(&self) -> (Option<&UnitName>, Cycle) {
         (self.groups.first().map(|(_, group)| &group.unit), self.cycle)
     }

@@ -42,7 +42,7 @@ fn a_group_has_an_even_number_of_rows() {
     assert_eq!(group(&[(1, 3)]).depth(), 4);
 }
 
-/// Seven inputs need two registers, and those from 10 on have their sampling times in the other one.
+/// Seven inputs need two registers, and the sampling times from channel 10 on are in the other one.
 const SEVEN: &[(u8, u32)] = &[(0, 84), (1, 84), (2, 84), (3, 84), (4, 84), (5, 84), (11, 480)];
 
 #[test]
@@ -87,7 +87,7 @@ fn the_sequence_of_l4() {
     assert_all(&text, &["    .cfgr = ADC_CFGR_CONT,\n", smpr, sqr]);
 }
 
-/// An input that is not selected before measures nothing.
+/// An input that is not preselected measures nothing.
 #[test]
 fn h7_selects_its_inputs() {
     let text = v4::text(&group(&[(2, 64), (19, 64)]));
@@ -96,7 +96,7 @@ fn h7_selects_its_inputs() {
     assert_all(&text, &[select, smpr, "ADC_CFGR_CONT_ENABLED | ADC_CFGR_RES_16BITS"]);
 }
 
-/// One sampling time for all: the longest that is asked for.
+/// One sampling time for all: the longest requested one.
 #[test]
 fn f0_has_one_sampling_time() {
     let text = v1::text(&group(&[(1, 7), (8, 71)]));
@@ -104,7 +104,7 @@ fn f0_has_one_sampling_time() {
     assert_all(&text, &["    .smpr = ADC_SMPR_SMP_71,\n", select, "ADC_CFGR1_CONT"]);
 }
 
-/// Two sampling times: none is shorter than was asked for.
+/// Two sampling times: none is shorter than requested.
 #[test]
 fn g0_has_two_sampling_times() {
     let text = v5::text(&group(&[(1, 7), (8, 39), (17, 79)]));

@@ -1,4 +1,4 @@
-//! `ADCv1` (F0): inputs in the order of their channels, one sampling time for all of them, twelve bits.
+//! `ADCv1` (F0): inputs in the order of their channels, a common sampling time, twelve bits.
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;

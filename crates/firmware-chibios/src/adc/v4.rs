@@ -1,6 +1,7 @@
-//! `ADCv4` (H7): a sequence, inputs that are selected before, sixteen bits.
+//! `ADCv4` (H7): a sequence, preselected inputs, sixteen bits.
 //!
-//! Sixteen bits are what all revisions of the silicon spell alike; twelve bits have another code from revision V on.
+//! Sixteen bits, because all revisions of the silicon encode these in the same way; twelve bits have another code from
+//! revision V on.
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;

@@ -25,7 +25,7 @@ pub(super) fn text(g: &Group) -> String {
     block(&Text { g, smpr: smpr(g), chselr: member(&g.channels("ADC_CHSELR_CHSEL_N({channel}U)")) })
 }
 
-/// The first sampling time is the shortest that is asked for, the second the longest, which all others get too.
+/// The first sampling time is the shortest requested one; the second is the longest, which all other inputs get.
 fn smpr(g: &Group) -> String {
     let (shortest, longest) = (g.shortest(), g.longest());
     let first = shortest.map(macro_cycles).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Buses with the values that come in, the frames that go out, and the filters of the hardware.
+//! CAN buses with the values received, the frames sent, and the hardware filters.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use sensedsl_files::block;
 use sensedsl_job::kinds::can::{self, BANKS, Identifier};
 use sensedsl_job::snake;
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [416, 268], filtered: [496, 352] };
 
 #[derive(Template)]
@@ -26,7 +26,7 @@ struct Tables<'a> {
 
 struct Buses<'a> {
     buses: Vec<Bus<'a>>,
-    /// Banks of the hardware: number, and two identifiers as its registers have them.
+    /// The filter banks: number, and two identifiers as the registers hold them.
     filters: Vec<(usize, String, String)>,
 }
 
@@ -76,8 +76,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// Lists of two identifiers each, where the hardware has them and they suffice; otherwise the runtime looks through all
-/// frames, as it does behind the filters.
+/// Filter banks in list mode, with two identifiers each, if the hardware has them and they suffice; otherwise the
+/// runtime checks every frame, which it does after the filters as well.
 fn filters(context: &Context<'_>, buses: &[Bus<'_>]) -> Vec<(usize, String, String)> {
     let mut filters = Vec::new();
     if context.names.drivers.can != "CANv1" {
@@ -91,7 +91,7 @@ fn filters(context: &Context<'_>, buses: &[Bus<'_>]) -> Vec<(usize, String, Stri
         };
         let Some(wanted) = bus.of.wanted() else { return Vec::new() };
         for (index, pair) in wanted.chunks(2).enumerate() {
-            // The last is its own other where their number is odd.
+            // If their number is odd, the last one is entered twice.
             if let [one, .., two] | [one @ two] = pair {
                 filters.push((first + index, register(*one), register(*two)));
             }
@@ -100,7 +100,7 @@ fn filters(context: &Context<'_>, buses: &[Bus<'_>]) -> Vec<(usize, String, Stri
     filters
 }
 
-/// An identifier as a filter's register has it.
+/// An identifier as a filter register holds it.
 fn register((identifier, is_extended): Identifier) -> String {
     if is_extended {
         format!("({identifier:#X}U << 3) | 4U")
@@ -131,7 +131,7 @@ impl<'a> Bus<'a> {
         }
         let sent = of.frames.iter().enumerate();
         let sent = sent.flat_map(|(at, frame)| frame.values.iter().map(move |value| (at, value)));
-        // A value of several frames is set in all of them.
+        // A value that is in several frames is set in all of them.
         let mut lines: BTreeMap<usize, Apply> = BTreeMap::new();
         for (index, (at, value)) in sent.enumerate() {
             let line = format!("up_can_set(&{ident}_frames[{at}], &{ident}_sent[{index}], value);");
@@ -158,13 +158,13 @@ impl<'a> Bus<'a> {
         });
     }
 
-    /// 64-bit words of the largest value that comes in.
+    /// The number of 64-bit words that hold the largest value received.
     fn value_words(&self) -> usize {
         let bytes = self.of.values.iter().map(|one| one.device.device.value.value.size_bytes());
         bytes.map(|bytes| bytes.div_ceil(8)).max().unwrap_or(0).max(1)
     }
 
-    /// Whether bits of frames say what else is in them.
+    /// Whether bits of frames select what else is in them.
     fn selects(&self) -> bool {
         self.of.frames.iter().any(|frame| frame.start != 0)
     }
@@ -174,7 +174,7 @@ impl<'a> Bus<'a> {
         self.of.frames.iter().any(|frame| frame.resend_ms > 0)
     }
 
-    /// The values of all frames that are sent.
+    /// The number of values in all frames that are sent.
     fn sent_count(&self) -> usize {
         self.of.frames.iter().map(|frame| frame.values.len()).sum()
     }

@@ -1,4 +1,4 @@
-//! Devices on CAN buses: the same tables for all controllers; what differs between these is in the runtime.
+//! Devices on CAN buses: the tables are the same for all controllers; the differences are in the runtime.
 
 mod frames;
 
@@ -6,7 +6,7 @@ use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 use sensedsl_model::kind::KindName;
 
-/// See the module.
+/// The CAN controllers.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "CAN",
     kind: Some(KindName::Can),

@@ -1,4 +1,4 @@
-//! Voltages of DAC outputs.
+//! DAC outputs.
 
 mod v1;
 
@@ -7,7 +7,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The digital-analog converters.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "DAC",
     kind: Some(KindName::Dac),

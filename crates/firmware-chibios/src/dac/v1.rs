@@ -1,4 +1,4 @@
-//! `DACv1`: a driver object for each output, which is set without a DMA.
+//! `DACv1`: a driver object for each output, set without DMA.
 
 use askama::Template;
 use sensedsl_board::signal::Function;
@@ -24,16 +24,16 @@ struct Tables {
 /// One output.
 struct Output {
     ident: String,
-    /// For a comment: device, pin and signal.
+    /// Device, pin and signal, for a comment.
     place: String,
     field: String,
     element: u16,
     driver: String,
     /// The options that turn it on.
     settings: Vec<Setting>,
-    /// The code at the start: that of the failsafe, or no voltage.
+    /// The code at the start: the failsafe value, or no voltage.
     init: u16,
-    /// The code that is taken when the host is silent.
+    /// The code that the output takes when the host is silent.
     failsafe: Option<u16>,
 }
 
@@ -87,13 +87,13 @@ fn output(
     })
 }
 
-/// The code of a value: the nearest one that there is.
+/// The code nearest to a value.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0 to 4095")]
 fn code(value: f64) -> u16 {
     value.round().clamp(0.0, FULL) as u16
 }
 
-/// A line for each output of a field.
+/// The lines that set each output of a field.
 fn applies(outputs: &[Output]) -> Vec<Apply> {
     let mut applies: Vec<Apply> = Vec::new();
     for one in outputs {

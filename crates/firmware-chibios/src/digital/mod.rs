@@ -1,4 +1,4 @@
-//! Levels of pins, in and out: the driver of the pins, whatever version it has.
+//! Levels of pins, inputs and outputs, for all versions of the pin driver.
 
 mod v1;
 
@@ -8,7 +8,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The digital inputs and outputs.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "GPIO",
     kind: Some(KindName::Digital),

@@ -16,7 +16,7 @@ use crate::timers;
 use sensedsl_files::block;
 use sensedsl_job::{Cycle, JobConnection, JobDevice};
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [224, 192], filtered: [416, 296] };
 
 #[derive(Template)]
@@ -28,13 +28,13 @@ struct Tables<'a> {
 #[derive(Default)]
 struct Levels {
     outputs: Vec<Output>,
-    /// Those that a thread reads.
+    /// The sensors that a thread reads, in classes.
     classes: Vec<Class>,
-    /// Those with edges.
+    /// The sensors with edges.
     awaited: Vec<Sensor>,
 }
 
-/// An actuator.
+/// One actuator.
 struct Output {
     ident: String,
     name: String,
@@ -68,7 +68,7 @@ struct Sensor {
 }
 
 impl Sensor {
-    /// Whether its wires have a memory.
+    /// Whether its wires keep a state.
     fn is_kept(&self) -> bool {
         self.edge.is_some() || self.debounce_us > 0
     }
@@ -113,7 +113,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// An output has its level before it is one.
+/// The pad of an output, whose level is set before it becomes one.
 fn pad(
     context: &Context<'_>,
     wired: &JobConnection<'_>,
@@ -176,7 +176,7 @@ impl Sensor {
 }
 
 impl Levels {
-    /// What starts and looks.
+    /// Adds the lines that start and poll it.
     fn lines(&self, section: &mut Section) {
         for class in &self.classes {
             let kept = class.sensors.iter().enumerate().filter(|(_, one)| one.is_kept());
@@ -194,7 +194,7 @@ impl Levels {
 }
 
 impl Class {
-    /// For a comment.
+    /// The title, for a comment.
     fn title(&self) -> String {
         let names: Vec<&str> = self.sensors.iter().map(|one| one.name.as_str()).collect();
         format!("{}: {}", self.cycle.title("digital"), names.join(", "))

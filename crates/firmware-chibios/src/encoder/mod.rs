@@ -1,4 +1,4 @@
-//! Quadrature encoders: timers whose hardware counts both tracks, by their registers.
+//! Quadrature encoders: timers that count both tracks in hardware, set up by their registers.
 
 mod v1;
 
@@ -8,7 +8,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The quadrature encoders.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "timer",
     kind: Some(KindName::Encoder),

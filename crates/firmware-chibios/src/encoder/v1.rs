@@ -1,5 +1,5 @@
-//! `TIMv1`: a timer in encoder mode for each pair of tracks. ChibiOS has no driver for it, so the timer is taken away
-//! from those that it has.
+//! `TIMv1`: a timer in encoder mode for each pair of tracks. ChibiOS has no driver for it, so the timer is withdrawn
+//! from the drivers that it has.
 
 use askama::Template;
 use sensedsl_board::profile::Timer;
@@ -39,11 +39,11 @@ struct Counter {
     filter: u8,
 }
 
-/// The longest disturbance that the inputs' filter may take: edges of one track at the greatest speed of a counter of
-/// 16 bits are twice as far apart.
+/// The longest disturbance that the input filter may suppress: edges of one track at the greatest speed of a 16-bit
+/// counter are twice as far apart.
 const FILTER_NS: u64 = 250;
 
-/// Clocks of a timer that a level must last: the lengths of the filter, from 0 on.
+/// The filter lengths, from setting 0 on: the timer clocks that a level must last.
 const FILTERS: [u64; 16] = [0, 2, 4, 8, 12, 16, 24, 32, 48, 64, 80, 96, 128, 160, 192, 256];
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
@@ -85,7 +85,7 @@ impl Sensor {
                 format!("rccReset{name}();"),
                 format!("up_encoder_start(&{ident}_counters[{}]);", counters.len()),
             ]);
-            // A driver that wants the timer too does not compile then.
+            // A driver that also claims the timer then fails to compile.
             section.mcu.push(Setting::new(&format!("STM32_{name}_IS_USED"), "TRUE"));
             section.clocks.insert(channel.timer.clock.clone());
             section.guards.push(timers::has_channels(channel.timer, 2));
@@ -112,7 +112,7 @@ impl Counter {
     }
 }
 
-/// The longest filter that does not take edges at the greatest speed.
+/// The longest filter that passes edges at the greatest speed.
 fn filter(clock_hz: u32) -> u8 {
     let clocks = u64::from(clock_hz) * FILTER_NS / 1_000_000_000;
     let lengths = (0_u8..).zip(FILTERS);

@@ -1,4 +1,4 @@
-//! What an MCU's pins need beside their modes: where the peripheral decides on which pins it is.
+//! The setup of pins besides their modes: on some MCUs the peripheral selects its pins.
 
 mod v1;
 
@@ -7,7 +7,7 @@ use super::section::{Peripheral, Section, Version, nothing};
 use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::Diagnostic;
 
-/// See the module. The modes themselves are in `context.rs`.
+/// The pins. The modes themselves are in `context.rs`.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "GPIO",
     kind: None,
@@ -22,12 +22,12 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     runtime: &[],
 };
 
-/// Every pin has its own number of an alternate function: its mode says everything.
+/// Every pin has its own alternate function number: its mode is sufficient.
 fn by_pin(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     Section { pads: released(context), ..Section::default() }
 }
 
-/// Pins that the system's folder of another board makes outputs, and that nothing here drives.
+/// Pins that the folder of another board in the tree sets up as outputs, and that nothing here drives.
 fn released(context: &Context<'_>) -> Vec<PadPlan> {
     let is_free = |pin: &&PinName| context.job.all_pads().all(|pad| pad.pin.name != **pin);
     let pins = context.chibios.released.iter().filter(is_free);

@@ -1,4 +1,4 @@
-//! `GPIOv1`: a field of a register moves all signals of a peripheral from one block of pins to another.
+//! `GPIOv1`: a register field moves all signals of a peripheral from one block of pins to another.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ struct Remaps<'a> {
 }
 
 struct Plan {
-    /// For people: `USART1 in block 1`.
+    /// The titles for people: `USART1 in block 1`.
     titles: Vec<String>,
     /// The fields of each register in use.
     registers: Vec<Register>,
@@ -29,7 +29,7 @@ struct Plan {
 struct Register {
     name: String,
     fields: Vec<Field>,
-    /// The register in which the debug port has its field, too.
+    /// True if the debug port has its field in this register, too.
     has_debug: bool,
 }
 
@@ -39,10 +39,10 @@ struct Field {
     block: u8,
 }
 
-/// The register with the field of the debug port; what is read of that is not what was written.
+/// The register with the field of the debug port, which does not read back as written.
 const DEBUG: &str = "MAPR";
 
-/// Pins that the debug port has until it is told to do with two wires.
+/// Pins that the debug port holds until it is limited to two wires.
 const OF_DEBUG: [&str; 3] = ["PA15", "PB3", "PB4"];
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
@@ -50,7 +50,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let mut titles = Vec::new();
     for (unit, blocks) in blocks(context) {
         let block = blocks.first();
-        // Tables may call the only one of a kind without its number.
+        // Board tables may call the only unit of a kind by its name without a number.
         let name = context.profile.unit(unit.as_str()).map_or(unit.as_str(), |unit| &unit.name);
         let Some(field) = context.names.remap(name) else {
             diagnostics.extend((block > 0).then(|| unknown(context, &unit, block)));
@@ -79,7 +79,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// The blocks that all signals of a peripheral have in common; the wiring has seen to it that there is one.
+/// The blocks that all signals of a peripheral have in common; the wiring ensures that there is one.
 fn blocks(context: &Context<'_>) -> BTreeMap<UnitName, Blocks> {
     let mut all: BTreeMap<UnitName, Blocks> = BTreeMap::new();
     for usage in context.job.all_pads().filter_map(|pad| pad.usage) {

@@ -1,4 +1,4 @@
-//! What all versions of the driver have alike: a port for each bus, a thread's table for each bus and cycle.
+//! What all versions of the driver have in common: a port for each bus, and a thread's table for each bus and cycle.
 
 use std::collections::BTreeMap;
 
@@ -18,17 +18,17 @@ use sensedsl_files::block;
 use sensedsl_job::snake;
 use sensedsl_job::{JobConnection, by_unit};
 
-/// Time for a device to think, beside the bits.
+/// The time that a device may need besides the bits.
 const TIMEOUT_BASE_MS: u32 = 10;
-/// Bus clocks that the end of a transfer takes: the last acknowledge, the stop condition, and the
+/// Bus clocks at the end of a transfer: the last acknowledge, the stop condition, and the
 /// time until the next start.
 const STOP_CLOCKS: u32 = 4;
 
-/// How a version of the driver is told its clock.
+/// How a version of the driver is given its clock.
 pub(super) struct Version {
-    /// The members of `I2CConfig`, a line each.
+    /// The members of `I2CConfig`, one per line.
     pub(super) config: fn(&BusClock) -> Vec<String>,
-    /// What must hold of the unit's clock, where the driver asks for more than its frequency.
+    /// A condition on the unit's clock, if the driver requires more than its frequency.
     pub(super) guard: fn(&Port) -> Option<GuardPlan>,
 }
 
@@ -47,13 +47,13 @@ pub(super) struct Port {
     driver: String,
     scl: PadPlan,
     sda: PadPlan,
-    /// The macro of the unit's clock.
+    /// The macro for the unit's clock.
     pub(super) unit_clock: String,
-    /// What the devices stand, where the driver cannot make just that.
+    /// The speed that the devices allow, if the driver cannot make exactly that.
     asked_hz: Option<u32>,
     pub(super) clock: BusClock,
     timeout_ms: u32,
-    /// How long the end of a transfer can take.
+    /// The longest duration of the end of a transfer.
     stop_ms: u32,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn plan(
     section
 }
 
-/// The addresses that devices have, for the self test.
+/// The addresses of the devices, for the self test.
 fn probe(context: &Context<'_>, port: &Port, on_bus: &[&JobConnection<'_>]) -> Probe {
     let plans = on_bus.iter().filter_map(|one| chips::plan_of(context.job, one));
     let mut expected: Vec<u8> = plans.map(|plan| plan.address).collect();
@@ -115,9 +115,9 @@ fn probe(context: &Context<'_>, port: &Port, on_bus: &[&JobConnection<'_>]) -> P
     }
 }
 
-/// While a bus is busy the driver holds the processor, and no thread of its priority or a lower one runs. The runtime
-/// looks before, so that it is the time of a stop condition and no more. A tick of a millisecond is one more, for the
-/// first of them is cut short.
+/// While a bus is busy, the driver blocks the processor, and no thread of the same or a lower priority runs. The
+/// runtime checks the bus before, so that this takes no longer than a stop condition. With a tick of a millisecond, one
+/// more is added, because the first is cut short.
 fn busy(context: &Context<'_>, ports: &[Port]) -> Option<Setting> {
     let option = context.names.i2cs.busy_option.as_deref()?;
     let stop_ms = ports.iter().map(|port| port.stop_ms).max()?;
@@ -146,7 +146,7 @@ impl Port {
         let plans = on_bus.iter().filter_map(|one| chips::plan_of(context.job, one));
         let bytes = plans.map(|plan| u32::try_from(plan.work_bytes).unwrap_or(u32::MAX)).max();
         let time_ms = |clocks: u32| clocks.saturating_mul(1_000).div_ceil(clock.speed_hz.max(1));
-        // Two addresses go with them; nine clocks a byte, twice the time is patience.
+        // Two addresses are added; nine clocks per byte, and twice the time as a margin.
         let clocks = bytes.unwrap_or(0).saturating_add(2).saturating_mul(9 * 2);
         Some(Self {
             ident: snake(&unit.name),
@@ -170,7 +170,7 @@ impl Port {
         [counter("was freed", "freed"), counter("stayed stuck", "kept")]
     }
 
-    /// Where the tree has no constant for the unit's clock, the choice of its source is compared.
+    /// If the tree has no constant for the unit's clock, the selection of its source is compared instead.
     fn source(&self, context: &Context<'_>) -> Option<GuardPlan> {
         let [option, value] = context.names.clock_source(&self.unit)?;
         Some(GuardPlan {
@@ -186,8 +186,8 @@ fn asked_hz(context: &Context<'_>, on_bus: &[&JobConnection<'_>]) -> u32 {
     speeds.chain([context.profile.i2c.speed_max_hz]).min().unwrap_or(0)
 }
 
-/// The clock that a bus gets; none where there is none, which [`sensedsl_timing::refusals`] has told, and where nothing
-/// is known of the unit's own.
+/// The clock of a bus; `None` if there is none, which [`sensedsl_timing::refusals`] has reported, or if nothing is
+/// known of the unit's clock.
 fn bus_clock(
     context: &Context<'_>,
     unit: &Unit,

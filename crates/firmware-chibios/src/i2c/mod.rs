@@ -10,7 +10,7 @@ use super::chips;
 use super::runtime::own;
 use super::section::{Peripheral, Version};
 
-/// See the module. The drivers with a timing register differ in how they get their DMA streams alone.
+/// The I2C units. The drivers with a timing register differ only in how they get their DMA streams.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "I2C",
     kind: Some(KindName::I2c),

@@ -1,4 +1,4 @@
-//! `I2Cv1`: the driver is told the bus clock and divides, and halts the board where something is left over.
+//! `I2Cv1`: the driver is given the bus clock and divides; it halts the board if there is a remainder.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_timing::i2c_clock::BusClock;

@@ -1,5 +1,5 @@
-//! `I2Cv2`, `I2Cv3` and `I2Cv4`: the driver is told the timing register. The analog filter is on and the digital one
-//! off, as they are after a reset.
+//! `I2Cv2`, `I2Cv3` and `I2Cv4`: the driver is given the timing register. The analog filter is on and the digital one
+//! off, as after a reset.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_timing::i2c_clock::{BusClock, TimingRegister};

@@ -8,7 +8,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The input captures.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "timer",
     kind: Some(KindName::Icu),

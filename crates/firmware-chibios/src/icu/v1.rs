@@ -1,4 +1,4 @@
-//! `TIMv1`: a driver for each captured wire, served by callbacks.
+//! `TIMv1`: a driver object for each captured wire, served by callbacks.
 
 use askama::Template;
 use sensedsl_board::signal::UnitName;
@@ -14,7 +14,7 @@ use crate::timers::{self, Channel};
 use sensedsl_files::block;
 use sensedsl_job::{JobConnection, JobDevice};
 
-/// After that time without an edge a frequency is 0.
+/// The time without an edge after which a frequency is 0.
 const SILENT_MS: u32 = 1_000;
 
 #[derive(Template)]
@@ -33,7 +33,7 @@ struct Input {
     ident: String,
     /// `Wheel at PB4 (TIM3_CH1)`
     place: String,
-    /// What is made of it.
+    /// The measurement, for a comment.
     what: String,
     driver: String,
     channel: u8,
@@ -42,9 +42,9 @@ struct Input {
     counts_both_edges: bool,
     has_width: bool,
     has_period: bool,
-    /// A wrap of the timer is told, so that what it spoils is left out.
+    /// True if wraps of the timer are reported, so that spoilt measurements are left out.
     has_overflow: bool,
-    /// The table of a receiver's pulse train.
+    /// The table of the receiver's pulse train.
     train: Option<String>,
 }
 
@@ -59,7 +59,7 @@ struct Sensor {
     tick_hz: u32,
     silent_ms: u32,
     counts_both_edges: bool,
-    /// An array of which each element must have been measured anew.
+    /// True for an array whose elements must all have been measured again.
     is_complete: bool,
     words: usize,
     train: Option<String>,
@@ -136,14 +136,14 @@ impl Input {
             counts_both_edges,
             has_width: counts_both_edges || any(|mode| matches!(mode, Mode::Width | Mode::Duty)),
             has_period: any(|mode| mode != Mode::Width),
-            // A counter has none: with it, the driver would keep an edge after each wrap to itself.
+            // A counter has none: with it, the driver would not report the edge after a wrap.
             has_overflow: any(|mode| mode != Mode::Count),
             train: train.map(|(device, _)| device.ident.clone()),
         })
     }
 }
 
-/// For a comment: what the ticks are, where the clock does not divide to those asked for.
+/// The actual ticks, for a comment, if the clock does not divide to the requested ones.
 fn off(asked_hz: u32, made_hz: u32) -> String {
     if asked_hz == made_hz {
         return String::new();
@@ -153,7 +153,7 @@ fn off(asked_hz: u32, made_hz: u32) -> String {
     format!("; {made_hz} ticks a second, {ppm} ppm {direction} than {asked_hz}")
 }
 
-/// For a comment.
+/// The measurement, for a comment.
 fn what(icu: &Icu) -> String {
     let edges = match icu.edge {
         Edge::Rising => "rising",

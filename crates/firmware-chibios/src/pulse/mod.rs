@@ -1,12 +1,11 @@
-//! Pulses that some captured devices want each cycle: plain pins, set by a thread.
+//! Pulses that some captured devices need in each cycle: plain pins, set by a thread.
 
 mod v2;
 
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module. All other pads are set up by the same driver, so that its version is asked for even where
-/// nothing wants a pulse.
+/// The pulses. The same driver sets up all other pads, so its version is required even if nothing needs a pulse.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "GPIO",
     kind: None,

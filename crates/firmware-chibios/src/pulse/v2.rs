@@ -1,4 +1,4 @@
-//! All versions: lines that get a pulse each cycle.
+//! All versions: lines that get a pulse in each cycle.
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
@@ -11,7 +11,7 @@ use sensedsl_files::block;
 use sensedsl_job::Cycle;
 use sensedsl_job::kinds;
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [168, 152], filtered: [168, 152] };
 
 #[derive(Template)]
@@ -24,7 +24,7 @@ struct Pulses {
     pulses: Vec<Pulse>,
 }
 
-/// Lines that get a pulse in one cycle.
+/// Lines that get a pulse in the same cycle.
 struct Pulse {
     ident: String,
     cycle: Cycle,
@@ -37,7 +37,7 @@ struct Pulse {
 struct Line {
     place: String,
     line: String,
-    /// From its pulse to the next.
+    /// The time from its pulse to the next.
     apart_ms: u32,
 }
 
@@ -67,7 +67,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// `pulse_100ms`, and the length where pulses of several lengths have one cycle.
+/// `pulse_100ms`, with the pulse length if one cycle has pulses of several lengths.
 fn name(cycle: Cycle, pulse_us: u32, is_one_of_several: bool) -> String {
     let name = cycle.ident("pulse");
     if is_one_of_several { format!("{name}_{pulse_us}us") } else { name }

@@ -9,7 +9,7 @@ use sensedsl_model::kind::KindName;
 use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
-/// See the module.
+/// The PWM outputs.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "timer",
     kind: Some(KindName::Pwm),

@@ -1,15 +1,15 @@
 //! How a timer makes a frequency: the divider of its clock and the ticks of a period.
 //!
-//! In: the clock and the frequency. Out: the tick with the best resolution whose period fits 16 bits. The system's driver
-//! takes whole ticks a second only, so the divider is one of the clock's.
+//! In: the clock and the frequency. Out: the tick with the best resolution whose period fits 16 bits. The system's
+//! driver accepts only a whole number of ticks per second, so the divider must divide the clock.
 
-/// The longest period: one tick less than a 16-bit counter has, so that a pulse can last all of it.
+/// The longest period: one tick less than a 16-bit counter has, so that a pulse can fill it.
 const PERIOD_MAX: u32 = 65_535;
 
 /// The greatest divider of a timer's clock.
 const DIVIDER_MAX: u32 = 65_536;
 
-/// So many times coarser a tick may be, if the period is exact with it.
+/// How many times coarser a tick may be if that makes the period exact.
 const COARSER: u32 = 4;
 
 /// The tick and the period of a timer.
@@ -20,7 +20,7 @@ pub(super) struct Rate {
 }
 
 impl Rate {
-    /// None where no divider of the clock does.
+    /// `None` if no divider of the clock fits.
     pub(super) fn new(clock_hz: u32, frequency_hz: u32) -> Option<Self> {
         let ticks = |divider: u32| {
             let tick_hz = clock_hz / divider;
@@ -36,7 +36,7 @@ impl Rate {
         Some(std::iter::once(finest).chain(near).find(is_exact).unwrap_or(finest))
     }
 
-    /// The ticks nearest to a pulse, at most the period.
+    /// The number of ticks nearest to a pulse, at most the period.
     pub(super) fn ticks(self, pulse_us: u32) -> u32 {
         let ticks = (u64::from(pulse_us) * u64::from(self.tick_hz) + 500_000) / 1_000_000;
         u32::try_from(ticks).unwrap_or(u32::MAX).min(self.period_ticks)
@@ -69,7 +69,7 @@ mod tests {
         for clock_hz in [8_000_000, 32_000_000, 36_000_000, 79_960_000, 84_000_000, 216_000_000] {
             for frequency_hz in [1, 3, 49, 50, 333, 400, 1_000, 24_999, 1_000_000] {
                 let Some(rate) = Rate::new(clock_hz, frequency_hz) else {
-                    // Primes in a clock leave gaps between its dividers.
+                    // Prime factors of a clock leave gaps between its dividers.
                     assert!(
                         clock_hz == 79_960_000 && frequency_hz == 1,
                         "{clock_hz} {frequency_hz}"
@@ -78,7 +78,7 @@ mod tests {
                 };
                 assert!(clock_hz.is_multiple_of(rate.tick_hz) && clock_hz / rate.tick_hz <= 65_536);
                 assert!((2..=65_535).contains(&rate.period_ticks), "{rate:?}");
-                // Rounded to the nearest period: off by half a tick at most.
+                // Rounded to the nearest period: off by at most half a tick.
                 let off = rate.tick_hz.abs_diff(rate.period_ticks * frequency_hz);
                 assert!(off <= frequency_hz / 2 + 1, "{rate:?} {frequency_hz}");
             }

@@ -1,4 +1,4 @@
-//! `TIMv1`: a driver for each timer with outputs, whatever devices have them.
+//! `TIMv1`: a driver object for each timer with outputs, whichever devices use them.
 
 use std::collections::BTreeMap;
 
@@ -44,12 +44,12 @@ struct PulseTimer {
 }
 
 struct ChannelPlan {
-    /// From 0.
+    /// The channel, from 0.
     index: u8,
     /// `Esc[0] at PA6 (TIM3_CH1)`
     place: String,
     mode: &'static str,
-    /// Of the connection.
+    /// The identifier of the connection.
     ident: String,
 }
 
@@ -61,24 +61,24 @@ struct Output {
     greatest_ticks: u32,
 }
 
-/// A device whose elements are an output each.
+/// A device with one output for each element.
 struct Actuator {
     ident: String,
     name: String,
     outputs: Vec<Output>,
 }
 
-/// A device whose value becomes the inputs of an H-bridge.
+/// A device whose value drives the inputs of an H-bridge.
 struct Bridge {
     ident: String,
     name: String,
     outputs: Vec<Output>,
-    /// In the order of the runtime's outputs.
+    /// The inputs in the order of the runtime's outputs.
     inputs: Vec<BridgeInput>,
 }
 
 enum BridgeInput {
-    /// Which of the outputs.
+    /// The index of the output.
     Pwm(usize),
     Pin {
         line: String,
@@ -129,7 +129,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// A timer at the frequency of its outputs, which is the same for all: the wiring has seen to that.
+/// A timer at the frequency of its outputs; the wiring ensures that it is the same for all.
 fn timer(
     context: &Context<'_>,
     (wired, pwm): (&JobConnection<'_>, &Pwm),
@@ -189,7 +189,7 @@ impl Pulses {
         };
         let line = format!("{verb}(&{table}, value);");
         section.applies.push(Apply { field: name.clone(), line });
-        // Until the host speaks it is as silent as later: that is the start as well.
+        // A host that has not sent anything yet is silent: the start is handled in the same way.
         if let Some(failsafe) = pwm.failsafe {
             let least = if device.device.coding.drive.is_some() { -10_000.0 } else { 0.0 };
             let level = failsafe.clamp(least, 10_000.0).round();
@@ -224,7 +224,7 @@ impl Pulses {
     }
 }
 
-/// The inputs of a bridge, in the order of its wires: that is the runtime's.
+/// The inputs of a bridge in the order of its wires, which is the runtime's.
 fn bridge_inputs(
     context: &Context<'_>,
     wires: &[&JobConnection<'_>],

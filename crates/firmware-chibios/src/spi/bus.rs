@@ -1,5 +1,5 @@
-//! What all versions of the driver have alike: a port for each bus with its chip selects, a thread's table for each bus
-//! and cycle.
+//! What all versions of the driver have in common: a port for each bus with its chip selects, and a thread's table for
+//! each bus and cycle.
 
 use std::collections::BTreeMap;
 
@@ -20,20 +20,20 @@ use sensedsl_files::block;
 use sensedsl_job::snake;
 use sensedsl_job::{BoardJob, JobConnection, by_unit};
 
-/// Time for interrupts and other threads, beside the bits.
+/// The time for interrupts and other threads, besides the bits.
 const TIMEOUT_BASE_MS: u32 = 10;
 
-/// How a device wants its clock.
+/// The clock of a device.
 pub(super) struct Clock {
-    /// The unit's clock is halved so often, at least once.
+    /// How often the unit's clock is halved, at least once.
     pub(super) halvings: u32,
-    /// The clock is high between transfers.
+    /// True if the clock is high between transfers.
     pub(super) is_idle_high: bool,
-    /// Data are taken at the second edge.
+    /// True if data are sampled at the second edge.
     pub(super) is_second_edge: bool,
 }
 
-/// The members of `SPIConfig` that say that, a line each.
+/// The members of `SPIConfig` for a clock, one per line.
 pub(super) type Config = fn(&Clock) -> Vec<String>;
 
 #[derive(Template)]
@@ -49,7 +49,7 @@ struct Port {
     unit: String,
     driver: String,
     unit_clock: String,
-    /// SCK, MISO and MOSI, as far as there are wires.
+    /// SCK, MISO and MOSI, as far as they are wired.
     wires: Vec<String>,
     selects: Vec<Select>,
     timeout_ms: u32,
@@ -91,7 +91,7 @@ pub(super) fn plan(
         Setting::new("SPI_USE_WAIT", "TRUE"),
         Setting::new("SPI_USE_MUTUAL_EXCLUSION", "TRUE"),
         Setting::new("SPI_SELECT_MODE", "SPI_SELECT_MODE_LINE"),
-        // A transfer that fails is told of its device, and halts nothing.
+        // A failed transfer is reported for its device and must not halt the board.
         Setting::new("SPI_USE_ASSERT_ON_ERROR", "FALSE"),
     ];
     section.clocks = ports.iter().map(|port| port.unit_clock.clone()).collect();
@@ -113,7 +113,7 @@ pub(crate) fn number_of(job: &BoardJob<'_>, part: PartIndex) -> Option<u8> {
     u8::try_from(number).ok()
 }
 
-/// The wires of the bus, and the chip selects, which are high before they are outputs.
+/// The wires of the bus, and the chip selects, which are high before they become outputs.
 fn pads(
     context: &Context<'_>,
     on_bus: &[&JobConnection<'_>],
@@ -152,10 +152,10 @@ impl Port {
         let mut selects = Vec::new();
         for one in on_bus {
             let spi = one.connection.kind.spi()?;
-            // What is too slow for the unit has been told with the timing.
+            // A clock that is too slow for the unit has been reported with the timing.
             let divider = spi_divider(context.profile, *unit_hz, spi.clock_hz)?;
             let bytes = chips::plan_of(context.job, one).map_or(0, |plan| plan.work_bytes);
-            // Eight clocks a byte, twice the time is patience.
+            // Eight clocks per byte, and twice the time as a margin.
             let clocks = u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(8 * 2);
             let time_ms = clocks.saturating_mul(1_000).div_ceil((unit_hz / divider).max(1));
             timeout_ms = time_ms.max(timeout_ms);
@@ -202,7 +202,7 @@ impl Select {
     }
 }
 
-/// Macros or-ed together; `0U` when there is none.
+/// Macros or-ed together; `0U` if there are none.
 pub(super) fn sum(terms: &[&str]) -> String {
     if terms.is_empty() { "0U".to_owned() } else { terms.join(" | ") }
 }

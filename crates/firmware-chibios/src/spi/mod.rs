@@ -12,7 +12,7 @@ use super::runtime::own;
 use super::section::{Peripheral, Version};
 pub(super) use bus::number_of;
 
-/// See the module. All MCUs have the second driver model of the system.
+/// The SPI units. All MCUs have the system's second driver model.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "SPI",
     kind: Some(KindName::Spi),

@@ -1,4 +1,4 @@
-//! `SPIv1`: frames of 8 bits are the only choice but 16.
+//! `SPIv1`: frames have 8 or 16 bits.
 
 use sensedsl_diagnostics::Diagnostic;
 
@@ -14,9 +14,9 @@ fn config(clock: &Clock) -> Vec<String> {
     vec![format!(".cr1 = {},", cr1(clock))]
 }
 
-/// The first register, which both versions have alike.
+/// The first register, which is the same in both versions.
 pub(super) fn cr1(clock: &Clock) -> String {
-    // The field counts from a clock that is halved once.
+    // The field's 0 is a clock that is halved once.
     let divider = clock.halvings.saturating_sub(1);
     let bits = [(4, "SPI_CR1_BR_2"), (2, "SPI_CR1_BR_1"), (1, "SPI_CR1_BR_0")];
     let bits = bits.into_iter().filter(|(bit, _)| divider & bit != 0).map(|(_, name)| name);

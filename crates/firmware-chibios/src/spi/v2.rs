@@ -1,4 +1,4 @@
-//! `SPIv2`: the size of a frame stands in the second register.
+//! `SPIv2`: the frame size is in the second register.
 
 use sensedsl_diagnostics::Diagnostic;
 

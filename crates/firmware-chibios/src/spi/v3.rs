@@ -1,5 +1,5 @@
-//! `SPIv3`: clock and size of a frame in the first register of the configuration, polarity and phase in the second. The
-//! unit keeps its pads while it is off, so that the clock does not move when the mode changes.
+//! `SPIv3`: clock and frame size are in the first configuration register, polarity and phase in the second. The unit
+//! keeps its pads while it is off, so that the clock line does not move when the mode changes.
 
 use sensedsl_diagnostics::Diagnostic;
 

@@ -1,4 +1,4 @@
-//! Devices on serial ports. The driver of the system is the same in all its versions but for how a port inverts.
+//! Devices on serial ports. All versions of the system's driver are the same except for how a port inverts.
 
 mod v1;
 
@@ -8,7 +8,7 @@ use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::Direction;
 
-/// See the module.
+/// The serial ports.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "serial",
     kind: Some(KindName::Uart),
@@ -23,7 +23,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     runtime: own!["up_uart.c", "up_uart.h"],
 };
 
-/// A number in a text can be read and not yet be written.
+/// Numbers in text can be received but not yet sent.
 const LACKS: Lacks = |job: &BoardJob<'_>, connection: &JobConnection<'_>| {
     let mut own = connection.devices.iter().filter_map(|field| job.devices.get(*field));
     let is_text = own

@@ -1,4 +1,4 @@
-//! A port with its device: its settings, what is sent and what is listened for.
+//! A port with its device: its settings, what is sent and what is received.
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
@@ -15,7 +15,7 @@ use sensedsl_job::kinds::serial::{self, QUEUE_BYTES};
 use sensedsl_job::part::MessagePlan;
 use sensedsl_job::{Cycle, JobConnection};
 
-/// How deep its thread gets.
+/// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [560, 488], filtered: [656, 500] };
 
 #[derive(Template)]
@@ -31,14 +31,14 @@ struct Ports {
 /// A port with a device.
 struct Port {
     ident: String,
-    /// For people: the device and its pins.
+    /// The device and its pins, for people.
     place: String,
     unit: String,
     driver: String,
     baud: u32,
-    /// For people: `8E2, inverted`.
+    /// The frame format for people: `8E2, inverted`.
     frame: String,
-    /// Values of the registers beside the driver's own; empty for none.
+    /// Register values besides the driver's own; empty for none.
     cr1: String,
     cr2: String,
     prefix: String,
@@ -99,7 +99,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// How the port of a connection is set.
+/// The settings of a connection's port.
 fn uart<'a>(context: &Context<'a>, wired: &JobConnection<'a>) -> Option<&'a Uart> {
     let own = wired.connection.kind.uart();
     own.or_else(|| context.device_of(wired)?.device.kind.uart())
@@ -135,7 +135,7 @@ impl Port {
         format!("{}_port", self.ident)
     }
 
-    /// Where something comes in or the device is to be started.
+    /// The work of its thread, if it receives something or the device must be started.
     fn work(&self) -> Option<Work> {
         (self.fields > 0 || self.init > 0).then(|| Work {
             unit: self.unit.clone(),
@@ -148,7 +148,7 @@ impl Port {
     }
 }
 
-/// For people.
+/// The frame format for people.
 fn frame(uart: &Uart) -> String {
     let parity = match uart.parity {
         Parity::None => 'N',
@@ -159,7 +159,7 @@ fn frame(uart: &Uart) -> String {
     format!("{}{parity}{}{inverted}", uart.data_bits, uart.stop_bits)
 }
 
-/// Parity, and whether it comes behind eight bits.
+/// Parity, and whether it follows eight data bits.
 fn cr1(uart: &Uart) -> String {
     let nine = if uart.data_bits == 8 { "UP_UART_NINE_BITS | " } else { "" };
     match uart.parity {

@@ -1,4 +1,4 @@
-//! Host `libcluon`: one OD4 microservice a board, and the messages of all boards in one file.
+//! Host `libcluon`: one OD4 microservice per board, and the messages of all boards in one file.
 
 use askama::Template;
 
@@ -8,7 +8,7 @@ use sensedsl_files::FileSet;
 use sensedsl_files::print;
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
-/// See the module.
+/// The host `libcluon`.
 pub struct Libcluon;
 
 #[derive(Template)]

@@ -1,7 +1,7 @@
-//! The OpenDaVINCI hosts: one application a board, and one that prints its Containers.
+//! The OpenDaVINCI hosts: one application per board, and one that prints its Containers.
 //!
-//! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for that of the paper's time, in C++98. What
-//! they have in common word for word is printed once and included by both.
+//! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for the version at the time of the paper, in C++98. What they
+//! have in common word for word is printed once and included by both.
 
 use askama::Template;
 
@@ -11,10 +11,10 @@ use sensedsl_files::FileSet;
 use sensedsl_files::print;
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
-/// For OpenDaVINCI 4.
+/// The host for OpenDaVINCI 4.
 pub struct OpenDavinci;
 
-/// For the OpenDaVINCI of 2014.
+/// The host for the OpenDaVINCI of 2014.
 pub struct OpenDavinci2014;
 
 #[derive(Template)]

@@ -1,4 +1,4 @@
-//! Host `cpp`: a header-only C++17 library and an example, no middleware.
+//! Host `cpp`: a header-only C++17 library and an example, without middleware.
 
 use askama::Template;
 
@@ -9,7 +9,7 @@ use sensedsl_files::FileSet;
 use sensedsl_files::print;
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
-/// See the module.
+/// The host `cpp`.
 pub struct Plain;
 
 #[derive(Template)]

@@ -1,7 +1,7 @@
 //! Host applications: the programs at the other end of the link.
 //!
-//! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. A language is a crate with its names, its
-//! view of the plan, its templates and its hand-written runtime.
+//! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. Each language has its own crate with its
+//! names, its view of the plan, its templates and its hand-written runtime.
 
 mod plan;
 
@@ -11,47 +11,47 @@ pub use plan::{
 
 use sensedsl_files::FileSet;
 
-/// One kind of host application.
+/// A kind of host application.
 pub trait Host: Sync {
-    /// Its folder below `host/` and its name on the command line.
+    /// The folder below `host/`, and the name on the command line.
     fn name(&self) -> &'static str;
-    /// What people read of it.
+    /// The host's description for people.
     fn about(&self) -> About;
-    /// How a source that it prints is held to its language.
+    /// The compiler call that checks a generated source.
     fn compile(&self) -> Compile;
-    /// All its files, relative to its folder.
+    /// All the host's files, relative to its folder.
     fn render(&self, plan: &HostPlan) -> FileSet;
 }
 
 /// A row of the page on hosts, `docs/hosts.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
-    /// Its language.
+    /// The language.
     pub language: &'static str,
-    /// What it needs beside a compiler.
+    /// The host's requirements besides a compiler.
     pub needs: &'static str,
-    /// What it gives.
+    /// The features that it provides.
     pub gives: &'static str,
 }
 
-/// The call that says whether a printed source is one of its language. It runs in the host's folder, and the
-/// path of the source is its last argument. Nothing is linked or run.
+/// The compiler call that checks a generated source. It runs in the host's folder, with the path of the source as its
+/// last argument. Nothing is linked or run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Compile {
     /// The compiler.
     pub program: &'static str,
-    /// What it is called with.
+    /// The arguments before the path.
     pub arguments: &'static [&'static str],
-    /// How the names of sources end.
+    /// The file name extension of the sources.
     pub extension: &'static str,
-    /// The standard, in the compiler's words; empty where there is none to choose.
+    /// The language standard, as the compiler spells it; empty if there is no choice.
     pub standard: &'static str,
-    /// The variable that names the tree of the middleware, where the sources include one.
+    /// The environment variable for the middleware's source tree, if the sources include it.
     pub tree: Option<&'static str>,
 }
 
 impl Compile {
-    /// A source of C++ without a warning.
+    /// A C++ source that must compile without warnings.
     #[must_use]
     pub const fn cpp(standard: &'static str, tree: Option<&'static str>) -> Self {
         const ARGUMENTS: &[&str] = &[

@@ -1,8 +1,8 @@
-//! What every host application needs to know, whatever its language.
+//! The facts that every host application needs, whatever its language.
 //!
-//! In: one [`HostBoard`] a board, that is its wire schema and how its values are to be shown.
-//! Out: a [`HostPlan`]: messages sorted by direction with their sizes, limits and texts decided.
-//! Hosts turn it into views of their language; templates only print those.
+//! In: one [`HostBoard`] for each board, which is its wire schema and how its values are shown. Out: a [`HostPlan`]:
+//! messages sorted by direction, with their sizes, limits and texts decided. Hosts turn it into views in their
+//! language; templates only print those.
 
 use std::collections::BTreeMap;
 
@@ -14,15 +14,15 @@ use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 pub struct HostBoard {
     /// The board's name in the file.
     pub name: String,
-    /// Its link.
+    /// The schema of its link.
     pub schema: Schema,
-    /// Baud rate of the link; of no effect over USB.
+    /// The baud rate of the link; without effect over USB.
     pub baud: u32,
-    /// After how long without a frame from the host actuators take their failsafe; none for never.
+    /// The time without a frame from the host after which actuators take their failsafe value; `None` for never.
     pub silence_ms: Option<u32>,
-    /// By wire identifier; absent for what is shown as it comes.
+    /// How values are shown, by wire identifier; absent for values that are shown as they come.
     pub presentations: BTreeMap<u8, Presentation>,
-    /// From one value to the next, by wire identifier; absent where values come only when something
+    /// The time from one value to the next, by wire identifier; absent for values that come only when something
     /// happens.
     pub cycles_ms: BTreeMap<u8, u32>,
 }
@@ -30,9 +30,9 @@ pub struct HostBoard {
 /// All boards of a design, ready to be printed in any language.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HostPlan {
-    /// The design's name: what its file is called.
+    /// The design's name, taken from the name of its file.
     pub name: String,
-    /// In file order.
+    /// The boards, in file order.
     pub boards: Vec<BoardPlan>,
 }
 
@@ -43,17 +43,17 @@ pub struct BoardPlan {
     pub name: String,
     /// The schema hash.
     pub hash: u32,
-    /// The text that the hash is made of.
+    /// The text that the hash is computed from.
     pub schema_text: String,
-    /// What frames end with.
+    /// The checksum at the end of payloads.
     pub checksum: Checksum,
     /// Whether each report begins with the board's time and a counter.
     pub has_stamp: bool,
-    /// Baud rate of the link.
+    /// The baud rate of the link.
     pub baud: u32,
-    /// After how long without a frame from the host actuators take their failsafe; none for never.
+    /// The time without a frame from the host after which actuators take their failsafe value; `None` for never.
     pub silence_ms: Option<u32>,
-    /// All devices in file order, which is that of their health.
+    /// All devices in file order, which is also their order in health.
     pub devices: Vec<DevicePlan>,
     /// Board to host.
     pub sensors: DirectionPlan,
@@ -61,69 +61,69 @@ pub struct BoardPlan {
     pub actuators: DirectionPlan,
 }
 
-/// A device as health has it.
+/// A device as listed in health.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DevicePlan {
-    /// Its name in the file.
+    /// The name in the file.
     pub name: String,
-    /// Wire identifier.
+    /// The wire identifier.
     pub id: u8,
-    /// Which way its value travels.
+    /// The direction in which its value travels.
     pub direction: Direction,
 }
 
-/// What travels one way.
+/// The messages of one direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionPlan {
-    /// In file order.
+    /// The messages, in file order.
     pub messages: Vec<MessagePlan>,
-    /// Longest valid payload.
+    /// The longest valid payload.
     pub payload_bytes_max: usize,
-    /// The same but health, and without a checksum.
+    /// The longest valid payload except health, without a checksum.
     pub short_bytes_max: usize,
 }
 
-/// One sensor's or actuator's value.
+/// The value of a sensor or an actuator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MessagePlan {
     /// The device's name in the file.
     pub name: String,
-    /// Wire identifier.
+    /// The wire identifier.
     pub id: u8,
-    /// Which way it travels.
+    /// The direction in which the value travels.
     pub direction: Direction,
-    /// What it carries.
+    /// The type of the value.
     pub value: ValueType,
-    /// A text for people.
+    /// The label for people.
     pub label: Option<String>,
     /// The unit of the scaled value.
     pub quantity: Option<String>,
-    /// Set when a scaled value is to be shown beside the raw one.
+    /// The scaling; set if a scaled value is shown besides the raw one.
     pub scaling: Option<Scaling>,
-    /// What the scaled value is expected to keep to.
+    /// The expected limits of the scaled value.
     pub limits: Limits,
-    /// From one value to the next; none where values come only when something happens.
+    /// The time from one value to the next; `None` for values that come only when something happens.
     pub cycle_ms: Option<u32>,
 }
 
-/// Least and greatest value of a message, finite where there is one.
+/// The least and the greatest value of a message, finite if given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Least.
+    /// The least value.
     pub min: Option<f64>,
-    /// Greatest.
+    /// The greatest value.
     pub max: Option<f64>,
 }
 
-/// How a raw value becomes the shown one: `scale * raw + offset`, and through the curve where there is
-/// one, linear between its points, its ends held beyond them.
+/// How a raw value becomes the shown one: `scale * raw + offset`, then the curve if there is one, linear between its
+/// points and constant beyond its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scaling {
-    /// Factor, finite.
+    /// The factor, finite.
     pub scale: f64,
-    /// Summand, finite.
+    /// The offset, finite.
     pub offset: f64,
-    /// Points, finite, the first numbers ascending; empty for none.
+    /// The points, finite, in ascending order of their first numbers; empty for no curve.
     pub curve: Vec<(f64, f64)>,
 }
 
@@ -135,7 +135,7 @@ impl Default for Scaling {
 }
 
 impl HostPlan {
-    /// Decides everything that is the same in each language. `name` is what people call the design.
+    /// Decides everything that is the same in each language. `name` is the name of the design for people.
     #[must_use]
     pub fn new(name: &str, boards: &[HostBoard]) -> Self {
         Self { name: name.to_owned(), boards: boards.iter().map(BoardPlan::new).collect() }
@@ -158,7 +158,7 @@ impl BoardPlan {
         }
     }
 
-    /// Sensors, then actuators.
+    /// The messages of the sensors, then those of the actuators.
     pub fn messages(&self) -> impl Iterator<Item = &MessagePlan> {
         self.sensors.messages.iter().chain(&self.actuators.messages)
     }
@@ -200,7 +200,7 @@ impl DirectionPlan {
 }
 
 impl Scaling {
-    /// A quantity alone says that the raw value is in it already.
+    /// A quantity alone means that the raw value is already in it.
     fn of(shown: &Presentation) -> Option<Self> {
         let Presentation { quantity, scale, offset, curve, .. } = shown;
         let asked = scale.is_some() || offset.is_some() || quantity.is_some() || !curve.is_empty();

@@ -1,4 +1,4 @@
-//! CAN buses: the values that come in, and the frames that go out.
+//! CAN buses: the values that are received and the frames that are sent.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use sensedsl_wire::Direction;
 use crate::part::ValuePlan;
 use crate::{BoardJob, Cycle, JobConnection, JobDevice};
 
-/// Banks of filters that each bus of a bxCAN controller has, for two identifiers each.
+/// Filter banks per bus of a bxCAN controller, each for two identifiers.
 pub const BANKS: usize = 14;
 
-/// Filters of an FDCAN controller for identifiers of eleven bits and of 29, for two identifiers each.
+/// Filters of an FDCAN controller for 11-bit and for 29-bit identifiers, each for two identifiers.
 const STANDARD_FILTERS: usize = 28;
 const EXTENDED_FILTERS: usize = 8;
 
@@ -26,72 +26,72 @@ pub use sensedsl_model::kind::can::STANDARD_MAX;
 /// An identifier, and whether it has 29 bits.
 pub type Identifier = (u32, bool);
 
-/// A bus with what goes over it.
+/// A bus with its values and frames.
 #[derive(Clone, Debug)]
 pub struct Bus<'a> {
-    /// What the profile calls the unit.
+    /// The profile's name of the unit.
     pub unit: &'a str,
     /// Bits per second.
     pub bitrate_hz: u32,
-    /// That of its fastest device, with the highest priority of any.
+    /// The cycle of its fastest device, with the highest priority of all its devices.
     pub cycle: Cycle,
-    /// One of its wires: all have the pads of the bus.
+    /// One of its connections: all of them have the pads of the bus.
     pub first: &'a JobConnection<'a>,
-    /// All of them, the first among them.
+    /// All its connections, including the first.
     pub wires: Vec<&'a JobConnection<'a>>,
-    /// What comes in.
+    /// The values that are received.
     pub values: Vec<Value<'a>>,
-    /// What goes out.
+    /// The frames that are sent.
     pub frames: Vec<Frame<'a>>,
 }
 
-/// A value in a frame. Bits of a frame are a number, of which byte 0 of the frame is the lowest.
+/// A value in a frame. The bits of a frame are numbered as in an integer whose lowest byte is byte 0 of the frame.
 #[derive(Clone, Debug)]
 pub struct Value<'a> {
     /// The index of its device in the job.
     pub index: usize,
     /// The device.
     pub device: &'a JobDevice<'a>,
-    /// That of the frame.
+    /// The identifier of the frame.
     pub identifier: u32,
-    /// Whether it has 29 bits.
+    /// True if the identifier has 29 bits.
     pub is_extended: bool,
-    /// Where it begins in the frame.
+    /// The byte of the frame at which the value begins.
     pub byte: u8,
-    /// How it is coded.
+    /// The coding of the value.
     pub how: ValuePlan,
-    /// Its bits of the frame.
+    /// The value's bits in the frame.
     bits: u64,
-    /// The same; 0 where it has all of its bytes.
+    /// The same bits; 0 if the value has its bytes to itself.
     pub mask: u64,
-    /// It is in the frame only where these bits are so.
+    /// Mask and value of the bits that select the value: it is in the frame only if they match.
     pub select: Option<(u64, u64)>,
-    /// Setting it does not send the frame: another one with it is sent.
+    /// True if setting the value does not send the frame: another frame that contains it is sent.
     pub is_quiet: bool,
-    /// A frame with it is repeated after so long; 0: never.
+    /// The time after which its frame is repeated; 0: never.
     resend_ms: u32,
-    /// One behind its last byte, or behind the frame's where that is known.
+    /// The offset after the value's last byte, or the frame's length if that is known and larger.
     end: u16,
 }
 
 /// A frame that is sent.
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
-    /// Its identifier.
+    /// The identifier.
     pub identifier: u32,
-    /// Whether it has 29 bits.
+    /// True if the identifier has 29 bits.
     pub is_extended: bool,
-    /// Its length.
+    /// The length.
     pub bytes: u16,
-    /// It is sent again so long after it was commanded; 0: never.
+    /// The time after which a command's frame is repeated; 0: never.
     pub resend_ms: u32,
-    /// What is in it before anything is set: the bits that select it.
+    /// The content before any value is set: the bits that select the frame.
     pub start: u64,
-    /// What is in it.
+    /// The values in the frame.
     pub values: Vec<Value<'a>>,
 }
 
-/// The buses of connections, in the natural order; a value that fits no frame is told.
+/// The buses of the connections, in natural order; a value that does not fit its frame is reported.
 pub fn buses<'a>(
     job: &'a BoardJob<'a>,
     connections: impl Iterator<Item = &'a JobConnection<'a>>,
@@ -101,7 +101,7 @@ pub fn buses<'a>(
     let mut sent: BTreeMap<UnitName, Vec<Value<'a>>> = BTreeMap::new();
     for wire in connections {
         let (Some(unit), Some(can)) = (wire.unit, wire.connection.kind.can()) else { continue };
-        // Tables may call the only one `CAN`.
+        // A board table may call the only unit `CAN`.
         let facts = job.profile.and_then(|profile| profile.unit(unit));
         let bus = buses.entry(UnitName::new(unit)).or_insert_with(|| Bus {
             unit: facts.map_or(unit, |facts| &facts.name),
@@ -134,14 +134,15 @@ pub fn buses<'a>(
     buses.into_values().collect()
 }
 
-/// How often the frames that are repeated are sent.
+/// The repetition intervals of the frames that are repeated.
 pub fn repeats_ms<'a>(job: &'a BoardJob<'a>) -> impl Iterator<Item = u32> + 'a {
     let cans = job.devices.iter().filter_map(|one| one.device.kind.can());
     cans.map(|can| can.resend_ms).filter(|resend_ms| *resend_ms > 0)
 }
 
-/// The frames of what is sent, in the order of the values: all values of an identifier go together. Where a value
-/// selects what else there is, each selection is a frame by itself, which has what is in all of them as well.
+/// The frames of the values that are sent, in the order of the values: all values of an identifier go together. Where a
+/// value selects the others, each selection is a frame of its own, which also contains the values common to all of
+/// them.
 fn frames<'a>(values: &[Value<'a>]) -> Vec<Frame<'a>> {
     let mut frames: Vec<Frame<'a>> = Vec::new();
     for one in values {
@@ -179,14 +180,14 @@ fn frames<'a>(values: &[Value<'a>]) -> Vec<Frame<'a>> {
 }
 
 impl<'a> Bus<'a> {
-    /// The identifiers that filters of a bxCAN controller let through; none where they are more than the filters hold.
+    /// The identifiers that the filters of a bxCAN controller let through; `None` if they exceed the filters.
     #[must_use]
     pub fn wanted(&self) -> Option<Vec<Identifier>> {
         let wanted = self.identifiers();
         (wanted.len() <= 2 * BANKS).then_some(wanted)
     }
 
-    /// The identifiers that filters of an FDCAN controller let through; none where they are more than the filters hold.
+    /// The identifiers that the filters of an FDCAN controller let through; `None` if they exceed the filters.
     #[must_use]
     pub fn wanted_in_memory(&self) -> Option<Vec<Identifier>> {
         let wanted = self.identifiers();
@@ -195,7 +196,7 @@ impl<'a> Bus<'a> {
         (standard <= 2 * STANDARD_FILTERS && extended <= 2 * EXTENDED_FILTERS).then_some(wanted)
     }
 
-    /// The identifiers of what comes in, each once.
+    /// The identifiers of the values that are received, each once.
     fn identifiers(&self) -> Vec<Identifier> {
         let mut wanted: Vec<Identifier> = self.values.iter().map(Value::identifier).collect();
         wanted.sort_unstable();
@@ -205,7 +206,7 @@ impl<'a> Bus<'a> {
 }
 
 impl<'a> Value<'a> {
-    /// The value of a device; one that cannot be sent is told.
+    /// The value of a device; one that cannot be sent is reported.
     fn new(
         index: usize,
         device: &'a JobDevice<'a>,
@@ -245,7 +246,7 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// Of its frame.
+    /// The identifier of the frame, and whether it has 29 bits.
     #[must_use]
     pub fn identifier(&self) -> Identifier {
         (self.identifier, self.is_extended)
@@ -265,7 +266,7 @@ impl Frame<'_> {
         (self.identifier, self.is_extended)
     }
 
-    /// What is in it before anything is set.
+    /// The content before any value is set.
     #[must_use]
     pub fn start_bytes(&self) -> [u8; 8] {
         self.start.to_le_bytes()

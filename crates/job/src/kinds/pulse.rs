@@ -1,4 +1,4 @@
-//! Pulses that make rangers measure, and which of them wait for each other.
+//! Trigger pulses of rangers, and which of them wait for each other.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use sensedsl_model::design::Design;
 
 use crate::{BoardJob, Cycle, JobConnection};
 
-/// Between two measurements, in ms, as for those of different cycles: a tick of the kernel.
+/// The gap between two measurements, as between those of different cycles: a tick of the kernel.
 const GAP_MS: u32 = 1;
 
-/// Wires that get pulses of one length in one cycle.
+/// Wires that get pulses of the same length in the same cycle.
 #[derive(Clone, Debug)]
 pub struct Pulses<'a> {
-    /// When they are due.
+    /// The cycle in which they are due.
     pub cycle: Cycle,
-    /// How long a pulse lasts, in µs.
+    /// The length of a pulse.
     pub pulse_us: u32,
     /// The identifier of the first device.
     pub id: u8,
-    /// In the order of their pulses.
+    /// The wires, in the order of their pulses.
     pub lines: Vec<Line<'a>>,
 }
 
@@ -27,9 +27,9 @@ pub struct Pulses<'a> {
 pub struct Line<'a> {
     /// The connection.
     pub wire: &'a JobConnection<'a>,
-    /// From its pulse to the next, in ms; 0 where the next does not wait.
+    /// The time from its pulse to the next; 0 if the next does not wait.
     pub apart_ms: u32,
-    /// Those of one group would hear each other.
+    /// The group: rangers of the same group would hear each other.
     group: Option<&'a str>,
     measuring_ms: u32,
 }
@@ -61,7 +61,7 @@ pub fn pulses<'a>(job: &'a BoardJob<'a>) -> Vec<Pulses<'a>> {
     pulses.collect()
 }
 
-/// Lines of one group wait for each other: elements of an array, and devices whose cycle is too short for turns.
+/// Lines of one group wait for each other: elements of an array, and devices whose cycle is too short for taking turns.
 fn apart(mut lines: Vec<Line<'_>>) -> Vec<Line<'_>> {
     // Lines of one group follow each other, so that none waits for a ranger that it does not hear.
     lines.sort_by(|a, b| a.group.cmp(&b.group));

@@ -8,14 +8,14 @@ use sensedsl_model::kind::uart::{MessageChecksum, Uart};
 
 use crate::part::MessagePlan;
 
-/// For how long a port's queue holds what comes in, in ms: the task that takes it out may have to wait for others.
+/// The time that a port's queue must bridge: the task that empties it may have to wait for others.
 pub const PATIENCE_MS: u32 = 20;
 
 /// The smallest and the largest queue of a port, in bytes.
 pub const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
 
-/// For how long the line is silent between two messages that nothing else tells apart, in ms: two characters. 0 for
-/// messages with a checksum or an end.
+/// The silence on the line that separates two messages if nothing else does: two characters, in ms. 0 for messages with
+/// a checksum or an end.
 #[must_use]
 pub fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
     let is_told = message.checksum != MessageChecksum::None || !uart.end.is_empty();
@@ -23,13 +23,13 @@ pub fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
     if is_told { 0 } else { two_characters_ms.max(2) }
 }
 
-/// The bytes that come in during [`PATIENCE_MS`].
+/// The bytes that arrive during [`PATIENCE_MS`].
 #[must_use]
 pub fn waiting_bytes(uart: &Uart) -> u32 {
     (uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000
 }
 
-/// What is told where a device's wires are inverted and the MCU's ports cannot invert.
+/// The diagnostic for a device with inverted wires on an MCU whose ports cannot invert.
 #[must_use]
 pub fn not_inverted(part: &Part, profile: &TargetProfile) -> Diagnostic {
     let name = &part.name;

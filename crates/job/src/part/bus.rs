@@ -1,4 +1,4 @@
-//! A part on a register bus: `up_chip_t` and what it points to.
+//! A part on a register bus: `up_chip_t` and the tables that it points to.
 
 use std::collections::BTreeMap;
 
@@ -16,46 +16,46 @@ use crate::snake;
 /// An `up_chip_t`.
 #[derive(Clone, Debug)]
 pub struct BusPlan {
-    /// What the names of its tables begin with.
+    /// The prefix of the names of its tables.
     pub prefix: String,
-    /// The connection that it goes over.
+    /// The connection that the bus goes over.
     pub connection: ConnectionIndex,
     /// The 7-bit address; 0 on SPI, where a chip select takes its place.
     pub address: u8,
-    /// How it is started.
+    /// The steps that start the part.
     pub init: Vec<InitPlan>,
-    /// What must be read where.
+    /// The register that identifies the part, and its contents.
     pub identity: Option<IdentityPlan>,
-    /// What the formula is told of the part.
+    /// The calibration that the formula needs.
     pub calibration: Vec<CalibrationPlan>,
-    /// What is read together.
+    /// The bytes that are read together.
     pub transfers: Vec<TransferPlan>,
-    /// The values in it.
+    /// The values in the transfers.
     pub readings: Vec<ReadingPlan>,
     /// The values that are written.
     pub commands: Vec<CommandPlan>,
-    /// What the registers that commands share begin with, one behind the other.
+    /// The start values of the registers that commands share, one after the other.
     pub kept: Vec<u8>,
     /// The runtime's formula.
     pub formula: Option<Formula>,
-    /// Its constants.
+    /// The formula's constants.
     pub parameters: Vec<i32>,
-    /// How often the part is looked after.
+    /// How often the part is served.
     pub cycle_ms: u32,
     /// Bytes of all calibration blocks.
     pub calibration_bytes: u16,
-    /// The most that any transfer writes and reads together.
+    /// The most bytes that any transfer writes and reads together.
     pub work_bytes: usize,
-    /// 64-bit words that hold the largest value.
+    /// The number of 64-bit words that hold the largest value.
     pub scratch_words: usize,
 }
 
 /// An `up_chip_init_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InitPlan {
-    /// What is written; empty where there is only a pause.
+    /// The bytes to write; empty for a pause only.
     pub bytes: Vec<u8>,
-    /// Waited after them.
+    /// The pause after them.
     pub pause_ms: u16,
 }
 
@@ -64,9 +64,9 @@ pub struct InitPlan {
 pub struct IdentityPlan {
     /// The register.
     pub select: Vec<u8>,
-    /// What must be there.
+    /// The contents that it must have.
     pub expected: Vec<u8>,
-    /// The bits that count; empty for all.
+    /// The bits that are compared; empty for all.
     pub mask: Vec<u8>,
 }
 
@@ -75,54 +75,54 @@ pub struct IdentityPlan {
 pub struct CalibrationPlan {
     /// The register.
     pub select: Vec<u8>,
-    /// Bytes from there on.
+    /// The number of bytes to read.
     pub count: u16,
 }
 
 /// An `up_chip_reading_t`.
 #[derive(Clone, Debug)]
 pub struct ReadingPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
-    /// Index of the transfer.
+    /// The index of the transfer.
     pub transfer: usize,
-    /// Where it begins there, with checksums.
+    /// The offset in the transfer, counting checksums.
     pub offset: u16,
-    /// Which output of the formula it is.
+    /// The output of the formula that it is, if any.
     pub output: Option<u8>,
-    /// How it is coded; none where the formula makes it.
+    /// The coding; `None` for an output of the formula.
     pub value: Option<ValuePlan>,
 }
 
 /// An `up_chip_command_t`.
 #[derive(Clone, Debug)]
 pub struct CommandPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
-    /// Written in front of the value.
+    /// The bytes written before the value.
     pub prefix: Vec<u8>,
-    /// How it is coded.
+    /// The coding.
     pub value: ValuePlan,
-    /// Its own bits of a register that others have bits of, and where it is among those kept; none for all of it.
+    /// The command's own bits, if other commands have bits of the same register; `None` if it has the whole register.
     pub own: Option<OwnBitsPlan>,
-    /// Bytes of the value.
+    /// The bytes of the value.
     bytes: u16,
 }
 
 /// The bits of a command in a register that it shares.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OwnBitsPlan {
-    /// Those bits, as many bytes as the value.
+    /// The bits, in as many bytes as the value has.
     pub bits: Vec<u8>,
-    /// Where the register begins in [`BusPlan::kept`].
+    /// The offset of the register in [`BusPlan::kept`].
     pub kept: u16,
 }
 
-/// The part's tables, one for each connection to a register bus that a value goes over.
+/// The part's tables, one for each connection to a register bus that carries a value.
 pub(super) fn plans(source: Source<'_>, prefix: &str) -> Vec<BusPlan> {
     let connections = source.design.connections.iter().enumerate();
     let own: Vec<(ConnectionIndex, &Connection)> = connections
@@ -178,7 +178,7 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
     Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
 }
 
-/// Bytes and the pause behind them are one step.
+/// The steps of the initialisation: bytes and the pause after them are one step.
 pub(super) fn init(steps: &[InitStep]) -> Vec<InitPlan> {
     let mut all: Vec<InitPlan> = Vec::new();
     for step in steps {
@@ -222,7 +222,7 @@ fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
     })
 }
 
-/// The commands, and what the registers that they share begin with.
+/// The commands, and the start values of the registers that they share.
 fn commands<'a>(
     design: &Design,
     devices: impl Iterator<Item = &'a Device>,
@@ -260,12 +260,12 @@ fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Op
 }
 
 impl BusPlan {
-    /// Whether a formula makes any of its values.
+    /// Whether a formula computes any of its values.
     pub(crate) fn is_computed(&self) -> bool {
         self.formula.is_some() || !self.calibration.is_empty()
     }
 
-    /// As `up_chip_work_bytes()` counts.
+    /// The size of the work buffer, as `up_chip_work_bytes()` computes it.
     fn work_bytes(&self) -> usize {
         let init = self.init.iter().map(|step| step.bytes.len());
         let identity = self.identity.iter().map(|one| one.select.len() + one.expected.len());

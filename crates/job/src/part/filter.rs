@@ -1,4 +1,4 @@
-//! What becomes of a value before it is reported: `up_filter_t`, with numbers of the value's own type.
+//! Filtering of a value before it is reported: `up_filter_t`, with numbers of the value's own type.
 
 use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
@@ -8,45 +8,46 @@ use crate::snake;
 /// A number of a value's own type, as the runtime's `up_number_t` holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
-    /// Of a type without a sign, a `bool` among them.
+    /// An unsigned number or a `bool`.
     Unsigned(u64),
-    /// Of an integer type with a sign.
+    /// A signed integer.
     Signed(i64),
-    /// Of `float`.
+    /// A `float`.
     Float32(f32),
-    /// Of `double`.
+    /// A `double`.
     Float64(f64),
 }
 
 /// An `up_filter_t`.
 #[derive(Clone, Debug)]
 pub struct FilterPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
-    /// Values that are not a measurement: from, to.
+    /// Ranges of values that are not measurements: from, to.
     pub invalid: Vec<(Number, Number)>,
     /// Whether it needs arithmetic in double precision.
     pub is_wide: bool,
-    /// The median of so many values.
+    /// The number of values that the median is taken of.
     pub median: u8,
-    /// Time constant of a low-pass.
+    /// The time constant of a low-pass.
     pub smooth_ms: u32,
-    /// What is a change; none where everything is reported. The distance of integers has no sign, whatever they have.
+    /// The least change that is reported; `None` if everything is. For integers the distance is unsigned, even if the
+    /// type is signed.
     pub change: Option<Number>,
-    /// The longest time from report to report.
+    /// The longest time from one report to the next.
     pub heartbeat_ms: u32,
-    /// Elements of the value.
+    /// The number of elements of the value.
     pub count: usize,
-    /// Bytes of one.
+    /// The bytes of one element.
     pub element_bytes: usize,
-    /// 64-bit words of memory, as `UP_FILTER_WORDS()` counts.
+    /// The 64-bit words of memory, as `UP_FILTER_WORDS()` computes them.
     pub memory_words: usize,
 }
 
 impl FilterPlan {
-    /// The filter of a device; none where every value is reported as it is.
+    /// The filter of a device; `None` if every value is reported as it is.
     pub(super) fn new(device: &Device) -> Option<Self> {
         let filter = &device.filter;
         if filter.is_empty() {
@@ -74,7 +75,7 @@ impl FilterPlan {
     }
 }
 
-/// The numbers of the type that are in a range; none where there are none.
+/// The part of a range that the type can represent; `None` if it is empty.
 fn range(scalar: ScalarType, (low, high): (f64, f64)) -> Option<(Number, Number)> {
     let whole = if scalar == ScalarType::Bool { Some((0, 1)) } else { scalar.integer_range() };
     let Some((least, greatest)) = whole else {
@@ -89,7 +90,7 @@ fn integer(whole: f64) -> i128 {
     whole as i128
 }
 
-/// A number of an integer type whose least one is that.
+/// A number of the integer type whose least value is `least`.
 fn number(least: i128, number: i128) -> Number {
     if least < 0 {
         Number::Signed(i64::try_from(number).unwrap_or(i64::MAX))
@@ -98,7 +99,7 @@ fn number(least: i128, number: i128) -> Number {
     }
 }
 
-/// How far two numbers of the type are apart at least, so that it is a change.
+/// The least distance between two numbers of the type that counts as a change.
 fn distance(scalar: ScalarType, change: f64) -> Number {
     if matches!(scalar, ScalarType::Float32 | ScalarType::Float64) {
         return real(scalar, change);
@@ -106,7 +107,7 @@ fn distance(scalar: ScalarType, change: f64) -> Number {
     number(0, integer(change.ceil()).max(1))
 }
 
-/// A number with a fraction.
+/// A floating-point number.
 fn real(scalar: ScalarType, number: f64) -> Number {
     if scalar == ScalarType::Float64 {
         return Number::Float64(number.clamp(f64::MIN, f64::MAX));

@@ -1,4 +1,4 @@
-//! A part on a serial port: `up_message_t` and what it points to.
+//! A part on a serial port: `up_message_t` and the tables that it points to.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
@@ -11,83 +11,83 @@ use super::bus::{self, InitPlan};
 use super::{Source, ValuePlan};
 use crate::snake;
 
-/// The longest message whose length nothing tells, with start and end: a line of NMEA 0183 has 82 characters, and
+/// The longest message with start and end if its length is not given: a line of NMEA 0183 has 82 characters, and
 /// receivers with more digits send longer ones.
 const OPEN_BYTES_MAX: u16 = 128;
 
 /// An `up_message_t`.
 #[derive(Clone, Debug)]
 pub struct MessagePlan {
-    /// What the names of its tables begin with.
+    /// The prefix of the names of its tables.
     pub prefix: String,
-    /// Written once to start the part.
+    /// The bytes written once to start the part.
     pub init: Vec<InitPlan>,
-    /// First bytes of every message.
+    /// The first bytes of every message.
     pub start: Vec<u8>,
-    /// Last bytes of every message.
+    /// The last bytes of every message.
     pub end: Vec<u8>,
-    /// Bytes of the body; 0: as far as `end`.
+    /// The bytes of the body; 0: up to `end`.
     pub length: u16,
-    /// Of the longest message.
+    /// The bytes of the longest message.
     pub bytes_max: u16,
-    /// What the message ends with.
+    /// The checksum before the end.
     pub checksum: MessageChecksum,
-    /// The first byte that is summed.
+    /// The first byte that the checksum covers.
     pub checksum_from: u8,
     /// The values.
     pub fields: Vec<MessageFieldPlan>,
     /// The values that are sent.
     pub commands: Vec<ComposePlan>,
-    /// 64-bit words that hold the largest value.
+    /// The number of 64-bit words that hold the largest value.
     pub scratch_words: usize,
 }
 
 /// An `up_compose_t`: a value that is sent as a message of its own.
 #[derive(Clone, Debug)]
 pub struct ComposePlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// How the value is coded.
+    /// The coding of the value.
     pub value: ValuePlan,
-    /// First bytes of the message.
+    /// The first bytes of the message.
     pub start: Vec<u8>,
-    /// Last bytes of the message.
+    /// The last bytes of the message.
     pub end: Vec<u8>,
-    /// What the message ends with.
+    /// The checksum before the end.
     pub checksum: MessageChecksum,
-    /// The first byte that is summed.
+    /// The first byte that the checksum covers.
     pub checksum_from: u8,
-    /// Of the whole message.
+    /// The bytes of the whole message.
     pub bytes: u16,
 }
 
 /// An `up_message_field_t`.
 #[derive(Clone, Debug)]
 pub struct MessageFieldPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
-    /// Where it stands in the message, and how.
+    /// The place in the message and the format.
     pub how: FieldCoding,
 }
 
-/// How a number stands in a message.
+/// The format of a number in a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldCoding {
     /// As bytes.
     Binary {
-        /// Where they begin behind the start.
+        /// The offset of the first byte after the start.
         byte: u16,
-        /// How they are coded.
+        /// The coding.
         value: ValuePlan,
     },
-    /// As a text.
+    /// As text.
     Text(TextField),
 }
 
 impl FieldCoding {
-    /// How it is coded as bytes; none where it is a text.
+    /// The coding as bytes; `None` for text.
     #[must_use]
     pub const fn value(&self) -> Option<&ValuePlan> {
         match self {
@@ -97,7 +97,7 @@ impl FieldCoding {
     }
 }
 
-/// The part's table; none where nothing comes from it over a serial port.
+/// The part's table; `None` if nothing is received from it over a serial port.
 pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     let all: Vec<&Device> = source.devices(|kind| matches!(kind, Kind::Uart(_))).collect();
     let is_sensor = |device: &&&Device| device.direction == Direction::Sensor;
@@ -123,8 +123,8 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     })
 }
 
-/// How the part is set up. Bytes are queued and sent later, so a pause is longer by the time that the bytes before it
-/// take on the line, a character being twelve bits at most.
+/// The steps that set up the part. Bytes are queued and sent later, so each pause is extended by the time that the
+/// bytes before it take on the line, at up to twelve bits a character.
 fn init(steps: &[InitStep], baud: u32) -> Vec<InitPlan> {
     let mut all = bus::init(steps);
     let mut characters = 0;
@@ -140,7 +140,7 @@ fn init(steps: &[InitStep], baud: u32) -> Vec<InitPlan> {
     all
 }
 
-/// Bytes of a checksum.
+/// The bytes of a checksum.
 const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
     match checksum {
         MessageChecksum::None => 0,
@@ -150,13 +150,13 @@ const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
     }
 }
 
-/// Bytes of a message whose length is known.
+/// The bytes of a message of known length.
 fn bytes(uart: &Uart) -> u16 {
     let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
     uart.length_bytes.saturating_add(ends).saturating_add(checksum_bytes(uart.checksum))
 }
 
-/// A value that is sent; none where it comes in.
+/// The message that sends a value; `None` if the value is received.
 fn command(device: &Device) -> Option<ComposePlan> {
     let Kind::Uart(uart) = &device.kind else { return None };
     let is_sent = device.direction == Direction::Actuator;

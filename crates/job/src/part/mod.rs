@@ -1,7 +1,8 @@
-//! What a part says in tables of the runtime, in words that name no system: how a chip is started, identified, read
-//! and written, how its values are coded and filtered.
+//! The runtime tables of a part, independent of any system: how a chip is started, identified, read and written, how
+//! its values are coded and filtered.
 //!
-//! In: a design and one of its parts. Out: a [`PartPlan`] with all decisions made, which a target prints in its language. Where the part is wired is the target's: a plan names no unit and no pin.
+//! In: a design and one of its parts. Out: a [`PartPlan`] with all decisions made, which a target prints in its
+//! language. Where the part is wired is up to the target: a plan names no unit and no pin.
 
 mod bus;
 mod filter;
@@ -31,25 +32,25 @@ pub use value::ValuePlan;
 /// The tables of one part.
 #[derive(Clone, Debug)]
 pub struct PartPlan {
-    /// What its names in C begin with: the part's name in snake case.
+    /// The prefix of its names in C: the part's name in snake case.
     pub prefix: String,
-    /// For people.
+    /// The title for people.
     pub title: String,
-    /// What is read and written on register buses, one for each connection to one.
+    /// The tables for register buses, one for each connection to one.
     pub buses: Vec<BusPlan>,
-    /// What comes over a serial port.
+    /// The table for a serial port.
     pub message: Option<MessagePlan>,
-    /// Values that a formula makes of an analog one.
+    /// Values that a formula computes from an analog one.
     pub formulas: Vec<FormulaPlan>,
     /// Pulse trains of model receivers.
     pub trains: Vec<TrainPlan>,
-    /// Values that become several outputs.
+    /// Values that drive several outputs.
     pub bridges: Vec<BridgePlan>,
-    /// What becomes of values before they are reported.
+    /// Filters of values before they are reported.
     pub filters: Vec<FilterPlan>,
 }
 
-/// A part with what its tables are made of.
+/// A part with the sources of its tables.
 #[derive(Clone, Copy)]
 struct Source<'a> {
     part: &'a Part,
@@ -59,7 +60,7 @@ struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The devices of the part that are of the kinds wanted, in the file's order.
+    /// The devices of the part that are of the wanted kinds, in the file's order.
     fn devices(self, is_wanted: fn(&Kind) -> bool) -> impl Iterator<Item = &'a Device> {
         let own = self.design.devices.iter().filter(move |device| device.part == self.index);
         own.filter(move |device| is_wanted(&device.kind))
@@ -67,7 +68,7 @@ impl<'a> Source<'a> {
 }
 
 impl PartPlan {
-    /// Decides the tables of a part; none where its values need none: the hardware has them as they are.
+    /// Decides the tables of a part; `None` if its values need none, because the hardware delivers them as they are.
     #[must_use]
     pub fn new(design: &Design, index: PartIndex) -> Option<Self> {
         let part = design.part(index)?;
@@ -106,8 +107,8 @@ fn title(part: &Part) -> String {
     }
 }
 
-/// Whether there is something to be done between the wires of a device and its value, beside what the hardware does:
-/// bytes of a bus or a port, the pulse train of a receiver, a formula, the outputs of a bridge.
+/// Whether software has to convert between the wires of a device and its value: bytes of a bus or a port, the pulse
+/// train of a receiver, a formula, the outputs of a bridge.
 #[must_use]
 pub fn has_coding(device: &Device, part: &Part) -> bool {
     let has_formula = part.chip.as_ref().is_some_and(|protocol| protocol.formula.is_some());

@@ -1,4 +1,4 @@
-//! Values that no bus carries: formulas over analog ones, pulse trains, bridges.
+//! Values that no bus carries: formulas on analog values, pulse trains, bridges.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
@@ -8,36 +8,36 @@ use sensedsl_model::protocol::{Drive, Formula};
 use super::Source;
 use crate::snake;
 
-/// A longer interval than this starts a pulse train.
+/// An interval longer than this starts a pulse train.
 const TRAIN_GAP_US: u64 = 2_700;
-/// A shorter one is a disturbance.
+/// An interval shorter than this is a disturbance.
 const TRAIN_MIN_US: u64 = 500;
 /// The value of an output that is always on.
 const FULL: u32 = 10_000;
 
-/// A value that a formula makes of an analog one.
+/// A value that a formula computes from an analog one.
 #[derive(Clone, Debug)]
 pub struct FormulaPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
     /// The runtime's formula.
     pub formula: Formula,
-    /// Which output it is.
+    /// The output of the formula that it is.
     pub output: u8,
-    /// Its constants.
+    /// The formula's constants.
     pub parameters: Vec<i32>,
 }
 
 /// An `up_ppm_config_t`.
 #[derive(Clone, Debug)]
 pub struct TrainPlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
-    /// Of the timer.
+    /// The clock of the timer.
     pub tick_hz: u32,
     /// A longer interval starts a train.
     pub gap_ticks: u64,
@@ -48,9 +48,9 @@ pub struct TrainPlan {
 /// An `up_drive_t`.
 #[derive(Clone, Debug)]
 pub struct BridgePlan {
-    /// The device.
+    /// The device's name.
     pub field: String,
-    /// What code calls it.
+    /// The device's identifier in code.
     pub ident: String,
     /// How the outputs are driven.
     pub drive: Drive,

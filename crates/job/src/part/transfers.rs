@@ -1,56 +1,56 @@
 //! Which bytes of a chip are read together.
 //!
-//! Each reading wants bytes from a register on. Neighbours are read in one go, which costs one address instead of
-//! several, and their values are of one moment; where a measurement is started for them, they must be.
+//! Each reading needs bytes from a register on. Neighbours are read in one transfer, which costs one address instead of
+//! several, and their values are from the same moment, as they must be if a measurement was started for them.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::RegisterAccess;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_model::words::Words;
 
-/// Registers between two readings that are read and dropped: about what a transfer of its own would cost.
+/// The largest gap between two readings that is read and discarded: about the cost of a separate transfer.
 const GAP_BYTES: u32 = 4;
-/// The same where the readings are of one started measurement: to start another one costs more than any gap.
+/// The largest such gap between readings of the same measurement: starting another one costs more than any gap.
 const GAP_OF_MEASUREMENT_BYTES: u32 = 16;
-/// The most bytes that are read together because they are neighbours.
+/// The most bytes that neighbours may have to be read together.
 const TOGETHER_BYTES_MAX: u32 = 128;
 
 /// An `up_chip_transfer_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TransferPlan {
-    /// Written to start a measurement; empty for none.
+    /// The bytes that start a measurement; empty for none.
     pub trigger: Vec<u8>,
-    /// Written before reading, or sent in an exchange.
+    /// The bytes written before reading, or sent in an exchange.
     pub select: Vec<u8>,
-    /// From one measurement to the next.
+    /// The time from one measurement to the next.
     pub cycle_ms: u32,
-    /// From the trigger to the reading.
+    /// The time from the trigger to the reading.
     pub wait_ms: u32,
-    /// Bytes read, with checksums.
+    /// The number of bytes read, including checksums.
     pub length: u16,
-    /// What is received while `select` is sent is what is read.
+    /// True if the bytes read are those received while `select` is sent.
     pub is_exchange: bool,
 }
 
-/// Where a reading stands.
+/// The place of a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) transfer: usize,
     pub(super) offset: u16,
 }
 
-/// What is written so that bytes can be read.
+/// The bytes that are written to select what is read.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Select {
     /// The number of the first register.
     Register,
-    /// These bytes, which may be none.
+    /// These bytes, possibly none.
     Bytes(Vec<u8>),
-    /// While these bytes are sent, as many are received.
+    /// These bytes, and as many are received while they are sent.
     Exchange(Vec<u8>),
 }
 
-/// What readings of one transfer have in common.
+/// The properties that all readings of a transfer share.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     trigger: Vec<u8>,
@@ -60,12 +60,12 @@ struct Key {
     select: Select,
 }
 
-/// The bytes that a reading wants, without checksums.
+/// The bytes that a reading needs, without checksums.
 struct Wanted {
     key: Key,
     register: u32,
     end: u32,
-    /// Where its own bytes begin behind the register.
+    /// The offset of its own bytes after the register.
     byte: u16,
 }
 
@@ -76,7 +76,7 @@ struct Together {
     end: u32,
 }
 
-/// The transfers of a chip, and for each of its readings where it stands.
+/// The transfers of a chip, and the place of each of its readings.
 pub(super) fn plan(
     readings: &[&Device],
     protocol: &Protocol,
@@ -93,7 +93,7 @@ pub(super) fn plan(
             }
         }
     }
-    // In the order in which the file has the first value of each.
+    // In the file order of the first value of each.
     let first = |together: &Together| wanted.iter().flatten().position(|one| together.has(one));
     all.sort_by_key(first);
     let places = wanted.iter().map(|one| {
@@ -105,7 +105,7 @@ pub(super) fn plan(
     (all.iter().map(|together| together.plan(protocol)).collect(), places)
 }
 
-/// What a reading wants; none where it is on no register bus.
+/// The bytes that a reading needs; `None` if it is not on a register bus.
 fn wanted(device: &Device) -> Option<Wanted> {
     let coding = &device.coding;
     let RegisterAccess { trigger, wait_us, register, read, length_bytes } =
@@ -130,12 +130,12 @@ fn wanted(device: &Device) -> Option<Wanted> {
 }
 
 impl Together {
-    /// Whether the reading, which begins no earlier, is read with it.
+    /// Whether the transfer also covers the reading, which begins no earlier.
     fn takes(&self, one: &Wanted, protocol: &Protocol) -> bool {
         if self.key != one.key {
             return false;
         }
-        // Where registers do not run on, or checksums stand between them, only the same one is the same.
+        // Without bursts, or with checksums in between, only readings of the same register can be combined.
         if one.register == self.register {
             return true;
         }
@@ -174,7 +174,7 @@ impl Together {
     }
 }
 
-/// The bytes of a register's number for reading: on some buses a bit of it says so.
+/// The bytes of a register's number for reading: on some buses a bit in it marks a read.
 pub(super) fn register_to_read(number: u32, protocol: &Protocol) -> Vec<u8> {
     let mut bytes = protocol.register(number);
     if let Some(first) = bytes.first_mut() {

@@ -1,4 +1,4 @@
-//! What the values of a board need of the runtime, in C and in Rust; the rest is left out of the program.
+//! The parts of the runtime, in C and in Rust, that the values of a board need; the rest is left out of the program.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::words::{Code, Words};
@@ -7,8 +7,8 @@ use sensedsl_wire::{Checksum, ScalarType};
 use super::BusPlan;
 use crate::BoardJob;
 
-/// What can be left out, as the features of `sense-rt` are called, and whether any value needs it;
-/// `crates/firmware-c/runtime/up_uses.h` says what each is.
+/// The optional parts of the runtime, named after the features of `sense-rt`, and whether any value needs them;
+/// `crates/firmware-c/runtime/up_uses.h` describes each.
 #[must_use]
 pub fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 12] {
     let device = |uses: fn(&Device) -> bool| job.devices.iter().any(|one| uses(one.device));

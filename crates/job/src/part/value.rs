@@ -1,4 +1,4 @@
-//! How the bytes of a value are coded: `up_value_t`.
+//! The coding of a value's bytes: `up_value_t`.
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::i2c::ByteOrder;
@@ -8,23 +8,23 @@ use sensedsl_model::words::{Code, Words};
 /// An `up_value_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ValuePlan {
-    /// For each element where its word stands; empty for one after the other.
+    /// The word of each element; empty if the words are in the order of the elements.
     pub elements: Vec<u8>,
-    /// Words there are, where `elements` says which of them; otherwise 0.
+    /// The number of words if `elements` selects among them; otherwise 0.
     pub words: u16,
-    /// What a word is.
+    /// The format of a word.
     pub code: Code,
-    /// Checksums between the words.
+    /// The checksums between the words.
     pub crc: Option<Crc>,
-    /// Bytes of a word; 0 where words are packed.
+    /// The bytes of a word; 0 for packed words.
     pub word_bytes: u8,
-    /// The lowest bit that counts.
+    /// The lowest significant bit.
     pub low: u8,
-    /// Bits that count; 0 for all.
+    /// The number of significant bits; 0 for all.
     pub bits: u8,
-    /// The highest of them is a sign.
+    /// True if the highest of them is a sign.
     pub is_signed: bool,
-    /// The low byte of a word comes first.
+    /// True if the low byte of a word comes first.
     pub is_little_endian: bool,
 }
 
@@ -47,7 +47,7 @@ impl ValuePlan {
         }
     }
 
-    /// See [`Self::new`]; none where the device has no words.
+    /// The coding of a device, as [`Self::new`] gives it; `None` if the device has no words.
     pub(super) fn of(device: &Device) -> Option<Self> {
         Words::of(device).as_ref().map(Self::new)
     }

@@ -1,4 +1,4 @@
-//! Which transfer of a step is next.
+//! The next transfer of a step.
 
 use super::memory::{Memory, due_ms, ready_ms};
 use super::time::{early_ms, is_reached};
@@ -6,7 +6,8 @@ use super::{Asked, Chip, Pending, Stage, Step};
 use crate::bytes::{copy, part_mut, split};
 
 impl Chip {
-    /// The next transfer of the step; none when it is over. `now_ms`: of the call, not of the step.
+    /// The next transfer of the step; `None` at its end. `now_ms` is the time of the call, not that
+    /// of the step.
     pub(super) fn ask(&mut self, now_ms: u32) -> Option<(Pending, Asked)> {
         loop {
             match self.stage {
@@ -42,8 +43,7 @@ impl Chip {
         }
     }
 
-    /// The bytes of the next step of the initialisation, if it has some; nothing at all while it
-    /// pauses.
+    /// The write of the next step of the initialisation, if it has bytes; `None` during a pause.
     fn ask_init(&mut self, now_ms: u32) -> Option<Option<Asked>> {
         if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
             return None;
@@ -60,8 +60,8 @@ impl Chip {
         Some(None)
     }
 
-    /// Reads what is ready and triggers the next, so often that one that needs no time is read at
-    /// once.
+    /// Fetches what is ready and triggers the next transfer, repeatedly, so that a conversion that
+    /// takes no time is fetched at once.
     fn ask_triggered(&mut self, turns: usize, now_ms: u32) -> Option<(Pending, Asked)> {
         if turns > self.table.transfers.len() {
             return None;
@@ -103,7 +103,8 @@ impl Chip {
         found.map(|(transfer, _)| transfer)
     }
 
-    /// What is sent lies in the chip's memory: a DMA need not reach constant tables.
+    /// Bytes are sent from the chip's memory, because the DMA may be unable to reach constant
+    /// tables.
     pub(super) fn hand_out(&mut self, asked: Asked) -> Step<'_> {
         let work = Memory::split(&mut self.memory, &self.sizes).work;
         let (Asked::Write(sent) | Asked::Read(sent, _) | Asked::Exchange(sent, _)) = asked;

@@ -7,7 +7,7 @@ use crate::schema::Schema;
 /// Bytes of the state of one transfer.
 pub(super) const STATE_BYTES: usize = 8;
 
-/// How long they are.
+/// The sizes of the parts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     states: usize,
@@ -27,15 +27,16 @@ impl Sizes {
     }
 }
 
-/// The parts behind the states of the transfers.
+/// The parts after the states of the transfers.
 pub(super) struct Memory<'a> {
-    /// All blocks.
+    /// The calibration blocks.
     pub(super) calibration: &'a mut [u8],
-    /// What a value is made in.
+    /// The place where a value is assembled.
     pub(super) value: &'a mut [u8],
-    /// What registers that commands share were told last, as the bits that differ from what they begin with.
+    /// The last contents of the registers that commands share, as the bits that differ from their
+    /// start values.
     pub(super) kept: &'a mut [u8],
-    /// What is sent, then what is received.
+    /// The bytes sent, then the bytes received.
     pub(super) work: &'a mut [u8],
 }
 
@@ -50,13 +51,13 @@ impl<'a> Memory<'a> {
     }
 }
 
-/// When a transfer is to be triggered, or read.
+/// When a transfer is due: for its trigger, or without one for reading.
 #[inline(never)]
 pub(super) fn due_ms(memory: &[u8], transfer: usize) -> u32 {
     word(memory, transfer.wrapping_mul(STATE_BYTES))
 }
 
-/// When a transfer may be read.
+/// When a transfer can be read.
 #[inline(never)]
 pub(super) fn ready_ms(memory: &[u8], transfer: usize) -> u32 {
     word(memory, transfer.wrapping_mul(STATE_BYTES).wrapping_add(4))

@@ -1,14 +1,14 @@
-//! A chip on a register bus (I2C or SPI), described by tables: initialisation, identity, calibration,
-//! transfers, and the readings in them.
+//! A chip on a register bus (I2C or SPI), described by tables: initialisation, identity,
+//! calibration, transfers, and the readings in them.
 //!
-//! A [`Chip`] makes no transfer itself. It says which is next, whoever has the bus makes it, blocking
-//! or awaiting, and says what it came to. The README of the crate has such a loop.
+//! A [`Chip`] makes no transfer itself. It says which one is next; the owner of the bus makes it,
+//! blocking or async, and reports the outcome. The crate's README has such a loop.
 //!
-//! After a failed transfer the chip is started again. A chip that is not the one it should be never
-//! gives values. It is asked for nothing but its identity, in every cycle, until it is the right one;
-//! then, and after each 16th failed look, it is started again from the beginning. Of transfers with
-//! a trigger one is under way at a time, the one that has been due for longest: their converter is
-//! one.
+//! After a failed transfer the chip is started again. A chip with a wrong identity never gives
+//! values. In every cycle it is asked only for its identity until that is right; then, and after
+//! every 16th failed attempt, it is started from the beginning. Of the transfers with a trigger
+//! only one is under way at a time, the one that has been due for longest, because they share the
+//! chip's converter.
 
 mod ask;
 mod memory;
@@ -27,57 +27,57 @@ use self::memory::{Memory, Sizes, due_ms, ready_ms, set_due_ms, set_ready_ms};
 pub use self::table::{Calibration, ChipTable, Command, Identity, InitStep, Reading, Transfer};
 use self::time::{after, early_ms, is_reached, left_ms};
 
-/// A stranger is started all the same after so many looks: a few parts say who they are only when
-/// they are set up.
+/// After this many attempts a chip with a wrong identity is started anyway: a few parts identify
+/// themselves only after they have been set up.
 const LOOKS: u32 = 16;
 
-/// What is to be done next. The address is that of the table.
+/// The next thing to do. The address is in the table.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Step<'a> {
     /// Send these bytes, at least one.
     Write(&'a [u8]),
-    /// Send these bytes (which may be none), then fill the others without letting go of the device
-    /// between them: a repeated start, or one chip select around both.
+    /// Send these bytes (possibly none), then fill the others without releasing the device in
+    /// between: a repeated start, or one chip select around both.
     WriteRead(&'a [u8], &'a mut [u8]),
-    /// SPI only: send these bytes while the others, which are as many, are received.
+    /// SPI only: send these bytes and receive the others, equally many, at the same time.
     Exchange(&'a [u8], &'a mut [u8]),
-    /// Nothing, for so many milliseconds; 0: less than one. To come back later does no harm, and to
-    /// come back sooner takes nothing out of step.
+    /// Nothing for this many milliseconds; 0: less than one. Calling later does no harm, and
+    /// calling earlier disturbs nothing.
     Wait(u32),
 }
 
-/// How often, since the start of the board; each wraps.
+/// Event counts since the start of the board; each wraps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChipCounts {
-    /// Initialised, identified and calibrated to the end.
+    /// Starts that were completed: initialised, identified and calibrated.
     pub starts: u32,
-    /// Commands that went through.
+    /// Commands that succeeded.
     pub written: u32,
-    /// By [`Outcome`]: values that are fresh, invalid or have a wrong checksum; transfers that failed;
-    /// identities that were not the expected one.
+    /// By [`Outcome`]: values that are fresh, invalid or have a wrong checksum; transfers that
+    /// failed; identities that were wrong.
     pub causes: [u32; Outcome::COUNT],
 }
 
 /// How far a step has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
-    /// There is none.
+    /// No step is under way.
     Idle,
-    /// Something failed: there is nothing more to do in it.
+    /// Something failed: the step is over.
     Over,
-    /// A stranger is not written to before it is known to be the right part after all.
+    /// Reads the identity only: nothing is written to a chip with a wrong identity.
     Look,
     Initialise,
     Identify,
-    /// The block that is read next, and where it goes.
+    /// The block that is read next, and its place in the memory.
     Calibrate(usize, usize),
-    /// The transfer without a trigger that is looked at next.
+    /// The next transfer without a trigger to consider.
     Free(usize),
-    /// How often something was triggered.
+    /// The number of triggers so far.
     Turn(usize),
 }
 
-/// The transfer that is being made.
+/// The transfer that is under way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pending {
     Init,
@@ -89,17 +89,17 @@ enum Pending {
     Command,
 }
 
-/// A wait that is counted from the end of the transfer before it, which is when [`Chip::next`] is
+/// A wait that counts from the end of the transfer before it, which is when [`Chip::next`] is
 /// called again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Begun {
-    /// After a step of the initialisation.
+    /// The pause after a step of the initialisation.
     Pause(u16),
-    /// The conversion that this transfer fetches.
+    /// The conversion whose result this transfer fetches.
     Conversion(usize),
 }
 
-/// What is asked of the bus.
+/// The transfer to make on the bus.
 #[derive(Clone, Copy)]
 enum Asked {
     Write(&'static [u8]),
@@ -114,19 +114,19 @@ pub struct Chip<M: ?Sized = [u8]> {
     schema: &'static Schema,
     sizes: Sizes,
     counts: ChipCounts,
-    /// Of the step.
+    /// The time of the step.
     now_ms: u32,
     stage: Stage,
     pending: Option<Pending>,
-    /// Whether anything was found out in this step.
+    /// Whether the step has produced any result.
     is_touched: bool,
     fault: Outcome,
     identity_seen: u8,
     init_at: usize,
     pause_until_ms: Option<u32>,
-    /// What is waited for from now on.
+    /// The wait that begins now.
     begun: Option<Begun>,
-    /// The triggered transfer that has not been read.
+    /// The triggered transfer that has not been fetched yet.
     in_flight: Option<usize>,
     is_running: bool,
     is_stranger: bool,
@@ -174,41 +174,41 @@ impl<const BYTES: usize> DerefMut for Chip<[u8; BYTES]> {
 }
 
 impl Chip {
-    /// What it is described by.
+    /// The table that describes the chip.
     #[must_use]
     pub fn table(&self) -> &'static ChipTable {
         self.table
     }
 
-    /// What happened since the start of the board.
+    /// The event counts since the start of the board.
     #[must_use]
     pub fn counts(&self) -> &ChipCounts {
         &self.counts
     }
 
-    /// What is the matter since the last step that read anything (a start counts when it is done);
-    /// `Nothing` when all is well.
+    /// The fault found by the last step that read anything (a start counts once it is complete);
+    /// `Nothing` if there is none.
     #[must_use]
     pub fn fault(&self) -> Outcome {
         self.fault
     }
 
-    /// The first byte that was wrong of the identity read last.
+    /// The first wrong byte of the last identity read.
     #[must_use]
     pub fn identity_seen(&self) -> u8 {
         self.identity_seen
     }
 
-    /// Whether it is started: transfers are made and commands are taken.
+    /// Whether the chip is started: transfers are made and commands are accepted.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.is_running
     }
 
-    /// The next transfer of a step, or how long there is nothing to do. A step begins with the first
-    /// call after a wait, and cycles are counted from that time; pauses and conversions from the call
-    /// after their transfer. A transfer whose end nobody has told is taken for lost, and the chip is
-    /// started again.
+    /// The next transfer of a step, or how long there is nothing to do. A step begins with the
+    /// first call after a wait, and cycles count from that time; pauses and conversions count from
+    /// the call after their transfer. A transfer whose outcome was not reported is taken for lost,
+    /// and the chip is started again.
     pub fn next(&mut self, now_ms: u32) -> Step<'_> {
         if self.pending.take().is_some() {
             self.restart();
@@ -232,9 +232,9 @@ impl Chip {
         self.hand_out(asked)
     }
 
-    /// What the transfer came to: `Fresh` where it went through. Says one result for each reading of a
-    /// transfer that was read or failed, and the cause for all readings when the chip could not be
-    /// started.
+    /// Reports the outcome of the transfer: `Fresh` if it succeeded. Passes to `sink` one result
+    /// for each reading of a transfer that was read or failed, and the cause for all readings if
+    /// the chip could not be started.
     pub fn done(&mut self, outcome: Outcome, sink: &mut Sink<'_>) {
         let Some(pending) = self.pending.take() else { return };
         if outcome != Outcome::Fresh {
@@ -251,7 +251,7 @@ impl Chip {
             }
             return;
         }
-        // Starting proves nothing before it is done.
+        // A start proves nothing until it is complete.
         if pending != Pending::Command && !self.is_touched && self.is_running {
             self.fault = Outcome::Nothing;
             self.is_touched = true;
@@ -259,16 +259,15 @@ impl Chip {
         self.go_on(pending, sink);
     }
 
-    /// Writes a value: hands out the transfer, whose end [`Self::done`] is told. Otherwise `Nothing`:
-    /// the chip is not started, ask again after the next step; or `Invalid`: the value has no place in
-    /// the command.
+    /// Writes a value: returns the transfer, whose outcome must be reported to [`Self::done`].
     ///
-    /// What was written before a start is lost in the chip: when [`ChipCounts::starts`] has changed,
-    /// the caller writes all commands again.
+    /// A restart loses what was written to the chip before: when [`ChipCounts::starts`] has
+    /// changed, the caller must write all commands again.
     ///
     /// # Errors
     ///
-    /// See above.
+    /// `Nothing` if the chip is not started, so ask again after the next step; `Invalid` if the
+    /// value does not fit into the command.
     pub fn write(&mut self, command: &'static Command, value: &[u8]) -> Result<Step<'_>, Outcome> {
         let item = self.schema.items.get(usize::from(command.item));
         let can_write = uses::CHIP_COMMANDS && self.is_running && self.pending.is_none();
@@ -287,7 +286,7 @@ impl Chip {
         Ok(Step::Write(part(work, 0, command.prefix.len() + size)))
     }
 
-    /// How long from now until a step has something to do; 0 for at once, a cycle after a failure.
+    /// How long from now until a step has something to do: 0 for at once, a cycle after a failure.
     #[must_use]
     pub fn idle_ms(&self, now_ms: u32) -> u32 {
         if !self.is_running {
@@ -309,9 +308,9 @@ impl Chip {
         idle_ms.unwrap_or(self.table.cycle_ms)
     }
 
-    // ---- going on ----
+    // ---- continuing ----
 
-    /// A transfer went through.
+    /// A transfer succeeded.
     fn go_on(&mut self, pending: Pending, sink: &mut Sink<'_>) {
         match pending {
             Pending::Init => self.initialised(),
@@ -339,14 +338,14 @@ impl Chip {
         }
     }
 
-    /// A step of the initialisation is done; then it may pause.
+    /// A step of the initialisation is complete; a pause may follow.
     fn initialised(&mut self) {
         let pause_ms = self.table.init().get(self.init_at).map_or(0, |step| step.pause_ms);
         self.init_at += 1;
         self.begun = (pause_ms > 0).then_some(Begun::Pause(pause_ms));
     }
 
-    /// Begins what is waited for after the transfer before.
+    /// Begins the wait that follows the last transfer.
     fn begin_wait(&mut self, now_ms: u32) {
         match self.begun.take() {
             None => {}
@@ -430,7 +429,7 @@ impl Chip {
         self.is_touched = true;
     }
 
-    /// The next time on the transfer's own grid; what was missed is left out.
+    /// Moves a transfer to the next time on its own grid; missed times are skipped.
     fn set_next(&mut self, transfer: usize) {
         let own_ms = self.table.transfers.get(transfer).map_or(0, |table| table.cycle_ms);
         let cycle_ms = own_ms.max(self.table.cycle_ms);

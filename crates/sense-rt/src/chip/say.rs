@@ -1,4 +1,4 @@
-//! What is told of readings.
+//! Reporting the outcomes of readings.
 
 use super::Chip;
 use super::memory::Memory;
@@ -12,7 +12,7 @@ use crate::uses;
 pub(super) type Computed = Option<(u16, Option<Outputs>)>;
 
 impl Chip {
-    /// The fault, for all readings of one transfer, or of all.
+    /// Reports the fault for all readings of one transfer, or of all.
     pub(super) fn say_fault(&self, transfer: Option<usize>, sink: &mut Sink<'_>) {
         for reading in self.table.readings {
             if transfer.is_none_or(|transfer| usize::from(reading.transfer) == transfer) {

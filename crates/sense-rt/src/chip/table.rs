@@ -1,4 +1,4 @@
-//! What a chip is described by.
+//! The tables that describe a chip.
 
 use super::Asked;
 use super::say::Computed;
@@ -7,51 +7,51 @@ use crate::formula::Formula;
 use crate::schema::Schema;
 use crate::uses;
 
-/// One step of setting a device up: bytes, then a pause. Of serial devices as well.
+/// One step of setting up a device, on a bus or a serial port: bytes, then a pause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InitStep {
-    /// Sent in one transfer; empty where there is only a pause.
+    /// The bytes sent in one transfer; empty for a pause only.
     pub bytes: &'static [u8],
-    /// Waited at least after them.
+    /// The least pause after them.
     pub pause_ms: u16,
 }
 
-/// What must be read where.
+/// The register that identifies a part, and its contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// Bytes that are written before reading: the register.
+    /// The bytes written before reading: the register.
     pub select: &'static [u8],
-    /// What must be there.
+    /// The contents that it must have.
     pub expected: &'static [u8],
-    /// Bits that are compared; empty: all.
+    /// The bits that are compared; empty: all.
     pub mask: &'static [u8],
 }
 
-/// A block of calibration; the blocks lie one behind the other.
+/// A block of calibration; the blocks are stored one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Calibration {
-    /// Bytes that are written before reading.
+    /// The bytes written before reading.
     pub select: &'static [u8],
-    /// Bytes read, at least 1.
+    /// The number of bytes read, at least 1.
     pub count: u16,
 }
 
 /// Bytes that are read together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transfer {
-    /// Written to start a measurement; empty: the chip measures by itself.
+    /// The bytes that start a measurement; empty: the chip measures by itself.
     pub trigger: &'static [u8],
-    /// Written before reading: the register, most significant byte first, SPI's read bit in it. In an
-    /// exchange: what is sent, `length` bytes.
+    /// The bytes written before reading: the register, most significant byte first, including SPI's
+    /// read bit. In an exchange: the bytes sent, `length` in number.
     pub select: &'static [u8],
-    /// From one measurement to the next; 0, or less than the chip's: in every step.
+    /// The time from one measurement to the next; 0, or less than the chip's: in every step.
     pub cycle_ms: u32,
-    /// From the trigger to the reading; without one, from the start of the chip or the last reading to
-    /// the next.
+    /// The time from the trigger to the reading; without a trigger, from the start of the chip or
+    /// the last reading to the next.
     pub wait_ms: u32,
-    /// Bytes read, as on the wire (with checksums), at least 1.
+    /// The number of bytes read, as on the wire (including checksums), at least 1.
     pub length: u16,
-    /// SPI: what is received while `select` is sent is what is read.
+    /// True for SPI if the bytes read are those received while `select` is sent.
     pub exchange: bool,
 }
 
@@ -72,16 +72,15 @@ impl Transfer {
 /// A value in a transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
-    /// Index of the item in the schema: of a sensor.
+    /// The index of its item in the schema; a sensor.
     pub item: u16,
-    /// Where it begins in the transfer: bytes, as on the wire (with checksums).
+    /// The offset in the transfer in bytes, as on the wire (including checksums).
     pub offset: u16,
-    /// Which transfer.
+    /// The index of the transfer.
     pub transfer: u8,
-    /// Which output of the chip's formula, from the raw block at `offset`; `value` is then of no
-    /// meaning.
+    /// The output of the chip's formula for the raw block at `offset`; `value` is then ignored.
     pub output: Option<u8>,
-    /// How it is coded.
+    /// The coding.
     pub value: Coding,
 }
 
@@ -94,16 +93,16 @@ impl Reading {
 /// A value that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Command {
-    /// Written in front of the value: the register, or any command.
+    /// The bytes written before the value: the register, or any command.
     pub prefix: &'static [u8],
-    /// Index of the item in the schema: of an actuator.
+    /// The index of its item in the schema; an actuator.
     pub item: u16,
-    /// How it is coded.
+    /// The coding.
     pub value: Coding,
-    /// The bits of the value's bytes that it changes, where other commands have the others: as many bytes as the
-    /// value; empty: all.
+    /// The bits that it changes if other commands have bits of the same register, in as many bytes
+    /// as the value has; empty: all.
     pub own: &'static [u8],
-    /// With `own`: where the bytes of its register begin in [`ChipTable::kept`].
+    /// With `own`: the offset of its register in [`ChipTable::kept`].
     pub kept: u16,
 }
 
@@ -111,8 +110,8 @@ impl Command {
     /// One byte, without a register.
     pub const NEW: Self = Self { prefix: &[], item: 0, value: Coding::NEW, own: &[], kept: 0 };
 
-    /// Puts what the other commands have told a register into the bytes of this one, and keeps all of it, as what
-    /// `differs` from the start.
+    /// Merges the bits that other commands have last written to the register into the bytes of this
+    /// one, and stores the result in `differs`, as the difference from `start`.
     pub(super) fn join(&self, start: &[u8], differs: &mut [u8], bytes: &mut [u8]) {
         let kept = differs.iter_mut().zip(start).skip(self.kept.into());
         for ((byte, own), (differs, start)) in bytes.iter_mut().zip(self.own).zip(kept) {
@@ -125,28 +124,28 @@ impl Command {
 /// A chip.
 #[derive(Clone, Copy, Debug)]
 pub struct ChipTable {
-    /// How it is set up.
+    /// The steps of the initialisation.
     pub init: &'static [InitStep],
-    /// What the part must be; none: any part that answers is right.
+    /// The identity that the part must have; `None`: any part that answers is right.
     pub identity: Option<Identity>,
-    /// What its formula is told of it.
+    /// The calibration that the formula needs.
     pub calibration: &'static [Calibration],
-    /// At most 254.
+    /// The transfers, at most 254.
     pub transfers: &'static [Transfer],
-    /// The values in them.
+    /// The values in the transfers.
     pub readings: &'static [Reading],
     /// The values that are written.
     pub commands: &'static [Command],
-    /// What the registers that commands share begin with, one behind the other.
+    /// The start values of the registers that commands share, one after the other.
     pub kept: &'static [u8],
-    /// What makes numbers of its readings.
+    /// The formula that computes its readings.
     pub formula: Option<Formula>,
-    /// Of the formula.
+    /// The parameters of the formula.
     pub parameters: &'static [i32],
-    /// How often it is looked after: a transfer is made in the first step that comes at its time, or
-    /// too early by at most an eighth of this (clocks round).
+    /// How often the chip is served: a transfer is made in the first step at or after its time, or
+    /// at most an eighth of this before it (clocks round).
     pub cycle_ms: u32,
-    /// The 7-bit address on I2C, and the number of the chip select on SPI as the system counts them.
+    /// The 7-bit address on I2C; on SPI the number of the chip select, as the system counts them.
     pub address: u8,
 }
 
@@ -155,7 +154,7 @@ const fn greater(left: usize, right: usize) -> usize {
 }
 
 impl ChipTable {
-    /// A chip that says and takes nothing.
+    /// A chip without readings or commands.
     pub const NEW: Self = Self {
         init: &[],
         identity: None,
@@ -170,7 +169,7 @@ impl ChipTable {
         address: 0,
     };
 
-    /// The memory of a [`crate::Chip`].
+    /// The size of the memory of a [`crate::Chip`].
     #[must_use]
     pub const fn chip_bytes(&self, schema: &Schema) -> usize {
         let states = self.transfers.len() * super::memory::STATE_BYTES;
@@ -178,7 +177,7 @@ impl ChipTable {
         states + self.calibration_bytes() + values + self.work_bytes(schema)
     }
 
-    /// How it is set up, as far as that is not left out.
+    /// The steps of the initialisation, unless the feature is off.
     pub(super) const fn init(&self) -> &'static [InitStep] {
         if uses::CHIP_INIT { self.init } else { &[] }
     }
@@ -201,7 +200,7 @@ impl ChipTable {
         bytes
     }
 
-    /// Bytes of the largest value of a reading.
+    /// The size of the largest value of a reading, in bytes.
     pub(super) const fn value_bytes(&self, schema: &Schema) -> usize {
         let mut bytes = 0;
         let mut rest = self.readings;
@@ -214,7 +213,7 @@ impl ChipTable {
         bytes
     }
 
-    /// The most that any transfer writes and reads together, a command's bytes included.
+    /// The most bytes that any transfer or command writes and reads together.
     #[must_use]
     pub const fn work_bytes(&self, schema: &Schema) -> usize {
         let mut bytes = 1;
@@ -248,7 +247,7 @@ impl ChipTable {
         bytes
     }
 
-    /// The output of the formula of the block that `bytes` begin with.
+    /// The output of the formula for the raw block at the start of `bytes`.
     pub(super) fn compute(
         &self,
         reading: &Reading,
@@ -270,7 +269,7 @@ impl ChipTable {
     }
 }
 
-/// The item of that index.
+/// The item with this index.
 const fn item(schema: &Schema, index: u16) -> Option<&'static crate::Item> {
     let mut rest = schema.items;
     let mut left = index;

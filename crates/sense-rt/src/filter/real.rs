@@ -2,19 +2,18 @@
 
 use crate::scalar::Scalar;
 
-/// Arithmetic in double precision, for items of float64: a table names it only for these, so that
-/// other boards have none of it.
+/// Arithmetic in double precision, for items of float64: only their tables refer to it, so that
+/// other boards do not link it.
 #[derive(Clone, Copy, Debug)]
 pub struct Wide {
     pub(super) smooth: fn(&mut [u8; 16], u32, &mut [u8]),
     pub(super) is_far: fn(u64, u64, u64) -> bool,
 }
 
-/// The only one.
+/// The only instance.
 pub const WIDE: Wide = Wide { smooth: smooth_wide, is_far: is_far_wide };
 
-/// What was smoothed so far, and what it lacks for want of digits: without that, small steps would
-/// be lost.
+/// The smoothed value so far, and its rounding error, without which small steps would be lost.
 fn load(state: [u8; 16]) -> (u64, u64) {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = state;
     let both = [[a, b, c, d, e, f, g, h], [i, j, k, l, m, n, o, p]];
@@ -44,7 +43,7 @@ pub(super) fn smooth(state: &mut [u8; 16], decay: u32, element: &mut [u8]) {
     Scalar::Float32.store(sum.to_bits().into(), element);
 }
 
-/// Not a number is far from all others.
+/// NaN is far from all other numbers.
 pub(super) fn is_far(from: u64, to: u64, distance: u64) -> bool {
     let single = |bits: u64| f32::from_bits(bits as u32);
     let (difference, distance) = (single(from) - single(to), single(distance));

@@ -1,4 +1,4 @@
-//! The low-pass of integers, with 32 bits behind the point, and its time constant.
+//! The low-pass of integers, with 32 fractional bits, and its decay factor.
 
 /// log2(e) - 1 and ln(2), times 2^32.
 const LOG2E_REST: u64 = 1_901_360_723;
@@ -26,15 +26,16 @@ const ROOTS: [u32; 16] = [
     0xFFFF_4E8E,
 ];
 
-/// exp(-elapsed/constant) times 2^32, at most 2^32 - 1; 0 where the constant is 0. Within 6 of the
-/// exact number.
+/// exp(-elapsed/constant) times 2^32, at most 2^32 - 1; 0 if the constant is 0. Within 6 of the
+/// exact value.
 #[must_use]
 pub fn decay(elapsed_ms: u32, constant_ms: u32) -> u32 {
     let Some(whole) = elapsed_ms.checked_div(constant_ms).filter(|whole| *whole < DECAY_END) else {
         return 0;
     };
     let rest = elapsed_ms.wrapping_sub(whole.wrapping_mul(constant_ms));
-    // exp(-x) is 2^-(x * log2(e)): whole halvings, then a root for each bit of the fraction.
+    // exp(-x) is 2^-(x * log2(e)): halvings for the integer part, then a root for each bit of the
+    // fraction.
     let mut exponent = (u64::from(rest) << 32).checked_div(constant_ms.into()).unwrap_or_default();
     exponent += (exponent * LOG2E_REST) >> 32;
     exponent += u64::from(whole) * ((1 << 32) + LOG2E_REST);
@@ -50,7 +51,7 @@ pub fn decay(elapsed_ms: u32, constant_ms: u32) -> u32 {
     u32::try_from(result).unwrap_or(u32::MAX)
 }
 
-/// A number of 64 bits with 32 behind the point.
+/// A 64-bit number with 32 more bits of fraction.
 #[derive(Clone, Copy)]
 struct Fixed {
     whole: u64,
@@ -69,8 +70,8 @@ impl Fixed {
     }
 }
 
-/// What is left of the distance to the input is taken towards 0 from either side: no drift, and it is
-/// reached.
+/// The remaining distance to the input is rounded towards 0 from either side: there is no drift,
+/// and the input is reached.
 pub(super) fn smooth_key(state: &mut [u8; 16], decay: u32, key: u64) -> u64 {
     let [a, b, c, d, e, f, g, h, i, j, k, l, ..] = *state;
     let mut now = Fixed {

@@ -1,16 +1,16 @@
-//! BMP280 and BME280: the integer formulas of their data sheets, with pressure in 64 bits. Sums that
-//! no sound part and no air on earth come to are refused before they could overflow.
+//! BMP280 and BME280: the integer formulas of their data sheets, with pressure in 64 bits. Results
+//! that no working part and no air on earth can produce are rejected before they could overflow.
 
 use super::Outputs;
 use crate::bytes::at;
 
-/// The fine temperature is 5120 a degree; the parts measure -40 to 85 degC.
+/// The fine temperature has 5120 units per degree; the parts measure -40 to 85 degC.
 const FINE_MIN: i64 = -60 * 5120;
 const FINE_MAX: i64 = 110 * 5120;
-/// What is read of a quantity that is switched off, in 20 and in 16 bits.
+/// The raw value of a quantity that is switched off, in 20 and in 16 bits.
 const SKIPPED: i64 = 0x80000;
 const SKIPPED_HUMIDITY: i64 = 0x8000;
-/// What an undriven line reads.
+/// The raw value of an undriven line.
 const ONES: i64 = 0xFFFFF;
 /// 100 %, in the unit before the last division by 2^12.
 const HUMIDITY_FULL: i64 = 419_430_400;
@@ -33,7 +33,7 @@ fn raw20(bytes: &[u8], place: usize) -> i64 {
     i64::from(u32::from_be_bytes(all) >> 4)
 }
 
-/// The fine temperature; none when it is out of all range.
+/// The fine temperature; `None` if it is far out of range.
 fn fine_temperature(calibration: &[u8], raw: &[u8]) -> Option<i64> {
     let t1 = unsigned16(calibration, 0);
     let (t2, t3) = (signed16(calibration, 2), signed16(calibration, 4));
@@ -44,7 +44,7 @@ fn fine_temperature(calibration: &[u8], raw: &[u8]) -> Option<i64> {
     is_real.then_some(fine)
 }
 
-/// Pa times 256; none where there is none.
+/// Pressure in Pa times 256; `None` if there is none.
 fn pressure(calibration: &[u8], raw: &[u8], fine: i64) -> Option<i64> {
     let p1 = unsigned16(calibration, 6);
     let p = |number: usize| signed16(calibration, 4 + 2 * number);
@@ -71,12 +71,12 @@ fn pressure(calibration: &[u8], raw: &[u8], fine: i64) -> Option<i64> {
     (result > 0).then_some(result)
 }
 
-/// Percent times 1024.
+/// Relative humidity in percent times 1024.
 fn humidity(calibration: &[u8], raw: &[u8], fine: i64) -> i64 {
     let adc = i64::from(u16::from_be_bytes([at(raw, 6), at(raw, 7)]));
     let (h1, h3) = (i64::from(at(calibration, 24)), i64::from(at(calibration, 27)));
     let h2 = signed16(calibration, 25);
-    // Two numbers of 12 bits share a byte.
+    // Two 12-bit numbers share a byte.
     let shared = i64::from(at(calibration, 29));
     let h4 = signed8(calibration, 28) * 16 + (shared & 0xF);
     let h5 = signed8(calibration, 30) * 16 + (shared >> 4);
@@ -86,7 +86,7 @@ fn humidity(calibration: &[u8], raw: &[u8], fine: i64) -> i64 {
     let bend = ((((from * h6) >> 10) * (((from * h3) >> 11) + 32_768)) >> 10) + 2_097_152;
     let result = level * ((bend * h2 + 8192) >> 14);
     let high = result >> 15;
-    // Far outside; the square must not overflow.
+    // Far out of range; the square must not overflow.
     let high = if (-131_072..=131_072).contains(&high) { high } else { 0 };
     let result = result - ((((high * high) >> 7) * h1) >> 4);
     result.clamp(0, HUMIDITY_FULL) >> 12

@@ -10,15 +10,15 @@ const RESISTANCE_MAX: i64 = 100_000_000;
 const BETA_MAX: i64 = 20_000;
 /// ln(2) times 2^24.
 const LN2_Q24: i64 = 11_629_080;
-/// Bits of the logarithm behind the point.
+/// Fractional bits of the logarithm.
 const LOG_BITS: u32 = 24;
 
-/// log2(number) times 2^24, for a number of at least 1: the place of the highest bit, then squaring
-/// gives bit by bit.
+/// log2(number) times 2^24, for a number of at least 1: the position of the highest bit, then one
+/// fractional bit for each squaring.
 fn log2_q24(number: u64) -> i64 {
     let places = number.leading_zeros().min(63);
     let mut result = i64::from(63 - places);
-    // 1 is 2^31.
+    // Here 2^31 stands for 1.
     let mut mantissa = number.wrapping_shl(places) >> 32;
     for _ in 0..LOG_BITS {
         let square = mantissa * mantissa;

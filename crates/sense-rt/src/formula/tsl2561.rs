@@ -1,16 +1,16 @@
-//! TSL2561: the piecewise linear formula of the data sheet for the packages T, FN and CL, in
+//! TSL2561: the piecewise linear formula of the data sheet for the T, FN and CL packages, in
 //! integers, but in millilux instead of rounded to lux.
 
 use super::Outputs;
 use crate::bytes::at;
 use crate::convert::divide;
 
-/// What the constants are for.
+/// The integration time and gain that the constants are for.
 const NOMINAL_MS: i32 = 402;
 const NOMINAL_GAIN: i32 = 16;
 
-/// Up to a ratio of channel 1 to channel 0 (times 2^9), lux = (b * channel 0 - m * channel 1) / 2^14:
-/// ratio, b, m.
+/// Up to each ratio of channel 1 to channel 0 (times 2^9), lux = (b * channel 0 - m * channel 1) /
+/// 2^14. Columns: ratio, b, m.
 const PIECES: [(u64, i64, i64); 7] = [
     (0x0040, 0x01F2, 0x01BE),
     (0x0080, 0x0214, 0x02D1),
@@ -21,8 +21,8 @@ const PIECES: [(u64, i64, i64); 7] = [
     (0x029A, 0x0018, 0x0012),
 ];
 
-/// A time of integration: what makes counts of 402 ms of it, times 2^10, and the count at which it
-/// ends.
+/// An integration time in ms, its factor to counts at 402 ms times 2^10, and the count at which it
+/// saturates.
 const TIMINGS: [(i32, u64, u16); 3] =
     [(13, 0x7517, 5047), (101, 0x0FE7, 37_177), (402, 0x0400, 65_535)];
 

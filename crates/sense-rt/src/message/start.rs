@@ -2,7 +2,7 @@
 
 use crate::chip::InitStep;
 
-/// How far the setting up of a serial device has come.
+/// How far the setup of a serial device has come.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MessageStart {
     pause_until_ms: Option<u32>,
@@ -10,11 +10,11 @@ pub struct MessageStart {
 }
 
 impl MessageStart {
-    /// From the beginning.
+    /// The state at the start.
     pub const NEW: Self = Self { pause_until_ms: None, at: 0 };
 
-    /// The step whose bytes are to be sent now; ask again until there is none. Then it pauses (and is
-    /// asked in the next cycle), or all steps are done.
+    /// The step whose bytes must be sent now; call again until it is `None`. Then there is a pause
+    /// (call again in the next cycle), or all steps are done.
     pub fn next(&mut self, init: &'static [InitStep], now_ms: u32) -> Option<&'static InitStep> {
         if self.pause_until_ms.is_some_and(|until| now_ms.wrapping_sub(until) >= 0x8000_0000) {
             return None;
@@ -23,7 +23,7 @@ impl MessageStart {
         let step = init.get(self.at)?;
         self.at += 1;
         if step.pause_ms > 0 {
-            // One more, for the first millisecond is cut short.
+            // One more, because the first millisecond is cut short.
             self.pause_until_ms = Some(now_ms.wrapping_add(u32::from(step.pause_ms) + 1));
         }
         Some(step)

@@ -1,4 +1,4 @@
-//! What messages look like, and what is in them.
+//! The format of messages and their fields.
 
 use crate::bytes::at;
 use crate::checksum::{crc8, sum8, sum16, xor8};
@@ -11,25 +11,25 @@ use crate::schema::{Item, Schema};
 const DVB_S2_POLYNOMIAL: u8 = 0xD5;
 const IBUS_START: u16 = 0xFFFF;
 
-/// What follows the body.
+/// The checksum after the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageChecksum {
-    /// Nothing.
+    /// No checksum.
     None,
-    /// 1 byte: low byte of the sum.
+    /// 1 byte: the low byte of the sum.
     Sum8,
     /// 1 byte: exclusive or.
     Xor8,
     /// 2 bytes, low byte first: 0xFFFF minus the sum of the bytes.
     Ibus,
-    /// 1 byte: polynomial 0xD5 from 0.
+    /// 1 byte: CRC-8 with polynomial 0xD5 and start value 0.
     Crc8DvbS2,
-    /// 3 bytes: `*` and two hex digits, exclusive or of the bytes between `start` and `*`.
+    /// 3 bytes: `*` and two hex digits, the exclusive or of the bytes between `start` and `*`.
     Nmea,
 }
 
 impl MessageChecksum {
-    /// Bytes that it takes.
+    /// Its size in bytes.
     #[must_use]
     pub const fn bytes(self) -> usize {
         match self {
@@ -40,7 +40,7 @@ impl MessageChecksum {
         }
     }
 
-    /// The checksum of the bytes before it, and its length.
+    /// The checksum of the bytes before it, and its size.
     pub(crate) fn of(self, before: &[u8], start_bytes: usize, from: u8) -> ([u8; 3], usize) {
         let from = if self == Self::Nmea { start_bytes } else { usize::from(from) };
         let summed = before.get(from..).unwrap_or_default();
@@ -77,10 +77,10 @@ const fn hex_digit(number: u8) -> u8 {
     if number < 10 { b'0' + number } else { b'A' + number - 10 }
 }
 
-/// How a number is written in a message.
+/// The format of a number in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldFormat {
-    /// `byte` and `value` say how.
+    /// Bytes, as given by `byte` and `value`.
     Binary,
     /// Text: sign, digits, point, digits.
     Decimal,
@@ -90,23 +90,24 @@ pub enum FieldFormat {
     Hex,
 }
 
-/// A value in a message. An array in text takes one field an element (with degrees two), one behind
+/// A value in a message. An array in text takes one field per element (two for degrees), one after
 /// the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MessageField {
     /// Index of the item in the schema.
     pub item: u16,
-    /// How the number is written there.
+    /// The format of the number.
     pub format: FieldFormat,
-    /// Binary: where the value begins, counted from the first byte behind `start`.
+    /// Binary: the offset of the value from the first byte after `start`.
     pub byte: u16,
-    /// Binary: how the value is coded.
+    /// Binary: the coding of the value.
     pub value: Coding,
-    /// Text: only in a sentence whose first field ends so (`RMC`: any talker); none: in any message.
+    /// Text: only in a sentence whose first field ends with this (`RMC`: any talker); `None`: in
+    /// any message.
     pub sentence: Option<&'static [u8]>,
-    /// Text: between fields; 0: the whole message is field 0.
+    /// Text: the separator between fields; 0: the whole message is field 0.
     pub separator: u8,
-    /// Text: which field, from 0; with a sentence, 0 is the first behind its type.
+    /// Text: the index of the field, from 0; with a sentence, 0 is the first field after its type.
     pub index: u8,
     /// Decimal: the value is the number times `10^decimals`, 0 to 18; integers are rounded.
     pub decimals: u8,
@@ -125,7 +126,7 @@ impl MessageField {
         decimals: 0,
     };
 
-    /// Whether a body is of the kind that has this value.
+    /// Whether the body is of a kind that contains this value.
     pub(super) fn is_of(&self, body: &[u8]) -> bool {
         let Some(sentence) = self.sentence.filter(|_| self.format != FieldFormat::Binary) else {
             return true;
@@ -133,7 +134,8 @@ impl MessageField {
         field(body, self.separator, 0).is_some_and(|first| first.ends_with(sentence))
     }
 
-    /// The value in a body, which may also be the data of a CAN frame; none where it is not in it.
+    /// The value in a body, which may also be the data of a CAN frame; `None` if the body does not
+    /// contain it.
     #[must_use]
     pub fn read(&self, item: &Item, body: &[u8], value: &mut [u8]) -> Option<Outcome> {
         if self.format != FieldFormat::Binary {
@@ -144,7 +146,7 @@ impl MessageField {
         is_whole.then(|| self.value.decode(item, bytes, value))
     }
 
-    /// One invalid element makes the whole value invalid, one that is empty makes it no measurement.
+    /// One invalid element makes the whole value invalid, an empty one makes it `Nothing`.
     fn read_text(&self, item: &Item, body: &[u8], value: &mut [u8]) -> Outcome {
         let stride = if self.format == FieldFormat::Degrees { 2 } else { 1 };
         let first = usize::from(self.index) + usize::from(self.sentence.is_some());
@@ -181,28 +183,28 @@ impl MessageField {
     }
 }
 
-/// The messages of a device.
+/// The format of a device's messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MessageTable {
-    /// First bytes of every message; empty for none: then what comes before the first `end` or the
-    /// first gap is dropped, because it is unknown where it began.
+    /// The first bytes of every message; empty for none: then everything before the first `end` or
+    /// the first gap is dropped, because it is unknown where it began.
     pub start: &'static [u8],
-    /// Last bytes; empty for none: then `length` is not 0.
+    /// The last bytes; empty for none: then `length` is not 0.
     pub end: &'static [u8],
-    /// The values in it.
+    /// The values in a message.
     pub fields: &'static [MessageField],
-    /// Bytes of the body; 0: as far as `end`.
+    /// The bytes of the body; 0: up to `end`.
     pub length: u16,
-    /// Of the longest message with start, checksum and end.
+    /// The bytes of the longest message with start, checksum and end.
     pub bytes_max: u16,
-    /// Behind the body.
+    /// The checksum after the body.
     pub checksum: MessageChecksum,
-    /// First byte that is summed, counted from the first of `start`; not for NMEA.
+    /// The first byte that the checksum covers, counted from the first of `start`; not for NMEA.
     pub checksum_from: u8,
 }
 
 impl MessageTable {
-    /// No message.
+    /// A device without messages.
     pub const NEW: Self = Self {
         start: &[],
         end: &[],
@@ -213,13 +215,13 @@ impl MessageTable {
         checksum_from: 0,
     };
 
-    /// The memory of a `MessageStream`.
+    /// The size of the memory of a `MessageStream`.
     #[must_use]
     pub const fn stream_bytes(&self, schema: &Schema) -> usize {
         self.bytes_max as usize + schema.value_bytes_max()
     }
 
-    /// What is around a body.
+    /// The bytes around a body.
     pub(super) fn frame_bytes(&self) -> usize {
         self.start.len() + self.checksum.bytes() + self.end.len()
     }
@@ -229,14 +231,14 @@ impl MessageTable {
         bytes.get(self.start.len()..end).unwrap_or_default()
     }
 
-    /// Whether nothing but a place tells where a message begins.
+    /// Whether only its position tells where a message begins.
     pub(super) fn needs_alignment(&self) -> bool {
         let is_recognised = self.checksum != MessageChecksum::None || !self.end.is_empty();
         self.start.is_empty() && (self.length == 0 || !is_recognised)
     }
 
-    /// Where nothing but `end` bounds a body and nothing sums it, another start means that the end
-    /// was lost.
+    /// If only `end` bounds a body and no checksum covers it, a second start means that the end was
+    /// lost.
     fn begins_anew(&self, bytes: &[u8]) -> bool {
         let is_bare = self.length == 0 && self.checksum == MessageChecksum::None;
         let has_two = !self.start.is_empty() && bytes.len() >= 2 * self.start.len();
@@ -270,10 +272,10 @@ impl MessageTable {
 pub(super) enum Verdict {
     /// It may become a message.
     More,
-    /// It is one.
+    /// It is a complete message.
     Whole,
-    /// It is one but for its checksum.
+    /// It is a message except for its checksum.
     Damaged,
-    /// It will never be one.
+    /// It cannot become a message.
     Bad,
 }

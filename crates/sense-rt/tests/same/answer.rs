@@ -1,4 +1,4 @@
-//! What the runtime in Rust answers to a question.
+//! The Rust runtime's answer to a question.
 
 use std::fmt::Write as _;
 use std::str::SplitWhitespace;
@@ -13,7 +13,7 @@ use sense_rt::{
 
 use super::link::Link;
 
-/// In the order of the C.
+/// The scalars, in the order of the C code.
 pub(crate) const SCALARS: [Scalar; 11] = [
     Scalar::Bool,
     Scalar::Uint8,
@@ -28,7 +28,7 @@ pub(crate) const SCALARS: [Scalar; 11] = [
     Scalar::Float64,
 ];
 
-/// What is asked with.
+/// The words of a question.
 pub(crate) struct Words<'a>(SplitWhitespace<'a>);
 
 impl<'a> Words<'a> {
@@ -107,7 +107,7 @@ pub(crate) fn say_bytes(out: &mut String, bytes: &[u8]) {
     bytes.iter().for_each(|byte| write!(out, "{byte:02x}").unwrap());
 }
 
-/// What is remembered from question to question.
+/// The state that is kept from question to question.
 pub(crate) struct Desk {
     item: Item,
     filter: Box<Filter<[u8; 4096]>>,

@@ -1,4 +1,4 @@
-//! The reporter over a channel that a script opens, fills and tears; see `reporter.c`.
+//! The reporter over a channel that a script opens, fills and breaks; see `reporter.c`.
 
 use std::fmt::Write as _;
 
@@ -42,7 +42,7 @@ pub(crate) const OUTCOMES: [Outcome; Outcome::COUNT] = [
     Outcome::WrongIdentity,
 ];
 
-/// The other end and the board, both of which write down what happens.
+/// The other end and the board, both of which log what happens.
 #[derive(Default)]
 struct Line {
     is_open: bool,
@@ -164,7 +164,7 @@ impl Link {
         } else {
             self.reporter.cycle(now_us, &mut self.line, &mut self.board);
         }
-        // What comes is applied, or falls back, before anything is sent.
+        // What arrives is applied, or the failsafe taken, before anything is sent.
         out.push_str(&std::mem::take(&mut self.board.said));
         out.push_str(&std::mem::take(&mut self.line.said));
         if tells {

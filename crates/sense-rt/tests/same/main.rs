@@ -1,7 +1,8 @@
-//! The runtime in Rust against the one in C, on random numbers: the same questions, the same answers.
+//! The runtime in Rust against the one in C, on random numbers: the same questions must get the
+//! same answers.
 //!
-//! `core.c` and `reporter.c` are the C as a program under sanitizers; `answer` asks the Rust the same
-//! way, and `questions` makes them up.
+//! `core.c` and `reporter.c` are the C runtime as programs under sanitizers; `answer` asks the Rust
+//! one in the same way, and `questions` generates the questions.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 mod answer;
@@ -30,14 +31,14 @@ fn build() -> PathBuf {
     program
 }
 
-/// What the C says, a line a question.
+/// The answers of the C runtime, one line per question.
 fn ask(program: &Path, questions: &[String]) -> Vec<String> {
     let mut child =
         Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut stdin = child.stdin.take().unwrap();
     let text = questions.join("\n") + "\n";
     let writer = std::thread::spawn(move || {
-        // A program that a sanitizer ends reads no more; its status says so below.
+        // A program that a sanitizer ends stops reading; its status is checked below.
         let _ = stdin.write_all(text.as_bytes());
     });
     let output = child.wait_with_output().unwrap();
@@ -48,7 +49,7 @@ fn ask(program: &Path, questions: &[String]) -> Vec<String> {
     all
 }
 
-/// The first question that they answer differently.
+/// The first question that the two answer differently.
 fn difference(questions: &[String], of_c: &[String]) -> Option<String> {
     let mut desk = Desk::default();
     assert_eq!(questions.len(), of_c.len());
@@ -76,7 +77,7 @@ fn rust_answers_as_c_does() {
     if let Some(difference) = difference(&questions, &of_c) {
         panic!("{difference}");
     }
-    // Each kind of answer that is wrong is told.
+    // A wrong answer of each kind is reported.
     for word in questions::WORDS {
         let mut wrong = of_c.clone();
         let starts = |line: &&mut String| line.split(' ').next() == Some(word);

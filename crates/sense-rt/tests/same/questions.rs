@@ -5,7 +5,7 @@ use sensedsl_tests::Random;
 
 use super::answer::SCALARS;
 
-/// What answers begin with, of those that say something.
+/// The first words of the answers that carry a result.
 pub(crate) const WORDS: [&str; 16] = [
     "ratio",
     "store",
@@ -25,7 +25,7 @@ pub(crate) const WORDS: [&str; 16] = [
     "cycle",
 ];
 
-/// As it comes, small, near a power of two, or near the end.
+/// A random number: unrestricted, small, near a power of two, or near the end of the range.
 fn number(random: &mut Random) -> u64 {
     let wide = random.next();
     match random.below(5) {
@@ -58,7 +58,7 @@ fn scalar(random: &mut Random) -> usize {
     random.below(SCALARS.len())
 }
 
-/// Bits of an element: reals of all sizes, with those that are no numbers.
+/// The bits of an element: floating-point numbers of all sizes, including NaN and infinity.
 fn element(random: &mut Random, scalar: usize) -> u64 {
     let wide = number(random);
     let one = SCALARS[scalar];
@@ -78,7 +78,8 @@ fn elements(random: &mut Random, scalar: usize, count: usize) -> String {
     (0..count).map(|_| format!(" {:x}", element(random, scalar))).collect()
 }
 
-/// What the language allows, and a little more: words, their number, and the bytes they take.
+/// What the language allows, and a little more: a coding, the number of its words, and the bytes
+/// that they take.
 fn coding(random: &mut Random, scalar: usize, count: usize) -> (String, usize) {
     let code = random.below(4);
     let size = SCALARS[scalar].bytes();
@@ -107,7 +108,7 @@ fn coding(random: &mut Random, scalar: usize, count: usize) -> (String, usize) {
     (text, wire)
 }
 
-/// With the CRC-8 of each two bytes now and then right.
+/// Bytes with a CRC-8 after every two, usually right.
 fn with_crc(random: &mut Random, count: usize) -> Vec<u8> {
     let mut all = bytes(random, count);
     if random.below(4) > 0 {
@@ -173,7 +174,7 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("parse {way} {one} {} {} {place}", random.below(20), hex(&first)));
 }
 
-/// A calibration like that of a sound part, and any.
+/// The calibration of a working part, and random ones.
 fn formulas(random: &mut Random, all: &mut Vec<String>) {
     const SOUND: [u8; 32] = [
         0x70, 0x6B, 0x43, 0x67, 0x18, 0xFC, 0x7D, 0x8E, 0x43, 0xD6, 0xD0, 0x0B, 0x27, 0x0B, 0x8C,
@@ -261,7 +262,7 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("element {} {}", random.below(8), random.below(2)));
 }
 
-/// What a host sends: requests, values, noise, frames that are torn.
+/// A host's stream: requests, values, noise, incomplete frames.
 fn stream(random: &mut Random, checksum: usize) -> Vec<u8> {
     let mut all = Vec::new();
     for _ in 0..random.below(4) {
@@ -329,7 +330,7 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
     }
 }
 
-/// Questions of all kinds.
+/// A round of questions of all kinds.
 pub(crate) fn round(random: &mut Random) -> Vec<String> {
     let mut all = Vec::new();
     for _ in 0..100 {

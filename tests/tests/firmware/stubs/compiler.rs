@@ -1,4 +1,4 @@
-//! The compiler, and what it is told of an MCU.
+//! The compiler, and the macros that describe an MCU to it.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -14,7 +14,7 @@ use super::super::facts::Folder;
 use super::super::tools::{has, root, scratch};
 use super::same::key;
 
-/// The firmware of one board, and what the stubs are told of its MCU.
+/// The firmware of one board, and the macros for its MCU.
 pub(super) struct Firmware {
     pub(super) title: String,
     pub(super) macros: Vec<String>,
@@ -24,7 +24,7 @@ pub(super) struct Firmware {
 /// Both builds that a Makefile offers.
 pub(super) const MODES: [&str; 2] = ["development", "production"];
 
-/// The profile of an MCU, where there is one.
+/// The profile of an MCU, if there is one.
 pub(crate) fn profile_of(mcu: &str) -> Option<TargetProfile> {
     match profile::find(profile::DEFAULT, mcu) {
         Ok(Target::Profile(profile)) => Some((*profile).clone()),
@@ -32,18 +32,18 @@ pub(crate) fn profile_of(mcu: &str) -> Option<TargetProfile> {
     }
 }
 
-/// The number in a driver's version: 3 of `ADCv3` and of `SPIv3/driver_v2`, 0 where there is none.
+/// The number in a driver's version: 3 for `ADCv3` and for `SPIv3/driver_v2`, 0 if there is none.
 fn version(name: &str) -> u32 {
     let name = name.split('/').next().unwrap();
     name.rsplit('v').next().and_then(|number| number.parse().ok()).unwrap_or_default()
 }
 
-/// What the stubs are told of an MCU.
+/// The macros that describe an MCU to the stubs.
 fn macros(board: &catalog::Board, profile: &TargetProfile) -> Vec<String> {
     let drivers = Names::of(profile).unwrap().drivers;
     let family = profile.family.trim_start_matches("STM32");
     let versions = [
-        // STM32F1 has a converter's driver of its own, whose groups are those of version 2.
+        // STM32F1 has its own converter driver, whose groups are those of version 2.
         ("ADC", if family == "F1" { 2 } else { version(&drivers.adc) }),
         ("I2C", version(&drivers.i2c)),
         ("SPI", version(&drivers.spi)),
@@ -64,13 +64,13 @@ fn macros(board: &catalog::Board, profile: &TargetProfile) -> Vec<String> {
     macros
 }
 
-/// The same, of a board by its name in a file.
+/// The macros for a board, given its name in a file.
 pub(crate) fn macros_of(name: &str) -> Vec<String> {
     let entry = catalog::find(name).unwrap();
     macros(&entry.board().unwrap(), &profile_of(entry.mcu).unwrap())
 }
 
-/// The compiler: that of the MCU where it is here, as its `long` has 32 bits.
+/// The compiler; preferably that of the MCU, because its `long` has 32 bits.
 fn compiler() -> Option<&'static str> {
     ["arm-none-eabi-gcc", "cc"].into_iter().find(|tool| has(tool))
 }
@@ -80,14 +80,14 @@ pub(super) fn is_here() -> bool {
     compiler().is_some()
 }
 
-/// The C files that are ours: the core has compilers of its own (`firmware::core`).
+/// Our own C files; the core is compiled separately (`firmware::core`).
 pub(crate) fn sources(files: &Folder) -> Vec<&str> {
     let ours = ["generated/", "uproxy/chibios/", "user/"];
     let sources = files.keys().map(String::as_str).filter(|path| path.ends_with(".c"));
     sources.filter(move |path| ours.iter().any(|folder| path.starts_with(folder))).collect()
 }
 
-/// What the compiler says of files in a board's folder; empty when all is well.
+/// The output of the compiler for files in a board's folder; empty if there are no complaints.
 pub(crate) fn compile(folder: &Path, macros: &[String], mode: &str, sources: &[&str]) -> String {
     let name = compiler().unwrap();
     let mut compiler = Command::new(name);
@@ -103,13 +103,14 @@ pub(crate) fn compile(folder: &Path, macros: &[String], mode: &str, sources: &[&
         compiler.arg(format!("-DUP_BASE_{one}=\"conf.h\""));
     }
     compiler.arg(format!("-DUP_SHELL={}", u8::from(mode == "development")));
-    // Named so that `#if X == TRUE` has a meaning before the headers give it one.
+    // Defined here so that `#if X == TRUE` has a meaning before the headers define them.
     compiler.args(["-DTRUE=1", "-DFALSE=0"]).args(macros).args(sources);
     let output = compiler.output().unwrap();
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Calls the compiler for all of them, on all processors, in both modes; what it says, and how many files it has read.
+/// Runs the compiler on all firmwares, on all processors, in both modes; returns its output, and
+/// the number of files it has read.
 pub(super) fn compile_all(name: &str, all: &[Firmware]) -> (Vec<String>, usize) {
     static SEEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let place = scratch(&format!("stubs/{name}"));

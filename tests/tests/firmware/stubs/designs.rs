@@ -9,17 +9,17 @@ use sensedsl_session::{Ask, On, Workspace};
 
 use super::super::facts::Folder;
 
-/// What becomes of a design.
+/// The result for a design.
 pub(super) enum Made {
-    /// The firmware of each board, by its name, and how many files the hosts have.
+    /// The firmware of each board by name, and the number of the hosts' files.
     Firmware(Vec<(String, Folder)>, usize),
-    /// What says why there is no wiring.
+    /// The codes of the reasons why there is no wiring.
     NoWiring(Vec<&'static str>),
-    /// The codes of what firmware lacks.
+    /// The codes of the gaps in firmware.
     Refused(Vec<&'static str>),
 }
 
-/// No design here names another file.
+/// A source of files that has none, because no design here names another file.
 struct Alone;
 
 impl Files for Alone {
@@ -28,7 +28,7 @@ impl Files for Alone {
     }
 }
 
-/// Solves and generates, on the boards of the text.
+/// Solves and generates, for the boards of the text.
 pub(super) fn make(text: &str) -> Made {
     let mut workspace = Workspace::default();
     workspace.open("stub.sense", text);
@@ -61,7 +61,7 @@ pub(super) fn make(text: &str) -> Made {
     Made::Firmware(boards, host_files)
 }
 
-/// The codes of why there is no firmware of a design; none where there is.
+/// The codes of the reasons why a design has no firmware; empty if it has.
 pub(crate) fn codes(text: &str) -> Vec<&'static str> {
     match make(text) {
         Made::Firmware(..) => Vec::new(),

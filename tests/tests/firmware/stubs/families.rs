@@ -1,4 +1,4 @@
-//! Every family of MCUs with every kind, and with what no design of one kind has.
+//! Every family of MCUs with every kind, and with combinations that no design of a single kind has.
 
 use std::collections::BTreeSet;
 
@@ -9,8 +9,9 @@ use super::super::tools::root;
 use super::compiler::{Firmware, compile_all, is_here, macros_of, profile_of};
 use super::designs::{Made, make};
 
-/// What is not made for the first board of each family, with its codes: without a wiring (E0401) where the MCU lacks the
-/// unit or the board the pins, where its clocks do not fit (E0620), or where its link cannot be had (E0504).
+/// The designs that are not generated for the first board of each family, with their codes: the MCU
+/// lacks the unit or the board lacks the pins (E0401), the MCU's clocks do not fit (E0620), or its
+/// link is not available (E0504).
 const NOT_MADE: [&str; 11] = [
     "BLACKPILL_F401CC kinds/can E0401",
     "BLACKPILL_F401CC kinds/dac E0401",
@@ -25,8 +26,8 @@ const NOT_MADE: [&str; 11] = [
     "NUCLEO_H7A3ZI_Q mixed/usb E0504",
 ];
 
-/// A board of each family and each choice of drivers in it: the first in the catalog, or all where everything is asked
-/// for.
+/// A board of each family and of each choice of drivers in it: the first in the catalog, or all in
+/// a thorough run.
 fn boards() -> Vec<String> {
     let mut seen = BTreeSet::new();
     let mut boards = Vec::new();
@@ -44,7 +45,7 @@ fn boards() -> Vec<String> {
     boards
 }
 
-/// The designs, by the names of their files.
+/// The designs, with the names of their files.
 fn designs() -> Vec<(String, String)> {
     let mut designs = Vec::new();
     for folder in ["kinds", "mixed"] {

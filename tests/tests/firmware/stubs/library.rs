@@ -13,7 +13,7 @@ use super::super::{
 use super::compiler::{Firmware, compile_all, is_here, macros_of};
 use super::designs::{Made, make};
 
-/// Name and text of what there is: `drivers/bme280`, `examples/fig2`.
+/// Names and texts of all designs: `drivers/bme280`, `examples/fig2` and so on.
 pub(super) fn designs() -> Vec<(String, String)> {
     let parts = facts::all();
     let drivers = parts.iter().map(|part| (format!("drivers/{}", part.name), facts::example(part)));
@@ -37,8 +37,8 @@ const BOARDS: [&str; 9] = [
     "NUCLEO_H743ZI",
 ];
 
-/// What the real tree is asked to build: all examples, and a driver of each kind, each on a board of the next family
-/// that has firmware for it; every driver where everything is asked for.
+/// The firmware that is built with the real tree: all examples, and a driver of each kind, each on
+/// a board of the next family that has firmware for it; every driver in a thorough run.
 fn with_the_tree() -> Vec<(String, Vec<(String, Folder)>)> {
     let mut made = Vec::new();
     for (name, text) in designs() {
@@ -83,7 +83,7 @@ fn examples_and_a_driver_of_each_kind_build_with_the_tree() {
     }
 }
 
-/// The board of the catalog that a board of a file stands on.
+/// The board of the catalog that a board of a file is based on.
 fn catalog_board<'a>(text: &'a str, board: &'a str) -> &'a str {
     let head = format!("board {board} on ");
     let rest = text.lines().find_map(|line| line.trim().strip_prefix(&head));

@@ -1,6 +1,7 @@
-//! What is generated, read by a compiler with stub headers of ours (`tests/firmware/stubs`) in the place of
-//! ChibiOS: no tree is needed. `families` has every family of MCUs with every kind, `library` every driver of the
-//! library and every example, `refused` mistakes that the stubs must not let through.
+//! Generated files, read by a compiler with our own stub headers (`tests/firmware/stubs`) in place
+//! of ChibiOS, so that no tree is needed. `families` has every family of MCUs with every kind,
+//! `library` has every driver of the library and every example, and `refused` has mistakes that the
+//! stubs must not accept.
 //!
 //! This proves agreement with the stubs, not with ChibiOS.
 

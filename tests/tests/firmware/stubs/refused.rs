@@ -1,5 +1,6 @@
-//! Mistakes in templates and in the runtime that the stubs must refuse: a wrong field, a wrong call, a wrong object, a
-//! unit that is off. Each is put into files that compile without it.
+//! Mistakes in templates and in the runtime that the stubs must refuse: a wrong field, a wrong
+//! call, a wrong object, a unit that is switched off. Each is put into files that compile without
+//! it.
 
 use sensedsl_tests::text;
 
@@ -10,7 +11,7 @@ use super::designs::{Made, make};
 const HARDWARE: &str = "generated/sense_hw.c";
 const SETTINGS: &str = "cfg/mcuconf.h";
 
-/// Board, design, file, a text in it, and what stands there instead.
+/// A mistake: board, design, file, a text in it, and its replacement.
 type Mistake = (&'static str, &'static str, &'static str, &'static str, &'static str);
 
 const F1: &str = "BLUEPILL_F103C8";
@@ -20,7 +21,7 @@ const G0: &str = "NUCLEO_G0B1RE";
 const G4: &str = "B_G474E_DPOW1";
 const H7: &str = "NUCLEO_H743ZI";
 
-/// Of every driver, in every version that has fields of its own.
+/// Mistakes for every driver, in every version that has fields of its own.
 const MISTAKES: &[Mistake] = &[
     (F4, "kinds/analog", HARDWARE, ".sqr3 =", ".sqr4 ="),
     (F4, "kinds/analog", HARDWARE, ".driver = &ADCD1", ".driver = &ADCD2"),

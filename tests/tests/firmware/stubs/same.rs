@@ -1,7 +1,8 @@
-//! What a compiler need not read twice.
+//! Decides which files a compiler need not read twice.
 //!
-//! Most of a firmware is the runtime, and most of that does not depend on the design: a file is read once for each
-//! family and each set of the settings that it names. Numbers of three and more count as one, for they are sizes.
+//! Most of a firmware is the runtime, and most of that does not depend on the design: a file is
+//! compiled once for each family and each set of the settings that it names. Numbers from three on
+//! count as the same, because they are sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,15 +10,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::super::facts::Folder;
 use super::compiler::Firmware;
 
-/// What is known of a text.
+/// The facts about a text.
 struct Known {
-    /// The same for texts that differ in comments only.
+    /// The same number for texts that differ only in comments.
     number: usize,
     words: BTreeSet<String>,
     includes: Vec<String>,
 }
 
-/// All texts so far, and their numbers without comments.
+/// All texts so far, and their numbers by the text without comments.
 #[derive(Default)]
 struct Texts {
     known: BTreeMap<String, Arc<Known>>,
@@ -43,8 +44,9 @@ fn known(text: &str) -> Arc<Known> {
     known
 }
 
-/// All that decides what the compiler says of a file: the MCU, the mode, the texts of ours that it includes, and the
-/// settings that these name. What the runtime and the user take of the generated header are settings as well.
+/// Everything that decides the compiler's output for a file: the MCU, the mode, the texts of ours
+/// that it includes, and the settings that these name. The parts of the generated header that the
+/// runtime and the user's file use also count as settings.
 pub(super) fn key(one: &Firmware, mode: &str, path: &str) -> String {
     let is_generated = path.starts_with("generated/");
     let mut texts = BTreeMap::new();
@@ -52,7 +54,7 @@ pub(super) fn key(one: &Firmware, mode: &str, path: &str) -> String {
     let names = |word: &str| texts.values().any(|text| text.words.contains(word));
     let mut key =
         format!("{path} {:?}", texts.values().map(|text| text.number).collect::<Vec<_>>());
-    // Tables of values are the same for all MCUs.
+    // Tables of values do not depend on the MCU.
     if !texts.values().any(|text| text.includes.iter().any(|name| name == "hal.h")) {
         return key;
     }
@@ -65,7 +67,7 @@ pub(super) fn key(one: &Firmware, mode: &str, path: &str) -> String {
     for line in settings.into_iter().chain(model).flat_map(|path| one.files[path].lines()) {
         let Some(setting) = line.strip_prefix("#define ") else { continue };
         let (name, value) = setting.split_once(' ').unwrap_or((setting, ""));
-        // A generated file names units, and the stubs the options that turn these on.
+        // A generated file names units, and the stubs name the options that enable them.
         if is_generated || names(name) {
             let number = value.trim_end_matches('U').parse().unwrap_or(0);
             key.push_str(&format!("{name}={}\n", if number < 3 { value } else { "many" }));
@@ -80,7 +82,8 @@ fn without_comments(text: &str) -> String {
     parts.filter_map(|part| part.split_once("*/")).fold(first, |text, (_, rest)| text + rest)
 }
 
-/// A file and, of ours, all that it includes; settings are not among them, and the generated header only on demand.
+/// Collects a file and our own files that it includes, except for settings; the generated header
+/// only on demand.
 fn include(
     files: &Folder,
     path: &str,

@@ -1,4 +1,4 @@
-//! A world for firmware on the twin, and what its host receives.
+//! A world for firmware on the twin, and the bytes that its host receives.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -13,7 +13,7 @@ use crate::firmware::chibios::{build, write};
 
 pub(super) const MS: u64 = 1_000_000;
 
-/// Where the smallest design with pulses has its first.
+/// The first output of the smallest design with pulses.
 pub(super) const STEERING: TimerOutput = TimerOutput { timer: 9, channel: 1, is_complement: false };
 
 /// A level that changes every `half_ns`, first at `shift_ns`.
@@ -37,25 +37,25 @@ impl Square {
     }
 }
 
-/// What is on the pads and buses, and what came from the MCU.
+/// The state of pads and buses, and the data that came from the MCU.
 #[derive(Default)]
 pub(super) struct World {
     pub squares: BTreeMap<Pad, Square>,
     pub levels: BTreeMap<Pad, bool>,
-    /// Millivolts at time 0 and how many more a millisecond.
+    /// Millivolts at time 0, and their increase per millisecond.
     pub voltages: BTreeMap<Pad, (f64, f64)>,
-    /// By address: registers of chips that count the register up by themselves.
+    /// Registers of chips that increment the register address by themselves; by chip address.
     pub chips: BTreeMap<u8, BTreeMap<u8, u8>>,
-    /// What was written, by address: whole transfers.
+    /// The transfers written, each with its address.
     pub written: Vec<(u8, Vec<u8>)>,
     chosen: Option<(u8, bool)>,
     pointer: u8,
     pub spi_answers: VecDeque<u8>,
     pub spi_sent: Vec<u8>,
     pub to_uart: VecDeque<u8>,
-    /// By controller.
+    /// Frames to be received, by controller.
     pub to_can: BTreeMap<u8, VecDeque<CanFrame>>,
-    /// With their controllers.
+    /// Frames that were sent, with their controllers.
     pub from_can: Vec<(u8, CanFrame)>,
     pub driven: BTreeMap<Pad, Option<bool>>,
     pub waves: BTreeMap<TimerOutput, (u64, u64)>,
@@ -148,12 +148,12 @@ impl Surroundings for World {
     }
 }
 
-/// A pad by its name.
+/// The pad with a name.
 pub(super) fn pad(name: &str) -> Pad {
     Pad::named(name).unwrap()
 }
 
-/// A report: when it was there, and values by identifier.
+/// A report: its time of arrival, and values by identifier.
 pub(super) type Report = (u64, BTreeMap<u8, Vec<Scalar>>);
 
 /// A board with its program, its world and its host.
@@ -181,7 +181,7 @@ impl Bench {
         Self::of(&board.join("build").join(mode).join("sense.elf"), link)
     }
 
-    /// A board with a program.
+    /// A board that runs a program.
     pub(super) fn of(program: &std::path::Path, link: LinkPort) -> Self {
         let image = std::fs::read(program).unwrap();
         let world = Arc::new(Mutex::new(World::default()));
@@ -204,7 +204,7 @@ impl Bench {
         assert!(halt.is_none(), "{halt:?}");
     }
 
-    /// What the host received, as text.
+    /// The bytes that the host received, as text.
     pub(super) fn said(&self) -> String {
         let bytes: Vec<u8> = self.received.iter().map(|(_, byte)| *byte).collect();
         String::from_utf8_lossy(&bytes).into_owned()
@@ -223,7 +223,8 @@ impl Bench {
         reports
     }
 
-    /// The wires that pads are led to must be these, and no pad may be led to another wire of their peripherals.
+    /// The pads must be switched to these wires, and no pad to another wire of the same
+    /// peripherals.
     pub(super) fn assert_wires(&self, wanted: &[(&str, &str)]) {
         let pads = self.machine.pads();
         for (name, wire) in wanted {

@@ -1,5 +1,5 @@
-//! One design, one world, one seed, and a program of each target: a host cannot tell which one it listens to, but for
-//! the moments at which values come.
+//! One design, one world, one seed, and a program for each target: a host cannot tell them apart,
+//! except by the times at which values arrive.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use super::examples::{UART, USB, on_discovery};
 use super::trial::{System, Trial, run};
 
 const SECONDS: u64 = 8;
-/// From here on all devices have reported, whichever the link.
+/// From this time on all devices have reported, over either link.
 const BEGIN_MS: u64 = 2_000;
-/// Values are compared at these distances.
+/// The interval at which values are compared.
 const STEP_MS: u64 = 5;
-/// So far apart the programs may be: a cycle of the device, and this.
+/// The programs may differ in time by the cycle of the device plus this.
 const APART_MS: u64 = 40;
 
 fn number(scalar: Scalar) -> f64 {
@@ -26,7 +26,7 @@ fn number(scalar: Scalar) -> f64 {
     }
 }
 
-/// The values of a device in the order in which they came.
+/// The values of a device in order of arrival.
 type Course = Vec<(u64, Vec<f64>)>;
 
 fn courses(trial: &Trial) -> BTreeMap<u8, Course> {
@@ -38,14 +38,14 @@ fn courses(trial: &Trial) -> BTreeMap<u8, Course> {
     all
 }
 
-/// What a host knows at a time.
+/// The value that a host knows at a time.
 fn known(course: &Course, at_ms: u64) -> &[f64] {
     let next = course.partition_point(|(at, _)| *at <= at_ms);
     &course[next - 1].1
 }
 
-/// What a host knows at a time must be what it knows from the other program about then: exactly, where that does not
-/// change meanwhile.
+/// At each time, a host must know a value that it knows from the other program at about that time;
+/// exactly that value, if it does not change meanwhile.
 fn differs(one: &Course, other: &Course, apart: u64) -> Option<String> {
     for at in (BEGIN_MS..SECONDS * 1_000 - apart).step_by(STEP_MS as usize) {
         let about = [at - apart, at, at + apart].map(|at| known(other, at).to_vec());
@@ -64,16 +64,17 @@ fn differs(one: &Course, other: &Course, apart: u64) -> Option<String> {
     None
 }
 
-/// The last values, once everything stands still, and how many values came.
+/// The final values, after everything has come to rest, and the number of values.
 fn ends(course: &Course) -> (&[f64], usize) {
     let count = course.iter().filter(|(at, _)| *at > BEGIN_MS).count();
     (&course.last().unwrap().1, count)
 }
 
-/// What always runs; the rest only where everything is asked for.
+/// The case that always runs; the others only in an exhaustive run.
 const ALWAYS: (&str, &str) = ("all_kinds", UART);
 
-/// Both programs of a design in its world over a link; no device has a longer cycle than that.
+/// Compares both programs of a design in its world over a link; `cycle_ms` is the longest cycle of
+/// any device.
 fn say_the_same(design: &str, link: &str, cycle_ms: u64) {
     if (design, link) != ALWAYS && !sensedsl_tests::is_exhaustive() {
         return;
@@ -99,7 +100,7 @@ fn say_the_same(design: &str, link: &str, cycle_ms: u64) {
         assert_eq!(found, None, "{design}: {name}");
         let ((last, count), (other_last, other_count)) = (ends(one), ends(other));
         assert_eq!(last, other_last, "{design}: {name} ends at another value");
-        // A reading more or less at either end, and what chance may take of those between.
+        // One reading more or less at either end, and a margin for random losses between.
         let most = 3 + count / 50;
         assert!(
             count.abs_diff(other_count) <= most,

@@ -1,4 +1,4 @@
-//! Two controllers of a kind at once, and outputs that are complements, on both targets.
+//! Two controllers of the same kind at once, and complementary outputs, on both targets.
 
 use sensedsl_machine::LinkPort;
 use sensedsl_surroundings::{CanFrame, TimerOutput};
@@ -10,7 +10,8 @@ use super::kinds::{frame, items};
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy;
 
-/// CAN2 has its filters in CAN1; the fan is at the complement of a channel, the pump at a channel of the same timer.
+/// CAN2 has its filters in CAN1; the fan is on the complementary output of a channel, the pump on a
+/// channel of the same timer.
 const BOTH: &str = "
 board STM32F407G_DISC1 {
     link { transport = uart; unit = USART3; }
@@ -23,7 +24,7 @@ board STM32F407G_DISC1 {
 }
 ";
 
-/// The second controller without the first, whose clock it needs nevertheless.
+/// The second controller without the first, although it needs the clock of the first.
 const SECOND: &str = "
 board STM32F407G_DISC1 {
     link { transport = uart; unit = USART3; }
@@ -47,7 +48,7 @@ fn can(id: u32, extended: bool, value: u8) -> CanFrame {
     CanFrame { id, extended, remote: false, length: 8, data }
 }
 
-/// What a device has told.
+/// The values that a device has reported.
 fn told(bench: &Bench, id: u8) -> Vec<u64> {
     let schema = items(&[
         (1, Sensor, "Speed", Uint16, None),
@@ -60,7 +61,7 @@ fn told(bench: &Bench, id: u8) -> Vec<u64> {
     values(&bench.reports(&schema), id).iter().map(|(_, value)| unsigned(value)).collect()
 }
 
-/// The frames that have left a controller: identifier and data.
+/// The frames that a controller has sent: identifier and data.
 fn left(bench: &Bench, unit: u8) -> Vec<(u32, bool, Vec<u8>)> {
     let world = bench.world();
     let own = world.from_can.iter().filter(|(by, _)| *by == unit).map(|(_, frame)| frame);
@@ -70,7 +71,7 @@ fn left(bench: &Bench, unit: u8) -> Vec<(u32, bool, Vec<u8>)> {
 
 fn both_are_served(mut bench: Bench) {
     bench.run_until_ms(300);
-    // The identifiers of one bus are nobody's on the other.
+    // The identifiers of one bus belong to no device on the other.
     let of_one = [can(0x18FF_0121, true, 1), can(0x120, false, 0x34)];
     let of_two = [can(0x120, false, 1), can(0x18FF_0121, true, 0x56)];
     bench.world().to_can.entry(1).or_default().extend(of_one);
@@ -84,7 +85,8 @@ fn both_are_served(mut bench: Bench) {
     complements_have_the_widths_of_their_channels(bench);
 }
 
-/// Duty and polarity on the complement are those that the host sets, and its channel gives none.
+/// The complementary output has the duty cycle and polarity that the host sets, and its main
+/// channel has no output.
 fn complements_have_the_widths_of_their_channels(mut bench: Bench) {
     bench.assert_wires(&[("PE8", "TIM1_CH1N"), ("PE11", "TIM1_CH2")]);
     let near = |is: u64, wanted: u64| is.abs_diff(wanted) * 1_000 <= wanted;

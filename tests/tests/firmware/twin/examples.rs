@@ -1,5 +1,5 @@
-//! The examples as firmware for both targets, over both links, before a judge for ten virtual seconds, as `simulate
-//! --firmware IMAGE --judge` runs them, with the generated program of the host at the other end.
+//! The examples as firmware for both targets, over both links, judged for ten virtual seconds like
+//! `simulate --firmware IMAGE --judge` does, with the generated host program at the other end.
 
 use sensedsl_machine::Event;
 
@@ -12,12 +12,12 @@ pub(super) const UART: &str =
 pub(super) const USB: &str = "";
 const SECONDS: u64 = 10;
 
-/// An example on the whole Discovery board, with a link of one's choice.
+/// An example on the complete Discovery board, with the given link.
 pub(super) fn on_discovery(example: &str, link: &str) -> String {
     on_board(example, "STM32F407G_DISC1", link)
 }
 
-/// The same on another board.
+/// An example on any board, with the given link.
 pub(super) fn on_board(example: &str, board: &str, link: &str) -> String {
     let path = root().join("examples").join(format!("{example}.sense"));
     let text = format!("\n{}", std::fs::read_to_string(path).unwrap());
@@ -32,8 +32,8 @@ fn world(name: &str) -> String {
     std::fs::read_to_string(root().join(format!("examples/worlds/{name}.toml"))).unwrap()
 }
 
-/// All values agree with the world, all pads with the wiring, and no unit is used that the twin does not have or that has
-/// no clock.
+/// All values must agree with the world and all pads with the wiring, and the program must use no
+/// unit that the twin lacks or that has no clock.
 #[track_caller]
 fn assert_agrees(what: &str, trial: &Trial) {
     assert!(
@@ -53,8 +53,8 @@ fn assert_agrees(what: &str, trial: &Trial) {
     eprintln!("{what}: {values} values of {SECONDS} s agree");
 }
 
-/// Controllers of motors, a node of CANopen and frames with several contents on one bus of a board with another crystal
-/// than the Discovery's: 12 MHz.
+/// Motor controllers, a CANopen node and frames with several contents on one bus of a board whose
+/// crystal differs from the Discovery's: 12 MHz.
 fn can_agrees(system: System) {
     let text = sensedsl_tests::text("tests/can/bus.sense");
     let Some(image) = system.image(&format!("can_bus_{system:?}"), &text) else { return };
@@ -74,7 +74,7 @@ fn can_on_embassy() {
     can_agrees(System::Embassy);
 }
 
-/// What always runs; the rest only where everything is asked for, because it takes many minutes.
+/// The cases that always run; the others only in an exhaustive run, because they take many minutes.
 const ALWAYS: [(&str, System, &str); 3] = [
     ("fig2", System::Embassy, USB),
     ("miniature_car", System::Embassy, UART),
@@ -101,11 +101,11 @@ fn agrees(system: System, (example, world_name): (&str, &str), link: &str) {
         None => run(system, design, &image, SECONDS, &[]),
     };
     assert_agrees(&what, &trial);
-    // Nothing but garbage of the world costs bytes.
+    // Only garbage in the world costs bytes.
     assert_eq!(trial.dropped > 0, world.contains("garbage"), "{what}: {}", trial.dropped);
 }
 
-/// Both links of both targets for each example, in the world of that name.
+/// Runs both links of both targets for each example, in the world of that name.
 macro_rules! agree {
     ($($name:ident: $example:literal in $world:literal,)*) => {
         $(

@@ -1,5 +1,5 @@
-//! What breaks around a board, on a real image: the others go on, health names the device and the cause, and the broken
-//! one comes back.
+//! Faults around a board, on a real image: the other devices continue, health names the device and
+//! the cause, and the faulty one recovers.
 
 use sensedsl_machine::{Event, ResetCause};
 use sensedsl_wire::{Causes, DeviceHealth, ResetCause as Cause, Status};
@@ -17,7 +17,8 @@ const LIDAR: u8 = 8;
 const SPEED: u8 = 9;
 const IMU: u8 = 11;
 
-/// Ten seconds of the rover with a fault from 4 s on, for 3 s; health at 6.5 s and at the end.
+/// Runs the rover for ten seconds, with a fault from 4 s on for 3 s; health is read at 6.5 s and at
+/// the end.
 fn with(system: System, fault: &str) -> Option<Trial> {
     let world = format!("{}\n[[fault]]\n{fault}\n", rover_world());
     let image = rover_image(system)?;
@@ -40,7 +41,8 @@ fn faults(causes: Causes) -> u32 {
     causes.counts().into_iter().map(u32::from).sum()
 }
 
-/// Those that have nothing to do with it report all the time, and the broken one before and after.
+/// The devices that are not affected report all the time, and the faulty one before and after the
+/// fault.
 #[track_caller]
 fn others_go_on(trial: &Trial, broken: u8) {
     for id in [NEAR, WHEEL, STEERING, SPEED] {
@@ -52,8 +54,8 @@ fn others_go_on(trial: &Trial, broken: u8) {
     assert_eq!(health(trial, 1, broken).status, Status::Good);
 }
 
-/// Each test on both targets. Of Embassy only those that are marked always run, because its programs take long to build
-/// and the others need no other code of the target.
+/// Runs each test on both targets. On Embassy only the marked ones always run, because its programs
+/// take long to build and the others need no other code of the target.
 macro_rules! on_both {
     ($($name:ident $(, $always:ident)?;)*) => {
         mod on_chibios {
@@ -114,7 +116,8 @@ fn a_torn_cable(system: System) {
     others_go_on(&trial, REAR);
     assert!(health(&trial, 0, REAR).causes.not_acknowledged > 3);
     let Some(trial) = with_device(system, "torn", "Wheel") else { return };
-    // The count stands still and is reported: an input without edges is not told from a wheel at rest.
+    // The count stays constant and is reported: an input without edges cannot be told from a wheel
+    // at rest.
     assert!(trial.reports_of(WHEEL, 8_500, 10_000) > 20);
     assert!(trial.reports_of(NEAR, 4_000, 7_000) > 20);
 }
@@ -125,7 +128,7 @@ fn inputs_that_fall_silent(system: System) {
         others_go_on(&trial, id);
         let broken = health(&trial, 0, id);
         assert!(broken.age_ms >= 2_000, "{name}: {broken:?}");
-        // A capture has no cycle, so that it cannot be late.
+        // A capture has no cycle, so it cannot be late.
         assert!(id == STEERING || broken.status != Status::Good, "{name}: {broken:?}");
     }
 }
@@ -152,7 +155,7 @@ fn garbage_on_the_link(system: System) {
     assert!(trial.reports_of(NEAR, 4_600, 10_000) > 200);
 }
 
-/// A thread that hangs is ended by the watchdog, and the board says afterwards which one it was.
+/// The watchdog ends a thread that hangs, and the board then reports which one it was.
 #[test]
 fn a_thread_that_hangs() {
     let Some(tree) = tree() else { return };
@@ -166,7 +169,7 @@ fn a_thread_that_hangs() {
     assert_is_bitten(&trial);
 }
 
-/// A task that waits for ever, for a transfer of its bus that ends no more, say.
+/// A task that waits for ever, for example for a bus transfer that never ends.
 #[test]
 fn a_task_that_hangs() {
     let Some(board) = embassy::project("trial_hang_embassy", &rover()) else { return };
@@ -183,19 +186,20 @@ fn a_task_that_hangs() {
     assert_is_bitten(&trial);
 }
 
-/// The watchdog has bitten once, the board says for whom, and goes on.
+/// Checks that the watchdog has bitten once, and that the board reports for which device and
+/// continues.
 #[track_caller]
 fn assert_is_bitten(trial: &Trial) {
     let is_bite = |one: &&Event| matches!(one, Event::Reset { cause: ResetCause::Watchdog, .. });
     assert_eq!(trial.told.iter().filter(is_bite).count(), 1, "{:?}", trial.told);
     let (_, health) = trial.health.first().unwrap();
     assert_eq!(health.reset_cause, Cause::Watchdog);
-    // One of the devices of the thread that serves the bus.
+    // The thread that serves the bus reports one of its devices.
     assert!([REAR, IMU].contains(&health.reset_device), "{}", health.reset_device);
     assert!(trial.reports_of(REAR, 10_000, 14_000) > 10);
 }
 
-/// What does nothing but start ends the run, with the reason.
+/// A program that only restarts ends the run, with the reason.
 #[test]
 fn a_program_that_only_starts() {
     let Some(tree) = tree() else { return };

@@ -1,5 +1,6 @@
-//! CAN as vehicles use it, by all three boards: identifiers of 29 bits, bits across bytes in both orders, contents that
-//! take turns, repeated frames. The soft board and both images must agree with the judge's own reading of the design.
+//! CAN as vehicles use it, on all three boards: 29-bit identifiers, bits across bytes in both
+//! orders, multiplexed contents, repeated frames. The soft board and both images must agree with
+//! the judge's own reading of the design.
 
 use sensedsl_tests::{Scratch, is_thorough, sensedsl};
 
@@ -22,7 +23,7 @@ board STM32F407G_DISC1 {
 }
 ";
 
-/// What is told of an image or of the soft board, with each output looked at.
+/// Checks the report on an image or on the soft board, in which each output must have been checked.
 fn assert_looked_at(name: &str, said: &str) {
     assert!(said.contains("looks at outputs found what the design says"), "{name}: {said}");
     for output in ["Rpm", "Mode", "Gain", "Both"] {
@@ -32,7 +33,7 @@ fn assert_looked_at(name: &str, said: &str) {
     }
 }
 
-/// `Both` is in two contents of its frame, one of which is sent when it is set.
+/// `Both` is in two contents of its frame; one of them is sent when it is set.
 #[test]
 fn the_soft_board_sends_them() {
     let scratch = Scratch::new("frames-soft");
@@ -54,7 +55,8 @@ fn images_send_them() {
     }
 }
 
-/// What selects has a look of its own: an image that puts it elsewhere in the frame is not good.
+/// The selector of contents is checked separately: an image that puts it elsewhere in the frame is
+/// wrong.
 #[test]
 fn a_selector_at_another_place_is_told() {
     if !is_thorough() {

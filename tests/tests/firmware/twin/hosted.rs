@@ -1,5 +1,5 @@
-//! The generated program of the host at the other end of an emulated board's link: it opens a pseudo-terminal, is greeted
-//! by the firmware, and prints what the judge has seen.
+//! The generated host program at the other end of an emulated board's link: it opens a
+//! pseudo-terminal, is greeted by the firmware, and prints the values that the judge has seen.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,11 +14,11 @@ use crate::hosts::terminal::Line;
 use crate::hosts::tools::{Background, have, run};
 
 const NOTES: &str = "notes.txt";
-/// When what the host sent first gets to the board, which is up by then.
+/// The time at which the host's first bytes reach the board, which has started by then.
 const GREETING_MS: u64 = 500;
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A host that runs.
+/// A running host.
 pub(super) struct Host {
     line: Line,
     program: Background,
@@ -27,7 +27,8 @@ pub(super) struct Host {
 }
 
 impl Host {
-    /// The host of a design's only board, generated and compiled as its README says; none without a compiler.
+    /// Starts the host of a design's only board, generated and compiled as its README states;
+    /// `None` without a compiler.
     pub(super) fn start(name: &str, text: &str) -> Option<Self> {
         if !have("g++") {
             return None;
@@ -41,21 +42,21 @@ impl Host {
         let mut command = Command::new(&program);
         command.arg("--no-reconnect").arg(&line.device);
         let program = Background::start_apart(&mut command, &folder, NOTES);
-        // It has made the terminal a plain line by the time it asks.
+        // By the time of its first request, it has set the terminal to raw mode.
         let heard = line.hear(1, PATIENCE);
         assert!(!heard.is_empty(), "the host asks nothing: {}", program.output());
         Some(Self { line, program, folder, heard })
     }
 
-    /// A millisecond has passed: what the board said goes to the host, and what the host said comes back.
+    /// Passes one millisecond: sends the board's bytes to the host, and returns the host's bytes.
     pub(super) fn pass(&mut self, ms: u64, said: &[u8]) -> Vec<u8> {
         self.line.say_all(said);
         self.heard.extend(self.line.heard());
         if ms < GREETING_MS { Vec::new() } else { std::mem::take(&mut self.heard) }
     }
 
-    /// The cable is pulled. The host must have shown each value since the greeting, in order, and have dropped no byte
-    /// that our decoder takes.
+    /// Pulls the cable. The host must have shown each value since the greeting, in order, and
+    /// dropped no byte that our decoder accepts.
     #[track_caller]
     pub(super) fn assert_shows(mut self, what: &str, trial: &Trial) {
         let greeted = trial.greeted.unwrap_or_else(|| panic!("{what}: the board greets nobody"));
@@ -85,13 +86,13 @@ impl Host {
     }
 }
 
-/// A value as a host prints it.
+/// A value as the host prints it.
 fn text(value: &[Scalar]) -> String {
     let all: Vec<String> = value.iter().map(ToString::to_string).collect();
     if all.len() == 1 { all.concat() } else { format!("[{}]", all.join(", ")) }
 }
 
-/// The host without middleware.
+/// Generates the host without middleware, and returns its folder.
 fn generated(name: &str, text: &str) -> PathBuf {
     let name = format!("{name}_host");
     let designs = Scratch::new(&name);
@@ -103,7 +104,7 @@ fn generated(name: &str, text: &str) -> PathBuf {
     folder.join("host/cpp")
 }
 
-/// Its only program.
+/// The source of its only program.
 fn source(folder: &Path) -> PathBuf {
     let mut all = std::fs::read_dir(folder.join("src")).unwrap().map(|entry| entry.unwrap().path());
     all.find(|path| path.extension().is_some_and(|one| one == "cpp")).unwrap()

@@ -1,7 +1,8 @@
-//! No image is called wrong: the examples over several links, and the library's drivers in groups, for both targets, as
-//! a user runs them: `simulate --firmware IMAGE --judge`.
+//! No good image is judged wrong: the examples over several links, and the library's drivers in
+//! groups, for both targets, through the command that users run: `simulate --firmware IMAGE
+//! --judge`.
 //!
-//! Only with `SENSEDSL_THOROUGH=2`: it builds and runs more than sixty programs.
+//! Runs only with `SENSEDSL_THOROUGH=2`: it builds and runs more than sixty programs.
 
 use sensedsl_tests::{Random, Scratch, is_exhaustive, sensedsl};
 
@@ -11,14 +12,14 @@ use crate::false_alarms::{drivers, is_wired};
 
 const EXAMPLES: [&str; 7] =
     ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
-/// The speed that a serial link has where nobody says it.
+/// A serial link at the default speed.
 const SLOW_UART: &str = "link { transport = uart; unit = USART3; }";
-/// Drivers that are tried together at first.
+/// The number of drivers that are first tried together.
 const TOGETHER: usize = 24;
-/// So many programs must be judged at least.
+/// The minimum number of programs that must be judged.
 const IMAGES_MIN: usize = 60;
 
-/// As many drivers together as have a wiring on the board whose MCU is emulated.
+/// Groups with as many drivers as can be wired together on the board whose MCU is emulated.
 fn groups(parts: &[String], target: &str) -> Vec<String> {
     let together = format!("board STM32F407G_DISC1 {{\n{}}}\n", parts.concat());
     if is_wired(&together, target) {
@@ -45,12 +46,12 @@ fn designs(target: &str) -> Vec<String> {
     examples.chain(groups).collect()
 }
 
-/// What the command says against the program of a design; none where it says nothing.
+/// The complaint of the command about the program of a design; `None` if there is none.
 fn alarm(system: System, name: &str, text: &str) -> Option<String> {
     alarm_of(system, name, text, &system.image(name, text)?)
 }
 
-/// The same of a given program.
+/// The complaint of the command about a given program.
 pub(super) fn alarm_of(system: System, name: &str, text: &str, image: &[u8]) -> Option<String> {
     let scratch = Scratch::new(name);
     let design = scratch.write("design.sense", text).display().to_string();

@@ -1,5 +1,5 @@
-//! The smallest design of each kind on the twin: what the world has is what the host is told, and what the host sets
-//! is what the pads do.
+//! The smallest design of each kind on the twin: the host receives the values of the world, and the
+//! pads follow the host's commands.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ fn embassy_bench(kind: &str) -> Option<Bench> {
     Some(Bench::of(&program, LinkPort::Serial(3)))
 }
 
-/// Each test on both targets, with the image of the kind.
+/// Runs each test on both targets, with the image of the kind.
 macro_rules! on_both {
     ($($kind:literal: $name:ident,)*) => {
         mod on_chibios {
@@ -79,7 +79,7 @@ pub(super) fn items(
     schema(Checksum::Crc16, items)
 }
 
-/// A frame of the host, with its checksum.
+/// A frame from the host, with its checksum.
 pub(super) fn frame(values: &[u8]) -> Vec<u8> {
     let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
         (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
@@ -98,10 +98,10 @@ fn analog_values_are_those_of_the_pads(mut bench: Bench) {
         items(&[(1, Sensor, "Distance", Uint16, None), (2, Sensor, "Battery", Float32, None)]);
     let reports = bench.reports(&schema);
     let distances = values(&reports, 1);
-    // One each 20 ms.
+    // One value every 20 ms.
     assert!((74..=75).contains(&distances.len()), "{}", distances.len());
     for (at, value) in distances {
-        // A ramp of 1 mV a millisecond is converted up to 12 ms before the report is there.
+        // A ramp of 1 mV per millisecond is converted up to 12 ms before the report arrives.
         let volts = |at: u64| (330.0 + at as f64 / MS as f64) / 3300.0 * 4096.0;
         let (low, high) = (volts(at.saturating_sub(12 * MS)) - 1.0, volts(at) + 1.0);
         let value = unsigned(&value) as f64;
@@ -116,7 +116,7 @@ fn frames_of_a_can_bus_come_and_go(mut bench: Bench) {
         let data = [9, 9, 0x12, value, 9, 9, 9, 9];
         CanFrame { id, extended: false, remote: false, length: 8, data }
     };
-    // A frame of another identifier is not for this board.
+    // A frame with another identifier is not for this board.
     let frames = [frame_of(0x121, 1), frame_of(0x120, 0x34)];
     bench.world().to_can.entry(1).or_default().extend(frames);
     bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
@@ -144,7 +144,7 @@ fn digital_inputs_count_and_settle_and_outputs_follow(mut bench: Bench) {
     let drops = Square { half_ns: 5 * MS, shift_ns: 2 * MS };
     bench.world().squares.insert(pad("PC4"), drops);
     bench.run_until_ms(200);
-    // Active low, with a pull-up: nobody drives it, so it is off.
+    // Active low, with a pull-up: if nobody drives the pin, the value is off.
     bench.world().levels.insert(pad("PC1"), false);
     bench.machine.link_write(&frame(&[3, 0]));
     // The contact is read once a second.
@@ -161,7 +161,7 @@ fn digital_inputs_count_and_settle_and_outputs_follow(mut bench: Bench) {
     let counts = values(&reports, 2);
     assert!(counts.len() > 50, "{}", counts.len());
     for (at, value) in counts {
-        // A rising edge each 10 ms since 2 ms; a report is 11 ms old at most.
+        // A rising edge every 10 ms from 2 ms on; a report is at most 11 ms old.
         let (newest, oldest) =
             ((at - 2 * MS) / (10 * MS) + 1, at.saturating_sub(13 * MS) / (10 * MS));
         let value = unsigned(&value);
@@ -172,7 +172,7 @@ fn digital_inputs_count_and_settle_and_outputs_follow(mut bench: Bench) {
 
 fn an_encoder_counts_every_edge_of_both_tracks(mut bench: Bench) {
     let half_ns = 100_000;
-    // The first track leads: the wheel turns forward, a count each 50 us.
+    // The first track leads: the wheel turns forward, one count every 50 us.
     let tracks = [("PE9", 20 * MS), ("PE11", 20 * MS + half_ns / 2)];
     for (name, shift_ns) in tracks {
         bench.world().squares.insert(pad(name), Square { half_ns, shift_ns });
@@ -185,7 +185,7 @@ fn an_encoder_counts_every_edge_of_both_tracks(mut bench: Bench) {
     for (at, value) in turns.iter().filter(|(at, _)| *at > 40 * MS) {
         let [Scalar::Signed(value)] = value[..] else { panic!("{value:?}") };
         let expected = i64::try_from((at - 20 * MS) / (half_ns / 2)).unwrap();
-        // Serialisation and the cycle: 1 ms.
+        // Serialisation and the cycle take 1 ms.
         assert!((expected - 30..=expected + 1).contains(&value), "{at}: {value}, not {expected}");
     }
 }
@@ -230,19 +230,20 @@ fn a_frequency_is_captured(mut bench: Bench) {
     let wheel = values(&bench.reports(&schema), 1);
     let late: Vec<u64> =
         wheel.iter().filter(|(at, _)| *at > 50 * MS).map(|(_, value)| unsigned(value)).collect();
-    // 800 us are 1250 Hz, and a whole number of ticks.
+    // 800 us correspond to 1250 Hz, and to a whole number of ticks.
     assert!(late.len() > 20 && late.iter().all(|value| *value == 1_250), "{late:?}");
 }
 
 fn pulses_have_the_widths_that_the_host_sets(mut bench: Bench) {
     bench.run_until_ms(50);
-    // Embassy's timer has the finest tick at which 16 bits reach over the period, here 310 ns: a ten-thousandth of 1.5 ms.
+    // Embassy's timer has the finest tick with which 16 bits cover the period, here 310 ns; widths
+    // are right within a ten-thousandth of 1.5 ms.
     let near = |is: u64, wanted: u64| is.abs_diff(wanted) * 10_000 <= wanted;
     let steers = |bench: &Bench, width_ns: u64| {
         let (period, width) = bench.world().waves[&STEERING];
         assert!(near(period, 20 * MS) && near(width, width_ns), "{period} {width}");
     };
-    // Half of 1 to 2 ms, until the host says something.
+    // The middle of 1 to 2 ms, until the host sends a command.
     steers(&bench, 1_500_000);
     bench.machine.link_write(&frame(&[1, 0x27, 0x10]));
     bench.run_until_ms(100);
@@ -265,7 +266,7 @@ fn chips_on_an_spi_bus_are_read_and_written(mut bench: Bench) {
     );
     let world = bench.world();
     assert!(world.spi_sent.windows(2).any(|bytes| bytes == [0x00, 0x77]), "{:?}", world.spi_sent);
-    // A chip is selected for each transfer.
+    // The chip is selected for each transfer.
     assert!(world.chip_selects() > 30);
 }
 
@@ -276,7 +277,7 @@ fn messages_of_a_serial_port_are_taken(mut bench: Bench) {
         [&body[..], &[sum]].concat()
     };
     bench.run_until_ms(20);
-    // The first one is damaged.
+    // The first message is damaged.
     bench.world().to_uart.extend([0x59, 0x59, 7, 7, 0]);
     bench.world().to_uart.extend(message(0x34, 0x12));
     bench.run_until_ms(1_200);

@@ -1,7 +1,7 @@
-//! Images on every MCU that there is a model of, and development builds, before the judge as a user has them: `simulate
-//! --firmware IMAGE --judge`.
+//! Images for every MCU that has a model, and development builds, judged through the command that
+//! users run: `simulate --firmware IMAGE --judge`.
 //!
-//! Only with `SENSEDSL_THOROUGH=2`: it builds and runs dozens of programs.
+//! Runs only with `SENSEDSL_THOROUGH=2`: it builds and runs dozens of programs.
 
 use sensedsl_tests::is_exhaustive;
 
@@ -12,12 +12,12 @@ use super::trial::System;
 use crate::false_alarms::is_wired;
 use crate::firmware::chibios::{build, tree};
 
-/// Boards with an MCU each that is not the F407.
+/// Boards that each have an MCU other than the F407.
 const BOARDS: [&str; 5] =
     ["BLACKPILL_F401CC", "BLACKPILL_F411CE", "NUCLEO_F401RE", "NUCLEO_F429ZI", "NUCLEO_F446RE"];
 const EXAMPLES: [&str; 7] =
     ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
-/// What the smallest of them carries, of most kinds.
+/// Devices of most kinds that the smallest of these boards can carry.
 const SMALL: &str = "{
     sensor Light returns uint16 { type = analog; }
     sensor Range returns uint16 { driver = srf08; address = 0x70; }
@@ -30,10 +30,10 @@ const SMALL: &str = "{
     actuator Relay accepts bool { type = digital; }
 }
 ";
-/// So many programs must be judged at least.
+/// The minimum number of programs that must be judged.
 const IMAGES_MIN: usize = 30;
 
-/// The designs that a board carries, over the link that it has by itself.
+/// The designs that a board can carry, over its own default link.
 fn designs(board: &str, target: &str) -> Vec<String> {
     let examples = EXAMPLES.iter().map(|example| on_board(example, board, ""));
     let all = std::iter::once(format!("board {board} {SMALL}")).chain(examples);
@@ -63,7 +63,8 @@ fn images_of_all_mcus_agree_with_the_world() {
     eprintln!("{count} images, no alarm");
 }
 
-/// A shell has the link until a host asks, also of a host that closes its port and opens it again.
+/// A shell has the link until a host sends a request, including a host that closes its port and
+/// opens it again.
 #[test]
 fn development_builds_agree_with_the_world() {
     let Some(tree) = tree().filter(|_| is_exhaustive()) else { return };

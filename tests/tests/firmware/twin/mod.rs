@@ -1,6 +1,7 @@
-//! Generated applications, as they are, on the emulated MCU: drivers, DMA, interrupts, links, watchdog.
+//! Generated applications, unchanged, on the emulated MCU: drivers, DMA, interrupts, links,
+//! watchdog.
 //!
-//! Built with the feature `machine`; needs a ChibiOS tree.
+//! Needs the feature `machine` and a ChibiOS tree.
 
 mod bench;
 mod both;
@@ -29,7 +30,7 @@ use self::bench::{Bench, MS, Square, folder, pad, schema, unsigned, values};
 use super::chibios::{build, tree};
 use super::tools::root;
 
-/// Fig. 2 of the paper on the whole Discovery board, with a link of one's choice.
+/// Fig. 2 of the paper on the complete Discovery board, with the given link.
 fn fig2(link: &str) -> String {
     let text = std::fs::read_to_string(root().join("examples/fig2.sense")).unwrap();
     text.replacen("board STM32F4DiscoveryBoard {", &format!("board STM32F407G_DISC1 {{\n{link}"), 1)
@@ -37,7 +38,7 @@ fn fig2(link: &str) -> String {
 
 const UART: &str = "link { transport = uart; unit = USART3; }";
 
-/// A sonar is at 0x73, the wheel turns at 1 kHz, two voltages rise.
+/// A sonar at 0x73, a wheel that turns at 1 kHz, two rising voltages.
 fn set_up(bench: &Bench) {
     let mut world = bench.world();
     world.voltages = BTreeMap::from([(pad("PC1"), (200.0, 0.5)), (pad("PC4"), (900.0, 0.25))]);
@@ -57,7 +58,8 @@ fn fig2_schema(checksum: Checksum) -> Schema {
     schema(checksum, &items)
 }
 
-/// Every report against the world, with what the cycles and the line may add in age.
+/// Compares every report with the world, and allows for the age that the cycles and the line may
+/// add.
 fn assert_agrees(bench: &Bench, schema: &Schema, begins_ns: u64) -> usize {
     let reports = bench.reports(schema);
     let ramp =
@@ -120,7 +122,7 @@ fn a_run_is_the_same_each_time() {
     let once = run(&[700]);
     assert!(once.len() > 500);
     assert_eq!(once, run(&[700]));
-    // How often the caller looks does not matter.
+    // The interval at which the caller looks does not matter.
     assert_eq!(once, run(&[1, 13, 14, 200, 699, 700]));
 }
 
@@ -130,7 +132,7 @@ fn the_usb_link_enumerates_and_carries_reports() {
     let mut bench = Bench::build(&tree, "twin_usb", &fig2(""), "production", LinkPort::Usb);
     set_up(&bench);
     bench.run_until_ms(5_000);
-    // The first report has what was measured while the host was not there yet.
+    // The values of the first report were measured before the host was there.
     let reports = bench.reports(&fig2_schema(Checksum::None));
     let (second, _) = reports[1];
     bench.received.retain(|(at, _)| *at > second);
@@ -151,11 +153,11 @@ fn the_shell_answers_over_usb() {
     bench.machine.link_write(b"doctor\r\n");
     bench.run_until_ms(6_000);
     let said = bench.said();
-    // Nothing in this world pulls the bus up.
+    // This world has no pull-ups on the bus.
     assert!(said.contains("I2C3 at PA8 (I2C3_SCL): no resistor pulls this wire up"), "{said}");
 }
 
-/// A program whose reporter hangs is started anew by the watchdog, and says so.
+/// If the reporter of a program hangs, the watchdog restarts it, and the program reports that.
 #[test]
 fn the_watchdog_bites() {
     let Some(tree) = tree() else { return };
@@ -173,7 +175,7 @@ fn the_watchdog_bites() {
     assert_eq!(events.iter().filter(|event| is_bite(event)).count(), 1, "{events:?}");
 }
 
-/// A program that reads where nothing is ends with the address of the instruction.
+/// A program that reads an unmapped address ends with the address of the instruction.
 #[test]
 fn a_program_that_fails_says_where() {
     let Some(tree) = tree() else { return };
@@ -201,7 +203,7 @@ fn a_program_that_fails_says_where() {
     assert!((begin..begin + length).contains(&halt.pc), "{halt}, but the function is {hook}");
 }
 
-/// A wrong number of an alternate function leads a pad elsewhere: the twin has no wire there then.
+/// A wrong alternate function number leads a pad elsewhere: the wire is then missing on the twin.
 #[test]
 fn a_wrong_alternate_function_is_seen() {
     let Some(tree) = tree() else { return };

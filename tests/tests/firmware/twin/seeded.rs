@@ -1,7 +1,9 @@
-//! Mistakes put into the generated C of a rover, one at a time: who notices them when the program runs in its world?
+//! Mistakes put into the generated C of a rover, one at a time, with what notices them when the
+//! program runs in its world.
 //!
-//! The table is in `docs/seeded-mistakes.md`, written by `SENSEDSL_THOROUGH=2 SENSEDSL_BLESS=1 cargo test --workspace
-//! --test all --features sensedsl-tests/machine firmware::twin::seeded`. Otherwise the first few are made again.
+//! The table is in `docs/seeded-mistakes.md`. `SENSEDSL_THOROUGH=2 SENSEDSL_BLESS=1 cargo test
+//! --workspace --test all --features sensedsl-tests/machine firmware::twin::seeded` writes it.
+//! Otherwise only the first few mistakes are tested.
 
 use std::path::Path;
 use std::process::Command;
@@ -16,10 +18,11 @@ const HARDWARE: &str = "generated/sense_hw.c";
 const MCU: &str = "cfg/mcuconf.h";
 const ENCODER: &str = "uproxy/chibios/up_encoder.c";
 const COUNT: usize = 48;
-/// How long each runs: the motor is commanded and abandoned in that, and everything in the world has moved.
+/// The length of each run: in this time the motor is commanded and abandoned, and everything in the
+/// world moves.
 pub(super) const SECONDS: u64 = 2;
 
-/// What is wrong, in which file, the text that is replaced first, and with what.
+/// A mistake: its name, its file, the text whose first occurrence is replaced, and the replacement.
 type Seed = (&'static str, &'static str, &'static str, &'static str);
 
 const SEEDS: [Seed; COUNT] = [
@@ -193,7 +196,7 @@ const SEEDS: [Seed; COUNT] = [
     ),
 ];
 
-/// Those that nobody notices here, and why.
+/// Mistakes that nothing notices here, and why.
 const UNSEEN: &[(&str, &str)] = &[
     (
         "number of samples in the sum",
@@ -209,7 +212,7 @@ const UNSEEN: &[(&str, &str)] = &[
     ),
 ];
 
-/// Who noticed, in words; empty for nobody.
+/// The checks that noticed the mistake, in words; empty if none did.
 fn noticed(tree: &Path, board: &Path) -> String {
     match made(tree, board) {
         None => "compiler".to_owned(),
@@ -217,7 +220,7 @@ fn noticed(tree: &Path, board: &Path) -> String {
     }
 }
 
-/// The image of a board's folder; none where the compiler refuses it or warns.
+/// The image built from a board's folder; `None` if the compiler refuses it or warns.
 pub(super) fn made(tree: &Path, board: &Path) -> Option<Vec<u8>> {
     let mut make = Command::new("make");
     make.current_dir(board).args(["-j2", "UP_MODE=production", "USE_LTO=no"]);
@@ -227,12 +230,12 @@ pub(super) fn made(tree: &Path, board: &Path) -> Option<Vec<u8>> {
     is_made.then(|| super::trial::image(board))
 }
 
-/// Who noticed that a program is wrong, in words; empty for nobody.
+/// The checks that noticed that a program is wrong, in words; empty if none did.
 pub(super) fn noticed_by(system: System, image: &[u8]) -> String {
     noticed_in(&run(system, (&rover(), &rover_world()), image, SECONDS, &[]))
 }
 
-/// Who noticed in a run that something is wrong.
+/// The checks that noticed a mistake in a run; empty if none did.
 pub(super) fn noticed_in(trial: &Trial) -> String {
     if let Some(halt) = &trial.halt {
         return format!("the program stops: {}", halt.why);
@@ -258,7 +261,7 @@ pub(super) fn noticed_in(trial: &Trial) -> String {
     all.join(", ")
 }
 
-/// The table of a section, and those of its mistakes that nobody notices.
+/// The table of a section, and the mistakes in it that nothing notices.
 pub(super) fn table(rows: &[(&str, String)], unseen: &[(&str, &str)]) -> String {
     let mut table = "| mistake | noticed by |\n| --- | --- |\n".to_owned();
     for (what, by) in rows {
@@ -309,7 +312,7 @@ fn mistakes_are_noticed() {
     }
 }
 
-/// Each mistake is of a text that is there, so that the list follows the templates.
+/// The text that each mistake replaces must exist, so that the list follows the templates.
 #[test]
 fn mistakes_are_of_texts_that_are_there() {
     let board = folder("seeded-texts", &rover());

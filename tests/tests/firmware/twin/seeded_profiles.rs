@@ -1,7 +1,7 @@
-//! Mistakes put into target profiles, one at a time, from which a rover is wired, generated and built: who notices that
-//! what we know of the system is wrong?
+//! Mistakes put into target profiles, one at a time. A rover is wired, generated and built from
+//! each, and the test finds what notices that the facts about the system are wrong.
 //!
-//! The table is in `docs/seeded-mistakes.md`, written with that of `seeded.rs`.
+//! The table is in `docs/seeded-mistakes.md`, written together with that of `seeded.rs`.
 
 use std::path::{Path, PathBuf};
 
@@ -31,15 +31,16 @@ const MCU: &str = "STM32F407VGT6";
 enum Case {
     /// The rover with an interrupt line, on ChibiOS.
     Chibios,
-    /// The same on Embassy.
+    /// The rover with an interrupt line, on Embassy.
     Embassy,
-    /// Fig. 2 on ChibiOS with the paper's pin table, which says nothing of alternate functions.
+    /// Fig. 2 on ChibiOS with the paper's pin table, which has no alternate functions.
     Paper,
 }
 
 use Case::{Chibios, Embassy, Paper};
 
-/// What is wrong, and which texts are replaced by others, each time that they are there.
+/// A mistake: its name, its case, and the texts whose occurrences are all replaced, with the
+/// replacements.
 type Seed = (&'static str, Case, &'static [(&'static str, &'static str)]);
 
 const SEEDS: &[Seed] = &[
@@ -162,7 +163,7 @@ const SEEDS: &[Seed] = &[
     ("registers of serial ports", Embassy, &[(r#"usart = "v2""#, r#"usart = "v3""#)]),
 ];
 
-/// Those that nobody notices here, and why.
+/// Mistakes that nothing notices here, and why.
 const UNSEEN: &[(&str, &str)] = &[
     (
         "ChibiOS: clock of a timer",
@@ -214,7 +215,7 @@ impl Case {
         }
     }
 
-    /// The design with that profile.
+    /// The design, resolved with that profile.
     fn design(self, profile: &str) -> Design {
         let mut workspace = Workspace::default();
         workspace.open("board.sense", self.text());
@@ -228,7 +229,7 @@ impl Case {
         design
     }
 
-    /// Its profile with those changes.
+    /// The profile of the case, with those changes.
     fn profile(self, changes: &[(&str, &str)]) -> String {
         let mut text = profile::text(self.target(), MCU).unwrap().to_owned();
         for (find, with) in changes {
@@ -238,7 +239,8 @@ impl Case {
         text
     }
 
-    /// The firmware from that profile, with what it is of; or who noticed.
+    /// The firmware from that profile, with its design and wiring; or the check that noticed the
+    /// mistake.
     fn generated(self, profile: &str) -> Result<Generated, String> {
         let problems = profile::check(profile).unwrap_or_else(|problem| vec![problem]);
         if !problems.is_empty() {
@@ -267,7 +269,7 @@ impl Case {
         Ok(Generated { design, wiring, files })
     }
 
-    /// Who noticed, in words; empty for nobody.
+    /// The checks that noticed the mistake, in words; empty if none did.
     fn noticed(self, profile: &str) -> Result<String, String> {
         let made = self.generated(profile)?;
         let image = built(self.system(), &made.written(self.system()))?;
@@ -276,7 +278,7 @@ impl Case {
     }
 }
 
-/// What comes of a design.
+/// The results for a design.
 struct Generated {
     design: Design,
     wiring: Assignment,
@@ -284,7 +286,7 @@ struct Generated {
 }
 
 impl Generated {
-    /// The folder of its only board.
+    /// Writes the files, and returns the folder of the only board.
     fn written(&self, system: System) -> PathBuf {
         let folder = scratch(&format!("seeded_profiles_{system:?}"));
         for (path, entry) in self.files.iter() {
@@ -306,7 +308,7 @@ fn codes(found: &[Diagnostic]) -> String {
     format!("`generate` ({})", codes.join(", "))
 }
 
-/// The image, or the error with which the compiler refuses it.
+/// The image, or the check that noticed the mistake if the compiler refuses it.
 fn built(system: System, board: &Path) -> Result<Vec<u8>, String> {
     match system {
         System::Chibios => made(&tree().unwrap(), board).ok_or_else(|| "compiler".to_owned()),
@@ -346,7 +348,7 @@ fn mistakes_in_profiles_are_noticed() {
     assert_section("docs/seeded-mistakes.md", HEADING, &format!("{INTRO}{table}"));
 }
 
-/// Each mistake is of a text that is there, and something else comes of it, or is refused.
+/// The text that each mistake replaces must exist, and the output must change or be refused.
 #[test]
 fn mistakes_in_profiles_make_a_difference() {
     let mut same = Vec::new();

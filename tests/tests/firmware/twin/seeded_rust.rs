@@ -1,7 +1,7 @@
-//! Mistakes put into the Rust that is generated for a rover, one at a time, which the types of the HAL take: who notices
-//! them when the program runs in its world?
+//! Mistakes put into the Rust that is generated for a rover, one at a time. The types of the HAL
+//! accept them; the test finds what notices them when the program runs in its world.
 //!
-//! The table is in `docs/seeded-mistakes.md`, written with that of `seeded.rs`.
+//! The table is in `docs/seeded-mistakes.md`, written together with that of `seeded.rs`.
 
 use sensedsl_tests::assert_section;
 
@@ -13,7 +13,8 @@ const WIRING: &str = "src/wiring.rs";
 const MAIN: &str = "src/main.rs";
 const TABLES: &str = "src/tables.rs";
 
-/// What is wrong, and in which files a text is replaced by another, each time that it is there.
+/// A mistake: its name, its files, and the text whose occurrences are all replaced, with the
+/// replacement.
 type Seed = (&'static str, &'static [&'static str], &'static str, &'static str);
 
 const SEEDS: &[Seed] = &[
@@ -58,7 +59,7 @@ const SEEDS: &[Seed] = &[
     ),
 ];
 
-/// Those that nobody notices here, and why.
+/// Mistakes that nothing notices here, and why.
 const UNSEEN: &[(&str, &str)] = &[(
     "ticks of a measured pulse",
     "they only say which period is longer than the timer counts, and none here is.",
@@ -101,7 +102,7 @@ fn mistakes_that_types_take_are_noticed() {
     assert_section("docs/seeded-mistakes.md", HEADING, &format!("{INTRO}{table}"));
 }
 
-/// Each mistake is of a text that is there, so that the list follows the generator.
+/// The text that each mistake replaces must exist, so that the list follows the generator.
 #[test]
 fn mistakes_in_rust_are_of_texts_that_are_there() {
     let board = generated("seeded_rust_texts", &rover());

@@ -1,11 +1,11 @@
-//! Devices that say nothing, through the command that a user runs: an image that was built for another file than the one
-//! it is judged by must not agree with it.
+//! Devices that stay silent, tested through the command that users run: an image that was built
+//! from another file than the one it is judged by must not agree with it.
 
 use sensedsl_tests::{Scratch, is_thorough, root, sensedsl};
 
 use super::trial::System;
 
-/// Judges an image of one text by another one; what the command says, and where.
+/// Judges an image built from one text by another text; returns the exit status and the output.
 pub(super) fn judged(system: System, name: &str, built: &str, text: &str) -> Option<(i32, String)> {
     let image = system.image(name, built)?;
     let scratch = Scratch::new(name);
@@ -28,7 +28,7 @@ fn of_both(name: &str, built: &str, text: &str, expected: &[&str]) {
         for words in expected {
             assert!(said.contains(words), "{name} does not say {words}: {said}");
         }
-        // What it was built for, it does.
+        // The image agrees with the file that it was built from.
         let (status, said) = judged(system, &name, built, built).unwrap();
         assert_eq!(status, 0, "{name}: {said}");
     }
@@ -43,7 +43,7 @@ fn a_sensor_at_another_address() {
     of_both("silent_sonar", &other, &fig2, &["error[E0549]: `USRear`", "not acknowledged"]);
 }
 
-/// Three channels of a radio, on other pins than they are plugged into.
+/// Three channels of an RC receiver, on pins other than those it is plugged into.
 #[test]
 fn channels_of_a_radio() {
     let radio = |pins: [&str; 3]| {

@@ -1,4 +1,4 @@
-//! A real image in a simulated world before a judge, as `simulate --firmware IMAGE --judge` runs it.
+//! A real image in a simulated world, judged as in `simulate --firmware IMAGE --judge`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,22 +24,22 @@ use crate::firmware::chibios::{build, tree};
 use crate::firmware::embassy;
 use crate::firmware::tools::root;
 
-/// What came of a run.
+/// The results of a run.
 pub(super) struct Trial {
     pub judged: Vec<Judged>,
     pub misled: Vec<PadMismatch>,
     pub halt: Option<Lockup>,
     pub told: Vec<Told>,
-    /// What the board said of itself, with the time.
+    /// The health that the board reported, with the time.
     pub health: Vec<(u64, Health)>,
-    /// What was reported, with the time in milliseconds and the identifier.
+    /// The values reported, with the time in milliseconds and the identifier.
     pub reported: Vec<(u64, u8, Vec<Scalar>)>,
-    /// How many of these came before the board's greeting; none where it greets nobody.
+    /// How many of these came before the board's greeting; `None` if the board greets nobody.
     pub greeted: Option<usize>,
-    /// What the identifiers are called.
+    /// The names of the identifiers.
     pub names: BTreeMap<u8, String>,
     pub dropped: u64,
-    /// What the outputs of the rover are not.
+    /// Mismatches of the rover's outputs.
     pub outputs: Vec<String>,
 }
 
@@ -56,7 +56,7 @@ impl Trial {
     }
 }
 
-/// What a program is generated for.
+/// The target that a program is generated for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum System {
     Chibios,
@@ -64,7 +64,8 @@ pub(super) enum System {
 }
 
 impl System {
-    /// The program of a design's only board, built once; none where the machine cannot build it, or has no time to.
+    /// The program of a design's only board, built once; `None` if the machine cannot build it, or
+    /// has no time for it.
     pub(super) fn image(self, name: &str, text: &str) -> Option<Arc<[u8]>> {
         type Built = Arc<OnceLock<Option<Arc<[u8]>>>>;
         static BUILT: Mutex<BTreeMap<(System, String), Built>> = Mutex::new(BTreeMap::new());
@@ -94,7 +95,7 @@ impl System {
     }
 }
 
-/// Makes the first board's job of a text and hands it on.
+/// Makes the job of the first board of a text, and passes it to `then`.
 fn with_job<T>(system: System, text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("board.sense", text);
@@ -106,7 +107,8 @@ fn with_job<T>(system: System, text: &str, then: impl FnOnce(&BoardJob<'_>) -> T
     then(&job)
 }
 
-/// Runs an image of a text's board, which is greeted; asks how it is at those times.
+/// Runs an image for the board of a text, with a host that greets it and requests health at the
+/// given times.
 pub(super) fn run(
     system: System,
     design: (&str, &str),
@@ -123,8 +125,8 @@ pub(super) fn run(
     })
 }
 
-/// Runs an image of a text's board with a host that is called each millisecond: it is told the time and what the board
-/// said, and gives what it says itself.
+/// Runs an image for the board of a text, with a host that is called each millisecond: it gets the
+/// time and the bytes that the board sent, and returns the bytes that it sends.
 pub(super) fn run_with(
     system: System,
     (text, world): (&str, &str),
@@ -135,12 +137,12 @@ pub(super) fn run_with(
     with_job(system, text, |job| run_job(job, world, image, seconds, host))
 }
 
-/// A host that only greets.
+/// A host that only sends a greeting.
 pub(super) fn greets(ms: u64, _: &[u8], schema: &Schema) -> Vec<u8> {
     if ms == 500 { encode_hello_request(schema) } else { Vec::new() }
 }
 
-/// Runs an image on a board's job.
+/// Runs an image for a board's job.
 pub(super) fn run_job(
     job: &BoardJob<'_>,
     world: &str,
@@ -170,7 +172,7 @@ pub(super) fn run_job(
     let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
     for ms in 1..=seconds * 1_000 {
         board.link_write(&host(ms, &said, &job.schema));
-        // Full speed for 300 ms of messages; then the host is silent.
+        // The host sends full speed for 300 ms, and then nothing.
         if motor && (600..900).contains(&ms) && ms % 100 == 0 {
             let values = [(20, vec![Scalar::Unsigned(10_000)])];
             let bytes = encode_report(&job.schema, Direction::Actuator, &values);
@@ -209,7 +211,7 @@ pub(super) fn run_job(
             break;
         }
     }
-    // Nothing that it says now gets anywhere.
+    // The host gets the last bytes; its answer goes nowhere.
     let _ = host(seconds * 1_000, &said, &job.schema);
     Trial {
         judged: judge.finish(board.now_ns()),
@@ -225,7 +227,7 @@ pub(super) fn run_job(
     }
 }
 
-/// When the rover's motor has pulses of which width.
+/// The expected pulse width of the rover's motor, by time.
 const PULSES: [(u64, &str, u64); 3] = [
     (500, "before the host says something", 1_500_000),
     (900, "as the host wants it", 2_000_000),
@@ -237,17 +239,17 @@ pub(super) fn rover() -> String {
     std::fs::read_to_string(root().join("tests/firmware/trial/rover.sense")).unwrap()
 }
 
-/// Its world, without faults.
+/// The world of the rover, without faults.
 pub(super) fn rover_world() -> String {
     std::fs::read_to_string(root().join("tests/firmware/trial/rover.toml")).unwrap()
 }
 
-/// The program of a board's folder.
+/// The program in a board's folder.
 pub(super) fn image(board: &Path) -> Vec<u8> {
     std::fs::read(board.join("build/production/sense.elf")).unwrap()
 }
 
-/// The rover's image; none where it cannot be built.
+/// The rover's image; `None` if it cannot be built.
 pub(super) fn rover_image(system: System) -> Option<Arc<[u8]>> {
     system.image(&format!("trial_rover_{system:?}"), &rover())
 }
