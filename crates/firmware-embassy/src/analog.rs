@@ -7,14 +7,15 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
-use super::context::{Context, Wired, late, scalar};
+use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
+use super::item::{Item, Task};
 use super::lack::{self, Printed};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter, rp};
-use sensedsl_job::Cycle;
 use sensedsl_job::snake;
+use sensedsl_job::{Cycle, JobConnection};
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
@@ -71,8 +72,8 @@ impl<'a> Converters<'a> {
     }
 
     /// A line for each of them.
-    fn lines(&self, line: impl Fn(&str) -> String) -> String {
-        self.all.iter().map(|one| line(one)).collect()
+    fn lines(&self, line: impl Fn(&str) -> String) -> impl Iterator<Item = String> {
+        self.all.iter().map(move |one| line(one))
     }
 }
 
@@ -80,18 +81,18 @@ impl<'a> Converters<'a> {
 fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()> {
     let (name, hal) = (snake(unit), context.peripheral(unit));
     let make = match context.names.adc.new {
-        AdcNew::Unit => format!("Adc::new(p.{hal})"),
+        AdcNew::Unit => format!("hal::adc::Adc::new(p.{hal})"),
         AdcNew::Interrupt => {
             let interrupt = context.interrupt(unit, "GLOBAL")?;
             section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
-            format!("Adc::new(p.{hal}, Irqs)")
+            format!("hal::adc::Adc::new(p.{hal}, Irqs)")
         }
-        AdcNew::Resolution => format!("Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
-        AdcNew::Default => format!("Adc::new(p.{hal}, hal::adc::AdcConfig::default())"),
+        AdcNew::Resolution => format!("hal::adc::Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
+        AdcNew::Default => format!("hal::adc::Adc::new(p.{hal}, hal::adc::AdcConfig::default())"),
         AdcNew::Config => {
             let interrupt = context.interrupt(unit, "GLOBAL")?;
             section.bind(interrupt, "hal::adc::InterruptHandler".to_owned());
-            format!("Adc::new(p.{hal}, Irqs, hal::adc::Config::default())")
+            format!("hal::adc::Adc::new(p.{hal}, Irqs, hal::adc::Config::default())")
         }
     };
     let type_ = match context.names.hal {
@@ -102,12 +103,13 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()>
         name: name.clone(),
         comment: format!("{unit}, which converts"),
         type_: type_.clone(),
-        make: make.replace("Adc::new", "hal::adc::Adc::new"),
+        make,
     });
-    section.items.push(format!(
-        "type {unit}Unit = Mutex<CriticalSectionRawMutex, {type_}>;\n\
-         static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"
-    ));
+    let declared = [
+        format!("type {unit}Unit = Mutex<CriticalSectionRawMutex, {type_}>;"),
+        format!("static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"),
+    ];
+    section.items.extend(declared.map(Item::Line));
     section.starts.push(Start::Make(format!(
         "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
     )));
@@ -124,43 +126,30 @@ fn task(
     let ident = cycle.ident(converters.first);
     let constant = ident.to_uppercase();
     let wires: Vec<_> = devices.iter().flat_map(|one| &one.wires).collect();
-    let mut pins = String::new();
+    let units: Vec<&str> = converters.all.iter().copied().collect();
+    let mut task = Task::in_turn(cycle.title(&units.join(" and ")), ident.clone(), cycle);
+    let shared = |one: &str| format!("{}: &'static {one}Unit", converters.shared(one));
+    task.parameters.extend(converters.lines(shared));
     for wire in &wires {
         let pin = &lack::pad(wire, Role::In)?.pin.name;
         let (type_, make) = match context.names.hal {
             Hal::Stm32 => (format!("Peri<'static, {pin}>"), format!("p.{pin}")),
             Hal::Rp => rp::analog::input(context, pin),
         };
-        pins.push_str(&format!("    mut {}: {type_},\n", wire.ident));
+        task.parameters.push(format!("mut {}: {type_}", wire.ident));
         section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     }
-    let (mut state, mut reads) = (String::new(), String::new());
+    let lock = |one: &str| {
+        format!("let mut {} = {}.lock().await;", converters.own(one), converters.shared(one))
+    };
+    let mut statements: Vec<String> = converters.lines(lock).collect();
     for device in devices {
-        let mut own = String::new();
-        let pass = filter::pass(context, device.index, section, &mut own);
-        if !own.is_empty() {
-            state.push_str(&format!("    {own}"));
-        }
-        reads.push_str(&read(context, converters, device, &pass, section)?);
+        let pass = filter::pass(context, device.index, section, &mut task.before);
+        statements.extend(read(context, converters, device, &pass, section)?);
     }
-    let units: Vec<&str> = converters.all.iter().copied().collect();
-    let shared =
-        converters.lines(|one| format!("    {}: &'static {one}Unit,\n", converters.shared(one)));
-    let locks = converters.lines(|one| {
-        let (own, shared) = (converters.own(one), converters.shared(one));
-        format!("        let mut {own} = {shared}.lock().await;\n")
-    });
-    let drops = converters.lines(|one| format!("        drop({});\n", converters.own(one)));
-    let text = format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n{shared}{pins}) {{\n{}{state}    \
-         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n\
-         {locks}{reads}{drops}        \
-         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
-        cycle.title(&units.join(" and ")),
-        late(cycle),
-        cycle.delay_ms,
-    );
-    section.items.push(text);
+    statements.extend(converters.lines(|one| format!("drop({});", converters.own(one))));
+    task.ticks(cycle.delay_ms, statements, &constant);
+    section.items.push(Item::Task(task));
     let units = units.into_iter().map(snake);
     let arguments: Vec<String> =
         units.chain(wires.iter().map(|wire| format!("wiring.{}", wire.ident))).collect();
@@ -178,17 +167,25 @@ fn rows(
     call: &str,
     time: &str,
     wait: &str,
-) -> Printed<String> {
-    let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
-    let mut text = format!("        for [{}] in samples.as_chunks_mut().0 {{\n", names.join(", "));
-    for (name, wire) in names.iter().zip(&wired.wires) {
-        text.push_str(&format!(
-            "            *{name} = {}.{call}(&mut {}, hal::adc::SampleTime::{time}){wait};\n",
-            converters.own(lack::unit(wire)?),
-            wire.ident
-        ));
-    }
-    Ok(text + "        }\n")
+) -> Printed<Vec<String>> {
+    let read = |(name, wire): (&String, &&JobConnection<'_>)| {
+        let own = converters.own(lack::unit(wire)?);
+        let ident = &wire.ident;
+        Ok(format!("*{name} = {own}.{call}(&mut {ident}, hal::adc::SampleTime::{time}){wait};"))
+    };
+    let names = sample_names(wired);
+    let reads = names.iter().zip(&wired.wires).map(read).collect::<Printed<Vec<String>>>()?;
+    Ok(vec![each_sample(&names, &reads)])
+}
+
+/// A name for the sample of each input.
+pub(super) fn sample_names(wired: &Wired<'_>) -> Vec<String> {
+    (0..wired.wires.len()).map(|at| format!("s{at}")).collect()
+}
+
+/// The loop over the samples of all inputs.
+pub(super) fn each_sample(names: &[String], reads: &[String]) -> String {
+    format!("for [{}] in samples.as_chunks_mut().0 {{ {} }}", names.join(", "), reads.join(" "))
 }
 
 /// All samples of an input, then those of the next: what sets the converter up takes longer than a sample.
@@ -198,20 +195,23 @@ fn columns(
     wired: &Wired<'_>,
     time: &str,
     section: &mut Section,
-) -> Printed<String> {
+) -> Printed<Vec<String>> {
     section.features.insert("adc-repeat");
     let count = wired.wires.len();
-    let columns = wired.wires.iter().enumerate().map(|(at, wire)| {
+    let mut statements = Vec::new();
+    for (at, wire) in wired.wires.iter().enumerate() {
         let unit = lack::unit(wire)?;
-        let hal = context.peripheral(unit);
-        Ok(format!(
-            "        let first = {}.blocking_read(&mut {}, hal::adc::SampleTime::{time});\n        \
-             rt::repeat::fill(hal::pac::{hal}, first, samples.iter_mut().skip({at}).step_by({count}));\n",
+        statements.push(format!(
+            "let first = {}.blocking_read(&mut {}, hal::adc::SampleTime::{time});",
             converters.own(unit),
             wire.ident
-        ))
-    });
-    columns.collect()
+        ));
+        statements.push(format!(
+            "rt::repeat::fill(hal::pac::{}, first, samples.iter_mut().skip({at}).step_by({count}));",
+            context.peripheral(unit)
+        ));
+    }
+    Ok(statements)
 }
 
 /// Samples one device.
@@ -221,15 +221,15 @@ fn read(
     wired: &Wired<'_>,
     filter: &str,
     section: &mut Section,
-) -> Printed<String> {
+) -> Printed<Vec<String>> {
     let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
     let time = sampling(&context.profile.adc, analog.sampling_cycles);
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
     let time = sample_time(time);
     let samples = usize::from(analog.samples.max(1)) * count;
-    let mut text = format!("        let mut samples = [0; {samples}];\n");
-    text.push_str(&match context.names.adc.read {
+    let mut statements = vec![format!("let mut samples = [0; {samples}];")];
+    statements.extend(match context.names.adc.read {
         AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
         AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
         AdcRead::Again => columns(context, converters, wired, &time, section)?,
@@ -256,11 +256,11 @@ fn read(
         scalar(value.scalar),
         value.size_bytes(),
     );
-    text.push_str(&match context.names.adc.read {
-        AdcRead::Blocking | AdcRead::Async | AdcRead::Again => format!("        {tell}\n"),
+    statements.push(match context.names.adc.read {
+        AdcRead::Blocking | AdcRead::Async | AdcRead::Again => tell,
         AdcRead::Checked => rp::analog::tell(&upper, &tell),
     });
-    Ok(text)
+    Ok(statements)
 }
 
 /// `CYCLES84`, `CYCLES1_5`

@@ -5,6 +5,7 @@ use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
 use super::context::{Context, Wired, scalar};
+use super::item::{BridgeItem, Constant, Item};
 use super::lack::{self, Printed};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
@@ -41,10 +42,10 @@ fn bridge(
         Drive::DirectionPins => "DirectionPins",
         Drive::TwoPwm => "TwoPwm",
     };
-    section.tables.push(format!(
+    section.tables.push(Constant::Line(format!(
         "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {} }};",
         plan.full
-    ));
+    )));
     section.outputs.push(Field {
         name: format!("{ident}_bridge"),
         comment: format!("what the outputs of {} do", wired.device.name()),
@@ -53,15 +54,16 @@ fn bridge(
     });
     // In the order of the runtime's outputs.
     let outputs = context.job.wires_of(wired.device.device);
-    let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
-    let arms: String = arms.collect::<Printed<String>>()?;
-    section.items.push(format!(
-        "/// Gives the outputs of {} what its value asks of each.\n\
-         fn drive_{ident}(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {{\n    \
-         for write in tables::{upper}_BRIDGE.drive(&mut outputs.{ident}_bridge, scalar, value).as_slice() {{\n        \
-         match write.output {{\n{arms}            _ => {{}}\n        }}\n    }}\n}}",
-        wired.device.name()
-    ));
+    let mut arms = Vec::new();
+    for (at, one) in outputs.iter().enumerate() {
+        arms.extend(write(context, at, one)?);
+    }
+    section.items.push(Item::Bridge(BridgeItem {
+        name: wired.device.name().to_owned(),
+        ident: ident.clone(),
+        constant: upper,
+        arms,
+    }));
     let drive = |scalar: &str, value: &str| format!("drive_{ident}(outputs, {scalar}, {value});");
     let own = scalar(wired.device.device.value.value.scalar);
     section.sets.entry(wired.index).or_default().push(drive(&own, "value"));
@@ -76,23 +78,23 @@ fn bridge(
     Ok(())
 }
 
-/// What writes one output.
-fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Printed<String> {
+/// What writes one output: patterns of its number and value, and what is done.
+fn write(
+    context: &Context<'_>,
+    at: usize,
+    wire: &JobConnection<'_>,
+) -> Printed<Vec<(String, String)>> {
     if let Some(own) = wire.connection.kind.digital() {
         lack::pad(wire, Role::Out)?;
-        return Ok(format!(
-            "            {at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}),\n",
-            wire.ident,
-            level_of(own, true),
-            level_of(own, false)
-        ));
+        let (high, low) = (level_of(own, true), level_of(own, false));
+        let level = format!("if write.value != 0 {{ {high} }} else {{ {low} }}");
+        return Ok(vec![(at.to_string(), format!("outputs.{}.set_level({level})", wire.ident))]);
     }
     let pulse = Pulse::of(context, wire)?;
-    Ok(format!(
-        "            {at} if write.value == 0 => {{ {} }}\n            {at} => {{ {} }}\n",
-        pulse.stop(),
-        pulse.set("write.value")
-    ))
+    Ok(vec![
+        (format!("{at} if write.value == 0"), format!("{{ {} }}", pulse.stop())),
+        (at.to_string(), format!("{{ {} }}", pulse.set("write.value"))),
+    ])
 }
 
 /// A level with its direction.

@@ -5,9 +5,10 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::can_bit;
 
-use super::chip::{coding, list};
+use super::chip::coding;
 use super::context::Context;
 use super::filter;
+use super::item::{Constant, Item, Task, beat};
 use super::lack::{self, Missing, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
 use sensedsl_job::kinds::can::{BANKS, Bus, Frame, Identifier, Value, buses};
@@ -82,7 +83,8 @@ fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Prin
 /// What turns the bus on, and parts it into its halves.
 fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Printed<()> {
     let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
-    section.items.push(format!("static {upper}_KEPT: rt::can::Memory = rt::can::Memory::new();"));
+    let memory = format!("static {upper}_KEPT: rt::can::Memory = rt::can::Memory::new();");
+    section.items.push(Item::Line(memory));
     let (banks, wanted) = if context.names.has_can_banks() {
         (banks(context, bus, section)?, bus.wanted())
     } else {
@@ -91,8 +93,8 @@ fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section
     // Where the identifiers are too many for the hardware it lets all through, and the task looks.
     let wanted: Vec<String> = wanted.unwrap_or_default().into_iter().map(identifier).collect();
     section.starts.push(Start::Make(format!(
-        "let ({name}_tx, {name}_rx) = rt::can::start(\n        wiring.{name},\n        hal::pac::{hal},\n        \
-         {banks}&{upper}_KEPT,\n        {},\n        &[{}],\n    );",
+        "let ({name}_tx, {name}_rx) = \
+         rt::can::start(wiring.{name}, hal::pac::{hal}, {banks}&{upper}_KEPT, {}, &[{}]);",
         bit(context, bus)?,
         wanted.join(", ")
     )));
@@ -102,7 +104,7 @@ fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section
 /// Where the filters of a controller are: the second of two has those of the first, whose clock they need.
 fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<String> {
     let own = |first: &str, number: usize| {
-        format!("&rt::can::Banks {{ registers: hal::pac::{first}, first: {number} }},\n        ")
+        format!("&rt::can::Banks {{ registers: hal::pac::{first}, first: {number} }}, ")
     };
     if bus.unit != SECOND {
         return Ok(own(&context.peripheral(bus.unit), 0));
@@ -152,17 +154,17 @@ fn tables(bus: &Bus<'_>, section: &mut Section) {
         )
     };
     let upper = bus.unit.to_uppercase();
-    section.tables.push(format!(
-        "/// Values in frames: where, in which frame, and how often they are told.\n\
-         pub const {upper}_VALUES: &[crate::rt::can::Value] = {};",
-        list(bus.values.iter().map(value)).replace("\n    ", "\n")
-    ));
+    section.tables.push(Constant::List {
+        doc: "Values in frames: where, in which frame, and how often they are reported",
+        declaration: format!("{upper}_VALUES: &[crate::rt::can::Value]"),
+        entries: bus.values.iter().map(value).collect(),
+    });
     for one in bus.frames.iter().flat_map(|frame| &frame.values).filter(|one| !one.is_quiet) {
-        section.tables.push(format!(
+        section.tables.push(Constant::Line(format!(
             "pub const {upper}_SENT_{}: Coding = {};",
             one.index,
             coding(&one.how)
-        ));
+        )));
     }
 }
 
@@ -173,17 +175,26 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
     let constant = format!("{upper}_LISTEN");
     let sent = bus.frames.iter().flat_map(|frame| &frame.values).filter(|one| !one.is_quiet);
     let sent: Vec<usize> = sent.map(|one| one.index).collect();
-    section.items.push(format!(
-        "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::can::Receiver) {{\n\
-         {filters}    let mut bus = rt::can::Bus {{\n        receiver: come,\n        schema: &SCHEMA,\n        \
-         values: tables::{upper}_VALUES,\n        sent: &{sent:?},\n        \
-         reported_ms: &mut [None; tables::{upper}_VALUES.len()],\n        value: &mut [0; SCHEMA.value_bytes_max()],\n    }};\n    \
-         loop {{\n        let until = Instant::now() + Duration::from_millis({});\n        \
-         bus.receive(until, &mut |index: usize, outcome, value: &mut [u8]| \
-         BOARD.report({pass}, index, outcome, value)).await;\n        \
-         WATCH.beat(tables::{constant}, now_ms());\n    }}\n}}",
-        bus.unit, bus.cycle.delay_ms
-    ));
+    let mut task = Task::new(format!("{}: frames that come", bus.unit), format!("{name}_listen"));
+    task.parameters.push("receiver: rt::can::Receiver".to_owned());
+    task.before = filters;
+    task.before.extend([
+        format!("let reported_ms = &mut [None; tables::{upper}_VALUES.len()];"),
+        "let value = &mut [0; SCHEMA.value_bytes_max()];".to_owned(),
+        format!(
+            "let mut bus = rt::can::Bus {{ receiver, schema: &SCHEMA, values: tables::{upper}_VALUES, \
+             sent: &{sent:?}, reported_ms, value }};"
+        ),
+    ]);
+    task.cycle = vec![
+        format!("let until = Instant::now() + Duration::from_millis({});", bus.cycle.delay_ms),
+        format!(
+            "let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report({pass}, index, outcome, value);"
+        ),
+        "bus.receive(until, &mut report).await;".to_owned(),
+        beat(&constant),
+    ];
+    section.items.push(Item::Task(task));
     let call = format!("{name}_listen({name}_rx)");
     section.starts.push(Start::Task(bus.cycle.prio, call));
     let device = context.id_of(bus.first);
@@ -220,10 +231,10 @@ fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
         return;
     }
     let frames: String = bus.frames.iter().map(sent).collect();
-    section.items.push(format!(
+    section.items.push(Item::Line(format!(
         "static {upper}_FRAMES: rt::can::Frames<{}> = rt::can::frames([{frames}]);",
         bus.frames.len()
-    ));
+    )));
     for (at, frame) in bus.frames.iter().enumerate() {
         for one in &frame.values {
             section.sets.entry(one.index).or_default().push(format!(
@@ -236,5 +247,5 @@ fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
         section.hushes.push(format!("rt::can::stop_repeats(&{upper}_FRAMES);"));
     }
     section.keeps.push(keep(&format!("mut {name}_tx"), name));
-    section.polls.push(format!("rt::can::send(&mut {name}_tx, &{upper}_FRAMES);"));
+    section.polls.push(vec![format!("rt::can::send(&mut {name}_tx, &{upper}_FRAMES);")]);
 }

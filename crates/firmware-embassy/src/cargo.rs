@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use askama::Template;
+use sensedsl_files::print;
+
 use super::context::Context;
 use super::hal::Hal;
 use super::lock::lock;
@@ -10,34 +13,29 @@ use sensedsl_job::BoardJob;
 use sensedsl_job::part::uses;
 
 /// The manifest of a check.
+#[derive(Template)]
+#[template(path = "templates/check.toml.txt", escape = "none")]
+struct Check<'a> {
+    hal: &'a str,
+    version: &'static str,
+    features: String,
+}
+
+/// The manifest of a check on a chip of STM32. `timer`: the one left for the clock.
 pub(super) fn check_manifest(job: &BoardJob<'_>, chip: &Chip, timer: Option<&str>) -> String {
     let timer = timer.map(|name| format!("time-driver-{}", name.to_lowercase()));
     let banks = chip.banks.then(|| "dual-bank".to_owned());
-    let features = banks.into_iter().chain(split(job)).chain(timer);
-    let features: Vec<String> = features.map(|one| format!(", \"{one}\"")).collect();
-    format!(
-        "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
-         [dependencies]\n\
-         embassy-stm32 = {{ version = \"=0.6.0\", default-features = false, features = [\"{}\", \"exti\", \"time\", \
-         \"unstable-pac\"{}] }}\n\
-         embassy-time = \"=0.5.1\"\n\
-         embassy-time-driver = {{ version = \"=0.2.2\", features = [\"tick-hz-1_000_000\"] }}\n\
-         embassy-time-queue-utils = \"=0.3.2\"\n\n\
-         [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
-        chip.feature,
-        features.concat(),
-    )
+    let always = [chip.feature.as_str(), "exti", "time", "unstable-pac"].map(str::to_owned);
+    let features: Vec<String> =
+        always.into_iter().chain(banks).chain(split(job)).chain(timer).collect();
+    let features = quoted(features.iter().map(String::as_str));
+    print(&Check { hal: "stm32", version: STM32_VERSION, features })
 }
 
-/// The manifest of a check on the HAL of RP.
+/// The manifest of a check on a chip of RP.
 pub(super) fn check_manifest_rp(chip: &Chip) -> String {
-    format!(
-        "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
-         [dependencies]\n\
-         embassy-rp = {{ version = \"=0.10.0\", default-features = false, features = [\"{}\", \"unstable-pac\"] }}\n\n\
-         [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
-        chip.feature,
-    )
+    let features = quoted([chip.feature.as_str(), "unstable-pac"].into_iter());
+    print(&Check { hal: "rp", version: RP_VERSION, features })
 }
 
 /// The lock file of a check on a chip of STM32.
@@ -63,6 +61,10 @@ fn timers(chip: &Chip) -> Option<&'static str> {
         None
     }
 }
+
+/// The versions of the HALs.
+const STM32_VERSION: &str = "0.6.0";
+const RP_VERSION: &str = "0.10.0";
 
 /// The features of `sense-embassy` that say which versions of the units an MCU has.
 const VERSIONS: [&str; 9] = [
@@ -100,9 +102,9 @@ impl Manifests {
     pub(super) fn new(context: &Context<'_>, versions: &BTreeSet<&'static str>) -> Self {
         let chip = context.chip.feature.clone();
         let (hal, hal_version, hal_features) = match context.names.hal {
-            Hal::Stm32 => ("stm32", "0.6.0", stm32_features(context)),
+            Hal::Stm32 => ("stm32", STM32_VERSION, stm32_features(context)),
             Hal::Rp => {
-                ("rp", "0.10.0", vec![chip, "time-driver".to_owned(), "unstable-pac".to_owned()])
+                ("rp", RP_VERSION, vec![chip, "time-driver".to_owned(), "unstable-pac".to_owned()])
             }
         };
         let own: &[&str] = match context.names.hal {

@@ -4,56 +4,47 @@ use sensedsl_model::protocol::{Crc, Formula};
 use sensedsl_model::words::Code;
 
 use super::context::Context;
+use super::item::{Constant, Entry, Table};
 use super::lack::Printed;
 use sensedsl_job::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
 /// The table of a part on a register bus.
-pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Printed<String> {
-    let name = plan.prefix.to_uppercase();
-    let mut text = format!("pub const {name}_CHIP: ChipTable = ChipTable {{\n");
-    let mut line = |what: &str, value: String| {
-        text.push_str(&format!("    {what}: {value},\n"));
-    };
+pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Printed<Constant> {
+    let mut members = Vec::new();
     if !plan.init.is_empty() {
-        line("init", init(&plan.init));
+        members.push(("init", Entry::Many(init(&plan.init))));
     }
     if let Some(one) = &plan.identity {
         let (select, expected, mask) = (bytes(&one.select), bytes(&one.expected), bytes(&one.mask));
-        line(
-            "identity",
-            format!("Some(Identity {{ select: {select}, expected: {expected}, mask: {mask} }})"),
-        );
+        let identity =
+            format!("Some(Identity {{ select: {select}, expected: {expected}, mask: {mask} }})");
+        members.push(("identity", Entry::One(identity)));
     }
     if !plan.calibration.is_empty() {
         let blocks = plan.calibration.iter().map(|block| {
             format!("Calibration {{ select: {}, count: {} }}", bytes(&block.select), block.count)
         });
-        line("calibration", list(blocks));
+        members.push(("calibration", Entry::Many(blocks.collect())));
     }
-    line("transfers", list(plan.transfers.iter().map(transfer)));
+    members.push(("transfers", Entry::Many(plan.transfers.iter().map(transfer).collect())));
     let readings = plan.readings.iter().map(|one| reading(context, one));
-    line("readings", list(readings.collect::<Printed<Vec<String>>>()?.into_iter()));
+    members.push(("readings", Entry::Many(readings.collect::<Printed<_>>()?)));
     if !plan.commands.is_empty() {
         let commands = plan.commands.iter().map(|one| command(context, one));
-        line("commands", list(commands.collect::<Printed<Vec<String>>>()?.into_iter()));
+        members.push(("commands", Entry::Many(commands.collect::<Printed<_>>()?)));
     }
     if !plan.kept.is_empty() {
-        line("kept", bytes(&plan.kept));
+        members.push(("kept", Entry::One(bytes(&plan.kept))));
     }
     if let Some(one) = plan.formula {
-        line("formula", format!("Some({})", formula(one)));
+        members.push(("formula", Entry::One(format!("Some({})", formula(one)))));
         let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
-        line("parameters", format!("&[{}]", parameters.join(", ")));
+        members.push(("parameters", Entry::One(format!("&[{}]", parameters.join(", ")))));
     }
-    line("cycle_ms", plan.cycle_ms.to_string());
-    line("address", byte(plan.address));
-    text.push_str("    ..ChipTable::NEW\n};");
-    Ok(text)
-}
-
-pub(super) fn list(entries: impl Iterator<Item = String>) -> String {
-    let entries: String = entries.map(|entry| format!("        {entry},\n")).collect();
-    format!("&[\n{entries}    ]")
+    members.push(("cycle_ms", Entry::One(plan.cycle_ms.to_string())));
+    members.push(("address", Entry::One(byte(plan.address))));
+    let name = format!("{}_CHIP", plan.prefix.to_uppercase());
+    Ok(Constant::Table(Table { name, type_: "ChipTable", members, has_more: true }))
 }
 
 /// `0x3b`
@@ -67,10 +58,11 @@ pub(super) fn bytes(all: &[u8]) -> String {
 }
 
 /// How a part is set up.
-pub(super) fn init(steps: &[InitPlan]) -> String {
-    list(steps.iter().map(|step| {
+pub(super) fn init(steps: &[InitPlan]) -> Vec<String> {
+    let step = |step: &InitPlan| {
         format!("InitStep {{ bytes: {}, pause_ms: {} }}", bytes(&step.bytes), step.pause_ms)
-    }))
+    };
+    steps.iter().map(step).collect()
 }
 
 fn transfer(plan: &TransferPlan) -> String {

@@ -6,7 +6,8 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
-use super::context::{Context, late};
+use super::context::Context;
+use super::item::{Item, Task, beat};
 use super::lack::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
@@ -54,7 +55,9 @@ impl Bus<'_> {
     /// Hands the bus over to its tasks, which take turns.
     pub(super) fn share(&self, field: Field, section: &mut Section) {
         let Self { unit, type_, .. } = self;
-        section.items.push(format!("static {unit}_BUS: StaticCell<{type_}> = StaticCell::new();"));
+        section.items.push(Item::Line(format!(
+            "static {unit}_BUS: StaticCell<{type_}> = StaticCell::new();"
+        )));
         section.starts.push(Start::Make(format!(
             "let {0}: &'static {type_} = {unit}_BUS.init(Mutex::new(wiring.{0}));",
             field.name
@@ -70,13 +73,14 @@ pub(super) struct Served<'a> {
 }
 
 /// How a task of a bus reaches its parts.
+#[derive(Default)]
 pub(super) struct Reach {
     /// Parameters of the task beside the bus.
-    pub(super) parameters: String,
+    pub(super) parameters: Vec<String>,
     /// What they are called with.
-    pub(super) arguments: String,
+    pub(super) arguments: Vec<String>,
     /// Statements that make `NAME_line` for each part.
-    pub(super) lines: String,
+    pub(super) lines: Vec<String>,
 }
 
 /// The tasks of a bus: one for each cycle. `hz`: bits a second of the slowest part.
@@ -88,7 +92,7 @@ pub(super) fn tasks(
     section: &mut Section,
 ) -> Printed<()> {
     for (cycle, served) in cycles(context, bus)? {
-        task(context, bus, hz, cycle, &served, &reach(&served)?, section)?;
+        task(context, bus, hz, cycle, &served, reach(&served)?, section)?;
     }
     Ok(())
 }
@@ -109,7 +113,7 @@ fn task(
     hz: u32,
     cycle: Cycle,
     served: &[Served<'_>],
-    reach: &Reach,
+    reach: Reach,
     section: &mut Section,
 ) -> Printed<()> {
     let ident = cycle.ident(bus.unit.as_str());
@@ -117,36 +121,34 @@ fn task(
     let bytes = served.iter().map(|one| one.plan.work_bytes + 4).max().unwrap_or(4);
     let bits_ms =
         u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(2 * 9 * 1_000) / hz.max(1);
-    let mut text = format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(bus: &'static {}{}) {{\n{}",
-        cycle.title(bus.unit.as_str()),
-        bus.type_,
-        reach.parameters,
-        late(cycle)
-    );
-    text.push_str(&reach.lines);
+    let title = cycle.title(bus.unit.as_str());
+    let mut task = Task::in_turn(title, ident.clone(), cycle);
+    task.parameters.push(format!("bus: &'static {}", bus.type_));
+    task.parameters.extend(reach.parameters);
+    task.before = reach.lines;
     for Served { plan, .. } in served {
         section.tables.push(chip::table(context, plan)?);
-        text.push_str(&state(plan));
+        task.before.extend(state(plan));
     }
     let is_own = |index: usize| served.iter().any(|one| one.wire.devices.contains(&index));
     let (filters, pass) = filter::of_items(context, is_own, section);
-    text.push_str(&filters);
-    text.push_str(&format!(
-        "    let timeout = Duration::from_millis({});\n    loop {{\n        let mut idle_ms = {};\n        \
-         let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report({pass}, index, outcome, value);\n",
-        TIMEOUT_BASE_MS + bits_ms,
-        cycle.delay_ms
-    ));
+    task.before.extend(filters);
+    task.before
+        .push(format!("let timeout = Duration::from_millis({});", TIMEOUT_BASE_MS + bits_ms));
+    task.cycle = vec![
+        format!("let mut idle_ms = {};", cycle.delay_ms),
+        format!(
+            "let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report({pass}, index, outcome, value);"
+        ),
+    ];
     for Served { plan, .. } in served {
-        text.push_str(&turn(&plan.prefix, !plan.commands.is_empty()));
+        task.cycle.extend(turn(&plan.prefix, !plan.commands.is_empty()));
     }
-    text.push_str(&format!(
-        "        WATCH.beat(tables::{constant}, now_ms());\n        \
-         rt::bus::rest(idle_ms).await;\n    }}\n}}"
-    ));
-    section.items.push(text);
-    let call = format!("{ident}({}{})", snake(bus.unit.as_str()), reach.arguments);
+    task.cycle.push(beat(&constant));
+    task.cycle.push("rt::bus::rest(idle_ms).await;".to_owned());
+    section.items.push(Item::Task(task));
+    let arguments = std::iter::once(snake(bus.unit.as_str())).chain(reach.arguments);
+    let call = format!("{ident}({})", arguments.collect::<Vec<_>>().join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
     let device = served.first().map_or(0, |one| context.id_of(one.wire));
     section.watched.push(Watched::new(constant, cycle, device));
@@ -154,31 +156,29 @@ fn task(
 }
 
 /// What a task keeps of a part.
-fn state(plan: &BusPlan) -> String {
+fn state(plan: &BusPlan) -> Vec<String> {
     let (ident, table) = (&plan.prefix, plan.prefix.to_uppercase());
-    let mut text = format!(
-        "    let mut {ident}: Chip<[u8; tables::{table}_CHIP.chip_bytes(&SCHEMA)]> = \
-         Chip::new(&tables::{table}_CHIP, &SCHEMA);\n"
-    );
+    let mut statements = vec![format!(
+        "let mut {ident}: Chip<[u8; tables::{table}_CHIP.chip_bytes(&SCHEMA)]> = \
+         Chip::new(&tables::{table}_CHIP, &SCHEMA);"
+    )];
     if !plan.commands.is_empty() {
-        text.push_str(&format!(
-            "    let mut {ident}_written = [Written::NEW; {}];\n",
-            plan.commands.len()
-        ));
+        let count = plan.commands.len();
+        statements.push(format!("let mut {ident}_written = [Written::NEW; {count}];"));
     }
-    text
+    statements
 }
 
 /// What a task does with a part in each cycle.
-fn turn(ident: &str, has_commands: bool) -> String {
-    let mut text = format!(
-        "        idle_ms = idle_ms.min(rt::bus::serve(&mut {ident}_line, &mut {ident}, timeout, &mut tell).await);\n"
-    );
+fn turn(ident: &str, has_commands: bool) -> Vec<String> {
+    let mut statements = vec![format!(
+        "idle_ms = idle_ms.min(rt::bus::serve(&mut {ident}_line, &mut {ident}, timeout, &mut report).await);"
+    )];
     if has_commands {
-        text.push_str(&format!(
-            "        let value = &mut [0; SCHEMA.value_bytes_max()];\n        \
-             rt::bus::write(&mut {ident}_line, &mut {ident}, &mut {ident}_written, timeout, &BOARD, value).await;\n"
+        statements.push("let value = &mut [0; SCHEMA.value_bytes_max()];".to_owned());
+        statements.push(format!(
+            "rt::bus::write(&mut {ident}_line, &mut {ident}, &mut {ident}_written, timeout, &BOARD, value).await;"
         ));
     }
-    text
+    statements
 }

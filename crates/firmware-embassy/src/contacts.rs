@@ -9,6 +9,7 @@ use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
+use super::item::{Handler, Item};
 use super::lack::{self, Printed};
 use super::section::{Field, Section};
 use super::{filter, rp};
@@ -88,14 +89,16 @@ fn input(
         ("rt::edges::SampledInput", "Input<'static>".to_owned(), make)
     };
     section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
-    section.items.push(format!(
-        "/// {}.\nstatic {kept}: {kind} =\n    \
-         rt::contact::Watched::new(sense_rt::ContactConfig {{ lasting: {}, edge: sense_rt::Edge::{edge} }});",
-        wire.place(),
-        own.debounce_us
-    ));
+    section.items.push(Item::Static {
+        doc: wire.place(),
+        line: format!(
+            "static {kept}: {kind} = rt::contact::Watched::new(sense_rt::ContactConfig {{ \
+             lasting: {}, edge: sense_rt::Edge::{edge} }});",
+            own.debounce_us
+        ),
+    });
     if own.edge.is_none() {
-        section.polls.push(format!("{kept}.sample();"));
+        section.polls.push(vec![format!("{kept}.sample();")]);
     }
     Ok(())
 }
@@ -128,18 +131,16 @@ fn awaited(
 /// The handler of an interrupt, which lines may share.
 fn handler(interrupt: &str, statics: &[String], section: &mut Section) {
     let name = format!("{interrupt}_EDGES");
-    let all: String =
-        statics.iter().map(|one| format!("        {one}.on_interrupt();\n")).collect();
     section.bind(interrupt, format!("crate::{name}"));
-    section.items.push(format!(
-        "/// Edges on the lines of this interrupt.\n\
-         #[allow(non_camel_case_types, reason = \"it is called as the interrupt\")]\npub struct {name};\n\n\
-         impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {name} {{\n    \
-         unsafe fn on_interrupt() {{\n{all}    }}\n}}"
-    ));
-    section
-        .begins
-        .push(format!("// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"));
+    section.items.push(Item::Handler(Handler {
+        doc: "Edges on the lines of this interrupt".to_owned(),
+        name,
+        named_as: "the interrupt",
+        interrupt: interrupt.to_owned(),
+        calls: statics.iter().map(|one| format!("{one}.on_interrupt();")).collect(),
+    }));
+    section.begins.push("// Its handler is there.".to_owned());
+    section.begins.push(format!("unsafe {{ interrupt::{interrupt}.enable() }};"));
 }
 
 /// The reporter takes what the interrupts have seen.
@@ -147,26 +148,25 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, own: &Digital, section: &mut S
     let filter = filter::polled(context, wired.index, section);
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let size = value.scalar.size_bytes();
-    section.states.push(format!(
-        "let mut {ident}_told = [rt::contact::Reported::NEW; {}];\nlet mut {ident}_repeat = Repeat::NEW;",
-        wired.wires.len()
-    ));
-    let takes = wired.wires.iter().enumerate().map(|(at, wire)| {
+    let count = wired.wires.len();
+    section.states.push(format!("let mut {ident}_told = [rt::contact::Reported::NEW; {count}];"));
+    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    let bytes = value.size_bytes();
+    let mut poll = vec![format!("let (mut value, mut is_news) = ([0; {bytes}], false);")];
+    poll.extend(wired.wires.iter().enumerate().map(|(at, wire)| {
         format!(
-            "is_news |= {}.take(&mut {ident}_told[{at}], {}, {}, &mut value[{}..]);\n",
+            "is_news |= {}.take(&mut {ident}_told[{at}], {}, {}, &mut value[{}..]);",
             name(wire),
             scalar(value.scalar),
             own.active_low,
             at * size
         )
-    });
-    section.polls.push(format!(
-        "let (mut value, mut is_news) = ([0; {}], false);\n{}\
-         if {ident}_repeat.is_due(is_news, {}, now_ms()) {{\n    \
-         BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        value.size_bytes(),
-        takes.collect::<String>(),
+    }));
+    poll.push(format!(
+        "if {ident}_repeat.is_due(is_news, {}, now_ms()) {{ \
+         BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value); }}",
         wired.device.cycle.delay_ms,
         wired.device.ident.to_uppercase()
     ));
+    section.polls.push(poll);
 }

@@ -128,11 +128,3 @@ impl<'a> Context<'a> {
 pub(super) fn scalar(scalar: ScalarType) -> String {
     format!("Scalar::{scalar:?}")
 }
-
-/// The beginning of a task: its start among those that take turns.
-pub(super) fn late(cycle: Cycle) -> String {
-    if cycle.start_ms == 0 {
-        return String::new();
-    }
-    format!("    Timer::after_millis({}).await;\n", cycle.start_ms)
-}

@@ -1,6 +1,7 @@
 //! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
 
 use super::context::Context;
+use super::item::{Constant, Entry, Table};
 use super::section::Section;
 use sensedsl_job::part::{FilterPlan, Number};
 
@@ -10,23 +11,23 @@ pub(super) fn pass(
     context: &Context<'_>,
     index: usize,
     section: &mut Section,
-    state: &mut String,
+    state: &mut Vec<String>,
 ) -> String {
     let Some(plan) = plan_of(context, index) else { return "None".to_owned() };
     let (ident, upper) = (&plan.ident, plan.ident.to_uppercase());
-    section.tables.push(table(plan));
-    state.push_str(&format!(
+    section.tables.push(Constant::Table(table(plan)));
+    state.push(format!(
         "let mut {ident}_filter: Filter<[u8; tables::{upper}_FILTER.bytes(&SCHEMA.items[{index}])]> = \
-         Filter::new(&tables::{upper}_FILTER);\n"
+         Filter::new(&tables::{upper}_FILTER);"
     ));
     format!("Some(&mut *{ident}_filter)")
 }
 
 /// [`pass`] for a device that the reporter polls: the state is the reporter's.
 pub(super) fn polled(context: &Context<'_>, index: usize, section: &mut Section) -> String {
-    let mut state = String::new();
+    let mut state = Vec::new();
     let filter = pass(context, index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    section.states.append(&mut state);
     filter
 }
 
@@ -35,13 +36,12 @@ pub(super) fn of_items(
     context: &Context<'_>,
     is_own: impl Fn(usize) -> bool,
     section: &mut Section,
-) -> (String, String) {
-    let (mut state, mut arms) = (String::new(), String::new());
+) -> (Vec<String>, String) {
+    let (mut state, mut arms) = (Vec::new(), String::new());
     for index in (0..context.job.devices.len()).filter(|index| is_own(*index)) {
-        let mut own = String::new();
-        let pass = pass(context, index, section, &mut own);
-        if !own.is_empty() {
-            state.push_str(&format!("    {own}"));
+        let before = state.len();
+        let pass = pass(context, index, section, &mut state);
+        if state.len() > before {
             arms.push_str(&format!("{index} => {pass}, "));
         }
     }
@@ -60,23 +60,27 @@ fn plan_of<'a>(context: &Context<'a>, index: usize) -> Option<&'a FilterPlan> {
     all.find(|plan| plan.field == name)
 }
 
-fn table(plan: &FilterPlan) -> String {
-    let invalid: Vec<String> = plan
-        .invalid
-        .iter()
+fn table(plan: &FilterPlan) -> Table {
+    let invalid = plan.invalid.iter();
+    let invalid: Vec<String> = invalid
         .map(|(low, high)| format!("Range {{ low: {}, high: {} }}", number(*low), number(*high)))
         .collect();
     let change = plan.change.map_or("None".to_owned(), |one| format!("Some({})", number(one)));
-    format!(
-        "pub const {}_FILTER: FilterTable = FilterTable {{\n    invalid: &[{}],\n    wide: {},\n    median: {},\n    \
-         smooth_ms: {},\n    change: {change},\n    heartbeat_ms: {},\n}};",
-        plan.ident.to_uppercase(),
-        invalid.join(", "),
-        if plan.is_wide { "Some(sense_rt::WIDE)" } else { "None" },
-        plan.median,
-        plan.smooth_ms,
-        plan.heartbeat_ms
-    )
+    let wide = if plan.is_wide { "Some(sense_rt::WIDE)" } else { "None" };
+    let members = vec![
+        ("invalid", format!("&[{}]", invalid.join(", "))),
+        ("wide", wide.to_owned()),
+        ("median", plan.median.to_string()),
+        ("smooth_ms", plan.smooth_ms.to_string()),
+        ("change", change),
+        ("heartbeat_ms", plan.heartbeat_ms.to_string()),
+    ];
+    Table {
+        name: format!("{}_FILTER", plan.ident.to_uppercase()),
+        type_: "FilterTable",
+        members: members.into_iter().map(|(name, value)| (name, Entry::One(value))).collect(),
+        has_more: false,
+    }
 }
 
 /// A number in the runtime's words.

@@ -28,9 +28,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 /// Every part is reached by its address. The registers stand beside it, which stop what does not end.
 fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
     let line = format!("rt::i2c::I2cLine(bus, hal::pac::{})", context.peripheral(unit));
-    let lines =
-        served.iter().map(|one| format!("    let mut {}_line = {line};\n", one.plan.prefix));
-    Reach { parameters: String::new(), arguments: String::new(), lines: lines.collect() }
+    let lines = served.iter().map(|one| format!("let mut {}_line = {line};", one.plan.prefix));
+    Reach { lines: lines.collect(), ..Reach::default() }
 }
 
 /// The clock that all parts of a bus take, and that the unit of this family makes: the HAL takes any and makes of one

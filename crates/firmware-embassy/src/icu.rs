@@ -6,6 +6,7 @@ use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
+use super::item::{Item, Task};
 use super::lack::{self, Printed};
 use super::section::{Field, Section, Start};
 use super::{filter, rp};
@@ -91,8 +92,7 @@ fn input(
         // The HAL measures from rising edges: the two channels of the wire change places.
         let (own, other) = if channel == 1 { (0, 1) } else { (1, 0) };
         section.begins.push(format!(
-            "hal::pac::{hal}.ccer().modify(|edges| {{\n        edges.set_ccp({own}, true);\n        \
-             edges.set_ccp({other}, false);\n    }});"
+            "hal::pac::{hal}.ccer().modify(|edges| {{ edges.set_ccp({own}, true); edges.set_ccp({other}, false); }});"
         ));
     }
     section.fields.push(Field {
@@ -102,31 +102,36 @@ fn input(
         make,
     });
     let upper = upper(wire);
-    let (static_, runs) = match train {
+    let (statics, runs) = match train {
         Some(plan) => (
-            format!(
-                "static {upper}_SEEN: rt::capture::SharedTrain = rt::capture::new_train();\n\
-                 const {upper}_TRAIN: sense_rt::TrainConfig =\n    \
-                 sense_rt::TrainConfig {{ tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
-                plan.tick_hz, plan.gap_ticks, plan.min_ticks
-            ),
+            vec![
+                format!(
+                    "static {upper}_SEEN: rt::capture::SharedTrain = rt::capture::new_train();"
+                ),
+                format!(
+                    "const {upper}_TRAIN: sense_rt::TrainConfig = sense_rt::TrainConfig {{ \
+                     tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
+                    plan.tick_hz, plan.gap_ticks, plan.min_ticks
+                ),
+            ],
             format!(
                 "rt::timer::train(timer, hal::timer::Channel::Ch{channel}, &{upper}_TRAIN, &{upper}_SEEN)"
             ),
         ),
-        None => (
-            format!(
-                "static {upper}_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();"
-            ),
-            run(icu, channel, &upper),
-        ),
+        None => (vec![seen(&upper)], run(icu, channel, &upper)),
     };
-    section.items.push(format!(
-        "{static_}\n\n/// {}.\n#[embassy_executor::task]\nasync fn {ident}_edges(timer: {type_}) {{\n    {runs}.await;\n}}",
-        wire.place(),
-    ));
+    section.items.extend(statics.into_iter().map(Item::Line));
+    let mut task = Task::new(wire.place(), format!("{ident}_edges"));
+    task.parameters.push(format!("timer: {type_}"));
+    task.before.push(format!("{runs}.await;"));
+    section.items.push(Item::Task(task));
     section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
     Ok(())
+}
+
+/// The static for what was captured.
+pub(super) fn seen(upper: &str) -> String {
+    format!("static {upper}_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();")
 }
 
 /// A timer that tells edges.
@@ -188,46 +193,54 @@ pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section:
     if !is_array {
         let seen = upper(wired.first);
         section.states.push(format!("let mut {ident} = Capture::NEW;"));
-        section.polls.push(format!(
-            "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\n{config}\nlet mut value = [0; {bytes}];\n\
-             if {ident}.read(&config, &seen, false, now_ms(), {scalar}, &mut value) {{\n    \
-             BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}"
-        ));
+        section.polls.push(vec![
+            format!("let seen = {seen}_SEEN.lock(core::cell::Cell::get);"),
+            config,
+            format!("let mut value = [0; {bytes}];"),
+            format!(
+                "if {ident}.read(&config, &seen, false, now_ms(), {scalar}, &mut value) {{ \
+                 BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value); }}"
+            ),
+        ]);
         return;
     }
     let size = value.scalar.size_bytes();
     // A pulse that comes no more must not look like one of now.
     let is_complete = matches!(icu.mode, Mode::Width | Mode::Period);
-    let reads = wired.wires.iter().enumerate().map(|(at, wire)| {
-        format!(
-            "let seen = {}_SEEN.lock(core::cell::Cell::get);\n\
-             if {ident}[{at}].read(&config, &seen, false, now_ms(), {scalar}, &mut {ident}_latest[{}..]) {{\n    \
-             {ident}_elements.note({at});\n}}\n",
-            upper(wire),
-            at * size
-        )
-    });
     section.states.push(format!("let mut {ident} = [Capture::NEW; {count}];"));
     section.states.push(format!("let mut {ident}_elements = sense_rt::Elements::NEW;"));
     section.states.push(format!("let mut {ident}_latest = [0; {bytes}];"));
-    section.polls.push(format!(
-        "{config}\n{}if {ident}_elements.are_due({count}, {is_complete}) {{\n    let mut value = {ident}_latest;\n    \
-         BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}",
-        reads.collect::<String>()
+    let mut poll = vec![config];
+    for (at, wire) in wired.wires.iter().enumerate() {
+        poll.push(format!("let seen = {}_SEEN.lock(core::cell::Cell::get);", upper(wire)));
+        poll.push(format!(
+            "if {ident}[{at}].read(&config, &seen, false, now_ms(), {scalar}, &mut {ident}_latest[{}..]) {{ \
+             {ident}_elements.note({at}); }}",
+            at * size
+        ));
+    }
+    poll.push(format!(
+        "if {ident}_elements.are_due({count}, {is_complete}) {{ let mut value = {ident}_latest; \
+         BOARD.report({filter}, tables::{constant}, Outcome::Fresh, &mut value); }}"
     ));
+    section.polls.push(poll);
 }
 
 fn poll_train(context: &Context<'_>, wired: &Wired<'_>, plan: &TrainPlan, section: &mut Section) {
     let filter = filter::polled(context, wired.index, section);
     let seen = upper(wired.first);
     section.states.push(format!("let mut {}_trains = 0;", plan.ident));
-    section.polls.push(format!(
-        "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\nlet mut value = [0; {}];\n\
-         let outcome = seen.read(&{seen}_TRAIN, &mut {}_trains, &SCHEMA.items[{}], &mut value);\n\
-         BOARD.report({filter}, tables::{}, outcome, &mut value);",
-        wired.device.device.value.value.size_bytes(),
-        plan.ident,
-        wired.index,
-        wired.device.ident.to_uppercase()
-    ));
+    let bytes = wired.device.device.value.value.size_bytes();
+    section.polls.push(vec![
+        format!("let seen = {seen}_SEEN.lock(core::cell::Cell::get);"),
+        format!("let mut value = [0; {bytes}];"),
+        format!(
+            "let outcome = seen.read(&{seen}_TRAIN, &mut {}_trains, &SCHEMA.items[{}], &mut value);",
+            plan.ident, wired.index
+        ),
+        format!(
+            "BOARD.report({filter}, tables::{}, outcome, &mut value);",
+            wired.device.ident.to_uppercase()
+        ),
+    ]);
 }

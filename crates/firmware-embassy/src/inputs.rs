@@ -4,7 +4,8 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
-use super::context::{Context, Wired, late, scalar};
+use super::context::{Context, Wired, scalar};
+use super::item::{Item, Task};
 use super::lack::{self, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
 use super::{contacts, filter};
@@ -40,10 +41,10 @@ fn digital(
 ) -> Printed<()> {
     let ident = cycle.ident("gpio");
     let constant = ident.to_uppercase();
-    let (mut parameters, mut arguments, mut looks) = (String::new(), Vec::new(), String::new());
-    let mut state = String::new();
+    let mut task = Task::in_turn(cycle.title("gpio"), ident.clone(), cycle);
+    let (mut arguments, mut statements) = (Vec::new(), Vec::new());
     for wired in devices {
-        let filter = filter::pass(context, wired.index, section, &mut state);
+        let filter = filter::pass(context, wired.index, section, &mut task.before);
         let value = wired.device.device.value.value;
         let mut levels = Vec::new();
         for wire in &wired.wires {
@@ -64,30 +65,27 @@ fn digital(
                     contacts::pull(own)
                 ),
             });
-            parameters.push_str(&format!(", {}: Input<'static>", wire.ident));
+            task.parameters.push(format!("{}: Input<'static>", wire.ident));
             arguments.push(format!("wiring.{}", wire.ident));
             let call = if own.active_low { "is_low" } else { "is_high" };
             levels.push(format!("{}.{call}()", wire.ident));
         }
-        looks.push_str(&format!(
-            "        let mut value = [0; {}];\n        for (at, level) in [{}].into_iter().enumerate() {{\n            \
-             {}.store_at(u64::from(level), &mut value, at);\n        }}\n        \
-             BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n",
-            value.size_bytes(),
-            levels.join(", "),
-            scalar(value.scalar),
-            wired.device.ident.to_uppercase()
-        ));
+        statements.extend([
+            format!("let mut value = [0; {}];", value.size_bytes()),
+            format!(
+                "for (at, level) in [{}].into_iter().enumerate() {{ \
+                 {}.store_at(u64::from(level), &mut value, at); }}",
+                levels.join(", "),
+                scalar(value.scalar)
+            ),
+            format!(
+                "BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);",
+                wired.device.ident.to_uppercase()
+            ),
+        ]);
     }
-    section.items.push(format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}({}) {{\n{}{state}    \
-         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n{looks}        \
-         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
-        cycle.title("gpio"),
-        parameters.trim_start_matches(", "),
-        late(cycle),
-        cycle.delay_ms
-    ));
+    task.ticks(cycle.delay_ms, statements, &constant);
+    section.items.push(Item::Task(task));
     let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
     let device = devices.first().map_or(0, |one| one.device.device.id.value);
@@ -117,21 +115,24 @@ pub(super) fn poll_counts(
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     section.states.push(format!("let mut {ident}_counters = [Counter::NEW; {}];", counts.len()));
     section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    let mut poll = vec![format!("let before = {ident}_counters.map(|counter| counter.total());")];
     let steps = counts.iter().enumerate();
-    let steps = steps.map(|(at, count)| format!("{ident}_counters[{at}].step({count});\n"));
-    section.polls.push(format!(
-        "let before = {ident}_counters.map(|counter| counter.total());\n{}\
-         let counts = {ident}_counters.map(|counter| counter.total());\n\
-         if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
-         for (at, count) in counts.into_iter().enumerate() {{\n        \
-         store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
-         BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        steps.collect::<String>(),
-        value.size_bytes(),
+    poll.extend(steps.map(|(at, count)| format!("{ident}_counters[{at}].step({count});")));
+    poll.push(format!("let counts = {ident}_counters.map(|counter| counter.total());"));
+    let store = format!(
+        "store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());",
         scalar(value.scalar),
-        value.scalar.size_bytes(),
+        value.scalar.size_bytes()
+    );
+    poll.push(format!("if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{"));
+    poll.push(format!("    let mut value = [0; {}];", value.size_bytes()));
+    poll.push(format!("    for (at, count) in counts.into_iter().enumerate() {{ {store} }}"));
+    poll.push(format!(
+        "    BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);",
         wired.device.ident.to_uppercase()
     ));
+    poll.push("}".to_owned());
+    section.polls.push(poll);
 }
 
 /// The timer of two tracks, which the reporter keeps.

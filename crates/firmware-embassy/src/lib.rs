@@ -20,6 +20,7 @@ mod hal;
 mod i2c;
 mod icu;
 mod inputs;
+mod item;
 mod lack;
 mod levels;
 mod link;

@@ -8,6 +8,7 @@ use sensedsl_model::kind::Role;
 
 use super::context::Context;
 use super::hal::Hal;
+use super::item::{Item, Task};
 use super::rp;
 use super::section::{Field, Keep, LinkPlan, Section, Start};
 use sensedsl_job::{BoardJob, Pad};
@@ -122,10 +123,10 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
 /// The task of the USB device, whose driver is of that type.
 pub(super) fn usb_task(context: &Context<'_>, driver: &str, section: &mut Section) {
     let product = &context.job.board.name.value;
-    section.items.push(format!(
-        "/// The link's device.\n#[embassy_executor::task]\nasync fn link(device: {driver}) {{\n    \
-         rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
-    ));
+    let mut task = Task::new("The link's device".to_owned(), "link".to_owned());
+    task.parameters.push(format!("device: {driver}"));
+    task.before.push(format!("rt::link_usb::run(device, {product:?}, &LINK).await;"));
+    section.items.push(Item::Task(task));
     section.link = LinkPlan::Usb;
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
 }

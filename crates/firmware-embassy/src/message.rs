@@ -3,35 +3,37 @@
 use sensedsl_model::kind::uart::MessageChecksum;
 use sensedsl_model::protocol::Format;
 
-use super::chip::{byte, bytes, coding, init, list};
+use super::chip::{byte, bytes, coding, init};
 use super::context::Context;
+use super::item::{Constant, Entry, Table};
 use super::lack::Printed;
 use sensedsl_job::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
 /// The tables of a device: its messages, how it is set up, and what it is sent.
-pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Printed<Vec<String>> {
+pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Printed<Vec<Constant>> {
     let name = plan.prefix.to_uppercase();
     let mut tables = Vec::new();
     if !plan.init.is_empty() {
-        tables
-            .push(format!("pub const {name}_INIT: &[InitStep] = {};", flat(&init(&plan.init), 1)));
+        let declaration = format!("{name}_INIT: &[InitStep]");
+        tables.push(Constant::List { doc: "", declaration, entries: init(&plan.init) });
     }
     let fields = plan.fields.iter().map(|one| field(context, one)).collect::<Printed<Vec<_>>>()?;
     if !fields.is_empty() {
-        tables.push(format!(
-            "pub const {name}_MESSAGE: MessageTable = MessageTable {{\n    start: {},\n    end: {},\n    \
-             fields: {},\n    length: {},\n    bytes_max: {},\n    checksum: {},\n    checksum_from: {},\n}};",
-            bytes(&plan.start),
-            bytes(&plan.end),
-            list(fields.into_iter()),
-            plan.length,
-            plan.bytes_max,
-            checksum(plan.checksum),
-            plan.checksum_from
-        ));
+        let members = vec![
+            ("start", Entry::One(bytes(&plan.start))),
+            ("end", Entry::One(bytes(&plan.end))),
+            ("fields", Entry::Many(fields)),
+            ("length", Entry::One(plan.length.to_string())),
+            ("bytes_max", Entry::One(plan.bytes_max.to_string())),
+            ("checksum", Entry::One(checksum(plan.checksum).to_owned())),
+            ("checksum_from", Entry::One(plan.checksum_from.to_string())),
+        ];
+        let name = format!("{name}_MESSAGE");
+        let table = Table { name, type_: "MessageTable", members, has_more: false };
+        tables.push(Constant::Table(table));
     }
     for command in &plan.commands {
-        tables.push(compose(context, command)?);
+        tables.push(Constant::Table(compose(context, command)?));
     }
     Ok(tables)
 }
@@ -42,17 +44,20 @@ pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> Printed
     Ok(format!("{}_COMPOSE", device.map_or("", |one| one.ident.as_str()).to_uppercase()))
 }
 
-fn compose(context: &Context<'_>, plan: &ComposePlan) -> Printed<String> {
-    Ok(format!(
-        "pub const {}: Compose = Compose {{\n    start: {},\n    end: {},\n    value: {},\n    checksum: {},\n    \
-         checksum_from: {},\n}};",
-        compose_name(context, plan)?,
-        bytes(&plan.start),
-        bytes(&plan.end),
-        coding(&plan.value),
-        checksum(plan.checksum),
-        plan.checksum_from
-    ))
+fn compose(context: &Context<'_>, plan: &ComposePlan) -> Printed<Table> {
+    let members = vec![
+        ("start", bytes(&plan.start)),
+        ("end", bytes(&plan.end)),
+        ("value", coding(&plan.value)),
+        ("checksum", checksum(plan.checksum).to_owned()),
+        ("checksum_from", plan.checksum_from.to_string()),
+    ];
+    Ok(Table {
+        name: compose_name(context, plan)?,
+        type_: "Compose",
+        members: members.into_iter().map(|(name, value)| (name, Entry::One(value))).collect(),
+        has_more: false,
+    })
 }
 
 /// The checksum in the runtime's words.
@@ -93,9 +98,4 @@ fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> Printed<String> {
         text.field,
         text.decimals
     ))
-}
-
-/// The list with its indent reduced by `steps`.
-fn flat(text: &str, steps: usize) -> String {
-    text.replace(&format!("\n{}", "    ".repeat(steps)), "\n")
 }

@@ -321,18 +321,13 @@ fn dac(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Print
         });
         let (scalar, bytes) = element(wired, at);
         let set =
-            |value: String| format!("outputs.{ident}.set(hal::dac::Value::Bit12Right({value}));");
-        section
-            .sets
-            .entry(wired.index)
-            .or_default()
-            .push(set(format!("sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16")));
+            |value: String| format!("outputs.{ident}.set(hal::dac::Value::Bit12Right({value}))");
+        let asked = format!("sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16");
+        section.sets.entry(wired.index).or_default().push(format!("{};", set(asked)));
         let safe = own.failsafe.map(|safe| set(level(safe).min(4_095).to_string()));
         // Until the host speaks it is as silent as later.
-        section.begins.extend(
-            safe.iter().map(|safe| format!("outputs(|outputs| {safe});").replace(";);", ");")),
-        );
-        section.fails.extend(safe);
+        section.begins.extend(safe.iter().map(|safe| format!("outputs(|outputs| {safe});")));
+        section.fails.extend(safe.map(|safe| format!("{safe};")));
     }
     Ok(())
 }

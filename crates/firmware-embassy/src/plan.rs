@@ -9,6 +9,7 @@ use sensedsl_wire::{Checksum, Direction};
 use super::cargo::Manifests;
 use super::context::{Context, scalar};
 use super::hal::{Hal, Speed};
+use super::item::{Constant, Item};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Peripheral, Section, Start, Watched};
 use super::{
@@ -54,16 +55,16 @@ pub(super) struct Plan {
     pub(super) fields: Vec<Field>,
     pub(super) handlers: Vec<(String, String)>,
     pub(super) outputs: Vec<Field>,
-    pub(super) items: Vec<String>,
-    pub(super) tables: Vec<String>,
+    pub(super) items: Vec<Item>,
+    pub(super) tables: Vec<Constant>,
     pub(super) starts: Vec<String>,
     /// Priorities above the lowest.
     pub(super) levels: Vec<Level>,
     pub(super) keeps: Vec<Keep>,
     pub(super) states: Vec<String>,
-    pub(super) polls: Vec<String>,
+    pub(super) polls: Vec<Vec<String>>,
     /// By the constant of an item: what is done when the host sets it.
-    pub(super) sets: Vec<(String, String)>,
+    pub(super) sets: Vec<(String, Vec<String>)>,
     /// Whether the host sets anything.
     pub(super) has_actuators: bool,
     /// Whether there is anything that only the program drives.
@@ -88,8 +89,10 @@ pub(super) struct Plan {
 
 /// How a project begins, in the words of its HAL.
 pub(super) struct Begin {
-    /// The function `config` of `main.rs`.
-    pub(super) config: String,
+    /// What is set of the HAL's clocks; nothing: they are as usual.
+    pub(super) clocks: Vec<String>,
+    /// The type of the HAL's configuration.
+    pub(super) config: &'static str,
     /// The first statements of `main`, up to the wiring.
     pub(super) start: Vec<String>,
     pub(super) watchdog: Watchdog,
@@ -156,7 +159,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         handlers: handlers(&section.handlers),
         has_actuators: context.job.has_actuators(),
         has_outputs: !section.outputs.is_empty(),
-        sets: by_item(context, |index| Some(section.sets.get(&index)?.join("\n"))),
+        sets: by_item(context, |index| section.sets.get(&index).cloned()),
         watched: section.watched,
         begins: section.begins,
         fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),

@@ -3,8 +3,9 @@
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::Role;
 
-use super::context::{Context, late};
+use super::context::Context;
 use super::hal::Speed;
+use super::item::{Item, Task};
 use super::lack::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use sensedsl_job::kinds::pulse::{Pulses, pulses};
@@ -24,7 +25,8 @@ fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Pr
     let Pulses { cycle, pulse_us, id, lines } = pulses;
     let ident = format!("{}_{pulse_us}us", cycle.ident("pulse"));
     let constant = ident.to_uppercase();
-    let (mut parameters, mut arguments, mut texts) = (Vec::new(), Vec::new(), String::new());
+    let mut task = Task::in_turn(cycle.title("pulse"), ident.clone(), *cycle);
+    let (mut arguments, mut statements) = (Vec::new(), Vec::new());
     for line in lines {
         let pad = lack::pad(line.wire, Role::Trigger)?;
         let ident = format!("{}_trigger", line.wire.ident);
@@ -34,22 +36,15 @@ fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Pr
             type_: "Output<'static>".to_owned(),
             make: context.output(&pad.pin.name, "Level::Low", Speed::Low),
         });
-        parameters.push(format!("mut {ident}: Output<'static>"));
+        task.parameters.push(format!("mut {ident}: Output<'static>"));
         arguments.push(format!("wiring.{ident}"));
-        texts.push_str(&format!("        rt::capture::pulse(&mut {ident}, {pulse_us}).await;\n"));
+        statements.push(format!("rt::capture::pulse(&mut {ident}, {pulse_us}).await;"));
         if line.apart_ms > 0 {
-            texts.push_str(&format!("        Timer::after_millis({}).await;\n", line.apart_ms));
+            statements.push(format!("Timer::after_millis({}).await;", line.apart_ms));
         }
     }
-    section.items.push(format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}({}) {{\n{}    \
-         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n{texts}        \
-         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
-        cycle.title("pulse"),
-        parameters.join(", "),
-        late(*cycle),
-        cycle.delay_ms
-    ));
+    task.ticks(cycle.delay_ms, statements, &constant);
+    section.items.push(Item::Task(task));
     let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
     section.watched.push(Watched::new(constant, *cycle, *id));

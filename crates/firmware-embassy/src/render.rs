@@ -3,6 +3,7 @@
 use askama::Template;
 
 use super::cargo::Manifests;
+use super::item::{Constant, Entry, Item};
 use super::plan::Plan;
 use sensedsl_files::FileSet;
 use sensedsl_files::print;

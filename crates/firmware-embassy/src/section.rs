@@ -5,10 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::Diagnostic;
 
 use super::context::Context;
+use super::item::{Constant, Item};
 use super::lack::{Missing, Printed};
 use sensedsl_job::{Cycle, JobConnection, JobStream};
 
-/// What one kind adds. Every text is Rust; `plan.rs` puts the sections together and looks into none.
+/// What one kind adds. A text is a line of Rust at most; `plan.rs` puts the sections together and looks into none.
 #[derive(Debug, Default)]
 pub(super) struct Section {
     /// What the wiring hands over, in order.
@@ -16,16 +17,16 @@ pub(super) struct Section {
     /// The handlers of interrupts.
     pub(super) handlers: Handlers,
     /// Statics and tasks of `main.rs`.
-    pub(super) items: Vec<String>,
+    pub(super) items: Vec<Item>,
     /// Constants of `tables.rs`.
-    pub(super) tables: Vec<String>,
+    pub(super) tables: Vec<Constant>,
     /// Statements that start tasks.
     pub(super) starts: Vec<Start>,
     /// What the reporter keeps.
     pub(super) keeps: Vec<Keep>,
     /// What else it keeps, and what it looks at in each cycle.
     pub(super) states: Vec<String>,
-    pub(super) polls: Vec<String>,
+    pub(super) polls: Vec<Vec<String>>,
     /// What the host sets: the fields of `Outputs`, and what is done for an item.
     pub(super) outputs: Vec<Field>,
     pub(super) sets: BTreeMap<usize, Vec<String>>,

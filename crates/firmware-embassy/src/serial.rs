@@ -4,8 +4,9 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
-use super::context::{Context, late};
+use super::context::Context;
 use super::hal::Hal;
+use super::item::{Handler, Item, Task, beat};
 use super::lack::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{filter, message, rp};
@@ -184,14 +185,18 @@ impl Port<'_> {
         let longest = self.plan.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
         let told = self.plan.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
         let queue = (2 * longest).max(u32::try_from(told).unwrap_or(0)).max(16);
-        section.items.push(format!(
-            "static {said}: rt::serial::TxQueue<{queue}> = rt::serial::TxQueue::new();\n\n/// {}: what it is sent.\n\
-             #[embassy_executor::task]\n\
-             async fn {ident}_say(port: {type_}) {{\n    rt::{}::transmit({port}, &{said}, {}).await;\n}}",
-            self.wire.place(),
+        section.items.push(Item::Line(format!(
+            "static {said}: rt::serial::TxQueue<{queue}> = rt::serial::TxQueue::new();"
+        )));
+        let doc = format!("{}: what it is sent", self.wire.place());
+        let mut task = Task::new(doc, format!("{ident}_say"));
+        task.parameters.push(format!("port: {type_}"));
+        task.before.push(format!(
+            "rt::{}::transmit({port}, &{said}, {}).await;",
             module(context.names.hal),
             self.uart.baud
         ));
+        section.items.push(Item::Task(task));
         let prio = self.wire.cycle.prio;
         section.starts.push(Start::Task(prio, format!("{ident}_say({place})")));
         for command in &self.plan.commands {
@@ -210,36 +215,29 @@ impl Port<'_> {
         let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
         let has_fields = self.hears();
         let (type_, place) = self.half(context.names.hal, true);
-        let mut text = String::new();
+        let title = format!("{}: what it says, each {} ms", self.wire.place(), cycle.delay_ms);
+        let mut task = Task::in_turn(title, format!("{ident}_listen"), cycle);
         if has_fields {
-            text.push_str(&self.interrupt(context, section)?);
+            self.interrupt(context, section)?;
+            task.parameters.push(format!("_port: {type_}"));
         }
-        let hears = if has_fields { format!("_port: {type_}") } else { String::new() };
-        text.push_str(&format!(
-            "/// {}: what it says, each {} ms.\n#[embassy_executor::task]\nasync fn {ident}_listen({hears}) {{\n{}",
-            self.wire.place(),
-            cycle.delay_ms,
-            late(cycle)
-        ));
         let is_own = |index: usize| self.wire.devices.contains(&index);
         let (filters, pass) = filter::of_items(context, is_own, section);
-        text.push_str(&filters);
+        task.before = filters;
         if !self.plan.init.is_empty() {
-            text.push_str("    let mut start = sense_rt::MessageStart::NEW;\n");
+            task.before.push("let mut start = sense_rt::MessageStart::NEW;".to_owned());
         }
         if has_fields {
-            text.push_str(&self.device(context)?);
+            task.before.extend(self.device(context)?);
         }
         let constant = format!("{upper}_LISTEN");
-        text.push_str(&format!(
-            "    loop {{\n        let until = Instant::now() + Duration::from_millis({});\n",
-            cycle.delay_ms
-        ));
-        text.push_str(&self.cycle(has_fields, &pass));
-        text.push_str(&format!(
-            "        WATCH.beat(tables::{constant}, now_ms());\n        Timer::at(until).await;\n    }}\n}}"
-        ));
-        section.items.push(text);
+        let until =
+            format!("let until = Instant::now() + Duration::from_millis({});", cycle.delay_ms);
+        task.cycle.push(until);
+        task.cycle.extend(self.cycle(has_fields, &pass));
+        task.cycle.push(beat(&constant));
+        task.cycle.push("Timer::at(until).await;".to_owned());
+        section.items.push(Item::Task(task));
         let call = if has_fields { place } else { String::new() };
         section.starts.push(Start::Task(cycle.prio, format!("{ident}_listen({call})")));
         section.watched.push(Watched::new(constant, cycle, context.id_of(self.wire)));
@@ -247,7 +245,7 @@ impl Port<'_> {
     }
 
     /// The handler of the port's interrupt, and what it fills.
-    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Printed<String> {
+    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Printed<()> {
         let (upper, hal) = (self.upper(), context.peripheral(self.unit));
         let queue = serial::waiting_bytes(self.uart);
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
@@ -259,64 +257,66 @@ impl Port<'_> {
             format!("hal::pac::{hal}")
         };
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
-        section.begins.push(format!(
-            "rt::{}::listen({registers});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};",
-            module(context.names.hal)
-        ));
-        Ok(format!(
-            "static {upper}_HEARD: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();\n\n\
-             /// The bytes of {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
-             pub struct {upper}Heard;\n\n\
-             impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
-             unsafe fn on_interrupt() {{\n        rt::{}::on_interrupt(&{upper}_HEARD, {registers}, {mask});\n    }}\n}}\n\n",
-            self.wire.place(),
-            module(context.names.hal)
-        ))
+        let module = module(context.names.hal);
+        section.begins.extend([
+            format!("rt::{module}::listen({registers});"),
+            "// Its handler is there.".to_owned(),
+            format!("unsafe {{ interrupt::{interrupt}.enable() }};"),
+        ]);
+        section.items.push(Item::Line(format!(
+            "static {upper}_HEARD: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();"
+        )));
+        section.items.push(Item::Handler(Handler {
+            doc: format!("The bytes of {}", self.wire.place()),
+            name: format!("{upper}Heard"),
+            named_as: "the device",
+            interrupt: interrupt.to_owned(),
+            calls: vec![format!(
+                "rt::{module}::on_interrupt(&{upper}_HEARD, {registers}, {mask});"
+            )],
+        }));
+        Ok(())
     }
 
     /// What the task keeps of a device that says something.
-    fn device(&self, context: &Context<'_>) -> Printed<String> {
+    fn device(&self, context: &Context<'_>) -> Printed<Vec<String>> {
         let (upper, prefix) = (self.upper(), self.plan.prefix.to_uppercase());
         let own = self.plan.fields.iter().map(|one| context.item(&one.field));
-        Ok(format!(
-            "    let mut stream: sense_rt::MessageStream<[u8; tables::{prefix}_MESSAGE.stream_bytes(&SCHEMA)]> =\n        \
-             sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);\n    \
-             let mut device = rt::serial::Device {{\n        queue: &{upper}_HEARD,\n        stream: &mut stream,\n        \
-             gap_ms: {},\n        is_silent: false,\n        heard_ms: now_ms(),\n    }};\n    \
-             const OWN: [usize; {}] = {:?};\n",
-            serial::gap_ms(self.uart, self.plan),
-            self.plan.fields.len(),
-            own.collect::<Printed<Vec<_>>>()?
-        ))
+        let own = own.collect::<Printed<Vec<_>>>()?;
+        let gap_ms = serial::gap_ms(self.uart, self.plan);
+        Ok(vec![
+            format!(
+                "let mut stream: sense_rt::MessageStream<[u8; tables::{prefix}_MESSAGE.stream_bytes(&SCHEMA)]> = \
+                 sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);"
+            ),
+            format!(
+                "let mut device = rt::serial::Device::new(&{upper}_HEARD, &mut stream, {gap_ms}, &{own:?});"
+            ),
+        ])
     }
 
-    /// What the task does in a cycle. The first value of a cycle is told, for that is when it is due; faults are all
-    /// told.
-    fn cycle(&self, has_fields: bool, pass: &str) -> String {
-        let mut text = String::new();
+    /// What the task does in a cycle. The first value of a cycle is reported, for that is when it is due; faults are
+    /// all reported.
+    fn cycle(&self, has_fields: bool, pass: &str) -> Vec<String> {
+        let mut statements = Vec::new();
         if let (Some(said), false) = (&self.said, self.plan.init.is_empty()) {
             if has_fields {
-                text.push_str(&format!(
-                    "        if device.is_forgotten({}) {{\n            start = sense_rt::MessageStart::NEW;\n        }}\n",
+                statements.push(format!(
+                    "if device.is_forgotten({}) {{ start = sense_rt::MessageStart::NEW; }}",
                     self.wire.cycle.delay_ms
                 ));
             }
-            text.push_str(&format!(
-                "        rt::serial::set_up(&{said}, &mut start, tables::{}_INIT).await;\n",
+            statements.push(format!(
+                "rt::serial::set_up(&{said}, &mut start, tables::{}_INIT).await;",
                 self.plan.prefix.to_uppercase()
             ));
         }
         if has_fields {
-            text.push_str(&format!(
-                "        if device.has_fault() {{\n            for index in OWN {{\n                \
-                 BOARD.report(None, index, Outcome::BusError, &mut []);\n            }}\n        }}\n        \
-                 let mut told = sense_rt::Bits::NONE;\n        \
-                 device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {{\n            \
-                 if outcome == Outcome::Fresh {{\n                if told.has(index) {{\n                    \
-                 return;\n                }}\n                told.set(index);\n            }}\n            \
-                 BOARD.report({pass}, index, outcome, value);\n        }}).await;\n"
+            statements.push(format!(
+                "device.cycle(until, |index: usize, outcome, value: &mut [u8]| \
+                 BOARD.report({pass}, index, outcome, value)).await;"
             ));
         }
-        text
+        statements
     }
 }

@@ -41,15 +41,14 @@ fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Field> {
 
 /// Every part is reached by its chip select, in its mode and at its clock.
 fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Reach> {
-    let mut reach =
-        Reach { parameters: String::new(), arguments: String::new(), lines: String::new() };
+    let mut reach = Reach::default();
     for Served { plan, wire } in served {
         let spi = lack::kind(wire.connection.kind.spi())?;
         let select = format!("{}_select", wire.ident);
-        reach.parameters.push_str(&format!(", {select}: Output<'static>"));
-        reach.arguments.push_str(&format!(", wiring.{select}"));
-        reach.lines.push_str(&format!(
-            "    let mut {}_line = rt::spi::SpiLine {{ bus, select: {select}, config: rt::spi::config({}, {}) }};\n",
+        reach.parameters.push(format!("{select}: Output<'static>"));
+        reach.arguments.push(format!("wiring.{select}"));
+        reach.lines.push(format!(
+            "let mut {}_line = rt::spi::SpiLine {{ bus, select: {select}, config: rt::spi::config({}, {}) }};",
             plan.prefix,
             spi.mode,
             clock_hz(context, unit, spi).unwrap_or(spi.clock_hz)

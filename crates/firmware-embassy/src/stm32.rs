@@ -7,7 +7,8 @@ use super::plan::{Begin, Watchdog};
 pub(super) fn begin(context: &Context<'_>, is_usb: bool) -> Begin {
     let unit = if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" };
     Begin {
-        config: config(&clock(context, is_usb)),
+        clocks: clock(context, is_usb),
+        config: "hal::Config",
         start: start(context),
         watchdog: Watchdog {
             type_: format!("hal::wdg::IndependentWatchdog<'static, {unit}>"),
@@ -22,19 +23,6 @@ pub(super) fn begin(context: &Context<'_>, is_usb: bool) -> Begin {
 fn clock(context: &Context<'_>, is_usb: bool) -> Vec<String> {
     let clock = context.names.line.clock.as_ref();
     clock.and_then(|clock| clock.lines(&context.crystal(), is_usb)).unwrap_or_default()
-}
-
-/// The function with the clocks.
-fn config(clock: &[String]) -> String {
-    let mut text = "/// The clocks.\nfn config() -> hal::Config {\n".to_owned();
-    if clock.is_empty() {
-        return text + "    hal::Config::default()\n}";
-    }
-    text.push_str("    use hal::rcc::*;\n    let mut config = hal::Config::default();\n");
-    for line in clock {
-        text.push_str(&format!("    config.rcc.{line};\n"));
-    }
-    text + "    config\n}"
 }
 
 /// The first statements of `main`, up to the wiring.

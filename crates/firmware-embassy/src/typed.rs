@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use askama::Template;
 use sensedsl_board::profile::{self, Target, TargetProfile};
 use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine, UnitName};
 use sensedsl_diagnostics::Span;
@@ -15,11 +16,24 @@ use sensedsl_model::kind::{Kind, KindName};
 use super::hal::Hal;
 use super::names::Names;
 use super::{cargo, moved, rp};
-use sensedsl_files::FileSet;
+use sensedsl_files::{FileSet, print};
 use sensedsl_job::{BoardJob, JobConnection, Pad};
 
-/// How the crate begins.
-const HEAD: &str = include_str!("templates/wiring_check.rs.txt");
+/// The crate on `embassy-stm32`.
+#[derive(Template)]
+#[template(path = "templates/stm32/wiring_check.rs.txt", escape = "none")]
+struct Stm32Check<'a> {
+    calls: &'a [(&'static str, String)],
+    lines: &'a [String],
+}
+
+/// The crate on `embassy-rp`.
+#[derive(Template)]
+#[template(path = "templates/rp/wiring_check.rs.txt", escape = "none")]
+struct RpCheck<'a> {
+    calls: &'a [(&'static str, String)],
+    lines: &'a [String],
+}
 
 /// The functions that the lines call. Only those in use are printed, because a chip has not all modules. `{A}` is the
 /// parameter for the block of pins, which one family has.
@@ -107,7 +121,7 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
         lines.connection(connection);
     }
     lines.link();
-    let (text, known) = print(&names, lines.all);
+    let (text, known) = print_check(&names, lines.all);
     let mut files = FileSet::default();
     match names.hal {
         Hal::Stm32 => {
@@ -127,26 +141,28 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
 }
 
 /// The crate, and what each line of it is of.
-fn print(names: &Names, lines: Vec<(String, Judged)>) -> (String, BTreeMap<usize, Judged>) {
+fn print_check(names: &Names, lines: Vec<(String, Judged)>) -> (String, BTreeMap<usize, Judged>) {
     let parameter = if names.afio { ", A" } else { "" };
-    let (head, calls) = match names.hal {
-        Hal::Stm32 => (HEAD, CALLS),
-        Hal::Rp => (rp::typed::HEAD, rp::typed::CALLS),
+    let signatures = match names.hal {
+        Hal::Stm32 => CALLS,
+        Hal::Rp => rp::typed::CALLS,
     };
-    let mut text = head.to_owned();
-    for (name, signature) in calls {
-        if lines.iter().any(|(code, _)| code.starts_with(&format!("{name}::"))) {
-            text.push_str(&format!("fn {name}{} {{}}\n", signature.replace("{A}", parameter)));
-        }
-    }
-    text.push_str("\npub fn wire(p: Peripherals) {\n");
-    let mut known = BTreeMap::new();
-    for (code, judged) in lines {
-        text.push_str(&format!("    {code}\n"));
-        known.insert(text.lines().count(), judged);
-    }
-    text.push_str("}\n");
-    (text, known)
+    let is_called = |name: &str| {
+        lines.iter().any(|(code, _)| code.split_once("::").is_some_and(|(call, _)| call == name))
+    };
+    let calls: Vec<(&str, String)> = signatures
+        .iter()
+        .filter(|(name, _)| is_called(name))
+        .map(|(name, signature)| (*name, signature.replace("{A}", parameter)))
+        .collect();
+    let (code, judged): (Vec<String>, Vec<Judged>) = lines.into_iter().unzip();
+    let text = match names.hal {
+        Hal::Stm32 => print(&Stm32Check { calls: &calls, lines: &code }),
+        Hal::Rp => print(&RpCheck { calls: &calls, lines: &code }),
+    };
+    // They are the last lines of the crate, but for a brace.
+    let first = text.lines().count() - code.len();
+    (text, (first..).zip(judged).collect())
 }
 
 /// Lines in the making.

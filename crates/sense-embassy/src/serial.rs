@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::pipe::Pipe;
 use embassy_time::{Duration, Instant, Timer, with_deadline};
-use sense_rt::{Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
+use sense_rt::{Bits, Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
 
 use crate::devices::Report;
 use crate::now_ms;
@@ -45,30 +45,57 @@ impl<const BYTES: usize> RxQueue<BYTES> {
     }
 }
 
-/// What the cycles of a device keep.
+/// A serial device that is heard.
 pub struct Device<'a, const BYTES: usize> {
-    /// Where its port puts what comes.
-    pub queue: &'static RxQueue<BYTES>,
-    /// Its messages.
-    pub stream: &'a mut MessageStream,
-    /// The line is silent for so long between two messages that nothing else tells apart; 0 for others.
-    pub gap_ms: u32,
+    queue: &'static RxQueue<BYTES>,
+    stream: &'a mut MessageStream,
+    gap_ms: u32,
+    items: &'static [usize],
     /// The gap was found already.
-    pub is_silent: bool,
+    is_silent: bool,
     /// When something came last, in milliseconds that wrap.
-    pub heard_ms: u32,
+    heard_ms: u32,
 }
 
-impl<const BYTES: usize> Device<'_, BYTES> {
-    /// Takes what comes until then.
-    pub async fn receive(&mut self, until: Instant, sink: &mut Sink<'_>) {
+impl<'a, const BYTES: usize> Device<'a, BYTES> {
+    /// `queue`: where its port puts what comes. `gap_ms`: the line is silent for so long between two
+    /// messages that nothing else tells apart; 0 for others. `items`: the items in its messages.
+    pub fn new(
+        queue: &'static RxQueue<BYTES>,
+        stream: &'a mut MessageStream,
+        gap_ms: u32,
+        items: &'static [usize],
+    ) -> Self {
+        Self { queue, stream, gap_ms, items, is_silent: false, heard_ms: now_ms() }
+    }
+
+    /// One cycle, up to `until`. Reports the first value of each item, because that is when it is
+    /// due; for all items a fault if characters were damaged or lost since the last cycle.
+    pub async fn cycle(&mut self, until: Instant, mut sink: impl FnMut(usize, Outcome, &mut [u8])) {
+        if self.queue.take_fault() {
+            self.items.iter().for_each(|index| sink(*index, Outcome::BusError, &mut []));
+        }
+        let mut reported = Bits::NONE;
+        let mut first = |index: usize, outcome, value: &mut [u8]| {
+            if outcome == Outcome::Fresh {
+                if reported.has(index) {
+                    return;
+                }
+                reported.set(index);
+            }
+            sink(index, outcome, value);
+        };
+        self.receive(until, &mut first).await;
+    }
+
+    /// Takes what comes up to then.
+    async fn receive(&mut self, until: Instant, sink: &mut Sink<'_>) {
         while Instant::now() < until {
             let gap = Instant::now() + Duration::from_millis(self.gap_ms.into());
             let is_gap = self.gap_ms > 0 && gap <= until;
             let mut bytes = [0; 16];
-            match with_deadline(if is_gap { gap } else { until }, self.queue.bytes.read(&mut bytes))
-                .await
-            {
+            let end = if is_gap { gap } else { until };
+            match with_deadline(end, self.queue.bytes.read(&mut bytes)).await {
                 Ok(size) => {
                     self.heard_ms = now_ms();
                     self.is_silent = false;
@@ -81,11 +108,6 @@ impl<const BYTES: usize> Device<'_, BYTES> {
                 Err(_) => {}
             }
         }
-    }
-
-    /// Whether characters were damaged or lost since the last time.
-    pub fn has_fault(&mut self) -> bool {
-        self.queue.take_fault()
     }
 
     /// Whether the device has been silent for so long that it may have to be told everything again.

@@ -228,22 +228,23 @@ fn bytes_of_a_port_become_messages() {
     let (_turn, clock) = clock();
     static QUEUE: RxQueue<32> = RxQueue::new();
     let mut stream: MessageStream<[u8; 64]> = MessageStream::new(&MESSAGE, &SCHEMA);
-    let mut device =
-        Device { queue: &QUEUE, stream: &mut stream, gap_ms: 0, is_silent: false, heard_ms: 0 };
+    let mut device = Device::new(&QUEUE, &mut stream, 0, &[0]);
     for byte in [0x42, 0x81, 0x02] {
         QUEUE.take(Some(byte), true, 0x7F);
     }
     let mut seen = Vec::new();
-    let until = Instant::now() + Duration::from_millis(1);
-    let mut sink = |index: usize, outcome, value: &mut [u8]| {
-        seen.push((index, outcome, value.to_vec()));
-        clock.advance(Duration::from_millis(1));
+    let mut cycle = |device: &mut Device<'_, 32>| {
+        let until = Instant::now() + Duration::from_millis(1);
+        let sink = |index: usize, outcome, value: &mut [u8]| {
+            seen.push((index, outcome, value.to_vec()));
+            clock.advance(Duration::from_millis(1));
+        };
+        block_on(device.cycle(until, sink));
     };
-    block_on(device.receive(until, &mut sink));
-    assert_eq!(seen, [(0, Outcome::Fresh, vec![1, 2])]);
-    assert!(!device.has_fault());
+    cycle(&mut device);
     QUEUE.take(None, false, 0xFF);
-    assert!(device.has_fault() && !device.has_fault());
+    cycle(&mut device);
+    assert_eq!(seen, [(0, Outcome::Fresh, vec![1, 2]), (0, Outcome::BusError, vec![])]);
     assert!(!device.is_forgotten(10));
     clock.advance(Duration::from_secs(6));
     assert!(device.is_forgotten(10) && !device.is_forgotten(10));

@@ -2,7 +2,9 @@
 
 use sensedsl_board::pin::PinName;
 
+use crate::analog::{each_sample, sample_names};
 use crate::context::{Context, Wired};
+use sensedsl_job::JobConnection;
 
 /// The type of an input, and what it is made of.
 pub(crate) fn input(context: &Context<'_>, pin: &PinName) -> (String, String) {
@@ -14,25 +16,18 @@ pub(crate) fn input(context: &Context<'_>, pin: &PinName) -> (String, String) {
 }
 
 /// All inputs one right after the other, as often as there are samples.
-pub(crate) fn rows(wired: &Wired<'_>) -> String {
-    let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
-    let mut text = format!(
-        "        let mut is_whole = true;\n        for [{}] in samples.as_chunks_mut().0 {{\n",
-        names.join(", ")
-    );
-    for (name, wire) in names.iter().zip(&wired.wires) {
-        text.push_str(&format!(
-            "            is_whole &= rt::converter::read(&mut adc, &mut {}, {name}).await;\n",
-            wire.ident
-        ));
-    }
-    text + "        }\n"
+pub(crate) fn rows(wired: &Wired<'_>) -> Vec<String> {
+    let names = sample_names(wired);
+    let read = |(name, wire): (&String, &&JobConnection<'_>)| {
+        format!("is_whole &= rt::converter::read(&mut adc, &mut {}, {name}).await;", wire.ident)
+    };
+    let reads: Vec<String> = names.iter().zip(&wired.wires).map(read).collect();
+    vec!["let mut is_whole = true;".to_owned(), each_sample(&names, &reads)]
 }
 
-/// Tells a value, or that a conversion failed.
+/// Reports a value, or that a conversion failed.
 pub(crate) fn tell(constant: &str, tell: &str) -> String {
     format!(
-        "        if is_whole {{\n            {tell}\n        }} else {{\n            \
-         BOARD.report(None, tables::{constant}, Outcome::Invalid, &mut []);\n        }}\n"
+        "if is_whole {{ {tell} }} else {{ BOARD.report(None, tables::{constant}, Outcome::Invalid, &mut []); }}"
     )
 }

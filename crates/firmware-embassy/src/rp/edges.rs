@@ -4,6 +4,7 @@ use sensedsl_model::kind::digital::Digital;
 
 use crate::contacts;
 use crate::context::Context;
+use crate::item::{Item, Task};
 use crate::section::{Section, Start};
 use sensedsl_job::{JobConnection, Pad};
 
@@ -18,11 +19,11 @@ pub(crate) fn input(
 ) -> (&'static str, String, String) {
     let (ident, pin) = (&wire.ident, context.pin(&pad.pin.name));
     let kept = contacts::name(wire);
-    section.items.push(format!(
-        "/// {}: its edges.\n#[embassy_executor::task]\nasync fn {ident}_edges(pin: Input<'static>) {{\n    \
-         rt::edges::watch(pin, rt::edges::Trigger::{trigger}, &{kept}).await;\n}}",
-        wire.place()
-    ));
+    let mut task = Task::new(format!("{}: its edges", wire.place()), format!("{ident}_edges"));
+    task.parameters.push("pin: Input<'static>".to_owned());
+    task.before
+        .push(format!("rt::edges::watch(pin, rt::edges::Trigger::{trigger}, &{kept}).await;"));
+    section.items.push(Item::Task(task));
     section
         .begins
         .push(format!("{kept}.begin(rt::edges::Pad({}));", pin.trim_start_matches("PIN_")));

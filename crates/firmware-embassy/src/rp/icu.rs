@@ -4,8 +4,9 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use crate::context::{Context, Wired};
-use crate::icu::poll;
+use crate::icu::{poll, seen};
 use crate::inputs::poll_counts;
+use crate::item::{Item, Task};
 use crate::lack::{self, Missing, Printed};
 use crate::section::{Field, Keep, Section, Start};
 use sensedsl_job::JobConnection;
@@ -53,11 +54,11 @@ fn gate(
         ),
     });
     let upper = ident.to_uppercase();
-    section.items.push(format!(
-        "static {upper}_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();\n\n/// {}.\n#[embassy_executor::task]\n\
-         async fn {ident}_edges(gate: rt::gate::Gate) {{\n    rt::gate::measure(gate, &{upper}_SEEN).await;\n}}",
-        wire.place(),
-    ));
+    section.items.push(Item::Line(seen(&upper)));
+    let mut task = Task::new(wire.place(), format!("{ident}_edges"));
+    task.parameters.push("gate: rt::gate::Gate".to_owned());
+    task.before.push(format!("rt::gate::measure(gate, &{upper}_SEEN).await;"));
+    section.items.push(Item::Task(task));
     section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
     Ok(())
 }

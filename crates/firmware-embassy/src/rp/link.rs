@@ -34,10 +34,11 @@ pub(crate) fn port(
     rest(context, rx, false, section);
     if let Some(interrupt) = context.names.interrupt(unit, "GLOBAL") {
         // The HAL waits for a level of the port's own queue, which few bytes do not reach.
-        section.polls.push(format!(
-            "// What waits behind the end of the queue goes on, however few bytes were before it.\n\
-             interrupt::{interrupt}.pend();"
-        ));
+        section.polls.push(vec![
+            "// What waits behind the end of the queue goes on, however few bytes were before it."
+                .to_owned(),
+            format!("interrupt::{interrupt}.pend();"),
+        ]);
     }
     (
         format!("hal::uart::BufferedInterruptHandler<{hal}>"),

@@ -53,9 +53,9 @@ pub(super) fn begin(context: &Context<'_>) -> Begin {
         Start::Block => ("POWMAN", "cause.had_por() || cause.had_bor()", "cause.had_run_low()"),
     };
     Begin {
-        config: "/// The clocks, which the HAL makes of the crystal of 12 MHz.\n\
-                 fn config() -> hal::config::Config {\n    hal::config::Config::default()\n}"
-            .to_owned(),
+        // The HAL makes the clocks of the crystal of 12 MHz.
+        clocks: Vec::new(),
+        config: "hal::config::Config",
         start: vec![
             format!("let cause = hal::pac::{register}.chip_reset().read();"),
             format!("STATUS.begin(rt::watchdog::cause({power}, {run}));"),

@@ -2,9 +2,6 @@
 
 use sensedsl_board::signal::{Function, I2cLine, SpiLine, TimerLine, UartLine};
 
-/// How the crate of a check begins.
-pub(crate) const HEAD: &str = include_str!("../templates/rp/wiring_check.rs.txt");
-
 /// What the check for ARMv8-M needs of cargo: the HAL names registers that the core's crate has for these cores alone,
 /// whatever it is checked for.
 pub(crate) const CONFIG: &str = include_str!("../templates/rp/check_config.toml.txt");

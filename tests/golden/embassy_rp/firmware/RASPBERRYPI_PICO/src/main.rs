@@ -60,41 +60,24 @@ async fn link(device: hal::usb::Driver<'static, USB>) {
 }
 
 type ADC1Unit = Mutex<CriticalSectionRawMutex, hal::adc::Adc<'static, hal::adc::Async>>;
+
 static ADC1_UNIT: StaticCell<ADC1Unit> = StaticCell::new();
 
 /// ADC1 1000 ms.
 #[embassy_executor::task]
-async fn adc1_1000ms(
-    unit: &'static ADC1Unit,
-    mut light: hal::adc::Channel<'static>,
-    mut pair_0: hal::adc::Channel<'static>,
-    mut pair_1: hal::adc::Channel<'static>,
-) {
+async fn adc1_1000ms(unit: &'static ADC1Unit, mut light: hal::adc::Channel<'static>, mut pair_0: hal::adc::Channel<'static>, mut pair_1: hal::adc::Channel<'static>) {
     let mut pair_filter: Filter<[u8; tables::PAIR_FILTER.bytes(&SCHEMA.items[1])]> = Filter::new(&tables::PAIR_FILTER);
     let mut ticker = Ticker::every(Duration::from_millis(1000));
     loop {
         let mut adc = unit.lock().await;
         let mut samples = [0; 4];
         let mut is_whole = true;
-        for [s0] in samples.as_chunks_mut().0 {
-            is_whole &= rt::converter::read(&mut adc, &mut light, s0).await;
-        }
-        if is_whole {
-            rt::analog::report(&BOARD, None, tables::LIGHT, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
-        } else {
-            BOARD.report(None, tables::LIGHT, Outcome::Invalid, &mut []);
-        }
+        for [s0] in samples.as_chunks_mut().0 { is_whole &= rt::converter::read(&mut adc, &mut light, s0).await; }
+        if is_whole { rt::analog::report(&BOARD, None, tables::LIGHT, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 1, &mut [0; 2]); } else { BOARD.report(None, tables::LIGHT, Outcome::Invalid, &mut []); }
         let mut samples = [0; 64];
         let mut is_whole = true;
-        for [s0, s1] in samples.as_chunks_mut().0 {
-            is_whole &= rt::converter::read(&mut adc, &mut pair_0, s0).await;
-            is_whole &= rt::converter::read(&mut adc, &mut pair_1, s1).await;
-        }
-        if is_whole {
-            rt::analog::report(&BOARD, Some(&mut *pair_filter), tables::PAIR, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 2, &mut [0; 4]);
-        } else {
-            BOARD.report(None, tables::PAIR, Outcome::Invalid, &mut []);
-        }
+        for [s0, s1] in samples.as_chunks_mut().0 { is_whole &= rt::converter::read(&mut adc, &mut pair_0, s0).await; is_whole &= rt::converter::read(&mut adc, &mut pair_1, s1).await; }
+        if is_whole { rt::analog::report(&BOARD, Some(&mut *pair_filter), tables::PAIR, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 2, &mut [0; 4]); } else { BOARD.report(None, tables::PAIR, Outcome::Invalid, &mut []); }
         drop(adc);
         WATCH.beat(tables::ADC1_1000MS, now_ms());
         ticker.next().await;
@@ -111,8 +94,8 @@ async fn i2c0_1000ms(bus: &'static rt::i2c::I2cBus<I2C0>) {
     let timeout = Duration::from_millis(11);
     loop {
         let mut idle_ms = 1000;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
-        idle_ms = idle_ms.min(rt::bus::serve(&mut range_line, &mut range, timeout, &mut tell).await);
+        let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
+        idle_ms = idle_ms.min(rt::bus::serve(&mut range_line, &mut range, timeout, &mut report).await);
         WATCH.beat(tables::I2C0_1000MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
@@ -128,8 +111,8 @@ async fn spi0_1000ms(bus: &'static rt::spi::SpiBus<SPI0>, gyro_select: Output<'s
     let timeout = Duration::from_millis(10);
     loop {
         let mut idle_ms = 1000;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
-        idle_ms = idle_ms.min(rt::bus::serve(&mut gyro_line, &mut gyro, timeout, &mut tell).await);
+        let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
+        idle_ms = idle_ms.min(rt::bus::serve(&mut gyro_line, &mut gyro, timeout, &mut report).await);
         WATCH.beat(tables::SPI0_1000MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
@@ -150,33 +133,11 @@ impl interrupt::typelevel::Handler<interrupt::typelevel::UART0_IRQ> for PLACEHea
 /// Place at GP0 (UART0_TX), GP1 (UART0_RX): what it says, each 1000 ms.
 #[embassy_executor::task]
 async fn place_listen(_port: hal::uart::Uart<'static, hal::uart::Blocking>) {
-    let mut stream: sense_rt::MessageStream<[u8; tables::PLACE_MESSAGE.stream_bytes(&SCHEMA)]> =
-        sense_rt::MessageStream::new(&tables::PLACE_MESSAGE, &SCHEMA);
-    let mut device = rt::serial::Device {
-        queue: &PLACE_HEARD,
-        stream: &mut stream,
-        gap_ms: 3,
-        is_silent: false,
-        heard_ms: now_ms(),
-    };
-    const OWN: [usize; 1] = [8];
+    let mut stream: sense_rt::MessageStream<[u8; tables::PLACE_MESSAGE.stream_bytes(&SCHEMA)]> = sense_rt::MessageStream::new(&tables::PLACE_MESSAGE, &SCHEMA);
+    let mut device = rt::serial::Device::new(&PLACE_HEARD, &mut stream, 3, &[8]);
     loop {
         let until = Instant::now() + Duration::from_millis(1000);
-        if device.has_fault() {
-            for index in OWN {
-                BOARD.report(None, index, Outcome::BusError, &mut []);
-            }
-        }
-        let mut told = sense_rt::Bits::NONE;
-        device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {
-            if outcome == Outcome::Fresh {
-                if told.has(index) {
-                    return;
-                }
-                told.set(index);
-            }
-            BOARD.report(None, index, outcome, value);
-        }).await;
+        device.cycle(until, |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value)).await;
         WATCH.beat(tables::PLACE_LISTEN, now_ms());
         Timer::at(until).await;
     }
@@ -216,12 +177,10 @@ async fn touch_edges(pin: Input<'static>) {
 }
 
 /// Touch at GP10 (GPIO).
-static TOUCH_KEPT: rt::edges::InterruptInput =
-    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static TOUCH_KEPT: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Bump at GP11 (GPIO).
-static BUMP_KEPT: rt::edges::SampledInput =
-    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
+static BUMP_KEPT: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
 
 /// gpio 1000 ms.
 #[embassy_executor::task]
@@ -229,9 +188,7 @@ async fn gpio_1000ms() {
     let mut ticker = Ticker::every(Duration::from_millis(1000));
     loop {
         let mut value = [0; 1];
-        for (at, level) in [BUMP_KEPT.level()].into_iter().enumerate() {
-            Scalar::Bool.store_at(u64::from(level), &mut value, at);
-        }
+        for (at, level) in [BUMP_KEPT.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
         BOARD.report(None, tables::BUMP, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_1000MS, now_ms());
         ticker.next().await;
@@ -310,9 +267,7 @@ async fn reporter(
             let counts = wheel_counters.map(|counter| counter.total());
             if wheel_repeat.is_due(counts != before, 1_000, now_ms()) {
                 let mut value = [0; 4];
-                for (at, count) in counts.into_iter().enumerate() {
-                    store_count(Scalar::Uint32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
-                }
+                for (at, count) in counts.into_iter().enumerate() { store_count(Scalar::Uint32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default()); }
                 BOARD.report(None, tables::WHEEL, Outcome::Fresh, &mut value);
             }
         }
@@ -320,24 +275,18 @@ async fn reporter(
             let seen = STICK_SEEN.lock(core::cell::Cell::get);
             let config = CaptureConfig { mode: CaptureMode::Width, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 2];
-            if stick.read(&config, &seen, false, now_ms(), Scalar::Uint16, &mut value) {
-                BOARD.report(None, tables::STICK, Outcome::Fresh, &mut value);
-            }
+            if stick.read(&config, &seen, false, now_ms(), Scalar::Uint16, &mut value) { BOARD.report(None, tables::STICK, Outcome::Fresh, &mut value); }
         }
         {
             let seen = NEAR_SEEN.lock(core::cell::Cell::get);
             let config = CaptureConfig { mode: CaptureMode::Width, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 4];
-            if near.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) {
-                BOARD.report(Some(&mut *near_filter), tables::NEAR, Outcome::Fresh, &mut value);
-            }
+            if near.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) { BOARD.report(Some(&mut *near_filter), tables::NEAR, Outcome::Fresh, &mut value); }
         }
         {
             let (mut value, mut is_news) = ([0; 1], false);
             is_news |= TOUCH_KEPT.take(&mut touch_told[0], Scalar::Bool, false, &mut value[0..]);
-            if touch_repeat.is_due(is_news, 1000, now_ms()) {
-                BOARD.report(None, tables::TOUCH, Outcome::Fresh, &mut value);
-            }
+            if touch_repeat.is_due(is_news, 1000, now_ms()) { BOARD.report(None, tables::TOUCH, Outcome::Fresh, &mut value); }
         }
         {
             BUMP_KEPT.sample();
@@ -353,7 +302,7 @@ async fn reporter(
     }
 }
 
-/// The clocks, which the HAL makes of the crystal of 12 MHz.
+/// The clocks.
 fn config() -> hal::config::Config {
     hal::config::Config::default()
 }

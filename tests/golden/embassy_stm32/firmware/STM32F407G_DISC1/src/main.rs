@@ -48,8 +48,8 @@ static OUTPUTS: Held<CriticalSectionRawMutex, RefCell<Option<Outputs>>> = Held::
 fn drive_thrust(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {
     for write in tables::THRUST_BRIDGE.drive(&mut outputs.thrust_bridge, scalar, value).as_slice() {
         match write.output {
-            0 if write.value == 0 => { hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, false)); outputs.tim9.ch1().set_duty_cycle(0); outputs.tim9.ch1().enable(); hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, true)); }
-            0 => { rt::pwm::set_width(&mut outputs.tim9.ch1(), [0, 1, 1], write.value); outputs.tim9.ch1().enable(); }
+            0 if write.value == 0 => { hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, false)); outputs.tim9.ch1().set_duty_cycle(0); outputs.tim9.ch1().enable(); hal::pac::TIM9.ccmr_output(0).modify(|mode| mode.set_ocpe(0, true)); },
+            0 => { rt::pwm::set_width(&mut outputs.tim9.ch1(), [0, 1, 1], write.value); outputs.tim9.ch1().enable(); },
             1 => outputs.drive_in1.set_level(if write.value != 0 { Level::High } else { Level::Low }),
             2 => outputs.drive_in2.set_level(if write.value != 0 { Level::High } else { Level::Low }),
             _ => {}
@@ -58,14 +58,12 @@ fn drive_thrust(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {
 }
 
 type ADC1Unit = Mutex<CriticalSectionRawMutex, hal::adc::Adc<'static, ADC1>>;
+
 static ADC1_UNIT: StaticCell<ADC1Unit> = StaticCell::new();
 
 /// ADC1 20 ms.
 #[embassy_executor::task]
-async fn adc1_20ms(
-    unit: &'static ADC1Unit,
-    mut distance: Peri<'static, PC1>,
-) {
+async fn adc1_20ms(unit: &'static ADC1Unit, mut distance: Peri<'static, PC1>) {
     let mut distance_filter: Filter<[u8; tables::DISTANCE_FILTER.bytes(&SCHEMA.items[0])]> = Filter::new(&tables::DISTANCE_FILTER);
     let mut ticker = Ticker::every(Duration::from_millis(20));
     loop {
@@ -82,10 +80,7 @@ async fn adc1_20ms(
 
 /// ADC1 100 ms.
 #[embassy_executor::task]
-async fn adc1_100ms(
-    unit: &'static ADC1Unit,
-    mut motor: Peri<'static, PC4>,
-) {
+async fn adc1_100ms(unit: &'static ADC1Unit, mut motor: Peri<'static, PC4>) {
     let mut ticker = Ticker::every(Duration::from_millis(100));
     loop {
         let mut adc = unit.lock().await;
@@ -112,9 +107,9 @@ async fn i2c3_20ms(bus: &'static rt::i2c::I2cBus) {
     let timeout = Duration::from_millis(11);
     loop {
         let mut idle_ms = 20;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
-        idle_ms = idle_ms.min(rt::bus::serve(&mut heading_line, &mut heading, timeout, &mut tell).await);
-        idle_ms = idle_ms.min(rt::bus::serve(&mut lamps_line, &mut lamps, timeout, &mut tell).await);
+        let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
+        idle_ms = idle_ms.min(rt::bus::serve(&mut heading_line, &mut heading, timeout, &mut report).await);
+        idle_ms = idle_ms.min(rt::bus::serve(&mut lamps_line, &mut lamps, timeout, &mut report).await);
         let value = &mut [0; SCHEMA.value_bytes_max()];
         rt::bus::write(&mut lamps_line, &mut lamps, &mut lamps_written, timeout, &BOARD, value).await;
         WATCH.beat(tables::I2C3_20MS, now_ms());
@@ -132,8 +127,8 @@ async fn spi3_10ms(bus: &'static rt::spi::SpiBus, angle_select: Output<'static>)
     let timeout = Duration::from_millis(10);
     loop {
         let mut idle_ms = 10;
-        let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
-        idle_ms = idle_ms.min(rt::bus::serve(&mut angle_line, &mut angle, timeout, &mut tell).await);
+        let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
+        idle_ms = idle_ms.min(rt::bus::serve(&mut angle_line, &mut angle, timeout, &mut report).await);
         WATCH.beat(tables::SPI3_10MS, now_ms());
         rt::bus::rest(idle_ms).await;
     }
@@ -155,33 +150,11 @@ impl interrupt::typelevel::Handler<interrupt::typelevel::USART2> for AHEADHeard 
 #[embassy_executor::task]
 async fn ahead_listen(_port: hal::usart::UartRx<'static, hal::mode::Blocking>) {
     let mut ahead_filter: Filter<[u8; tables::AHEAD_FILTER.bytes(&SCHEMA.items[9])]> = Filter::new(&tables::AHEAD_FILTER);
-    let mut stream: sense_rt::MessageStream<[u8; tables::AHEAD_MESSAGE.stream_bytes(&SCHEMA)]> =
-        sense_rt::MessageStream::new(&tables::AHEAD_MESSAGE, &SCHEMA);
-    let mut device = rt::serial::Device {
-        queue: &AHEAD_HEARD,
-        stream: &mut stream,
-        gap_ms: 0,
-        is_silent: false,
-        heard_ms: now_ms(),
-    };
-    const OWN: [usize; 1] = [9];
+    let mut stream: sense_rt::MessageStream<[u8; tables::AHEAD_MESSAGE.stream_bytes(&SCHEMA)]> = sense_rt::MessageStream::new(&tables::AHEAD_MESSAGE, &SCHEMA);
+    let mut device = rt::serial::Device::new(&AHEAD_HEARD, &mut stream, 0, &[9]);
     loop {
         let until = Instant::now() + Duration::from_millis(20);
-        if device.has_fault() {
-            for index in OWN {
-                BOARD.report(None, index, Outcome::BusError, &mut []);
-            }
-        }
-        let mut told = sense_rt::Bits::NONE;
-        device.receive(until, &mut |index: usize, outcome, value: &mut [u8]| {
-            if outcome == Outcome::Fresh {
-                if told.has(index) {
-                    return;
-                }
-                told.set(index);
-            }
-            BOARD.report(match index { 9 => Some(&mut *ahead_filter), _ => None }, index, outcome, value);
-        }).await;
+        device.cycle(until, |index: usize, outcome, value: &mut [u8]| BOARD.report(match index { 9 => Some(&mut *ahead_filter), _ => None }, index, outcome, value)).await;
         WATCH.beat(tables::AHEAD_LISTEN, now_ms());
         Timer::at(until).await;
     }
@@ -191,18 +164,14 @@ static CAN1_KEPT: rt::can::Memory = rt::can::Memory::new();
 
 /// CAN1: frames that come.
 #[embassy_executor::task]
-async fn can1_listen(come: rt::can::Receiver) {
-    let mut bus = rt::can::Bus {
-        receiver: come,
-        schema: &SCHEMA,
-        values: tables::CAN1_VALUES,
-        sent: &[11],
-        reported_ms: &mut [None; tables::CAN1_VALUES.len()],
-        value: &mut [0; SCHEMA.value_bytes_max()],
-    };
+async fn can1_listen(receiver: rt::can::Receiver) {
+    let reported_ms = &mut [None; tables::CAN1_VALUES.len()];
+    let value = &mut [0; SCHEMA.value_bytes_max()];
+    let mut bus = rt::can::Bus { receiver, schema: &SCHEMA, values: tables::CAN1_VALUES, sent: &[11], reported_ms, value };
     loop {
         let until = Instant::now() + Duration::from_millis(20);
-        bus.receive(until, &mut |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value)).await;
+        let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
+        bus.receive(until, &mut report).await;
         WATCH.beat(tables::CAN1_LISTEN, now_ms());
     }
 }
@@ -218,12 +187,10 @@ async fn speed_edges(timer: hal::timer::pwm_input::PwmInput<'static, TIM2>) {
 }
 
 /// Bumper at PC13 (GPIO).
-static BUMPER_KEPT: rt::edges::SampledInput =
-    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
+static BUMPER_KEPT: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
 
 /// Drops at PD3 (GPIO).
-static DROPS_KEPT: rt::edges::InterruptInput =
-    rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static DROPS_KEPT: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Edges on the lines of this interrupt.
 #[allow(non_camel_case_types, reason = "it is called as the interrupt")]
@@ -241,9 +208,7 @@ async fn gpio_50ms() {
     let mut ticker = Ticker::every(Duration::from_millis(50));
     loop {
         let mut value = [0; 1];
-        for (at, level) in [!BUMPER_KEPT.level()].into_iter().enumerate() {
-            Scalar::Bool.store_at(u64::from(level), &mut value, at);
-        }
+        for (at, level) in [!BUMPER_KEPT.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
         BOARD.report(None, tables::BUMPER, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_50MS, now_ms());
         ticker.next().await;
@@ -335,9 +300,7 @@ async fn reporter(
             let seen = SPEED_SEEN.lock(core::cell::Cell::get);
             let config = CaptureConfig { mode: CaptureMode::Frequency, tick_hz: 1000000, silent_ms: 1000 };
             let mut value = [0; 4];
-            if speed.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) {
-                BOARD.report(None, tables::SPEED, Outcome::Fresh, &mut value);
-            }
+            if speed.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) { BOARD.report(None, tables::SPEED, Outcome::Fresh, &mut value); }
         }
         {
             BUMPER_KEPT.sample();
@@ -345,9 +308,7 @@ async fn reporter(
         {
             let (mut value, mut is_news) = ([0; 4], false);
             is_news |= DROPS_KEPT.take(&mut drops_told[0], Scalar::Uint32, false, &mut value[0..]);
-            if drops_repeat.is_due(is_news, 1000, now_ms()) {
-                BOARD.report(None, tables::DROPS, Outcome::Fresh, &mut value);
-            }
+            if drops_repeat.is_due(is_news, 1000, now_ms()) { BOARD.report(None, tables::DROPS, Outcome::Fresh, &mut value); }
         }
         {
             let before = turns_counters.map(|counter| counter.total());
@@ -355,9 +316,7 @@ async fn reporter(
             let counts = turns_counters.map(|counter| counter.total());
             if turns_repeat.is_due(counts != before, 1_000, now_ms()) {
                 let mut value = [0; 4];
-                for (at, count) in counts.into_iter().enumerate() {
-                    store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
-                }
+                for (at, count) in counts.into_iter().enumerate() { store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default()); }
                 BOARD.report(None, tables::TURNS, Outcome::Fresh, &mut value);
             }
         }
@@ -367,9 +326,7 @@ async fn reporter(
             let counts = position_counters.map(|counter| counter.total());
             if position_repeat.is_due(counts != before, 1_000, now_ms()) {
                 let mut value = [0; 4];
-                for (at, count) in counts.into_iter().enumerate() {
-                    store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default());
-                }
+                for (at, count) in counts.into_iter().enumerate() { store_count(Scalar::Int32, i64::from(count), value.get_mut(at * 4..).unwrap_or_default()); }
                 BOARD.report(None, tables::POSITION, Outcome::Fresh, &mut value);
             }
         }
@@ -421,14 +378,7 @@ async fn main(spawner: Spawner) {
     let spi3: &'static rt::spi::SpiBus = SPI3_BUS.init(Mutex::new(wiring.spi3));
     start!(spawner, spi3_10ms(spi3, wiring.angle_select));
     start!(spawner, ahead_listen(wiring.ahead));
-    let (can1_tx, can1_rx) = rt::can::start(
-        wiring.can1,
-        hal::pac::CAN1,
-        &rt::can::Banks { registers: hal::pac::CAN1, first: 0 },
-        &CAN1_KEPT,
-        rt::can::Bit { divider: 6, before: 11, after: 2, jump: 2 },
-        &[crate::rt::can::standard(0x120)],
-    );
+    let (can1_tx, can1_rx) = rt::can::start(wiring.can1, hal::pac::CAN1, &rt::can::Banks { registers: hal::pac::CAN1, first: 0 }, &CAN1_KEPT, rt::can::Bit { divider: 6, before: 11, after: 2, jump: 2 }, &[crate::rt::can::standard(0x120)]);
     start!(spawner, can1_listen(can1_rx));
     start!(spawner, speed_edges(wiring.speed));
     start!(spawner, gpio_50ms());

@@ -170,7 +170,7 @@ pub const AHEAD_FILTER: FilterTable = FilterTable {
     heartbeat_ms: 0,
 };
 
-/// Values in frames: where, in which frame, and how often they are told.
+/// Values in frames: where, in which frame, and how often they are reported.
 pub const CAN1_VALUES: &[crate::rt::can::Value] = &[
     (MessageField { item: 10, byte: 2, value: Coding { elements: &[], words: 0, code: Code::Integer, crc: Crc::None, word_bytes: 2, low: 0, bits: 0, is_signed: false, is_little_endian: false }, ..MessageField::NEW }, crate::rt::can::standard(0x120), 20, (0x0, 0x0)),
 ];
