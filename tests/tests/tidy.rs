@@ -42,5 +42,5 @@ fn tests_that_are_left_out_are_not_there() {
             undocumented += 1;
         }
     }
-    assert!(untested >= 6 && undocumented >= 15, "{untested} {undocumented}");
+    assert!(untested >= 6 && undocumented >= 3, "{untested} {undocumented}");
 }

@@ -4,6 +4,15 @@
 //! The figures are far above what a real project needs and low enough that any input, however
 //! hostile, is refused within a second and 200 MB. `sensedsl-verify` has limits of its own, since
 //! it depends on no crate of the workspace.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_limits::{ALL, PINS_MAX};
+//!
+//! let pins = ALL.iter().find(|one| one.name == "PINS_MAX").unwrap();
+//! assert_eq!((pins.of, pins.most, pins.code), ("pins of a table", PINS_MAX, "E0317"));
+//! ```
 
 /// Bytes of one `.sense` text.
 pub const SENSE_BYTES_MAX: usize = 4 << 20;

@@ -2,6 +2,29 @@
 //!
 //! Only this crate defines how values become bytes. Every other codec of the project (C, C++, …)
 //! must pass the vectors in `tests/vectors`, which hold it to this one. Needs no operating system.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_wire::{
+//!     Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType, encode_report,
+//! };
+//!
+//! let light = Item {
+//!     id: 17,
+//!     name: "Light".to_owned(),
+//!     direction: Direction::Sensor,
+//!     value: ValueType::scalar(ScalarType::Uint16),
+//! };
+//! let schema = Schema { items: vec![light], ..Schema::default() };
+//! let values = [(17, vec![Scalar::Unsigned(500)])];
+//! let frame = encode_report(&schema, Direction::Sensor, &values).unwrap();
+//! assert_eq!(frame, b"3:\x11\x01\xf4,");
+//!
+//! let mut events = Vec::new();
+//! Decoder::new(&schema, Direction::Sensor).feed(&frame, |event| events.push(event));
+//! assert_eq!(events, [Event::Report(None, values.to_vec())]);
+//! ```
 #![no_std]
 
 extern crate alloc;
