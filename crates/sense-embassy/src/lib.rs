@@ -13,6 +13,24 @@
 //! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
 //! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-repeat`, `gpio-v2`, `otg`. The folders are compiled for
 //! MCUs only; everything else is compiled and tested on a computer as well.
+//!
+//! # Example
+//!
+//! ```
+//! use sense_embassy::devices::{Devices, Report as _};
+//! use sense_rt::{Checksum, Item, Outcome, Scalar, Schema};
+//!
+//! static SCHEMA: Schema = Schema {
+//!     items: &[Item::sensor(17, Scalar::Uint16, 1)],
+//!     hash: 7,
+//!     stamp: false,
+//!     checksum: Checksum::None,
+//! };
+//! static BOARD: Devices<2, 1> = Devices::new(&SCHEMA, &[10]);
+//!
+//! BOARD.report(None, 0, Outcome::Fresh, &mut 500_u16.to_be_bytes());
+//! BOARD.with(|store, _| assert_eq!(store.get(0), Some(&[1, 0xf4][..])));
+//! ```
 #![no_std]
 
 #[cfg(feature = "runtime")]

@@ -19,6 +19,28 @@
 //!
 //! `crates/firmware-c/runtime` is the same runtime in C; tests hold both to the same vectors and to
 //! each other.
+//!
+//! # Example
+//!
+//! ```
+//! use sense_rt::{Checksum, Decoder, Direction, Frame, Item, Scalar, Schema};
+//!
+//! const SCHEMA: Schema = Schema {
+//!     items: &[Item::actuator(33, Scalar::Int16, 1)],
+//!     hash: 7,
+//!     stamp: false,
+//!     checksum: Checksum::None,
+//! };
+//! let mut decoder: Decoder<[u8; SCHEMA.frame_bytes(Direction::ToBoard)]> =
+//!     Decoder::new(&SCHEMA, Direction::ToBoard);
+//! let mut speed = None;
+//! decoder.feed(b"noise 3:\x21\x01\x02,", &mut |frame| {
+//!     if let Frame::Values(_, mut items) = frame {
+//!         speed = items.next().map(|(index, value)| (index, value.to_vec()));
+//!     }
+//! });
+//! assert_eq!(speed, Some((0, vec![1, 2])));
+//! ```
 #![no_std]
 #![forbid(unsafe_code)]
 
