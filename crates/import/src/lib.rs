@@ -3,6 +3,24 @@
 //!
 //! Nothing here does I/O: a source that names other files (the alternate functions of an MCU, an
 //! included `hwdef`) requests them through [`Source::beside`].
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_import::{Source, Unread, import};
+//!
+//! // A row for each pin and signal.
+//! let made = import(&Source {
+//!     name: "pins.csv",
+//!     bytes: b"Pin;Signal;AF\nPA1;ADC1_IN1;\nPA1;TIM2_CH2;1\nGND;;\n",
+//!     format: None,
+//!     sheet: None,
+//!     table: "pins.csv",
+//!     beside: &|_| Err(Unread::Missing),
+//! });
+//! assert_eq!(made.table.as_deref(), Some("Pin,ADC,TIM\nPA1,ADC1_IN1,TIM2_CH2@1\n"));
+//! assert_eq!(made.diagnostics[0].code.name(), "W0804");
+//! ```
 
 mod assemble;
 mod cubemx;

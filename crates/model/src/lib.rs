@@ -3,6 +3,25 @@
 //! [`resolve`] reads a file and everything that it uses, binds names, fills in defaults, converts
 //! units and checks kinds. User text never makes it fail: mistakes come back as diagnostics. It
 //! does no I/O of its own; files are read through [`Files`].
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_model::{NoFiles, Request, resolve};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; delay = 2 s; }
+//! }";
+//! let request = Request { path: "rover.sense", text, ..Request::default() };
+//! let design = resolve(&request, &NoFiles).design.unwrap();
+//! assert_eq!(design.boards[0].table.mcu.as_deref(), Some("STM32F407VGT6"));
+//! assert_eq!(design.devices[0].delay_ms, 2_000);
+//!
+//! let mistaken = text.replace("analog", "analogue");
+//! let resolved = resolve(&Request { text: &mistaken, ..request }, &NoFiles);
+//! assert!(resolved.design.is_none());
+//! assert_eq!(resolved.diagnostics[0].message, "`analogue` is not a kind of device");
+//! ```
 
 mod boards;
 pub mod bounds;

@@ -5,6 +5,22 @@
 //! first question. This crate complements the built-in boards of `sensedsl-board`, on which it
 //! depends: a name is looked up there first and here second. A table that lists no usages takes
 //! them from here.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_board::pin::PinName;
+//! use sensedsl_parts::{find, nearest_name};
+//!
+//! let found = find("stm32f407vgt6").unwrap();
+//! assert_eq!((found.mcu.as_str(), found.package()), ("STM32F407VGT6", Some("LQFP100")));
+//!
+//! let (position, usages) = found.sheet.pin(&PinName::parse("PA1").unwrap()).unwrap();
+//! assert_eq!(position, Some("24"));
+//! assert!(usages.contains(&("TIM2_CH2".to_owned(), Some(1))));
+//!
+//! assert_eq!(nearest_name("STM32F407VGT66").as_deref(), Some("STM32F407VGT6"));
+//! ```
 
 mod complete;
 mod find;
