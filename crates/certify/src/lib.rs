@@ -4,6 +4,54 @@
 //! The solver searches once more with the answer as its limit and records how it splits, and by
 //! which prices it narrows and closes. Crate `proof` explains why these bound the objective.
 //! `docs/proofs.md` describes the text.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_certify::{AlternativeLabels, Claim, Labels, Subject, certify};
+//! use sensedsl_proof::{read, verify};
+//! # use sensedsl_solve::problem::{Board, BoardId, Pin, Problem};
+//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, Holder, PinId, Role, SignalId};
+//! use sensedsl_solve::{Cancel, Options, Outcome, solve_and_learn};
+//!
+//! # let device = |pins: [u32; 2]| {
+//! #     let candidate = |pin| Candidate {
+//! #         pin: PinId(pin),
+//! #         holder: Holder::Own,
+//! #         signal: SignalId(pin),
+//! #         claims: vec![],
+//! #         violates: vec![],
+//! #         moved: false,
+//! #     };
+//! #     let roles = vec![Role { candidates: pins.map(candidate).to_vec() }];
+//! #     let board = BoardId(0);
+//! #     let way = Alternative { board, claims: vec![], violates: vec![], dma: vec![], roles };
+//! #     Device { alternatives: vec![way] }
+//! # };
+//! # let problem = Problem {
+//! #     boards: vec![Board { spare: false }],
+//! #     pins: [1, 2].map(|cost| Pin { board: BoardId(0), cost, shared: false }).to_vec(),
+//! #     devices: vec![device([0, 1])],
+//! #     ..Problem::default()
+//! # };
+//! // `problem` has one device, which takes one of two pins.
+//! let way = AlternativeLabels { name: "ADC1".into(), roles: vec!["in".into()] };
+//! let labels = Labels {
+//!     boards: vec!["Rover".into()],
+//!     pins: vec!["PA1".into(), "PA2".into()],
+//!     devices: vec!["Light".into()],
+//!     alternatives: vec![vec![way]],
+//!     signals: [(0, "ADC1_IN1".into()), (1, "ADC1_IN2".into())].into(),
+//!     ..Labels::default()
+//! };
+//!
+//! let (outcome, learned) = solve_and_learn(&problem, &Options::default()).unwrap();
+//! let Outcome::Solved(best) = outcome else { panic!("there is an answer") };
+//! let claim = Claim::Best(&best, &learned);
+//! let text = certify(&problem, &labels, &Subject::default(), claim, Cancel::NEVER).unwrap();
+//! let verified = verify(&read(&text).unwrap()).unwrap();
+//! assert!(verified.to_string().starts_with("the wiring is valid and none is better"));
+//! ```
 
 mod labels;
 mod search;

@@ -11,6 +11,30 @@
 //! sources of the problem.
 //!
 //! The objective is (moved, violated, shared, cost, spares); the first difference decides.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_proof::{Verified, read, verify};
+//!
+//! // Light can be on PA1, which costs 1, or on PA2, which costs 2.
+//! let text = r#"{"format": "SenseDSL certificate 4",
+//! "subject": {"tool": "example", "options": {}, "files": {}, "built_in": {}},
+//! "problem": {"boards": {"B": false}, "pins": {"PA1": 1, "PA2": 2}, "shared": [], "dma": {},
+//!   "devices": {"Light": {"ADC1": {"board": "B", "roles": {"in": {
+//!     "IN1": {"pin": "PA1", "signal": "IN1"}, "IN2": {"pin": "PA2", "signal": "IN2"}}}}}}},
+//! "answer": {"objective": {"moved": 0, "violated": 0, "shared": 0, "cost": 1, "spares": 0},
+//!   "wiring": {"Light": {"takes": "ADC1", "wires": {"in": "IN1"}}}, "streams": {}},
+//! "search": {"weights": [1000, 200, 40, 1, 1], "facilities": [], "covers": [], "swaps": [],
+//!   "steps": [{"closed": {"scale": 1}}]}}"#;
+//! let Ok(Verified::Best(best)) = verify(&read(text).unwrap()) else { panic!("it is a proof") };
+//! assert_eq!(best.cost, 1);
+//!
+//! let worse = text.replace(r#"{"in": "IN1"}"#, r#"{"in": "IN2"}"#);
+//! let worse = worse.replace(r#""cost": 1"#, r#""cost": 2"#);
+//! let refuted = verify(&read(&worse).unwrap()).unwrap_err();
+//! assert_eq!(refuted.to_string(), "step 0 does not show what it has to");
+//! ```
 
 pub mod budget;
 pub mod format;

@@ -3,6 +3,42 @@
 //! Four pure functions over a [`Problem`]: [`solve`] gives the one best answer or the reason why
 //! there is none, [`enumerate`] gives all answers, best first, [`count`] gives their number, and
 //! [`check`] judges an answer without any code of the search. No answer leaves the crate unchecked.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_solve::problem::{Board, BoardId, Pin, Problem};
+//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, Holder, PinId, Role, SignalId};
+//! use sensedsl_solve::{Options, Outcome, check, solve};
+//!
+//! # let device = |pins: [u32; 2]| {
+//! #     let candidate = |pin| Candidate {
+//! #         pin: PinId(pin),
+//! #         holder: Holder::Own,
+//! #         signal: SignalId(pin),
+//! #         claims: vec![],
+//! #         violates: vec![],
+//! #         moved: false,
+//! #     };
+//! #     let roles = vec![Role { candidates: pins.map(candidate).to_vec() }];
+//! #     let board = BoardId(0);
+//! #     let way = Alternative { board, claims: vec![], violates: vec![], dma: vec![], roles };
+//! #     Device { alternatives: vec![way] }
+//! # };
+//! let problem = Problem {
+//!     boards: vec![Board { spare: false }],
+//!     pins: [1, 2, 5].map(|cost| Pin { board: BoardId(0), cost, shared: false }).to_vec(),
+//!     // Each device takes one of two pins.
+//!     devices: vec![device([0, 1]), device([0, 2])],
+//!     ..Problem::default()
+//! };
+//! let outcome = solve(&problem, &Options::default()).unwrap();
+//! let Outcome::Solved(best) = outcome else { panic!("there is an answer") };
+//! // The first device leaves the cheapest pin to the second.
+//! assert_eq!(best.choices[0].candidates, [1]);
+//! assert_eq!(best.objective.cost, 3);
+//! assert_eq!(check(&problem, &best), Ok(()));
+//! ```
 
 pub mod answer;
 mod bounds;
