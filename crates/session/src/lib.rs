@@ -7,6 +7,27 @@
 //!
 //! Nothing here does I/O or has a thread or a clock: the caller provides the files and tells when
 //! time is up. That is why the command line, an editor and a web page can share this crate.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_model::NoFiles;
+//! use sensedsl_session::{Ask, On, Workspace};
+//!
+//! let mut workspace = Workspace::default();
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! workspace.open("rover.sense", text);
+//! let before = workspace.snapshot("rover.sense", On::default(), &NoFiles);
+//! let at = text.find("analog").unwrap();
+//! workspace.edit("rover.sense", at..at + 6, "analogue").unwrap();
+//! let after = workspace.snapshot("rover.sense", On::default(), &NoFiles);
+//!
+//! assert!(before.solve(&Ask::default()).wired().is_some());
+//! assert!(after.solve(&Ask::default()).wired().is_none());
+//! assert_eq!(after.diagnostics()[0].message, "`analogue` is not a kind of device");
+//! ```
 
 mod answer;
 mod fit;

@@ -4,6 +4,27 @@
 //! out, which has the exact clock, the time taken and the share of capacity for each converter,
 //! bus, link, capture and thread; and diagnostics for what is impossible. If no profile states a
 //! fact, the figures that depend on it are unknown, never guessed.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_model::{NoFiles, Request, resolve};
+//! use sensedsl_timing::{Part, check, timing};
+//! use sensedsl_wiring::{Search, Solved, Wiring};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! let request = Request { path: "rover.sense", text, ..Request::default() };
+//! let design = resolve(&request, &NoFiles).design.unwrap();
+//! let solved = Wiring::new(&design, None).solve(&Search::default());
+//! let Solved::Wired(wiring) = solved else { panic!("there is a wiring") };
+//!
+//! let load = timing(&design, &wiring);
+//! let adc = load.boards[0].rows.iter().find(|row| row.part == Part::Converter).unwrap();
+//! assert_eq!((adc.name.as_str(), adc.clock_hz), ("ADC1", Some(21_000_000)));
+//! assert!(check(&design, &wiring).is_empty());
+//! ```
 
 mod buses;
 mod can_bit;

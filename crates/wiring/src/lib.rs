@@ -1,4 +1,25 @@
 //! From a design to a wiring: puts the pin problem to the solver, and reads its answer back.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_model::{NoFiles, Request, resolve};
+//! use sensedsl_wiring::{Search, Solved, Wiring};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! let request = Request { path: "rover.sense", text, ..Request::default() };
+//! let design = resolve(&request, &NoFiles).design.unwrap();
+//! let solved = Wiring::new(&design, None).solve(&Search::default());
+//! let Solved::Wired(wiring) = solved else { panic!("there is a wiring") };
+//!
+//! let (on, board) = wiring.used(&design).next().unwrap();
+//! let wire = &on.devices[0].wires[0];
+//! assert_eq!(wire.pin(board).unwrap().name.as_str(), "PB0");
+//! assert_eq!(wire.signal(board), "ADC12-IN8");
+//! assert_eq!(wiring.cost, 1);
+//! ```
 
 mod alloy;
 mod alternatives;
