@@ -2,6 +2,24 @@
 //!
 //! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table; `sense_codec.c`, straight-line code
 //! from values to payloads and back; and the tables of each part. They need only `crates/firmware-c/runtime`.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_firmware_c::{Role, files};
+//! use sensedsl_wire::{Direction, Item, ScalarType, Schema, ValueType};
+//!
+//! let light = Item {
+//!     id: 17,
+//!     name: "Light".to_owned(),
+//!     direction: Direction::Sensor,
+//!     value: ValueType::scalar(ScalarType::Uint16),
+//! };
+//! let schema = Schema { items: vec![light], ..Schema::default() };
+//! let made = files("Rover", &schema, Role::Board);
+//! let header = str::from_utf8(&made.get("sense_model.h").unwrap().bytes).unwrap();
+//! assert!(header.contains("uint16_t SENSE_Light;"));
+//! ```
 
 pub mod runtime;
 mod schema;

@@ -4,6 +4,28 @@
 //! driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` combines the sections without
 //! looking into any; the templates only print. Names of the system are in the `[system]` part of a profile
 //! (`names.rs`). What the hardware or the system cannot do is returned as diagnostics, and then there are no files.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_firmware_chibios::Chibios;
+//! use sensedsl_job::{Target as _, jobs};
+//! use sensedsl_model::{NoFiles, Request, resolve};
+//! use sensedsl_wiring::{Search, Solved, Wiring};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! let request = Request { path: "rover.sense", text, ..Request::default() };
+//! let design = resolve(&request, &NoFiles).design.unwrap();
+//! let solved = Wiring::new(&design, None).solve(&Search::default());
+//! let Solved::Wired(wiring) = solved else { panic!("there is a wiring") };
+//!
+//! let rover = jobs(&design, &wiring).next().unwrap();
+//! let files = Chibios.generate(&rover).unwrap();
+//! let tables = str::from_utf8(&files.get("generated/sense_hw.c").unwrap().bytes).unwrap();
+//! assert!(tables.contains("PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG"));
+//! ```
 
 mod adc;
 mod board;

@@ -3,6 +3,29 @@
 //! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy of the
 //! runtime. `names.rs` reads how the HAL spells what a profile knows; `typed.rs` puts a wiring, of whatever target, into
 //! types that the Rust compiler judges.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_firmware_embassy::Embassy;
+//! use sensedsl_job::{Target as _, jobs};
+//! use sensedsl_model::{NoFiles, Request, resolve};
+//! use sensedsl_wiring::{Search, Solved, Wiring};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! let target = Some("embassy");
+//! let request = Request { path: "rover.sense", text, target, ..Request::default() };
+//! let design = resolve(&request, &NoFiles).design.unwrap();
+//! let solved = Wiring::new(&design, None).solve(&Search::default());
+//! let Solved::Wired(wiring) = solved else { panic!("there is a wiring") };
+//!
+//! let rover = jobs(&design, &wiring).next().unwrap();
+//! let files = Embassy.generate(&rover).unwrap();
+//! let wires = str::from_utf8(&files.get("src/wiring.rs").unwrap().bytes).unwrap();
+//! assert!(wires.contains("light: p.PB0,"));
+//! ```
 
 mod analog;
 mod bridge;

@@ -2,6 +2,34 @@
 //!
 //! In: a [`HostPlan`](sensedsl_job::host::HostPlan). Out: files. `names.rs` makes C++ names, `view.rs` puts the plan in
 //! C++ terms, `runtime/` is hand-written and copied beside the generated files, `shared/` is printed for several hosts.
+//!
+//! # Example
+//!
+//! ```
+//! use std::collections::BTreeMap;
+//!
+//! use sensedsl_host_cpp::Plain;
+//! use sensedsl_job::host::{Host as _, HostBoard, HostPlan};
+//! use sensedsl_wire::{Direction, Item, ScalarType, Schema, ValueType};
+//!
+//! let light = Item {
+//!     id: 17,
+//!     name: "Light".to_owned(),
+//!     direction: Direction::Sensor,
+//!     value: ValueType::scalar(ScalarType::Uint16),
+//! };
+//! let rover = HostBoard {
+//!     name: "Rover".to_owned(),
+//!     schema: Schema { items: vec![light], ..Schema::default() },
+//!     baud: 115_200,
+//!     silence_ms: None,
+//!     presentations: BTreeMap::new(),
+//!     cycles_ms: BTreeMap::new(),
+//! };
+//! let files = Plain.render(&HostPlan::new("garden", &[rover]));
+//! let header = files.get("include/sense/garden/Rover.hpp").unwrap();
+//! assert!(str::from_utf8(&header.bytes).unwrap().contains("struct Light {"));
+//! ```
 
 mod libcluon;
 mod names;
