@@ -13,6 +13,29 @@
 //! needs it.
 //!
 //! Not modelled: wait states, the write buffer, noise, the time that the DMA takes, the analog and digital filters.
+//!
+//! # Example
+//!
+//! ```
+//! use std::sync::{Arc, Mutex};
+//!
+//! use sensedsl_machine::{LinkPort, Machine, Mcu, Settings};
+//! use sensedsl_surroundings::Surroundings;
+//!
+//! struct Nothing;
+//! impl Surroundings for Nothing {}
+//!
+//! let mcu = Mcu::find("STM32F407VGT6").unwrap();
+//! let settings = Settings { crystal_hz: 8_000_000, link: LinkPort::Serial(2), mcu };
+//! let mut machine = Machine::new(settings, Arc::new(Mutex::new(Nothing)));
+//! // The stack, the address of the first instruction, and `b .`, which waits for ever.
+//! let words = [0x2002_0000_u32, 0x0800_0009, 0xE7FE];
+//! let image: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
+//! machine.load(&image).unwrap();
+//! machine.run_until(1_000_000);
+//! assert!(machine.now_ns() >= 1_000_000);
+//! assert_eq!((machine.pc(), machine.halt()), (0x0800_0008, None));
+//! ```
 
 #![cfg(feature = "cpu")]
 #![expect(

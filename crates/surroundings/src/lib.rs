@@ -3,6 +3,26 @@
 //! The machine asks, the world answers. All times are virtual nanoseconds since the board got power, and they never go
 //! backwards from one call to the next, with one documented exception: [`Surroundings::next_edge`] asks about the
 //! future.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_surroundings::{Pad, Surroundings};
+//!
+//! /// A battery at PA1 that loses a millivolt each second.
+//! struct Battery(Pad);
+//!
+//! impl Surroundings for Battery {
+//!     fn millivolts(&mut self, pad: Pad, now_ns: u64) -> f64 {
+//!         if pad == self.0 { 3_000.0 - now_ns as f64 / 1e9 } else { 0.0 }
+//!     }
+//! }
+//!
+//! let pa1 = Pad::named("PA1").unwrap();
+//! assert_eq!(Battery(pa1).millivolts(pa1, 5_000_000_000), 2_995.0);
+//! // Whatever else is not connected has the default.
+//! assert_eq!(Battery(pa1).level(Pad { port: 1, pin: 0 }, 0), None);
+//! ```
 
 use std::fmt;
 

@@ -9,6 +9,50 @@
 //! [`world`] describes what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's
 //! job in this program, `emulated` does it with an image on the machine, and [`judge`] compares the board's reports
 //! with the world. Nothing in this crate reads a file or a clock.
+//!
+//! # Example
+//!
+//! ```
+//! # use sensedsl_diagnostics::SourceMap;
+//! # use sensedsl_job::jobs;
+//! # use sensedsl_model::NoFiles;
+//! # use sensedsl_session::{Ask, On, Workspace};
+//! use sensedsl_twin::bench::Bench;
+//! use sensedsl_twin::soft::SoftBoard;
+//! use sensedsl_twin::world::{self, Scene};
+//! use sensedsl_wire::{Decoder, Direction, Event, Scalar};
+//!
+//! # let mut workspace = Workspace::default();
+//! # let text = "board Rover on STM32F4DiscoveryBoard {
+//! #     sensor Light returns uint16 { id = 1; type = analog; }
+//! # }";
+//! # workspace.open("rover.sense", text);
+//! # let snapshot = workspace.snapshot("rover.sense", On::default(), &NoFiles);
+//! # let answer = snapshot.solve(&Ask::default());
+//! # let (design, wiring) = answer.wired().unwrap();
+//! # let rover = jobs(design, wiring).next().unwrap();
+//! // `rover` is the job of a board with one analog sensor, whose identifier is 1.
+//! let text = "[devices]\nLight = 1000";
+//! let scene = Scene {
+//!     design,
+//!     devices: &[rover.devices[0].index],
+//!     transport: rover.board.link.transport,
+//!     seed: None,
+//!     samples: &|name| Err(format!("there is no {name}")),
+//! };
+//! # let file = SourceMap::default().add("world.toml", text);
+//! let (world, mistakes) = world::read(file, text, &scene);
+//! assert!(mistakes.is_empty());
+//!
+//! let mut board = SoftBoard::new(&rover, Bench::new(&rover, &world, 1));
+//! board.run_until(1_000_000_000);
+//! let mut light = None;
+//! Decoder::new(&rover.schema, Direction::Sensor).feed(&board.link_read(), |event| {
+//!     let Event::Report(_, values) = event else { return };
+//!     light = values.into_iter().next();
+//! });
+//! assert_eq!(light, Some((1, vec![Scalar::Unsigned(1_000)])));
+//! ```
 
 mod arith;
 pub mod bench;

@@ -10,6 +10,22 @@
 //!
 //! A page runs this as WebAssembly (crate `wasm`), in a worker that it can terminate if it takes
 //! too long.
+//!
+//! # Example
+//!
+//! ```
+//! use sensedsl_web::ask;
+//! use serde_json::{Value, json};
+//!
+//! let text = "board Rover on STM32F4DiscoveryBoard {
+//!     sensor Light returns uint16 { id = 1; type = analog; }
+//! }";
+//! let request = json!({ "path": "rover.sense", "files": { "rover.sense": text } });
+//! let answer: Value = serde_json::from_str(&ask(&request.to_string())).unwrap();
+//! assert_eq!(answer["diagnostics"], json!([]));
+//! assert_eq!(answer["answer"]["status"], "optimal");
+//! assert_eq!(answer["answer"]["boards"][0]["devices"][0]["name"], "Light");
+//! ```
 
 use std::collections::BTreeMap;
 
