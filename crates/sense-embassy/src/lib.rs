@@ -11,8 +11,9 @@
 //! | `rp` | `embassy-rp` | `src/rp` |
 //!
 //! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
-//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-repeat`, `gpio-v2`, `otg`. The folders are compiled for
-//! MCUs only; everything else is compiled and tested on a computer as well.
+//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-repeat`, `gpio-v2`, `otg`. The HALs themselves
+//! are dependencies for MCUs alone, so `no-hal` leaves the folders out where all features are on;
+//! everything else is compiled and tested on a computer.
 //!
 //! # Example
 //!
@@ -51,16 +52,16 @@ pub mod link_uart;
 pub mod link_usb;
 #[cfg(feature = "runtime")]
 pub mod serial;
-#[cfg(target_os = "none")]
+#[cfg(all(any(feature = "rp", feature = "stm32"), not(feature = "no-hal")))]
 pub mod status;
 
-#[cfg(all(feature = "rp", target_os = "none"))]
+#[cfg(all(feature = "rp", not(feature = "no-hal")))]
 mod rp;
-#[cfg(all(feature = "rp", target_os = "none"))]
+#[cfg(all(feature = "rp", not(feature = "no-hal")))]
 pub use rp::*;
-#[cfg(all(feature = "stm32", target_os = "none"))]
+#[cfg(all(feature = "stm32", not(feature = "no-hal")))]
 mod stm32;
-#[cfg(all(feature = "stm32", target_os = "none"))]
+#[cfg(all(feature = "stm32", not(feature = "no-hal")))]
 pub use stm32::*;
 
 #[cfg(feature = "runtime")]

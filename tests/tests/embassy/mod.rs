@@ -346,47 +346,47 @@ fn a_part_on_two_buses_has_two_tables() {
 fn controllers_of_all_sorts_are_started() {
     let fd = "hal::can::IT0InterruptHandler<";
     let cases: [(&str, &[&str], &str, &str, &str); 8] = [
-        ("STM32C092RCT6", &["FDCAN1"], "divider: 6, before: 13, behind: 2", "", fd),
-        ("STM32G0B1RET6", &["FDCAN1", "FDCAN2"], "divider: 8, before: 13, behind: 2", "", fd),
+        ("STM32C092RCT6", &["FDCAN1"], "divider: 6, before: 13, after: 2", "", fd),
+        ("STM32G0B1RET6", &["FDCAN1", "FDCAN2"], "divider: 8, before: 13, after: 2", "", fd),
         (
             "STM32G474RET6",
             &["FDCAN1", "FDCAN2", "FDCAN3"],
-            "divider: 17, before: 16, behind: 3",
+            "divider: 17, before: 16, after: 3",
             "mux.fdcansel = mux::Fdcansel::PCLK1",
             fd,
         ),
         (
             "STM32H563ZIT6",
             &["FDCAN1", "FDCAN2"],
-            "divider: 5, before: 16, behind: 3",
+            "divider: 5, before: 16, after: 3",
             "mux.fdcan12sel = mux::Fdcansel::PLL1_Q",
             fd,
         ),
         (
             "STM32H743ZIT6",
             &["FDCAN1", "FDCAN2"],
-            "divider: 5, before: 13, behind: 2",
+            "divider: 5, before: 13, after: 2",
             "mux.fdcansel = mux::Fdcansel::PLL1_Q",
             fd,
         ),
         (
             "STM32U575ZIT6",
             &["FDCAN1"],
-            "divider: 5, before: 13, behind: 2",
+            "divider: 5, before: 13, after: 2",
             "mux.fdcan1sel = mux::Fdcansel::PLL1_Q",
             fd,
         ),
         (
             "STM32F105RCT6",
             &["CAN1", "CAN2"],
-            "divider: 1, before: 13, behind: 2",
+            "divider: 1, before: 13, after: 2",
             "registers: hal::pac::CAN1, first: 14",
             "hal::can::Rx0InterruptHandler<",
         ),
         (
             "STM32L496ZGT6",
             &["CAN2"],
-            "divider: 10, before: 13, behind: 2",
+            "divider: 10, before: 13, after: 2",
             "hal::rcc::enable_and_reset::<CAN1>();",
             "hal::can::Rx0InterruptHandler<",
         ),
@@ -496,7 +496,7 @@ chip Servos {{ driver = pca9685; actuator Pan accepts uint16 {{ reading = output
             let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
             let wiring = String::from_utf8(files.get("src/wiring.rs").unwrap().bytes.clone());
             let wiring = wiring.unwrap();
-            assert!(wiring.contains(&format!("bus({hz})")), "{mcu}: {wiring}");
+            assert!(wiring.contains(&format!("i2c::config({hz})")), "{mcu}: {wiring}");
         });
     }
 }
