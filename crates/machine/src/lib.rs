@@ -16,7 +16,8 @@
 //!
 //! # Example
 //!
-//! ```
+#![cfg_attr(feature = "cpu", doc = "```")]
+#![cfg_attr(not(feature = "cpu"), doc = "```ignore")]
 //! use std::sync::{Arc, Mutex};
 //!
 //! use sensedsl_machine::{LinkPort, Machine, Mcu, Settings};
