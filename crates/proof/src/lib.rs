@@ -5,7 +5,7 @@
 //! not search:
 //! 1. `wiring` checks the given wiring against the rules and adds up what it costs;
 //! 2. `search` walks through the record's cases, checks that none is left out, and computes from
-//!    the stated multipliers a weight below which there is no wiring of a case.
+//!    the stated multipliers a weight; no wiring of the case has a lower one.
 //!
 //! `budget` bounds how much it reads and how long it takes; `subject` compares files with the
 //! sources of the problem.

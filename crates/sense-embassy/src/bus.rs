@@ -119,8 +119,9 @@ pub async fn write<L: Line>(
     }
 }
 
-/// Waits until so many milliseconds of the clock have begun, so that what a cycle takes does not delay the next one, and
-/// half a millisecond more: the reporter begins with a millisecond, and finds what was read before it each time.
+/// Waits `idle_ms` in the grid of whole milliseconds, so that the time a cycle takes does not delay
+/// the next one, and half a millisecond more: the reporter runs at whole milliseconds, and so always
+/// finds the values that were read before it.
 pub async fn rest(idle_ms: u32) {
     let begin_ms = Instant::now().as_millis() + u64::from(idle_ms.max(1));
     Timer::at(Instant::from_micros(begin_ms * 1_000 + 500)).await;

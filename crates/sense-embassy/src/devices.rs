@@ -1,4 +1,4 @@
-//! The values of all devices and how the devices are, for all tasks.
+//! The values and the health of all devices, shared by all tasks.
 
 use core::cell::RefCell;
 
@@ -15,14 +15,14 @@ struct Known<const VALUES: usize, const ITEMS: usize> {
     sets: [u32; ITEMS],
 }
 
-/// See above; it is a `static`.
+/// The values and the health of all devices; it is a `static`.
 pub struct Devices<const VALUES: usize, const ITEMS: usize> {
     schema: &'static Schema,
     known: Mutex<CriticalSectionRawMutex, RefCell<Known<VALUES, ITEMS>>>,
 }
 
 impl<const VALUES: usize, const ITEMS: usize> Devices<VALUES, ITEMS> {
-    /// Without values yet. `cycles_ms`: how often each item is read; 0 where it comes by itself or is set.
+    /// Without values yet. `cycles_ms`: the cycle of each item; 0 if it comes by itself or is set.
     #[must_use]
     pub const fn new(schema: &'static Schema, cycles_ms: &'static [u32]) -> Self {
         let known =
@@ -40,13 +40,13 @@ impl<const VALUES: usize, const ITEMS: usize> Devices<VALUES, ITEMS> {
     }
 }
 
-/// What takes the results of readings, whatever the sizes.
+/// The devices for tasks, independent of the sizes of a design.
 pub trait Report: Sync {
-    /// What a reading came to.
+    /// Reports the outcome of a reading, through the item's filter if it has one.
     fn report(&self, filter: Option<&mut Filter>, index: usize, outcome: Outcome, value: &mut [u8]);
-    /// The host has set an item.
+    /// Stores the value to which the host has set an item.
     fn set(&self, index: usize, value: &[u8]);
-    /// Copies what the host has set an item to; returns the how manieth value it is, 0 where there is none.
+    /// Copies the value to which the host has set an item. Returns how often the host has set it; 0 if never.
     fn requested(&self, index: usize, value: &mut [u8]) -> u32;
 }
 
@@ -60,7 +60,8 @@ impl<const VALUES: usize, const ITEMS: usize> Report for Devices<VALUES, ITEMS> 
     ) {
         let now = now_ms();
         let told = match filter {
-            // Interrupts are off while the store is held: a median of many values would cost a port characters.
+            // Filters run outside the lock, which disables interrupts: a port would lose characters
+            // during a median of many values.
             Some(filter) => Store::filtered(self.schema, filter, index, outcome, value, now),
             None => outcome,
         };

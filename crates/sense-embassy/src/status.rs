@@ -1,18 +1,18 @@
-//! Why the board started, which task hung before, and how much of the stack was never used.
+//! The cause of the last reset, the task that hung before it, and the stack that was never used.
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
 use sense_rt::{BoardHealth, Cause};
 
-/// What is kept over a reset begins so.
+/// Marks a record that was kept across a reset.
 const MAGIC: u32 = 0x5345_4E53;
-/// In place of a device: a panic.
+/// The record of a panic, in place of a device.
 const HALTED: u32 = 0x100;
-/// What the stack is filled with, and so much of it at most: a start must not take long.
+/// The word that fills the stack, and the most bytes filled, because a start must be short.
 const FILL: u32 = 0x5555_5555;
 const FILLED_BYTES: u32 = 16_384;
-/// Left alone below the function that fills.
+/// Bytes left alone below the stack frame of the function that fills.
 const SPARED_BYTES: u32 = 256;
 
 unsafe extern "C" {
@@ -34,17 +34,17 @@ fn keep(words: [u32; 2]) {
     unsafe { KEPT.0.get().write_volatile(words) }
 }
 
-/// The task of that device hangs: the next start is told.
+/// Records that the task of a device hangs, for the next start.
 pub fn note_hang(device: u8) {
     keep([MAGIC, device.into()]);
 }
 
-/// A panic: the next start is told.
+/// Records a panic, for the next start.
 pub fn note_panic() {
     keep([MAGIC, HALTED]);
 }
 
-/// What is known of the board itself; it is a `static`.
+/// The status of the board itself; it is a `static`.
 pub struct BoardStatus {
     /// By the number of the cause on the wire.
     flags: AtomicU32,
@@ -69,8 +69,9 @@ impl BoardStatus {
         }
     }
 
-    /// Takes what is known of the last reset, before anything is set up. `flags` are those of the reset, from bit 26 on:
-    /// pin, power, software, watchdog, window watchdog, low power; 0 where nothing tells.
+    /// Takes the record of the last reset; call it before anything is set up. `flags`: the causes of
+    /// the reset from bit 26 on, in this order: pin, power, software, watchdog, window watchdog, low
+    /// power; 0 if no register tells.
     pub fn begin(&self, flags: u32) {
         // SAFETY: as in `keep`.
         let [magic, kept] = unsafe { KEPT.0.get().read_volatile() };
@@ -83,7 +84,7 @@ impl BoardStatus {
         self.fill();
     }
 
-    /// Fills what lies below the stack of now.
+    /// Fills the memory below the current stack.
     #[inline(never)]
     fn fill(&self) {
         let here = 0_u32;
@@ -100,7 +101,7 @@ impl BoardStatus {
         self.filled_to.store(end, Ordering::Relaxed);
     }
 
-    /// Bytes between the statics and the deepest place of the stack so far.
+    /// Bytes between the statics and the deepest point of the stack so far.
     fn stack_left(&self) -> u32 {
         let (from, to) =
             (self.filled_from.load(Ordering::Relaxed), self.filled_to.load(Ordering::Relaxed));
@@ -135,7 +136,7 @@ impl BoardStatus {
         }
     }
 
-    /// Completes what the host is told of the board.
+    /// Adds the cause of the reset and the stack to the board's health.
     pub fn describe(&self, board: &mut BoardHealth) {
         board.reset_cause = self.cause();
         if board.reset_cause == Cause::Watchdog {

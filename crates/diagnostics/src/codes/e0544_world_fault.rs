@@ -40,7 +40,7 @@ pub fn no_device(span: Span, fault: &str) -> Diagnostic {
         .help("take the line `device` out")
 }
 
-/// The board has no link that could have the fault.
+/// The fault needs a link, and the board does not have one.
 #[must_use]
 pub fn no_link(span: Span, fault: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the board has no link, so it cannot have the fault `{fault}`"))

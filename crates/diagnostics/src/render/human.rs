@@ -71,7 +71,7 @@ fn of_file<'a>(
     for (kind, label) in here {
         let window = Window::over(std::iter::once(label.span), file, sources).cut(label.span);
         let at = sources.line_column(file, label.span.start);
-        // A piece of a line has no column of its own, so the place is given.
+        // The position of an excerpt is not visible in the text, so the message states line and column.
         let origin = Origin::path(path.clone()).line(at.line as usize);
         group = group.element(origin.char_column(at.column as usize));
         group = group.element(window.snippet(&[(kind, label)]));

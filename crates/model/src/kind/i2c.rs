@@ -36,7 +36,7 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'I',
 };
 
-/// The properties of a protocol; a device without any of them has no protocol of its own.
+/// The properties that define a protocol. A device with none of them does not have its own protocol.
 pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"];
 
 /// Bus clock if the file gives none: standard mode.

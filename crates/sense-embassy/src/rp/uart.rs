@@ -37,13 +37,13 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8, is_inverted: b
     config
 }
 
-/// Sends what is queued, for ever.
+/// Sends queued bytes, forever.
 pub async fn transmit<const BYTES: usize>(
     mut port: UartTx<'static, Blocking>,
     queue: &'static TxQueue<BYTES>,
     baud: u32,
 ) -> ! {
-    // What it returns is always `Ok`: nothing is there that a device could be told of.
+    // A blocking write to a port has no error to report: the HAL always returns `Ok`.
     let put = |bytes: &[u8]| {
         let _ = port.blocking_write(bytes);
     };
