@@ -9,7 +9,7 @@ use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
-use super::item::{Item, Task};
+use super::item::{Handler, Item, Task};
 use super::lack::{self, Printed};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
@@ -105,6 +105,9 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()>
         type_: type_.clone(),
         make,
     });
+    if context.names.adc.read == AdcRead::Sampler {
+        sampled(context, unit, section)?;
+    }
     let declared = [
         format!("type {unit}Unit = Mutex<CriticalSectionRawMutex, {type_}>;"),
         format!("static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"),
@@ -130,22 +133,30 @@ fn task(
     let mut task = Task::in_turn(cycle.title(&units.join(" and ")), ident.clone(), cycle);
     let shared = |one: &str| format!("{}: &'static {one}Unit", converters.shared(one));
     task.parameters.extend(converters.lines(shared));
+    let mutable = if context.names.adc.read == AdcRead::Sampler { "" } else { "mut " };
     for wire in &wires {
         let pin = &lack::pad(wire, Role::In)?.pin.name;
         let (type_, make) = match context.names.hal {
+            Hal::Stm32 if context.names.adc.read == AdcRead::Sampler => {
+                let hal = context.peripheral(lack::unit(wire)?);
+                (
+                    format!("hal::adc::AnyAdcChannel<'static, {hal}>"),
+                    format!("hal::adc::AdcChannel::degrade_adc(p.{pin})"),
+                )
+            }
             Hal::Stm32 => (format!("Peri<'static, {pin}>"), format!("p.{pin}")),
             Hal::Rp => rp::analog::input(context, pin),
         };
-        task.parameters.push(format!("mut {}: {type_}", wire.ident));
+        task.parameters.push(format!("{mutable}{}: {type_}", wire.ident));
         section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     }
     let lock = |one: &str| {
-        format!("let mut {} = {}.lock().await;", converters.own(one), converters.shared(one))
+        format!("let {mutable}{} = {}.lock().await;", converters.own(one), converters.shared(one))
     };
     let mut statements: Vec<String> = converters.lines(lock).collect();
     for device in devices {
         let pass = filter::pass(context, device.index, section, &mut task.before);
-        statements.extend(read(context, converters, device, &pass, section)?);
+        statements.extend(read(context, converters, device, &pass, (&mut task.before, section))?);
     }
     statements.extend(converters.lines(|one| format!("drop({});", converters.own(one))));
     task.ticks(cycle.delay_ms, statements, &constant);
@@ -188,30 +199,56 @@ pub(super) fn each_sample(names: &[String], reads: &[String]) -> String {
     format!("for [{}] in samples.as_chunks_mut().0 {{ {} }}", names.join(", "), reads.join(" "))
 }
 
-/// All samples of an input, then those of the next: what sets the converter up takes longer than a sample.
-fn columns(
-    context: &Context<'_>,
-    converters: &Converters<'_>,
-    wired: &Wired<'_>,
-    time: &str,
-    section: &mut Section,
-) -> Printed<Vec<String>> {
-    section.features.insert("adc-repeat");
+/// All samples of an input, then those of the next: the interrupt of the converter takes them.
+fn columns(wired: &Wired<'_>, time: &str, slots: &str) -> Printed<Vec<String>> {
     let count = wired.wires.len();
-    let mut statements = Vec::new();
-    for (at, wire) in wired.wires.iter().enumerate() {
-        let unit = lack::unit(wire)?;
-        statements.push(format!(
-            "let first = {}.blocking_read(&mut {}, hal::adc::SampleTime::{time});",
-            converters.own(unit),
-            wire.ident
-        ));
-        statements.push(format!(
-            "rt::repeat::fill(hal::pac::{}, first, samples.iter_mut().skip({at}).step_by({count}));",
+    let fill = |(at, wire): (usize, &&JobConnection<'_>)| {
+        let (unit, ident) = (lack::unit(wire)?, &wire.ident);
+        Ok(format!(
+            "{slots} = {}.fill({ident}.get_hw_channel(), hal::adc::SampleTime::{time}, {slots}, {at}, {count}).await;",
+            sampler(unit)
+        ))
+    };
+    wired.wires.iter().enumerate().map(fill).collect()
+}
+
+/// Room for the samples of a device, which its task and the interrupt hand to each other.
+fn slots_of(slots: &str, samples: usize, section: &mut Section) -> String {
+    let room = slots.to_uppercase();
+    section.items.push(Item::Line(format!(
+        "static {room}: StaticCell<[u16; {samples}]> = StaticCell::new();"
+    )));
+    format!("let mut {slots}: &'static mut [u16] = {room}.init([0; {samples}]);")
+}
+
+/// The static with the sampler of a converter.
+fn sampler(unit: &str) -> String {
+    format!("{unit}_SAMPLER")
+}
+
+/// What the interrupt of a converter does, which others may share.
+fn sampled(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()> {
+    section.features.insert("adc-v2");
+    let interrupt = context.interrupt(unit, "GLOBAL")?;
+    let (name, sampler) = (format!("{unit}_SAMPLES"), sampler(unit));
+    section.items.push(Item::Static {
+        doc: format!("The samples of {unit}"),
+        line: format!(
+            "static {sampler}: rt::converter::Sampler = rt::converter::Sampler::new(hal::pac::{});",
             context.peripheral(unit)
-        ));
-    }
-    Ok(statements)
+        ),
+    });
+    section.bind(interrupt, format!("crate::{name}"));
+    section.items.push(Item::Handler(Handler {
+        doc: format!("The end of a conversion of {unit}"),
+        name,
+        named_as: "the converter",
+        interrupt: interrupt.to_owned(),
+        calls: vec![format!("{sampler}.on_interrupt();")],
+    }));
+    section.begins.push("// Its handler is there.".to_owned());
+    section.begins.push(format!("unsafe {{ interrupt::{interrupt}.enable() }};"));
+    Ok(())
 }
 
 /// Samples one device.
@@ -220,7 +257,7 @@ fn read(
     converters: &Converters<'_>,
     wired: &Wired<'_>,
     filter: &str,
-    section: &mut Section,
+    (before, section): (&mut Vec<String>, &mut Section),
 ) -> Printed<Vec<String>> {
     let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
@@ -228,11 +265,22 @@ fn read(
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
     let time = sample_time(time);
     let samples = usize::from(analog.samples.max(1)) * count;
-    let mut statements = vec![format!("let mut samples = [0; {samples}];")];
+    let slots = format!("{}_samples", wired.device.ident);
+    let mut statements = Vec::new();
+    let held = match context.names.adc.read {
+        AdcRead::Sampler => {
+            before.push(slots_of(&slots, samples, section));
+            format!("&*{slots}")
+        }
+        AdcRead::Blocking | AdcRead::Async | AdcRead::Checked => {
+            statements.push(format!("let mut samples = [0; {samples}];"));
+            "&samples".to_owned()
+        }
+    };
     statements.extend(match context.names.adc.read {
         AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
         AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
-        AdcRead::Again => columns(context, converters, wired, &time, section)?,
+        AdcRead::Sampler => columns(wired, &time, &slots)?,
         AdcRead::Checked => rp::analog::rows(wired),
     });
     let value = wired.device.device.value.value;
@@ -252,12 +300,12 @@ fn read(
         None => "rt::analog::Value::Mean".to_owned(),
     };
     let tell = format!(
-        "rt::analog::report(&BOARD, {filter}, tables::{upper}, {}, &{how}, &samples, {count}, &mut [0; {}]);",
+        "rt::analog::report(&BOARD, {filter}, tables::{upper}, {}, &{how}, {held}, {count}, &mut [0; {}]);",
         scalar(value.scalar),
         value.size_bytes(),
     );
     statements.push(match context.names.adc.read {
-        AdcRead::Blocking | AdcRead::Async | AdcRead::Again => tell,
+        AdcRead::Blocking | AdcRead::Async | AdcRead::Sampler => tell,
         AdcRead::Checked => rp::analog::tell(&upper, &tell),
     });
     Ok(statements)

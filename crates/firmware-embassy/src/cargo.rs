@@ -67,17 +67,8 @@ const STM32_VERSION: &str = "0.6.0";
 const RP_VERSION: &str = "0.10.0";
 
 /// The features of `sense-embassy` that say which versions of the units an MCU has.
-const VERSIONS: [&str; 9] = [
-    "adc-repeat",
-    "can-banks",
-    "can-fd",
-    "gpio-v2",
-    "i2c-v1",
-    "i2c-v2",
-    "otg",
-    "usart-v1",
-    "usart-v3",
-];
+const VERSIONS: [&str; 9] =
+    ["adc-v2", "can-banks", "can-fd", "gpio-v2", "i2c-v1", "i2c-v2", "otg", "usart-v1", "usart-v3"];
 
 /// The manifests of a firmware and of the two crates in it.
 pub(super) struct Manifests {

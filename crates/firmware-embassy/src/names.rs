@@ -80,8 +80,8 @@ pub(super) enum AdcNew {
 pub(super) enum AdcRead {
     /// By waiting in a loop.
     Blocking,
-    /// By waiting in a loop; another sample of the same input needs nothing but a start.
-    Again,
+    /// By the runtime's sampler, which the interrupt drives; the HAL would wait in a loop.
+    Sampler,
     /// By its interrupt.
     Async,
     /// By its interrupt; the conversion may have failed.

@@ -11,7 +11,7 @@
 //! | `rp` | `embassy-rp` | `src/rp` |
 //!
 //! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
-//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-repeat`, `gpio-v2`, `otg`. The HALs themselves
+//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-v2`, `gpio-v2`, `otg`. The HALs themselves
 //! are dependencies for MCUs alone, so `no-hal` leaves the folders out where all features are on;
 //! everything else is compiled and tested on a computer.
 //!

@@ -6,7 +6,9 @@
 use crate::bits::Bits;
 use crate::bytes::{Writer, move_down};
 use crate::health::{BoardHealth, HealthRow};
-use crate::schema::{Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema};
+use crate::schema::{
+    Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema, head_bytes,
+};
 
 /// The version of the health format.
 const HEALTH_VERSION: u8 = 1;
@@ -121,10 +123,11 @@ fn frame_of(
     empty_bytes: usize,
     put: &mut dyn FnMut(&mut Writer<'_>),
 ) -> usize {
-    if frame.len() < schema.frame_bytes(direction) {
+    let longest_bytes = schema.payload_bytes_max(direction);
+    let head_bytes = head_bytes(longest_bytes);
+    if frame.len() < head_bytes + longest_bytes + 1 {
         return 0;
     }
-    let head_bytes = schema.head_bytes(direction);
     let mut out = Writer::new(frame.get_mut(head_bytes..).unwrap_or_default());
     put(&mut out);
     if out.size <= empty_bytes {

@@ -20,8 +20,8 @@ use crate::store::Store;
 use crate::uses;
 
 /// Bytes per read and reads per cycle: a host that sends without end must not delay reports.
-const READ_BYTES: usize = 64;
-const READS_MAX: usize = 16;
+const READ_BYTES: usize = 16;
+const READS_MAX: usize = 64;
 /// A value that has waited for more of its device's cycles, or of the reporter's, is too old.
 const FRESH_CYCLES: u32 = 2;
 
@@ -89,6 +89,8 @@ pub struct ReporterCounts {
 #[derive(Debug)]
 pub struct Reporter<B: ?Sized = [u8]> {
     config: ReporterConfig,
+    /// The size of the longest frame to the host.
+    frame_bytes: usize,
     listener: Listener,
     silence: Silence,
     counts: ReporterCounts,
@@ -134,6 +136,7 @@ impl<const BYTES: usize> Reporter<[u8; BYTES]> {
             hello_due: false,
             health_due: false,
             has_answered: false,
+            frame_bytes: config.schema.frame_bytes(Direction::ToHost),
             config,
             memory: [0; BYTES],
         }
@@ -209,8 +212,7 @@ impl Reporter {
     }
 
     fn take_bytes(&mut self, bytes: &[u8], host: &mut dyn Host) {
-        let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
-        let (_, buffer) = split(&mut self.memory, frame_bytes);
+        let (_, buffer) = split(&mut self.memory, self.frame_bytes);
         let count = self.config.schema.items.len();
         for byte in bytes {
             if self.listener.is_idle() && host.intercept(*byte) {
@@ -292,7 +294,7 @@ impl Reporter {
         };
         host.describe(&mut board);
         let schema = self.config.schema;
-        let frame = part_mut(&mut self.memory, 0, schema.frame_bytes(Direction::ToHost));
+        let frame = part_mut(&mut self.memory, 0, self.frame_bytes);
         let mut row_of = |index| {
             let mut row = HealthRow::UNKNOWN;
             host.with(&mut |_, health| row = health.row(index, now_ms));
@@ -306,7 +308,7 @@ impl Reporter {
     fn answer(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) -> bool {
         if core::mem::take(&mut self.hello_due) {
             let schema = self.config.schema;
-            let frame = part_mut(&mut self.memory, 0, schema.frame_bytes(Direction::ToHost));
+            let frame = part_mut(&mut self.memory, 0, self.frame_bytes);
             let size = encode_hello(schema, frame);
             self.send(size, false, channel, host);
         } else if core::mem::take(&mut self.health_due) {
@@ -320,8 +322,7 @@ impl Reporter {
     fn send_report(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
         let stamp = Stamp { time_us: self.now_us as u32, counter: self.counter };
         let (now_ms, cycle_ms) = (self.now_ms(), self.config.cycle_ms);
-        let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
-        let frame = part_mut(&mut self.memory, 0, frame_bytes);
+        let frame = part_mut(&mut self.memory, 0, self.frame_bytes);
         let (schema, taken) = (self.config.schema, &mut self.taken);
         let (mut dropped, mut at) = (0, 0);
         *taken = Bits::NONE;
@@ -348,17 +349,20 @@ impl Reporter {
 
     /// Sends one frame at a time, so that none waits for another; answers and reports take turns.
     fn transmit(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
-        if self.push(channel, host) && channel.is_empty() {
+        let is_free = self.push(channel, host) && channel.is_empty();
+        if is_free {
             self.has_answered = !self.has_answered && self.answer(channel, host);
-            if !self.has_answered {
-                self.send_report(channel, host);
-                return;
-            }
         }
         let mut is_due = false;
         host.with(&mut |store, _| is_due = store.is_due());
-        let refused = u32::from(is_due);
-        self.counts.reports_refused = self.counts.reports_refused.wrapping_add(refused);
+        if !is_due {
+            return;
+        }
+        if is_free && !self.has_answered {
+            self.send_report(channel, host);
+        } else {
+            self.counts.reports_refused = self.counts.reports_refused.wrapping_add(1);
+        }
     }
 
     // ---- the cycle ----

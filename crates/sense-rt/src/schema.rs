@@ -174,22 +174,12 @@ impl Schema {
         (if health > short { health } else { short }) + self.checksum_bytes()
     }
 
-    /// The size of the longest length field in a direction and its colon.
-    pub(crate) const fn head_bytes(&self, direction: Direction) -> usize {
-        let mut bytes = 2;
-        let mut rest = self.payload_bytes_max(direction);
-        while rest >= 10 {
-            bytes += 1;
-            rest /= 10;
-        }
-        bytes
-    }
-
     /// The size of the longest frame in a direction: the buffer for encoding, and the memory of a
     /// [`crate::Decoder`].
     #[must_use]
     pub const fn frame_bytes(&self, direction: Direction) -> usize {
-        self.head_bytes(direction) + self.payload_bytes_max(direction) + 1
+        let payload_bytes = self.payload_bytes_max(direction);
+        head_bytes(payload_bytes) + payload_bytes + 1
     }
 
     /// The size of the memory of a [`crate::Reporter`]: a frame each way.
@@ -197,4 +187,15 @@ impl Schema {
     pub const fn reporter_bytes(&self) -> usize {
         self.frame_bytes(Direction::ToHost) + self.frame_bytes(Direction::ToBoard)
     }
+}
+
+/// The size of the length field of a payload and its colon.
+pub(crate) const fn head_bytes(payload_bytes: usize) -> usize {
+    let mut bytes = 2;
+    let mut rest = payload_bytes;
+    while rest >= 10 {
+        bytes += 1;
+        rest /= 10;
+    }
+    bytes
 }

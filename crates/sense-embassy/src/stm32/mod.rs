@@ -2,12 +2,12 @@
 
 #[cfg(any(feature = "can-banks", feature = "can-fd"))]
 pub mod can;
+#[cfg(feature = "adc-v2")]
+pub mod converter;
 pub mod edges;
 #[cfg(any(feature = "i2c-v1", feature = "i2c-v2"))]
 pub mod i2c;
 pub mod pwm;
-#[cfg(feature = "adc-repeat")]
-pub mod repeat;
 pub mod spi;
 pub mod timer;
 #[cfg(any(feature = "usart-v1", feature = "usart-v3"))]
