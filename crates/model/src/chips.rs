@@ -16,9 +16,7 @@ use sensedsl_wire::ValueType;
 
 use crate::bounds::Bounds;
 use crate::coding::{self, CODING, FILTER, PROTOCOL};
-use crate::design::{
-    BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, PartIndex, Spanned,
-};
+use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, Spanned};
 use crate::devices::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
 use crate::drivers::Driver;
 use crate::fields::{Fields, name_or_text, span};
@@ -26,7 +24,7 @@ use crate::ids::ID_MAX;
 use crate::kind::icu::Mode;
 use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
-use crate::parts::ReadPart;
+use crate::parts::{Next, ReadPart};
 use crate::protocol::Protocol;
 use crate::rules;
 use crate::value::Evaluator;
@@ -44,6 +42,8 @@ const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsaf
 /// A chip, or a device that is a chip's only value, with its driver.
 struct ChipReader<'a> {
     file: FileId,
+    /// The numbers of the part, its first device and its first wires.
+    next: Next,
     name: Spanned<String>,
     block: Span,
     driver: &'a Driver,
@@ -57,7 +57,7 @@ struct ChipReader<'a> {
 
 /// Reads a chip; none when too little of it is understood.
 pub(crate) fn read(
-    file: FileId,
+    (file, next): (FileId, Next),
     node: &ast::Chip,
     board: Option<BoardIndex>,
     known: Known<'_>,
@@ -89,7 +89,7 @@ pub(crate) fn read(
     let block = span(file, node.range());
     let protocol = protocol(file, driver, &properties, known, diagnostics);
     let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
-    let whole = ChipReader { file, name, block, driver, known, properties, protocol, given };
+    let whole = ChipReader { file, next, name, block, driver, known, properties, protocol, given };
     sockets::describe(&mut sockets, &whole, node.connections().collect(), diagnostics);
     whole.check_properties(&sockets, CHIP, diagnostics);
     for device in node.devices() {
@@ -108,7 +108,7 @@ pub(crate) fn read(
 
 /// Reads a device whose driver names several values: a chip of which one value is wanted.
 pub(crate) fn of_device(
-    file: FileId,
+    (file, next): (FileId, Next),
     node: &ast::Device,
     driver: &Driver,
     board: Option<BoardIndex>,
@@ -128,7 +128,7 @@ pub(crate) fn of_device(
     let properties: Vec<Property> = node.properties().filter(|one| !of_value(one)).collect();
     let protocol = protocol(file, driver, &properties, known, diagnostics);
     let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
-    let whole = ChipReader { file, name, block, driver, known, properties, protocol, given };
+    let whole = ChipReader { file, next, name, block, driver, known, properties, protocol, given };
     whole.check_type(diagnostics);
     let own: Vec<&str> = CHIP.iter().chain(&["type"]).copied().collect();
     whole.check_properties(&sockets, &own, diagnostics);
@@ -327,7 +327,7 @@ impl ChipReader<'_> {
         sockets: &mut [Socket],
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Vec<Device> {
-        for (asked, index) in asked.iter().zip((0..).map(DeviceIndex)) {
+        for (asked, index) in asked.iter().zip((self.next.device.0..).map(DeviceIndex)) {
             for number in &asked.given.via {
                 if let Some(socket) = sockets.get_mut(*number) {
                     socket.take(index, &asked.given);
@@ -401,9 +401,10 @@ impl ChipReader<'_> {
         // Unused connections are not among the part's connections.
         let place =
             |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
-        let connections = given.via.iter().map(place).map(ConnectionIndex).collect();
+        let numbers = given.via.iter().map(|wanted| self.next.connection.0 + place(wanted));
+        let connections = numbers.map(ConnectionIndex).collect();
         Some(Device {
-            part: PartIndex(0),
+            part: self.next.part,
             name: name.clone(),
             block: *block,
             id: id.unwrap_or(Spanned { value: 0, span: name.span }),
@@ -463,10 +464,10 @@ impl ChipReader<'_> {
                 diagnostics.push(e0229_wrong_driver::wrong_driver(at, message));
             }
             Connection {
-                part: PartIndex(0),
+                part: self.next.part,
                 name: socket.name.clone(),
                 element: None,
-                device: socket.device,
+                device: socket.device.unwrap_or(self.next.device),
                 kind,
                 direction: socket.direction,
                 board,

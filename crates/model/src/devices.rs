@@ -13,13 +13,12 @@ use crate::chips;
 use crate::coding::{self, CODING, FILTER};
 use crate::constants::Constants;
 use crate::design::{
-    BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Group, Level, Part, PartIndex,
-    Presentation, Spanned,
+    BoardIndex, Connection, ConnectionIndex, Device, Group, Level, Part, Presentation, Spanned,
 };
 use crate::drivers::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, name_or_text, span};
 use crate::kind::{KindName, Role, i2c};
-use crate::parts::ReadPart;
+use crate::parts::{Next, ReadPart};
 use crate::placement;
 use crate::protocol::{Filter, Protocol};
 use crate::reach;
@@ -55,7 +54,7 @@ pub(crate) struct Known<'a> {
 /// Reads the device `node` of `file`; none when too little of it is understood. A device without an
 /// identifier has 0 until all are known.
 pub(crate) fn read(
-    file: FileId,
+    (file, next): (FileId, Next),
     node: &ast::Device,
     board: Option<BoardIndex>,
     known: Known<'_>,
@@ -65,7 +64,7 @@ pub(crate) fn read(
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
     let direction = direction(node)?;
     if let Some(driver) = driver_with_values(file, node, known) {
-        return chips::of_device(file, node, driver, board, known, diagnostics);
+        return chips::of_device((file, next), node, driver, board, known, diagnostics);
     }
     let value = types::read(file, node.ty(), (known.constants, diagnostics));
     let owner = format!("the {} `{}`", direction.name(), name.value);
@@ -94,10 +93,10 @@ pub(crate) fn read(
     let block = span(file, node.range());
     let is_array = kind_name.value.spec().values.wires(value.value).is_some();
     let connections = placements.into_iter().zip(0..).map(|(placement, element)| Connection {
-        part: PartIndex(0),
+        part: next.part,
         name: None,
         element: is_array.then_some(element),
-        device: DeviceIndex(0),
+        device: next.device,
         kind: kind.clone(),
         direction,
         board,
@@ -107,7 +106,7 @@ pub(crate) fn read(
     });
     let connections: Vec<Connection> = connections.collect();
     let device = Device {
-        part: PartIndex(0),
+        part: next.part,
         name: name.clone(),
         block,
         id: own.id.unwrap_or(Spanned { value: 0, span: name.span }),
@@ -123,7 +122,7 @@ pub(crate) fn read(
         shown,
         coding,
         filter: own.filter,
-        connections: (0..connections.len()).map(ConnectionIndex).collect(),
+        connections: (next.connection.0..).take(connections.len()).map(ConnectionIndex).collect(),
     };
     let bounds = Bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
     let part = Part { name, block, board, driver, allows, chip: None, bounds };

@@ -21,7 +21,7 @@ use crate::drivers::{Driver, Drivers};
 use crate::fields::{Fields, name_or_text, span};
 use crate::kind::{Kind, KindName, Role};
 use crate::library::SEARCH;
-use crate::parts::ReadPart;
+use crate::parts::{Next, ReadPart};
 use crate::protocol::{Coding, Filter, Formula, Protocol};
 use crate::reach;
 
@@ -294,10 +294,11 @@ impl Library {
             let (direction, value) = self.plain_value(driver)?;
             head_of_device("Part", direction, value)
         };
+        let at = (self.file, Next::FIRST);
         let tree = parse(&format!("{head} {{ driver = {name}; {address} }}")).ast();
         match tree.parts().next()? {
-            ast::Item::Chip(node) => chips::read(self.file, &node, None, known, said),
-            ast::Item::Device(node) => devices::read(self.file, &node, None, known, said),
+            ast::Item::Chip(node) => chips::read(at, &node, None, known, said),
+            ast::Item::Device(node) => devices::read(at, &node, None, known, said),
         }
     }
 

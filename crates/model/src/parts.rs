@@ -1,13 +1,37 @@
 //! Parts as they are read, block by block, before they are assembled into a design.
 
+use std::collections::BTreeSet;
+
 use crate::design::{
     Board, BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
     Spanned,
 };
 use sensedsl_diagnostics::FileId;
 
-/// The contents of one block: a part with its devices and its wires. Indices count from 0 within
-/// it.
+/// The numbers that the next block's part, its first device and its first wires have in the design.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Next {
+    pub(crate) part: PartIndex,
+    pub(crate) device: DeviceIndex,
+    pub(crate) connection: ConnectionIndex,
+}
+
+impl Next {
+    /// The numbers of the first block.
+    pub(crate) const FIRST: Self =
+        Self { part: PartIndex(0), device: DeviceIndex(0), connection: ConnectionIndex(0) };
+
+    /// The numbers after a block.
+    pub(crate) fn after(self, read: &ReadPart) -> Self {
+        Self {
+            part: PartIndex(self.part.0 + 1),
+            device: DeviceIndex(self.device.0 + read.devices.len()),
+            connection: ConnectionIndex(self.connection.0 + read.connections.len()),
+        }
+    }
+}
+
+/// The contents of one block: a part with its devices and its wires.
 #[derive(Clone, Debug)]
 pub(crate) struct ReadPart {
     pub(crate) part: Part,
@@ -15,39 +39,16 @@ pub(crate) struct ReadPart {
     pub(crate) connections: Vec<Connection>,
 }
 
-/// Assembles boards and parts.
-pub(crate) fn assemble(file: FileId, boards: Vec<Board>, read: Vec<ReadPart>) -> Design {
-    let mut design =
-        Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new() };
-    for ReadPart { part, devices, connections } in read {
-        let index = PartIndex(design.parts.len());
-        let (first, first_device) = (design.connections.len(), design.devices.len());
-        design.parts.push(part);
-        design.devices.extend(devices.into_iter().map(|mut device| {
-            device.part = index;
-            for ConnectionIndex(number) in &mut device.connections {
-                *number += first;
-            }
-            device
-        }));
-        let connections = connections.into_iter().map(|one| {
-            let device = DeviceIndex(first_device + one.device.0);
-            Connection { part: index, device, ..one }
-        });
-        design.connections.extend(connections);
-    }
-    design
-}
-
-/// The boards that could be read and the parts that are certain to be on them, and the names of
-/// those left out.
+/// Assembles boards and parts: those that could be read, and the parts that are certain to be on
+/// them. Also returns the names of those left out.
 ///
 /// If a board is missing, a part that may go to any board may belong on that one.
-pub(crate) fn on_known_boards(
+pub(crate) fn assemble(
+    file: FileId,
     boards: Vec<Option<Board>>,
     names: &[Option<Spanned<String>>],
     parts: Vec<ReadPart>,
-) -> (Vec<Board>, Vec<ReadPart>, Vec<Spanned<String>>) {
+) -> (Design, Vec<Spanned<String>>) {
     let mut next = 0;
     let places: Vec<Option<BoardIndex>> = boards
         .iter()
@@ -60,17 +61,28 @@ pub(crate) fn on_known_boards(
     let is_whole = next == places.len();
     let unread = boards.iter().zip(names).filter(|(board, _)| board.is_none());
     let mut left_out: Vec<Spanned<String>> = unread.filter_map(|(_, name)| name.clone()).collect();
-    let mut sound = Vec::new();
+    let boards = boards.into_iter().flatten().collect();
+    let mut design =
+        Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new() };
+    let mut homeless: BTreeSet<PartIndex> = BTreeSet::new();
     for mut read in parts {
         match read.part.board {
-            None if is_whole => sound.push(read),
+            None if is_whole => {}
             Some(BoardIndex(index)) if let Some(Some(place)) = places.get(index) => {
                 read.part.board = Some(*place);
                 read.connections.iter_mut().for_each(|one| one.board = Some(*place));
-                sound.push(read);
             }
-            None | Some(_) => left_out.push(read.part.name),
+            None | Some(_) => {
+                homeless.insert(PartIndex(design.parts.len()));
+                left_out.push(read.part.name.clone());
+            }
         }
+        design.parts.push(read.part);
+        design.devices.extend(read.devices);
+        design.connections.extend(read.connections);
     }
-    (boards.into_iter().flatten().collect(), sound, left_out)
+    if !homeless.is_empty() {
+        design.retain_parts(|index, _| !homeless.contains(&index));
+    }
+    (design, left_out)
 }

@@ -22,7 +22,7 @@ use crate::frames;
 use crate::ids;
 use crate::links;
 use crate::names;
-use crate::parts::{ReadPart, assemble, on_known_boards};
+use crate::parts::{Next, ReadPart, assemble};
 use crate::pins;
 use crate::registers;
 use crate::sound::{Partial, broken_drivers};
@@ -87,8 +87,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         let at = first.unwrap_or_else(|| Span::new(file, 0..0));
         diagnostics.push(e0315_no_board::no_board(at));
     }
-    let (boards, parts, homeless) = on_known_boards(boards, &board_names, parts);
-    let mut design = assemble(file, boards, parts);
+    let (mut design, homeless) = assemble(file, boards, &board_names, parts);
     pins::bind(&mut design, &mut diagnostics);
     check_places(&design, &mut diagnostics);
     frames::settle(&mut design, &mut diagnostics);
@@ -175,15 +174,16 @@ fn read_parts(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Vec<ReadPart>, Vec<Spanned<String>>) {
     let (mut parts, mut unread) = (Vec::new(), Vec::new());
-    let mut room = Room::default();
+    let (mut room, mut next) = (Room::default(), Next::FIRST);
     for (file, node, board) in &items.parts {
+        let at = (*file, next);
         let board = board.map(BoardIndex);
         let (read, name) = match node {
             ast::Item::Device(node) => {
-                (devices::read(*file, node, board, known, diagnostics), node.name())
+                (devices::read(at, node, board, known, diagnostics), node.name())
             }
             ast::Item::Chip(node) => {
-                (chips::read(*file, node, board, known, diagnostics), node.name())
+                (chips::read(at, node, board, known, diagnostics), node.name())
             }
         };
         match read {
@@ -193,6 +193,7 @@ fn read_parts(
                     diagnostics.push(e0225_too_many_items::too_many_items(at, what, most));
                     break;
                 }
+                next = next.after(&part);
                 parts.push(part);
             }
             None => unread.extend(name.map(|name| Spanned {

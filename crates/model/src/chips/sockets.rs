@@ -23,8 +23,8 @@ pub(super) struct Socket {
     pub(super) name: Option<String>,
     pub(super) kind: KindName,
     pub(super) direction: Direction,
-    /// The first device whose value goes over it.
-    pub(super) device: DeviceIndex,
+    /// The first device whose value goes over it, if there is one.
+    pub(super) device: Option<DeviceIndex>,
     /// Whether a device of the chip, or every chip with this driver, needs it.
     pub(super) is_used: bool,
     /// Whether a reading or command of the driver goes over it.
@@ -102,7 +102,7 @@ impl Socket {
             kind,
             // A connection that carries no value is held at a level.
             direction: kind.spec().directions.last().copied().unwrap_or(Direction::Actuator),
-            device: DeviceIndex(0),
+            device: None,
             is_used: false,
             is_of_a_value: false,
             value: ValueType::scalar(ScalarType::Uint16),
@@ -114,7 +114,7 @@ impl Socket {
     /// Records that a device's value goes over it.
     pub(super) fn take(&mut self, device: DeviceIndex, given: &Given) {
         if !self.is_used {
-            self.device = device;
+            self.device = Some(device);
             self.direction = given.direction;
             let one = given.via.len() == 1;
             self.value = if one { given.value } else { ValueType::scalar(ScalarType::Uint16) };
