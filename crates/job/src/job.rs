@@ -180,32 +180,42 @@ fn tell_apart(connections: &mut [JobConnection<'_>], devices: &[JobDevice<'_>]) 
     }
 }
 
+/// What a job is gathered from.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    design: &'a Design,
+    board: &'a Board,
+    wiring: &'a BoardAssignment,
+    profile: Option<&'a TargetProfile>,
+}
+
 impl<'a> BoardJob<'a> {
     /// Gathers everything about one board.
     #[must_use]
     pub fn new(design: &'a Design, board: &'a Board, wiring: &'a BoardAssignment) -> Self {
         let starts = starts(design, wiring);
         let indices: Vec<_> = wiring.devices.iter().map(|wiring| wiring.device).collect();
-        let job = Self {
-            design,
-            board,
-            wiring,
-            profile: board.profile(),
-            devices: Vec::new(),
-            connections: Vec::new(),
-            parts: Vec::new(),
-            link: None,
-            schema: design.schema(wiring.board, &indices),
-        };
-        let devices = wiring.devices.iter().filter_map(|wiring| job.device(wiring, &starts));
+        let profile = board.profile();
+        let source = Source { design, board, wiring, profile };
+        let devices = wiring.devices.iter().filter_map(|wiring| source.device(wiring, &starts));
         let devices: Vec<JobDevice<'a>> = devices.collect();
         let connections = wiring.connections.iter();
-        let connections = connections.filter_map(|one| job.connection(one, &devices));
+        let connections = connections.filter_map(|one| source.connection(one, &devices));
         let mut connections: Vec<JobConnection<'a>> = connections.collect();
         tell_apart(&mut connections, &devices);
         let link = wiring.link.as_ref();
-        let link = link.map(|link| SerialLink { unit: &link.unit, pads: job.pads(&link.wires) });
-        Self { parts: job.tables(&devices), devices, connections, link, ..job }
+        let link = link.map(|link| SerialLink { unit: &link.unit, pads: source.pads(&link.wires) });
+        Self {
+            design,
+            board,
+            wiring,
+            profile,
+            parts: source.tables(&devices),
+            devices,
+            connections,
+            link,
+            schema: design.schema(wiring.board, &indices),
+        }
     }
 
     /// The system that the board's firmware is for: `chibios` of `chibios-21.11`.
@@ -231,12 +241,16 @@ impl<'a> BoardJob<'a> {
         self.connections.iter().filter(move |one| one.connection.kind.name() == kind)
     }
 
+    /// The connection with that place in the design, if it is on the board.
+    #[must_use]
+    pub fn wire(&self, index: ConnectionIndex) -> Option<&JobConnection<'a>> {
+        self.connections.iter().find(|wire| wire.index == index)
+    }
+
     /// The connections of a device, in the order in which its value goes over them.
     #[must_use]
     pub fn wires_of(&self, device: &Device) -> Vec<&JobConnection<'a>> {
-        let wired =
-            |index: &ConnectionIndex| self.connections.iter().find(|wire| wire.index == *index);
-        device.connections.iter().filter_map(wired).collect()
+        device.connections.iter().filter_map(|index| self.wire(*index)).collect()
     }
 
     /// The tables of the part that a connection belongs to.
@@ -269,7 +283,9 @@ impl<'a> BoardJob<'a> {
             None
         }
     }
+}
 
+impl<'a> Source<'a> {
     /// The tables of all parts on the board that have any.
     fn tables(&self, devices: &[JobDevice<'a>]) -> Vec<JobPart<'a>> {
         let mut parts: Vec<JobPart<'a>> = Vec::new();
