@@ -1,6 +1,6 @@
 //! Tables for the self test of the board's wires.
 
-use sensedsl_model::kind::{KindName, Role};
+use sensedsl_model::kind::Role;
 
 use super::context::Context;
 use sensedsl_job::{JobConnection, Pad};
@@ -46,7 +46,7 @@ pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
     let mut plan = DoctorPlan::default();
     for one in &context.job.connections {
         plan.inputs.extend(one.pads.iter().filter_map(|pad| input(context, one, pad)));
-        let counts = matches!(one.connection.kind.name(), KindName::Encoder | KindName::Icu);
+        let counts = one.connection.kind.name().spec().triggers_itself;
         let device = context.device_of(one).filter(|_| counts);
         plan.edges.extend(
             device.map(|device| Edges { title: one.place(), field: device.name().to_owned() }),

@@ -4,7 +4,6 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
-use sensedsl_model::kind::KindName;
 use sensedsl_timing::refusals_of;
 
 use super::context::{Context, PadPlan};
@@ -54,18 +53,8 @@ fn missed(
     if let Some(pad) = one.pads.iter().find(|pad| !is_set_up(&pad.pin.name)) {
         return Some(format!("the pin {}", pad.pin.name));
     }
-    let has_port = match kind {
-        KindName::I2c | KindName::Spi | KindName::Uart | KindName::Can => true,
-        KindName::Analog
-        | KindName::Icu
-        | KindName::Encoder
-        | KindName::Digital
-        | KindName::Pwm
-        | KindName::Dac => false,
-    };
-    if !has_port {
-        return None;
-    }
+    // Only what is sent in bytes has a port.
+    one.connection.kind.bytes()?;
     let Some(unit) = one.unit else { return Some("a unit".to_owned()) };
     let own = context.profile.unit(unit).map_or(unit, |unit| unit.name.as_str());
     let is_started = sections.iter().any(|section| {

@@ -1,7 +1,6 @@
 //! The runtime tables of parts, apart from their wires: chips, messages, formulas, filters.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::KindName;
 
 use super::context::Context;
 use super::spi;
@@ -31,7 +30,7 @@ pub(super) fn plan(context: &Context<'_>) -> PartsPlan {
 /// The tables of a part, with what depends on the wiring: the memory for its bus's buffers, and its chip select.
 fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
     let of_part = |other: &&JobConnection<'_>| {
-        let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
+        let is_bus = other.connection.kind.register_access().is_some();
         is_bus && other.connection.part == one.index
     };
     let wired = context.job.connections.iter().find(of_part);

@@ -1,7 +1,6 @@
 //! All decisions about the firmware of a board, ready to be printed.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::kind::KindName;
 use sensedsl_wire::Direction;
 
 use super::board::{self, TreePlan};
@@ -92,9 +91,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 fn cycle_ms(device: &JobDevice<'_>) -> u32 {
-    let is_event = device.device.kind.name() == KindName::Icu
-        || device.device.direction == Direction::Actuator;
-    if is_event { 0 } else { device.cycle.delay_ms }
+    let is_read = device.device.direction == Direction::Sensor;
+    let has_cycle = is_read && device.device.kind.name().spec().has_cycle;
+    if has_cycle { device.cycle.delay_ms } else { 0 }
 }
 
 impl BoardPlan {

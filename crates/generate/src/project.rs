@@ -3,7 +3,6 @@
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_diagnostics::{Diagnostic, render};
 use sensedsl_model::design::{Design, DeviceIndex};
-use sensedsl_model::kind::Kind;
 use sensedsl_report::{json, markdown, schema, svg};
 use sensedsl_wiring::assignment::Assignment;
 
@@ -84,7 +83,7 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
         .map(|(on, board)| {
             let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
             let shown = devices.iter().filter_map(|index| design.device(*index));
-            let paced = shown.clone().filter(|device| !matches!(device.kind, Kind::Icu(_)));
+            let paced = shown.clone().filter(|device| device.kind.name().spec().has_cycle);
             HostBoard {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),

@@ -12,7 +12,7 @@ use crate::design::{Board, BoardIndex, Connection, Design, Part, PartIndex};
 use crate::devices::Known;
 use crate::drivers::Driver;
 use crate::fields::{Fields, plain_integer, span};
-use crate::kind::Kind;
+use crate::kind::Interface;
 use crate::value::{Dimension, Measure, Value};
 use crate::volts::shown_mv;
 
@@ -125,7 +125,7 @@ pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 fn foreign_address(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnostic> {
-    let Kind::I2c(i2c) = &wires.kind else { return None };
+    let i2c = wires.kind.i2c()?;
     let (address, at) = (i2c.address, i2c.address_span?);
     let first = bounds.addresses.first()?;
     if bounds.addresses.contains(&address) {
@@ -173,17 +173,17 @@ pub fn listed(addresses: &[u8]) -> String {
 
 fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnostic> {
     let most = bounds.clock_max_hz?;
-    let (property, asked, at) = match &wires.kind {
-        Kind::I2c(i2c) => ("speed", i2c.speed_hz, i2c.speed_span?),
-        Kind::Spi(spi) => ("clock", spi.clock_hz, spi.clock_span?),
-        Kind::Analog(_)
-        | Kind::Can(_)
-        | Kind::Dac(_)
-        | Kind::Digital(_)
-        | Kind::Encoder(_)
-        | Kind::Icu(_)
-        | Kind::Pwm(_)
-        | Kind::Uart(_) => return None,
+    let (property, asked, at) = match wires.kind.interface() {
+        Interface::I2c(i2c) => ("speed", i2c.speed_hz, i2c.speed_span?),
+        Interface::Spi(spi) => ("clock", spi.clock_hz, spi.clock_span?),
+        Interface::Analog(_)
+        | Interface::Can(_)
+        | Interface::Dac(_)
+        | Interface::Digital(_)
+        | Interface::Encoder(_)
+        | Interface::Icu(_)
+        | Interface::Pwm(_)
+        | Interface::Uart(_) => return None,
     };
     let (asked_words, most_words) = (shown_hz(asked), shown_hz(most));
     let over = e0233_clock_over_part::clock_over_part;

@@ -9,7 +9,7 @@ use sensedsl_wire::Direction;
 
 use crate::bounds;
 use crate::design::{Design, Device};
-use crate::kind::Kind;
+use crate::kind::Interface;
 use crate::reach;
 
 /// Bits of one ADC conversion on all profiles; the driver scales wider ones.
@@ -32,8 +32,7 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
 
 /// Warns of a cycle time or priority for a device that the hardware measures on its own.
 fn unused_pace(device: &Device) -> Vec<Diagnostic> {
-    let pulsed = matches!(&device.kind, Kind::Icu(icu) if icu.pulse_us.is_some());
-    if !device.kind.name().spec().triggers_itself || pulsed {
+    if !device.kind.measures_itself() {
         return Vec::new();
     }
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
@@ -46,7 +45,7 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
 }
 
 fn too_slow(device: &Device) -> Option<Diagnostic> {
-    let Kind::I2c(i2c) = &device.kind else { return None };
+    let i2c = device.kind.i2c()?;
     if u64::from(i2c.wait_us) <= u64::from(device.delay_ms) * 1_000 {
         return None;
     }
@@ -60,7 +59,7 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
 
 /// Reports an I2C device whose bytes are not whole elements that a value can hold.
 fn impossible_length(device: &Device) -> Option<Diagnostic> {
-    let Kind::I2c(i2c) = &device.kind else { return None };
+    let i2c = device.kind.i2c()?;
     if !device.coding.is_plain() {
         return None;
     }
@@ -89,10 +88,15 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         return narrower_than_reading(device);
     }
     let (_, most) = value.scalar.integer_range()?;
-    let (bits, wider) = if device.kind.analog().is_some() {
-        (ADC_BITS, "uint16".to_owned())
-    } else {
-        of_bytes(device.kind.i2c().filter(|_| value.length.is_none())?.length_bytes)?
+    let (bits, wider) = match device.kind.interface() {
+        Interface::Analog(_) => (ADC_BITS, "uint16".to_owned()),
+        Interface::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
+        // Other bytes are compared with the value's type where their words are read.
+        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
+            return None;
+        }
+        Interface::Icu(_) | Interface::Encoder(_) | Interface::Digital(_) => return None,
+        Interface::Pwm(_) | Interface::Dac(_) => return None,
     };
     let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
     if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)

@@ -21,7 +21,6 @@ use crate::devices::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
 use crate::drivers::Driver;
 use crate::fields::{Fields, name_or_text, span};
 use crate::ids::ID_MAX;
-use crate::kind::icu::Mode;
 use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
 use crate::parts::{Next, ReadPart};
@@ -366,10 +365,11 @@ impl ChipReader<'_> {
             main.kind.spec().properties.contains(&name.as_str())
         };
         // The bytes of a message are not those of a value in it.
-        let of_message = |one: &Property| {
-            main.kind == KindName::Uart && one.name().is_some_and(|name| name.text() == "length")
+        let of_part = |one: &Property| {
+            let of_part = main.kind.spec().of_part;
+            one.name().is_some_and(|name| of_part.contains(&name.text()))
         };
-        let of_value = |one: &Property| if is_bus { !of_message(one) } else { !of_wires(one) };
+        let of_value = |one: &Property| if is_bus { !of_part(one) } else { !of_wires(one) };
         fields.inherit(self.properties_for(main.kind).filter(of_value), self.file);
         fields.inherit(main.block_properties().filter(of_value), self.file);
         fields.drivers_follow();
@@ -432,9 +432,8 @@ impl ChipReader<'_> {
         given: &Given,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let is_train = kind.icu().is_some_and(|icu| icu.mode == Mode::Ppm);
         let has_wires = kind.name().spec().values.wires(value.value).is_some();
-        if has_wires && !is_train && given.via.len() == 1 {
+        if has_wires && !kind.is_train() && given.via.len() == 1 {
             let what = format!("a value of `{}`", self.driver.name.value);
             let can = "one number: an array of wires is a sensor or an actuator by itself";
             let found = value.value.to_string();

@@ -9,7 +9,7 @@ use crate::design::Spanned;
 use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number};
 use crate::kind::{Kind, KindName};
 use crate::protocol::{
-    Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Protocol, TextField,
+    Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Output, Protocol, TextField,
 };
 use crate::reach;
 use crate::value::{Dimension, Value};
@@ -179,7 +179,7 @@ fn initial(
     of: ValueType,
 ) -> Option<bool> {
     let is_switch = of.scalar == ScalarType::Bool && of.count() == 1;
-    if !is_switch || !matches!(of_bus, Some(Kind::I2c(_) | Kind::Spi(_))) {
+    if !is_switch || of_bus.and_then(Kind::register_access).is_none() {
         if let Some(field) = fields.take("initial") {
             fields.wrong(&field, "`true` or `false`, and a command of one `bool` on I2C or SPI");
         }
@@ -220,8 +220,9 @@ fn text(fields: &mut Fields<'_>, format: Option<Format>) -> Option<TextField> {
 }
 
 /// The output of the chip's formula: the one named, or the one with the reading's name.
-fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<u8> {
-    let outputs = formula?.outputs();
+fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<Output> {
+    let of = formula?;
+    let outputs = of.outputs();
     let named = fields.name("output", "an output of the formula");
     let wanted = named.as_ref().map_or_else(|| fields.reading_name(), |one| one.value.clone());
     let found = outputs.iter().position(|one| *one == wanted);
@@ -229,7 +230,7 @@ fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<u8> {
         let words = outputs.iter().zip(0..).map(|(word, at): (_, u8)| (*word, at));
         fields.unknown_word(named.span, "output", &named.value, &words.collect::<Vec<_>>());
     }
-    found.and_then(|at| u8::try_from(at).ok())
+    Some(Output { of, number: u8::try_from(found?).ok()? })
 }
 
 /// Reads how the value is filtered on the board.

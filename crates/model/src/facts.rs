@@ -307,11 +307,12 @@ impl Library {
         let mut said = Vec::new();
         let fields = self.fields(driver, &mut said);
         let kind = driver.kind?;
-        let only_read = ["pull", "edge", "debounce"].iter().any(|name| fields.has(name));
+        let inputs_have = kind.spec().inputs_have;
+        let is_read = inputs_have.is_empty() || inputs_have.iter().any(|name| fields.has(name));
         let direction = match kind.spec().directions {
             [only] => *only,
-            _ if kind == KindName::Digital && !only_read => Direction::Actuator,
-            _ => Direction::Sensor,
+            _ if is_read => Direction::Sensor,
+            _ => Direction::Actuator,
         };
         let signed = fields.peek_name("quantity").is_some_and(|unit| SIGNED.contains(&&*unit));
         let length = fields.peek_integer("length").and_then(|n| u16::try_from(n).ok());

@@ -53,7 +53,7 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
 /// Reports a frame that is to be repeated more often than the link's `rate` lets the board check
 /// it.
 fn slower_link(design: &Design, device: &Device) -> Option<Diagnostic> {
-    let resend_ms = device.kind.can()?.resend_ms;
+    let resend_ms = device.kind.resend_ms();
     let board = design.board(design.part(device.part)?.board?)?;
     let cycle_ms = 1_000_u32.div_ceil(board.link.rate_hz?.max(1));
     let message = format!(
@@ -100,7 +100,7 @@ fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnost
     for (index, bits) in found {
         let device = design.devices.get_mut(index);
         if let Some(Kind::Can(Can { mux: Some(mux), .. })) = device.map(|device| &mut device.kind) {
-            mux.bits = bits;
+            mux.bits = Some(bits);
         }
     }
 }
@@ -141,8 +141,7 @@ fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<Bits, Box<
 fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
     let bits = |device: &Device| {
         let can = device.kind.can()?;
-        let selected = can.mux.as_ref().map(|mux| mux.bits);
-        Some((Words::of(device)?.in_frame(can.byte), selected))
+        Some((Words::of(device)?.in_frame(can.byte), can.select()))
     };
     let mut before: Vec<(&Device, u64, Option<Bits>)> = Vec::new();
     for device in sent {
@@ -166,8 +165,7 @@ fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
 fn repeated(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut parts: BTreeMap<PartIndex, Vec<&Device>> = BTreeMap::new();
     for device in &design.devices {
-        if device.coding.reading.is_some() && device.kind.can().is_some_and(|can| can.resend_ms > 0)
-        {
+        if device.coding.reading.is_some() && device.kind.resend_ms() > 0 {
             parts.entry(device.part).or_default().push(device);
         }
     }

@@ -4,7 +4,7 @@
 
 use crate::design::{Device, Presentation};
 use crate::fields::{Codes, Misfit, in_quantity, of_pulse, unit_of};
-use crate::kind::Kind;
+use crate::kind::Interface;
 use crate::reach;
 use crate::value::{Measure, Number};
 
@@ -44,7 +44,7 @@ pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
         return Ok(Given::Code(written.number));
     }
     let shown = &device.shown;
-    if let Kind::Pwm(pwm) = &device.kind
+    if let Interface::Pwm(pwm) = device.kind.interface()
         && shown.quantity.is_none()
         && shown.is_plain()
         && !written.unit.is_empty()

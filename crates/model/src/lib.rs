@@ -52,7 +52,6 @@ pub mod reach;
 pub mod registers;
 mod resolve;
 mod rules;
-mod serving;
 mod sound;
 mod sources;
 mod syntax_errors;

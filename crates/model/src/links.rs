@@ -13,7 +13,6 @@ use sensedsl_wire::Checksum;
 use crate::constants::Constants;
 use crate::design::{BoardIndex, Design, Device, Link, Spanned, Transport};
 use crate::fields::{Fields, span};
-use crate::kind::Kind;
 
 /// The properties of a link.
 const LINK_PROPERTIES: &[&str] =
@@ -189,20 +188,14 @@ fn default_checksum(transport: Transport) -> Checksum {
 /// Sets how long each board's host may be silent: as the file states, or a default if an actuator
 /// has a failsafe value.
 pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
-    let falls_back = |kind: &Kind| {
-        matches!(kind, Kind::Pwm(pwm) if pwm.failsafe.is_some())
-            || matches!(kind, Kind::Dac(dac) if dac.failsafe.is_some())
-    };
     let board_of = |device: &Device| design.part(device.part).and_then(|part| part.board);
     // Repeated frames stop when the host does.
-    let has_to_stop = |device: &Device| {
-        let is_repeated = device.kind.can().is_some_and(|can| can.resend_ms > 0);
-        device.coding.failsafe.is_some() || is_repeated
-    };
+    let has_to_stop =
+        |device: &Device| device.coding.failsafe.is_some() || device.kind.resend_ms() > 0;
     let falling: Vec<Option<BoardIndex>> = design
         .connections
         .iter()
-        .filter(|connection| falls_back(&connection.kind))
+        .filter(|connection| connection.kind.failsafe().is_some())
         .map(|connection| connection.board)
         .chain(design.devices.iter().filter(|one| has_to_stop(one)).map(board_of))
         .collect();

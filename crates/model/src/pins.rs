@@ -10,7 +10,6 @@ use sensedsl_diagnostics::codes::{e0310_unknown_pin, e0318_several_pins, h0704_p
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 
 use crate::design::{Board, BoardIndex, Design, Spanned, Wish, WishFor};
-use crate::serving::serves;
 
 /// A pin, as the file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,7 +64,7 @@ pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
         let mut binder = Binder { boards, range, diagnostics };
         let kind = wires.kind.name();
         for (role, Spanned { value, span }) in &mut wires.placement.pins {
-            binder.pin(value, *span, true, |pin| serves(kind, *role, pin));
+            binder.pin(value, *span, true, |pin| kind.serves(*role, pin));
         }
         binder.wishes(&mut wires.wishes);
     }

@@ -108,6 +108,15 @@ impl Formula {
     }
 }
 
+/// An output of a formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// The formula.
+    pub of: Formula,
+    /// The place of the output among those of the formula.
+    pub number: u8,
+}
+
 /// How the value of a device is coded in the bytes that its part sends or receives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coding {
@@ -134,7 +143,7 @@ pub struct Coding {
     /// Bytes sent on SPI while as many bytes, which are the value's, are received.
     pub exchange: Vec<u8>,
     /// The output of the chip's formula that the value is.
-    pub output: Option<u8>,
+    pub output: Option<Output>,
     /// How one value becomes several outputs.
     pub drive: Option<Drive>,
     /// The value, for all elements, that an actuator takes when the host goes silent; none to keep

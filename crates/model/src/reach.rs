@@ -12,14 +12,11 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::{Bare, Board, Design, Device, Presentation};
 use crate::kind::icu::Mode;
+use crate::kind::pwm::FULL;
 use crate::kind::{Kind, KindName};
 use crate::protocol::Coding;
 use crate::volts::{divider, shown_mv, shown_ohm};
 
-/// The greatest code of driven outputs.
-const FULL: f64 = 10_000.0;
-/// The code of a converter at its reference voltage.
-const CONVERTED_MAX: f64 = 4_095.0;
 /// The greatest supply of an unknown MCU, in millivolts.
 const SUPPLY_MAX_MV: u32 = 5_000;
 
@@ -28,40 +25,14 @@ pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
     if coding.drive.is_some() {
         return Some((-FULL, FULL));
     }
-    match kind {
-        Kind::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, FULL)),
-        Kind::Analog(_)
-        | Kind::Can(_)
-        | Kind::Dac(_)
-        | Kind::Digital(_)
-        | Kind::Encoder(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Pwm(_)
-        | Kind::Spi(_)
-        | Kind::Uart(_) => of_kind(kind.name()),
-    }
-}
-
-/// The range of all values of a kind.
-fn of_kind(kind: KindName) -> Option<(f64, f64)> {
-    match kind {
-        KindName::Analog | KindName::Dac => Some((0.0, CONVERTED_MAX)),
-        KindName::Pwm => Some((0.0, FULL)),
-        KindName::Can
-        | KindName::Digital
-        | KindName::Encoder
-        | KindName::I2c
-        | KindName::Icu
-        | KindName::Spi
-        | KindName::Uart => None,
-    }
+    let is_duty = kind.icu().is_some_and(|icu| icu.mode == Mode::Duty);
+    if is_duty { Some((0.0, FULL)) } else { kind.name().spec().codes }
 }
 
 /// The least and the greatest code that can be given for a value: those of the part, as far as its
 /// type holds them.
 pub(crate) fn of_codes(kind: KindName, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
-    let fixed = if coding.drive.is_some() { Some((-FULL, FULL)) } else { of_kind(kind) };
+    let fixed = if coding.drive.is_some() { Some((-FULL, FULL)) } else { kind.spec().codes };
     let part = fixed.or_else(|| of_bits(coding, value));
     both(part, of_type(value.scalar))
 }
@@ -197,7 +168,7 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
 /// Reports an analog input's voltage that exceeds the supply, with no divider.
 fn over_supply(design: &Design, device: &Device) -> Option<Diagnostic> {
     let (max, at) = (device.shown.max?, *device.shown.bounds.last()?);
-    let wires = design.main_connection(device).filter(|_| device.kind.analog().is_some())?;
+    let wires = design.main_connection(device).filter(|_| device.kind.is_sampled())?;
     let factor = match device.shown.quantity.as_deref() {
         Some("V") => 1e3,
         Some("mV") => 1.0,

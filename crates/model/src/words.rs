@@ -145,36 +145,12 @@ fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
     if !coding.exchange.is_empty() {
         return u16::try_from(coding.exchange.len()).ok();
     }
-    match kind {
-        Kind::I2c(i2c) => Some(i2c.length_bytes),
-        Kind::Spi(spi) => Some(spi.length_bytes),
-        Kind::Uart(uart) => Some(uart.length_bytes),
-        Kind::Can(can) => can
-            .field
-            .map(|field| field.word_bytes.into())
-            .or_else(|| coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok())),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => None,
-    }
+    let own = kind.bytes()?;
+    own.length.or_else(|| coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok()))
 }
 
 fn order(kind: &Kind) -> ByteOrder {
-    match kind {
-        Kind::I2c(i2c) => i2c.order,
-        Kind::Spi(spi) => spi.order,
-        Kind::Uart(uart) => uart.order,
-        Kind::Can(can) => can.order,
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => ByteOrder::default(),
-    }
+    kind.bytes().map(|own| own.order).unwrap_or_default()
 }
 
 fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<Words, String> {

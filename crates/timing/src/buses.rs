@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::can::Can;
 use sensedsl_model::kind::i2c::I2c;
 use sensedsl_model::kind::spi::Spi;
@@ -100,33 +100,33 @@ fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
 
 /// The work of a device on its bus.
 pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script> {
-    match &wired.device.kind {
-        Kind::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
-        Kind::Spi(spi) => Some(spi_script(wired, spi)),
-        Kind::Can(can) => Some(can_script(wired, can)),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => None,
+    match wired.device.kind.interface() {
+        Interface::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
+        Interface::Spi(spi) => Some(spi_script(wired, spi)),
+        Interface::Can(can) => Some(can_script(wired, can)),
+        Interface::Analog(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_) => None,
     }
 }
 
 /// The greatest clock that all devices of a unit support.
 pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) -> Option<u32> {
-    let asked = on_bus.filter_map(|wired| match &wired.device.kind {
-        Kind::I2c(i2c) => Some(i2c.speed_hz),
-        Kind::Spi(spi) => Some(spi.clock_hz),
-        Kind::Can(can) => Some(can.bitrate_hz),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => None,
+    let asked = on_bus.filter_map(|wired| match wired.device.kind.interface() {
+        Interface::I2c(i2c) => Some(i2c.speed_hz),
+        Interface::Spi(spi) => Some(spi.clock_hz),
+        Interface::Can(can) => Some(can.bitrate_hz),
+        Interface::Analog(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_) => None,
     });
     asked.min()
 }

@@ -1,7 +1,7 @@
 //! Interrupts of captures: how many there are at the greatest value that a device states.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use crate::Context;
@@ -63,18 +63,18 @@ fn whole(value: f64) -> Option<u64> {
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     for wired in &context.elements {
-        let icu = match &wired.device.kind {
-            Kind::Icu(icu) => Some(icu),
-            Kind::Digital(digital) if digital.edge.is_some() => None,
-            Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => continue,
+        let icu = match wired.device.kind.interface() {
+            Interface::Icu(icu) => Some(icu),
+            Interface::Digital(digital) if digital.edge.is_some() => None,
+            Interface::Analog(_)
+            | Interface::I2c(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Spi(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => continue,
         };
         let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
         let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Design, Device, DeviceIndex};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_wiring::assignment::BoardAssignment;
 
 use crate::Turn;
@@ -58,17 +58,17 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
 
 /// The time from one measurement to the next, for a device that measures on demand.
 fn period_ms(device: &Device) -> Option<u32> {
-    match &device.kind {
-        Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
-        Kind::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
-        Kind::Analog(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
+    match device.kind.interface() {
+        Interface::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
+        Interface::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
+        Interface::Analog(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Can(_) => None,
     }
 }
 
@@ -76,8 +76,8 @@ fn period_ms(device: &Device) -> Option<u32> {
 /// other.
 fn measuring_ms(device: &Device) -> u32 {
     let each_ms = Design::measuring_us(device).div_ceil(1_000) + GAP_MS;
-    let is_told = device.kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
-    let elements = device.value.value.length.filter(|_| is_told).map_or(1, u32::from);
+    let is_asked = device.kind.pulse_us().is_some();
+    let elements = device.value.value.length.filter(|_| is_asked).map_or(1, u32::from);
     each_ms.saturating_mul(elements)
 }
 

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::analog::Analog;
 use sensedsl_model::kind::icu::Icu;
-use sensedsl_model::kind::{Kind, Sharing};
+use sensedsl_model::kind::{Interface, Sharing};
 
 use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
@@ -31,17 +31,17 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
     for wired in &context.elements {
         let unit = wired.wiring.unit.as_deref();
         let kind = &wired.device.kind;
-        diagnostics.extend(match kind {
-            Kind::Analog(analog) => of_sampling(context, wired, analog),
-            Kind::Icu(icu) => of_tick(context, wired, icu),
-            Kind::Pwm(pwm) => of_pulses(context, wired, pwm.frequency_hz),
-            Kind::Uart(uart) => unit.and_then(|unit| {
+        diagnostics.extend(match kind.interface() {
+            Interface::Analog(analog) => of_sampling(context, wired, analog),
+            Interface::Icu(icu) => of_tick(context, wired, icu),
+            Interface::Pwm(pwm) => of_pulses(context, wired, pwm.frequency_hz),
+            Interface::Uart(uart) => unit.and_then(|unit| {
                 let span = uart.baud_span.unwrap_or(wired.device.kind_span);
                 of_baud(context, unit, uart.baud, span)
             }),
             // Kinds that share their unit are checked per bus, below.
-            Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => None,
-            Kind::Encoder(_) | Kind::Digital(_) | Kind::Dac(_) => None,
+            Interface::I2c(_) | Interface::Spi(_) | Interface::Can(_) => None,
+            Interface::Encoder(_) | Interface::Digital(_) | Interface::Dac(_) => None,
         });
         if let (true, Some(unit)) = (kind.name().spec().sharing != Sharing::Own, unit) {
             shared.entry(UnitName::new(unit)).or_default().push(wired);
@@ -139,25 +139,28 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     let (name, device) = (unit.as_str(), &wired.device.name.value);
     let kind_span = wired.device.kind_span;
     let kind = &wired.device.kind;
-    if let Some(can) = kind.can() {
-        let bit = can_bit(profile.can_dividers.as_ref()?, hz, asked_hz)?;
-        let exact = bit.rate_hz(hz)?;
-        if off_ppm(exact, asked_hz) <= CAN_OFF_PPM_MAX {
-            return None;
+    let (span, property, slowest) = match kind.interface() {
+        Interface::Can(can) => {
+            let at = can.bitrate_span.unwrap_or(kind_span);
+            return of_can(
+                (name, device),
+                at,
+                asked_hz,
+                can_bit(profile.can_dividers.as_ref()?, hz, asked_hz)?.rate_hz(hz)?,
+            );
         }
-        let message =
-            format!("{name} of {device} makes {exact} bits a second of its clock, not {asked_hz}");
-        let help = format!(
-            "write a `bitrate` within 0.5 % of one that it can make: {exact} Hz is the nearest"
-        );
-        let span = can.bitrate_span.unwrap_or(kind_span);
-        return Some(clock_out_of_reach(span, &message, &help));
-    }
-    let (span, property, slowest) = if let Some(i2c) = kind.i2c() {
-        (i2c.speed_span, "speed", i2c_clock::slowest_hz(&profile.i2c, hz))
-    } else {
-        let dividers = profile.spi_dividers.as_ref()?;
-        (kind.spi()?.clock_span, "clock", Some(slowest_hz(dividers, hz)))
+        Interface::I2c(i2c) => (i2c.speed_span, "speed", i2c_clock::slowest_hz(&profile.i2c, hz)),
+        Interface::Spi(spi) => {
+            let dividers = profile.spi_dividers.as_ref()?;
+            (spi.clock_span, "clock", Some(slowest_hz(dividers, hz)))
+        }
+        Interface::Analog(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_) => return None,
     };
     // Without facts about its dividers, nothing is known about the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;
@@ -166,4 +169,22 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     );
     let help = format!("write `{property} = {slowest} Hz;` or more");
     Some(clock_out_of_reach(span.unwrap_or(kind_span), &message, &help))
+}
+
+/// Reports a CAN bus whose bit rate is too far off.
+fn of_can(
+    (unit, device): (&str, &str),
+    at: Span,
+    asked_hz: u32,
+    exact_hz: u32,
+) -> Option<Diagnostic> {
+    if off_ppm(exact_hz, asked_hz) <= CAN_OFF_PPM_MAX {
+        return None;
+    }
+    let message =
+        format!("{unit} of {device} makes {exact_hz} bits a second of its clock, not {asked_hz}");
+    let help = format!(
+        "write a `bitrate` within 0.5 % of one that it can make: {exact_hz} Hz is the nearest"
+    );
+    Some(clock_out_of_reach(at, &message, &help))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_model::design::{Device, Transport};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, STAMP_BYTES};
 
 use crate::buses::i2c_period_ms;
@@ -47,19 +47,10 @@ pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
 /// The time from one value of a device to the next; none for a device that measures on its own.
 fn period_ms(device: &Device) -> Option<u32> {
     let kind = &device.kind;
-    let is_asked = match kind {
-        Kind::I2c(i2c) => return Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
-        Kind::Icu(icu) => icu.pulse_us.is_some(),
-        Kind::Analog(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => false,
-    };
-    (is_asked || !kind.name().spec().triggers_itself).then_some(device.delay_ms)
+    if let Interface::I2c(i2c) = kind.interface() {
+        return Some(i2c_period_ms(device.delay_ms, i2c.wait_us));
+    }
+    (!kind.measures_itself()).then_some(device.delay_ms)
 }
 
 pub(crate) fn reports(context: &Context<'_>) -> Reports {

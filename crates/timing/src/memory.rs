@@ -4,7 +4,7 @@
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0626_memory_full::memory_full;
 use sensedsl_model::design::Design;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_wire::{Direction, ScalarType};
 
 use crate::Context;
@@ -40,17 +40,17 @@ pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic>
 
 fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
     let value = value.size_bytes() as u64;
-    let buffers = match kind {
-        Kind::Analog(analog) => u64::from(analog.samples) * SAMPLE_BYTES,
-        Kind::I2c(i2c) => value + u64::from(i2c.length_bytes),
-        Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => 0,
+    let buffers = match kind.interface() {
+        Interface::Analog(analog) => u64::from(analog.samples) * SAMPLE_BYTES,
+        Interface::I2c(i2c) => value + u64::from(i2c.length_bytes),
+        Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Can(_) => 0,
     };
     value + buffers
 }

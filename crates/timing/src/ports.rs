@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::uart::{Parity, Uart};
 
 use crate::clocks::{nearest, unit_hz};
@@ -15,9 +15,9 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut outputs: BTreeMap<(UnitName, u32), Row> = BTreeMap::new();
     for wired in &context.elements {
         let Some(unit) = wired.wiring.unit.as_deref() else { continue };
-        match &wired.device.kind {
-            Kind::Uart(uart) => rows.push(port(context, wired, unit, uart)),
-            Kind::Pwm(pwm) => {
+        match wired.device.kind.interface() {
+            Interface::Uart(uart) => rows.push(port(context, wired, unit, uart)),
+            Interface::Pwm(pwm) => {
                 let key = (UnitName::new(unit), pwm.frequency_hz);
                 let fresh = || {
                     let mut row = Row::new(Part::Output, unit, Vec::new());
@@ -28,14 +28,14 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
                 row.devices.push(wired.index);
                 row.devices.dedup();
             }
-            Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Icu(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Spi(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => {}
+            Interface::Analog(_)
+            | Interface::I2c(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Spi(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => {}
         }
     }
     rows.extend(outputs.into_values());

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use sensedsl_board::profile::Costs;
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::{DeviceIndex, Transport};
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::analog::Analog;
+use sensedsl_model::kind::{Interface, Kind};
 
 use crate::buses::script;
 use crate::captures::interrupts;
@@ -120,29 +120,28 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
     let mut loads: BTreeMap<(UnitName, Cycle), Load> = BTreeMap::new();
     for wired in &context.elements {
         let kind = &wired.device.kind;
-        let is_pulsed = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
-        if kind.name().spec().triggers_itself && !is_pulsed {
+        if kind.measures_itself() {
             continue;
         }
         let of_kind = || wired.wiring.unit.as_deref().unwrap_or(kind.name().name());
-        let unit = if is_pulsed { "pulse" } else { of_kind() };
+        let unit = if kind.pulse_us().is_some() { "pulse" } else { of_kind() };
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
         load.devices.dedup();
-        match kind {
-            Kind::Analog(analog) => load.samples.push(analog.samples),
-            Kind::Icu(icu) => load.pulses_us.extend(icu.pulse_us),
-            Kind::I2c(_) => {
+        match kind.interface() {
+            Interface::Analog(analog) => load.samples.push(analog.samples),
+            Interface::Icu(icu) => load.pulses_us.extend(icu.pulse_us),
+            Interface::I2c(_) => {
                 let script = script(context, wired);
                 load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
             }
-            Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => load.is_unknown = true,
+            Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Spi(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => load.is_unknown = true,
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, Device, DeviceIndex, PartIndex};
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Interface, Kind, Role};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
@@ -54,14 +54,20 @@ pub struct Bench {
     waves: BTreeMap<TimerOutput, (u64, u64)>,
     recorder: Recorder,
     commands: Vec<Command>,
-    faults: Vec<Fault>,
-    /// The part of each fault's device, and the units of its wires.
-    broken: Vec<(Option<PartIndex>, Vec<String>)>,
+    faults: Vec<Broken>,
     units: Units,
     /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
     seed: u64,
     log: Option<log::Log>,
+}
+
+/// A fault, the part that it hits, and the units of that part's wires.
+#[derive(Clone, Debug)]
+struct Broken {
+    fault: Fault,
+    part: Option<PartIndex>,
+    units: Vec<String>,
 }
 
 /// A connection and what is behind it.
@@ -100,17 +106,15 @@ impl Bench {
             waves: BTreeMap::new(),
             recorder: Recorder::default(),
             commands: world.commands.clone(),
-            faults: world.faults.clone(),
-            broken: Vec::new(),
+            faults: world.faults.iter().map(|fault| Broken::new(job, fault)).collect(),
             units: Units::new(job),
             peer: None,
             seed,
             log: None,
         };
         for one in &job.connections {
-            bench.add(job, one.index, one);
+            bench.add(job, one);
         }
-        bench.broken = world.faults.iter().map(|fault| broken(job, fault)).collect();
         bench
     }
 
@@ -134,7 +138,7 @@ impl Bench {
     #[must_use]
     pub fn excused(&self, job: &BoardJob<'_>, device: DeviceIndex) -> Vec<(u64, u64)> {
         let own = job.devices.iter().find(|one| one.index == device);
-        let hits = |(fault, (part, units)): (&Fault, &(Option<PartIndex>, Vec<String>))| {
+        let hits = |Broken { fault, part, units }: &Broken| {
             let is_own = own.is_some_and(|own| {
                 let shares = own.unit.is_some_and(|unit| units.iter().any(|one| one == unit));
                 let is_of_bus = matches!(fault.kind, FaultKind::StuckSda | FaultKind::Hang);
@@ -142,7 +146,7 @@ impl Bench {
             });
             (fault.kind.is_of_board() || is_own).then_some((fault.at_ns, fault.until_ns))
         };
-        self.faults.iter().zip(&self.broken).filter_map(hits).collect()
+        self.faults.iter().filter_map(hits).collect()
     }
 
     /// Period and width, in nanoseconds, of the pulses that the board sends, by timer and channel.
@@ -154,14 +158,13 @@ impl Bench {
     /// Whether the board has no supply.
     #[must_use]
     pub fn is_off(&self, now_ns: u64) -> bool {
-        self.faults.iter().any(|one| one.kind == FaultKind::Reset && one.is_there(now_ns))
+        self.faults.iter().any(|one| one.is(FaultKind::Reset, now_ns))
     }
 
     /// The random byte that arrives on the link in this millisecond, if one does.
     #[must_use]
     pub fn garbage(&self, now_ns: u64) -> Option<u8> {
-        let is_there = |one: &&Fault| one.kind == FaultKind::Garbage && one.is_there(now_ns);
-        self.faults.iter().find(is_there)?;
+        self.faults.iter().find(|one| one.is(FaultKind::Garbage, now_ns))?;
         let chance = crate::arith::scrambled(self.seed ^ now_ns);
         chance.to_be_bytes().first().copied()
     }
@@ -225,10 +228,7 @@ impl Bench {
         for _ in 0..100_000 {
             let (at, level) = line.next_edge(&self.subjects, after_ns)?;
             let part = wired.part;
-            let cut = [FaultKind::Torn, FaultKind::Silent];
-            let is_cut = self.faults.iter().zip(&self.broken).any(|(fault, (of, _))| {
-                cut.contains(&fault.kind) && *of == Some(part) && fault.is_there(at)
-            });
+            let is_cut = self.faults.iter().any(|one| one.cuts(at) && one.part == Some(part));
             if !is_cut {
                 return Some((at, level));
             }
@@ -268,10 +268,7 @@ impl Bench {
     }
 
     fn has(&self, kind: FaultKind, part: PartIndex, now_ns: u64) -> bool {
-        let mut faults = self.faults.iter().zip(&self.broken);
-        faults.any(|(fault, (of, _))| {
-            fault.kind == kind && *of == Some(part) && fault.is_there(now_ns)
-        })
+        self.faults.iter().any(|one| one.is(kind, now_ns) && one.part == Some(part))
     }
 
     fn is_cut(&self, connection: ConnectionIndex, now_ns: u64) -> bool {
@@ -283,24 +280,20 @@ impl Bench {
 
     /// Whether something holds a wire of a bus.
     fn is_held(&self, kind: FaultKind, unit: u8, now_ns: u64) -> bool {
-        let mut faults = self.faults.iter().zip(&self.broken);
-        faults.any(|(fault, (_, units))| {
-            fault.kind == kind
-                && fault.is_there(now_ns)
-                && units.iter().any(|one| self.units.number(one) == Some(unit))
-        })
+        let is_on = |one: &Broken| one.units.iter().any(|one| self.units.number(one) == Some(unit));
+        self.faults.iter().any(|one| one.is(kind, now_ns) && is_on(one))
     }
 }
 
 /// Placement of parts on pins.
 impl Bench {
-    fn add(&mut self, job: &BoardJob<'_>, index: ConnectionIndex, one: &JobConnection<'_>) {
+    fn add(&mut self, job: &BoardJob<'_>, one: &JobConnection<'_>) {
         for pad in &one.pads {
             if let Some(named) = Pad::named(&pad.pin.name.to_string()) {
-                self.pads.entry(named).or_insert((index, pad.role));
+                self.pads.entry(named).or_insert((one.index, pad.role));
             }
         }
-        self.recorder.connect(index, one);
+        self.recorder.connect(one);
         let part = one.connection.part;
         let unit = one.unit.and_then(|name| self.units.number(name));
         let mut wired = Wired { part, line: None, analog: None };
@@ -313,23 +306,34 @@ impl Bench {
         let over = one.devices.iter().filter_map(|at| job.devices.get(*at));
         let first = over.map(|of| of.device).find(|of| of.direction == Direction::Sensor);
         let element = usize::from(one.element());
-        match (&one.connection.kind, unit) {
-            (Kind::I2c(_) | Kind::Spi(_), Some(unit)) => {
-                self.chips.push(self.chip(job, index, one, unit));
+        match (one.connection.kind.interface(), unit) {
+            (Interface::I2c(_) | Interface::Spi(_), Some(unit)) => {
+                self.chips.push(self.chip(job, one, unit));
             }
-            (Kind::Uart(uart), Some(unit)) if !devices.is_empty() => {
+            (Interface::Uart(uart), Some(unit)) if !devices.is_empty() => {
                 let fields = devices.iter().filter_map(|of| self.field(of)).collect();
                 let delay_ns = MS_NS * u64::from(one.cycle.delay_ms);
                 let talker = message::Talker::new(uart.clone(), fields, delay_ns, &self.subjects);
                 self.talkers.insert(unit, Talking { part, talker });
             }
-            (Kind::Can(_), Some(unit)) => self.stations(unit, part, &devices),
-            (_, _) => {
+            (Interface::Can(_), Some(unit)) => self.stations(unit, part, &devices),
+            // Nothing is sent without a unit, or by a part that is only written.
+            (Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_), _) => {
+            }
+            (
+                Interface::Analog(_)
+                | Interface::Icu(_)
+                | Interface::Encoder(_)
+                | Interface::Digital(_)
+                | Interface::Pwm(_)
+                | Interface::Dac(_),
+                _,
+            ) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
                 wired.line = first.and_then(|of| self.line(&one.connection.kind, of, element));
             }
         }
-        self.wires.insert(index, wired);
+        self.wires.insert(one.index, wired);
     }
 
     /// Adds the frames that a part sends on a CAN bus.
@@ -337,7 +341,7 @@ impl Bench {
         for of in devices {
             let Some((can, words)) = of.kind.can().zip(Words::of(of)) else { continue };
             let Some(subject) = self.subject(of) else { continue };
-            let select = can.mux.as_ref().map(|mux| mux.bits);
+            let select = can.select();
             let field = can::Field { subject, byte: can.byte, words, select, length: can.length };
             let senders = self.senders.entry(unit).or_default();
             let known = senders
@@ -367,45 +371,43 @@ impl Bench {
 
     fn line(&self, kind: &Kind, device: &Device, element: usize) -> Option<(Line, Option<Line>)> {
         let subject = self.subject(device)?;
-        Some(match kind {
-            Kind::Digital(_) if is_counter(kind, device) => {
-                let edges = match kind.digital().and_then(|own| own.edge) {
+        Some(match kind.interface() {
+            Interface::Digital(own) if is_counter(kind, device) => {
+                let edges = match own.edge {
                     Some(sensedsl_model::kind::digital::Edge::Both) => Edges::Both,
                     Some(sensedsl_model::kind::digital::Edge::Falling) => Edges::Falling,
                     Some(sensedsl_model::kind::digital::Edge::Rising) | None => Edges::Rising,
                 };
                 (Line::Count { subject, element, edges }, None)
             }
-            Kind::Digital(own) => {
+            Interface::Digital(own) => {
                 let spikes = Spikes::below(1_000 * u64::from(own.debounce_us));
                 let is_active_low = own.active_low;
                 (Line::Level { subject, element, is_active_low, spikes }, None)
             }
-            Kind::Icu(icu) => {
+            Interface::Icu(icu) => {
                 (Line::of_capture(icu, subject, element, self.subjects.get(subject)?), None)
             }
-            Kind::Encoder(_) => {
+            Interface::Encoder(_) => {
                 let track = |is_second| Line::Track { subject, element, is_second };
                 (track(false), Some(track(true)))
             }
-            Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => return None,
+            Interface::Analog(_)
+            | Interface::I2c(_)
+            | Interface::Uart(_)
+            | Interface::Spi(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => return None,
         })
     }
 
     fn field(&self, device: &Device) -> Option<message::Field> {
-        let reading = device.coding.reading.as_deref().unwrap_or_default();
         Some(message::Field {
             subject: self.subject(device)?,
             byte: device.coding.byte,
             words: Words::of(device),
             text: device.coding.text.clone(),
-            is_latitude: reading.contains("lat"),
         })
     }
 }
@@ -421,11 +423,24 @@ fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
     subject.collect()
 }
 
-/// The part that a fault hits, and the units of its wires.
-fn broken(job: &BoardJob<'_>, fault: &Fault) -> (Option<PartIndex>, Vec<String>) {
-    let part = fault.device.and_then(|device| job.design.device(device)).map(|device| device.part);
-    let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
-    (part, of_part.filter_map(|one| one.unit.map(str::to_owned)).collect())
+impl Broken {
+    fn new(job: &BoardJob<'_>, fault: &Fault) -> Self {
+        let device = fault.device.and_then(|device| job.design.device(device));
+        let part = device.map(|device| device.part);
+        let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
+        let units = of_part.filter_map(|one| one.unit.map(str::to_owned)).collect();
+        Self { fault: fault.clone(), part, units }
+    }
+
+    /// Whether it is a fault of that kind, and is there now.
+    fn is(&self, kind: FaultKind, now_ns: u64) -> bool {
+        self.fault.kind == kind && self.fault.is_there(now_ns)
+    }
+
+    /// Whether nothing comes from the part now.
+    fn cuts(&self, now_ns: u64) -> bool {
+        self.is(FaultKind::Torn, now_ns) || self.is(FaultKind::Silent, now_ns)
+    }
 }
 
 /// The value that a converter gives for a voltage, with the fraction that the average of many samples has.

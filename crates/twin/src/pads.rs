@@ -6,7 +6,7 @@
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_job::{BoardJob, Pad as Wired};
 use sensedsl_model::kind::digital::Pull as Wanted;
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Interface, Kind, Role};
 
 use sensedsl_machine::{Mode, PadState, Pull};
 use sensedsl_surroundings::Pad;
@@ -64,14 +64,14 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
         let title = title.to_owned();
         Some(Planned { pad: named, title, mode, wire: None, open_drain, pulls })
     };
-    if matches!(pad.role, Role::Cs | Role::Trigger) {
+    if pad.role.is_on_any_pin() {
         return plain(Mode::Output, Some(false), ANY);
     }
     let driven = (!pad.role.is_driven_by_device()).then_some(false);
-    match kind {
-        Kind::Analog(_) | Kind::Dac(_) => plain(Mode::Analog, None, FREE),
-        Kind::Digital(_) if pad.role == Role::Out => plain(Mode::Output, Some(false), ANY),
-        Kind::Digital(own) => plain(
+    match kind.interface() {
+        Interface::Analog(_) | Interface::Dac(_) => plain(Mode::Analog, None, FREE),
+        Interface::Digital(_) if pad.role == Role::Out => plain(Mode::Output, Some(false), ANY),
+        Interface::Digital(own) => plain(
             Mode::Input,
             None,
             match own.pull {
@@ -80,15 +80,17 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
                 Wanted::Down => DOWN,
             },
         ),
-        Kind::I2c(_) => led(title, pad, pad.alternate?, Some(true), BUS),
-        Kind::Uart(own) if pad.role == Role::Rx => {
+        Interface::I2c(_) => led(title, pad, pad.alternate?, Some(true), BUS),
+        Interface::Uart(own) if pad.role == Role::Rx => {
             led(title, pad, pad.alternate?, None, if own.is_inverted { DOWN } else { UP })
         }
-        Kind::Spi(_) => led(title, pad, pad.alternate?, driven, ANY),
-        Kind::Can(_) if pad.role == Role::Rx => led(title, pad, pad.alternate?, None, BUS),
-        Kind::Uart(_) | Kind::Icu(_) | Kind::Encoder(_) | Kind::Pwm(_) | Kind::Can(_) => {
-            led(title, pad, pad.alternate?, driven, FREE)
-        }
+        Interface::Spi(_) => led(title, pad, pad.alternate?, driven, ANY),
+        Interface::Can(_) if pad.role == Role::Rx => led(title, pad, pad.alternate?, None, BUS),
+        Interface::Uart(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Pwm(_)
+        | Interface::Can(_) => led(title, pad, pad.alternate?, driven, FREE),
     }
 }
 

@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use sensedsl_job::BoardJob;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::Parity;
+use sensedsl_model::kind::{Interface, Kind};
 
 use crate::pads::PadMismatch;
 use sensedsl_machine::{PortState, Setting};
@@ -65,8 +65,8 @@ pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
 }
 
 fn of_kind(kind: &Kind) -> Option<Wanted> {
-    match kind {
-        Kind::Uart(own) => Some(Wanted::Serial {
+    match kind.interface() {
+        Interface::Uart(own) => Some(Wanted::Serial {
             baud: u64::from(own.baud),
             data_bits: own.data_bits,
             odd_parity: match own.parity {
@@ -76,15 +76,17 @@ fn of_kind(kind: &Kind) -> Option<Wanted> {
             },
             stop_bits: own.stop_bits,
         }),
-        Kind::Spi(own) => Some(Wanted::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode }),
-        Kind::I2c(own) => Some(Wanted::I2c { most_hz: u64::from(own.speed_hz) }),
-        Kind::Can(own) => Some(Wanted::Can { bitrate_hz: u64::from(own.bitrate_hz) }),
-        Kind::Analog(_)
-        | Kind::Dac(_)
-        | Kind::Digital(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Pwm(_) => None,
+        Interface::Spi(own) => {
+            Some(Wanted::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode })
+        }
+        Interface::I2c(own) => Some(Wanted::I2c { most_hz: u64::from(own.speed_hz) }),
+        Interface::Can(own) => Some(Wanted::Can { bitrate_hz: u64::from(own.bitrate_hz) }),
+        Interface::Analog(_)
+        | Interface::Dac(_)
+        | Interface::Digital(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Pwm(_) => None,
     }
 }
 

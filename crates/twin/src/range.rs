@@ -3,36 +3,36 @@
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::digital::Edge;
 use sensedsl_model::kind::icu::Mode;
-use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_model::words::Words;
 use sensedsl_wire::ScalarType;
 
-use crate::parts::words;
+use crate::parts::{formula, words};
 use crate::truth::Scale;
 
 /// Whether the device counts edges, so that its value never decreases.
 #[must_use]
 pub fn is_counter(kind: &Kind, device: &Device) -> bool {
-    match kind {
-        Kind::Icu(icu) => icu.mode == Mode::Count,
-        Kind::Digital(digital) => {
+    match kind.interface() {
+        Interface::Icu(icu) => icu.mode == Mode::Count,
+        Interface::Digital(digital) => {
             digital.edge.is_some() && device.value.value.scalar != ScalarType::Bool
         }
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Encoder(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => false,
+        Interface::Analog(_)
+        | Interface::I2c(_)
+        | Interface::Encoder(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Can(_) => false,
     }
 }
 
 /// The most edges a second that a contact's debounce lets through; `None` if it lets all through.
 #[must_use]
 pub fn edges_a_second_max(device: &Device) -> Option<f64> {
-    let Kind::Digital(digital) = &device.kind else { return None };
+    let digital = device.kind.digital()?;
     let levels_an_edge = match digital.edge? {
         Edge::Rising | Edge::Falling => 2.0,
         Edge::Both => 1.0,
@@ -57,29 +57,21 @@ pub fn raw_range(device: &Device) -> Option<(f64, f64)> {
 /// The range that the hardware can measure.
 fn own_range(device: &Device) -> Option<(f64, f64)> {
     if let Some(output) = device.coding.output {
-        return Some(match (device.kind.name(), output) {
-            (KindName::Analog, _) => (-4_000.0, 12_500.0),
-            (_, 0) if matches!(&device.kind, Kind::I2c(i2c) if i2c.length_bytes == 4) => {
-                (0.0, 20_000_000.0)
-            }
-            (_, 0) => (-4_000.0, 8_500.0),
-            (_, 1) => (30_000.0 * 256.0, 110_000.0 * 256.0),
-            (_, _) => (0.0, 100.0 * 1_024.0),
-        });
+        return Some(formula::range(output));
     }
-    match &device.kind {
-        Kind::Analog(_) => Some((0.0, 4_095.0)),
-        Kind::Digital(digital) if digital.edge.is_none() => Some((0.0, 1.0)),
-        Kind::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, 10_000.0)),
-        Kind::Icu(icu) if icu.mode == Mode::Ppm => {
+    match device.kind.interface() {
+        Interface::Analog(_) => Some((0.0, 4_095.0)),
+        Interface::Digital(digital) if digital.edge.is_none() => Some((0.0, 1.0)),
+        Interface::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, 10_000.0)),
+        Interface::Icu(icu) if icu.mode == Mode::Ppm => {
             let ticks = |us: f64| us * f64::from(icu.tick_hz) / 1e6;
             Some((ticks(600.0), ticks(2_100.0)))
         }
-        Kind::Icu(_) | Kind::Digital(_) => Some((0.0, f64::from(u32::MAX))),
-        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => {
+        Interface::Icu(_) | Interface::Digital(_) => Some((0.0, f64::from(u32::MAX))),
+        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
             Words::of(device).as_ref().and_then(words::range)
         }
-        Kind::Encoder(_) | Kind::Pwm(_) | Kind::Dac(_) => None,
+        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) => None,
     }
 }
 

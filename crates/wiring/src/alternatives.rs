@@ -148,6 +148,26 @@ pub(crate) trait Served {
         None
     }
 
+    /// Whether no other device may be on the bus because the file says so.
+    fn is_exclusive(&self) -> bool {
+        false
+    }
+
+    /// The same device without that; `None` if the file does not say so.
+    fn sharing(&self) -> Option<Kind> {
+        None
+    }
+
+    /// The frequency that the outputs of a timer share.
+    fn frequency_hz(&self) -> Option<u32> {
+        None
+    }
+
+    /// The same device at another frequency; `None` if it has none.
+    fn retuned(&self, _hz: u32) -> Option<Kind> {
+        None
+    }
+
     /// Whether the kind needs several channels of one timer.
     fn takes_whole_timer(&self) -> bool {
         false

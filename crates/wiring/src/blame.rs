@@ -11,8 +11,9 @@ use sensedsl_board::profile::Target;
 use sensedsl_board::table::Occupation;
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex, Spanned};
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::Role;
 
+use crate::alternatives::served;
 use crate::{Cancel, Solved, Wiring};
 
 /// A rule that can be lifted.
@@ -111,8 +112,8 @@ impl Rule {
         for wires in design.connections_of_mut(index) {
             match self {
                 Self::Exclusive(_) => {
-                    if let Kind::I2c(i2c) = &mut wires.kind {
-                        i2c.exclusive = false;
+                    if let Some(kind) = served(&wires.kind).sharing() {
+                        wires.kind = kind;
                     }
                 }
                 Self::Side(..) => wires.placement.side = None,
@@ -212,7 +213,7 @@ fn in_force(design: &Design) -> Vec<Rule> {
             rules.push(Rule::Board(index));
         }
         let mut connections = design.connections_of(index);
-        if connections.any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.exclusive)) {
+        if connections.any(|one| served(&one.kind).is_exclusive()) {
             rules.push(Rule::Exclusive(index));
         }
     }

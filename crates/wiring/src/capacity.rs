@@ -82,7 +82,7 @@ fn fix(design: &mut Design, wiring: &Assignment) {
                 })
                 .collect();
             // The converter is chosen after the wiring and may change when devices are added.
-            if !matches!(wires.kind, Kind::Analog(_)) {
+            if !wires.kind.is_sampled() {
                 wires.placement.unit = one.unit.clone().map(|value| Spanned { value, span });
             }
         }
@@ -91,9 +91,12 @@ fn fix(design: &mut Design, wiring: &Assignment) {
 
 fn of_kind(base: &Design, board: BoardIndex, kind: KindName, cancel: Cancel<'_>) -> Capacity {
     let room = DEVICES_MAX.saturating_sub(base.devices.len());
-    let limit = if kind == KindName::I2c { room.min(free_addresses(base).len()) } else { room };
-    // A shared bus carries any number of devices as soon as it carries one.
-    let unbounded = kind.spec().sharing == Sharing::Bus;
+    let (limit, unbounded) = match kind.spec().sharing {
+        Sharing::Own | Sharing::BusAndSelect => (room, false),
+        // A shared bus carries any number of devices as soon as it carries one.
+        Sharing::Bus => (room, true),
+        Sharing::Addresses => (room.min(free_addresses(base).len()), true),
+    };
     let most = if unbounded { limit.min(1) } else { limit };
     let (mut fits, mut too_many) = (0, most + 1);
     let mut step = 1;
@@ -119,7 +122,8 @@ fn of_kind(base: &Design, board: BoardIndex, kind: KindName, cancel: Cancel<'_>)
 }
 
 fn beyond(kind: KindName, by_identifiers: bool) -> Vec<String> {
-    let what = if by_identifiers || kind != KindName::I2c { "id" } else { "address" };
+    let has_addresses = kind.spec().sharing == Sharing::Addresses;
+    let what = if by_identifiers || !has_addresses { "id" } else { "address" };
     vec![what.to_owned()]
 }
 
@@ -215,7 +219,8 @@ fn free_addresses(design: &Design) -> Vec<u8> {
         design
             .connections
             .iter()
-            .any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.address == *address))
+            .filter_map(|one| one.kind.register_access()?.address)
+            .any(|other| other == *address)
     };
     ADDRESSES.filter(|address| !used(address)).collect()
 }

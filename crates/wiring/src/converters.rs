@@ -12,7 +12,6 @@ use sensedsl_board::table::Usage;
 use sensedsl_model::design::{
     Board, Connection, ConnectionIndex, Design, PartIndex, Together, Wish, WishFor,
 };
-use sensedsl_model::kind::Kind;
 
 use crate::assignment::ConnectionWiring;
 use crate::formulate::Converters;
@@ -57,7 +56,7 @@ fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes:
     for wiring in wirings {
         let Some(connection) = design.connection(wiring.connection) else { continue };
         let Some(device) = design.device(connection.device) else { continue };
-        if !matches!(connection.kind, Kind::Analog(_)) {
+        if !connection.kind.is_sampled() {
             continue;
         }
         let fixed = connection.placement.unit.as_ref().map(|unit| unit.value.as_str());

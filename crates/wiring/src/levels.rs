@@ -21,7 +21,7 @@ pub(crate) enum Tolerates {
 pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Tolerates {
     let volts = volts(board);
     let supply = volts.map(|volts| volts.supply_mv);
-    let most = if kind.analog().is_some() {
+    let most = if kind.is_sampled() {
         supply
     } else if supply.is_some_and(|supply| mv <= supply) {
         return Tolerates::Yes;

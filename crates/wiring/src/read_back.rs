@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, BoardIndex, ConnectionIndex, Design, DeviceIndex};
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::Role;
 use sensedsl_solve::{Answer, Optimality};
 
 use crate::assignment::{
@@ -136,7 +136,7 @@ fn name_converters(
 }
 
 fn is_analog(design: &Design, connection: ConnectionIndex) -> bool {
-    design.connection(connection).is_some_and(|one| matches!(one.kind, Kind::Analog(_)))
+    design.connection(connection).is_some_and(|one| one.kind.is_sampled())
 }
 
 /// The devices whose values go over the connections of a board, with their wires.

@@ -7,7 +7,7 @@ use sensedsl_board::profile::Timer;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::kind::pwm::Pwm;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_model::protocol::Drive as Bridged;
 
 use super::rate::Rate;
@@ -104,7 +104,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         let Some(pad) = wired.pad(Role::Out) else { continue };
         section.pads.extend(context.alternate_pad(pad, Drive::Plain, diagnostics));
         let Some(channel) = timers::channel(context, pad) else { continue };
-        let Kind::Pwm(pwm) = &wired.connection.kind else { continue };
+        let Some(pwm) = wired.connection.kind.pwm() else { continue };
         let name = channel.timer.name.as_str();
         if !timers.contains_key(name) {
             let made = timer(context, (wired, pwm), channel.timer, &mut section, diagnostics);
@@ -180,9 +180,8 @@ impl Pulses {
         wires: &[&JobConnection<'_>],
         section: &mut Section,
     ) {
-        let Kind::Pwm(pwm) = &device.device.kind else { return };
+        let Some(pwm) = device.device.kind.pwm() else { return };
         let (ident, name) = (device.ident.clone(), device.name().to_owned());
-        let outputs = wires.iter().filter_map(|wire| self.output(wire)).collect();
         let (table, verb) = match device.device.coding.drive {
             None => (format!("{ident}_pwm"), "up_pwm_set"),
             Some(_) => (format!("{ident}_bridge"), "up_bridge_set"),
@@ -199,16 +198,19 @@ impl Pulses {
             section.failsafes.push(line);
         }
         match device.device.coding.drive {
-            None => self.actuators.push(Actuator { ident, name, outputs }),
+            None => {
+                let outputs = wires.iter().filter_map(|wire| self.output(wire)).collect();
+                self.actuators.push(Actuator { ident, name, outputs });
+            }
             Some(drive) => {
-                let inputs = bridge_inputs(context, wires, drive);
+                let (outputs, inputs) = self.bridge(context, wires, drive);
                 self.bridges.push(Bridge { ident, name, outputs, inputs });
             }
         }
     }
 
     fn output(&self, wired: &JobConnection<'_>) -> Option<Output> {
-        let Kind::Pwm(pwm) = &wired.connection.kind else { return None };
+        let pwm = wired.connection.kind.pwm()?;
         let on = |timer: &PulseTimer| {
             let mut channels = timer.channels.iter();
             let channel = channels.find(|one| one.ident == wired.ident)?;
@@ -222,25 +224,29 @@ impl Pulses {
         };
         self.timers.iter().find_map(on)
     }
-}
 
-/// The inputs of a bridge in the order of its wires, which is the runtime's.
-fn bridge_inputs(
-    context: &Context<'_>,
-    wires: &[&JobConnection<'_>],
-    drive: Bridged,
-) -> Vec<BridgeInput> {
-    let mut pwms = 0..;
-    let input = |wired: &&JobConnection<'_>| {
-        if let Kind::Digital(digital) = &wired.connection.kind {
-            let line = context.line(&wired.pad(Role::Out)?.pin.name)?;
-            return Some(BridgeInput::Pin { line, is_low_active: digital.active_low });
+    /// The outputs of a bridge, and its inputs in the order of its wires, which is the runtime's.
+    fn bridge(
+        &self,
+        context: &Context<'_>,
+        wires: &[&JobConnection<'_>],
+        drive: Bridged,
+    ) -> (Vec<Output>, Vec<BridgeInput>) {
+        let wanted = match drive {
+            Bridged::DirectionPins => 3,
+            Bridged::TwoPwm => 2,
+        };
+        let (mut outputs, mut inputs) = (Vec::new(), Vec::new());
+        for wired in wires.iter().take(wanted) {
+            if let Some(own) = wired.connection.kind.digital() {
+                let line = wired.pad(Role::Out).and_then(|pad| context.line(&pad.pin.name));
+                let pin = |line| BridgeInput::Pin { line, is_low_active: own.active_low };
+                inputs.extend(line.map(pin));
+            } else if let Some(output) = self.output(wired) {
+                inputs.push(BridgeInput::Pwm(outputs.len()));
+                outputs.push(output);
+            }
         }
-        pwms.next().map(BridgeInput::Pwm)
-    };
-    let wanted = match drive {
-        Bridged::DirectionPins => 3,
-        Bridged::TwoPwm => 2,
-    };
-    wires.iter().filter_map(input).take(wanted).collect()
+        (outputs, inputs)
+    }
 }

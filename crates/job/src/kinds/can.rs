@@ -136,8 +136,7 @@ pub fn buses<'a>(
 
 /// The repetition intervals of the frames that are repeated.
 pub fn repeats_ms<'a>(job: &'a BoardJob<'a>) -> impl Iterator<Item = u32> + 'a {
-    let cans = job.devices.iter().filter_map(|one| one.device.kind.can());
-    cans.map(|can| can.resend_ms).filter(|resend_ms| *resend_ms > 0)
+    job.devices.iter().map(|one| one.device.kind.resend_ms()).filter(|resend_ms| *resend_ms > 0)
 }
 
 /// The frames of the values that are sent, in the order of the values: all values of an identifier go together. Where a
@@ -239,7 +238,7 @@ impl<'a> Value<'a> {
             how: ValuePlan::new(&words),
             bits: mask,
             mask: if mask == whole { 0 } else { mask },
-            select: can.mux.as_ref().map(|mux| mux.bits),
+            select: can.select(),
             is_quiet: false,
             resend_ms: can.resend_ms,
             end: can.length.map_or(end, |length| end.max(length.into())),

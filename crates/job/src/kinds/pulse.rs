@@ -40,7 +40,7 @@ pub fn pulses<'a>(job: &'a BoardJob<'a>) -> Vec<Pulses<'a>> {
     let mut classes: BTreeMap<(Cycle, u32), (u8, Vec<Line<'a>>)> = BTreeMap::new();
     for one in &job.devices {
         let device = one.device;
-        let Some(pulse_us) = device.kind.icu().and_then(|icu| icu.pulse_us) else { continue };
+        let Some(pulse_us) = device.kind.pulse_us() else { continue };
         let first = || (device.id.value, Vec::new());
         for wire in job.wires_of(device) {
             let (_, lines) = classes.entry((one.cycle, pulse_us)).or_insert_with(first);

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Connection, ConnectionIndex, Design, Device};
-use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
 use sensedsl_model::registers::{self, Register};
 use sensedsl_model::words::Words;
@@ -128,7 +127,7 @@ pub(super) fn plans(source: Source<'_>, prefix: &str) -> Vec<BusPlan> {
     let own: Vec<(ConnectionIndex, &Connection)> = connections
         .map(|(at, one)| (ConnectionIndex(at), one))
         .filter(|(_, one)| one.part == source.index)
-        .filter(|(_, one)| matches!(one.kind, Kind::I2c(_) | Kind::Spi(_)))
+        .filter(|(_, one)| one.kind.register_access().is_some())
         .collect();
     let is_one = own.len() < 2;
     let plan = |(index, one): (ConnectionIndex, &Connection)| {
@@ -143,10 +142,10 @@ pub(super) fn plans(source: Source<'_>, prefix: &str) -> Vec<BusPlan> {
 fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Option<BusPlan> {
     let protocol = source.protocol;
     let all: Vec<&Device> = source
-        .devices(|kind| matches!(kind, Kind::I2c(_) | Kind::Spi(_)))
+        .devices(|kind| kind.register_access().is_some())
         .filter(|device| device.connections.contains(&connection))
         .collect();
-    let address = all.first()?.kind.i2c().map_or(0, |i2c| i2c.address);
+    let address = all.first()?.kind.register_access()?.address.unwrap_or(0);
     let of = |direction| all.iter().copied().filter(move |one| one.direction == direction);
     let sensors: Vec<&Device> = of(Direction::Sensor).collect();
     let (transfers, places) = transfers::plan(&sensors, protocol);
@@ -157,13 +156,17 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
         count,
     });
     let (commands, kept) = commands(source.design, of(Direction::Actuator), protocol);
-    let plan = BusPlan {
+    let init = init(&protocol.init);
+    let identity = protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol));
+    let calibration: Vec<CalibrationPlan> = calibration.collect();
+    Some(BusPlan {
+        work_bytes: work_bytes((&init, identity.as_ref(), &calibration), &transfers, &commands),
         prefix,
         connection,
         address,
-        init: init(&protocol.init),
-        identity: protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol)),
-        calibration: calibration.collect(),
+        init,
+        identity,
+        calibration,
         transfers,
         readings: readings.filter_map(|(device, place)| reading(device, place?)).collect(),
         commands,
@@ -172,10 +175,8 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
         parameters: protocol.parameters.clone(),
         cycle_ms: all.iter().map(|device| device.delay_ms).min().unwrap_or(0),
         calibration_bytes: protocol.calibration.iter().map(|(_, count)| count).sum(),
-        work_bytes: 0,
         scratch_words: sizes.max().unwrap_or(1),
-    };
-    Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
+    })
 }
 
 /// The steps of the initialisation: bytes and the pause after them are one step.
@@ -206,7 +207,7 @@ impl IdentityPlan {
 }
 
 fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
-    let output = device.coding.output;
+    let output = device.coding.output.map(|output| output.number);
     let value = match output {
         Some(_) => None,
         None => Some(ValuePlan::of(device)?),
@@ -264,20 +265,23 @@ impl BusPlan {
     pub(crate) fn is_computed(&self) -> bool {
         self.formula.is_some() || !self.calibration.is_empty()
     }
+}
 
-    /// The size of the work buffer, as `up_chip_work_bytes()` computes it.
-    fn work_bytes(&self) -> usize {
-        let init = self.init.iter().map(|step| step.bytes.len());
-        let identity = self.identity.iter().map(|one| one.select.len() + one.expected.len());
-        let calibration =
-            self.calibration.iter().map(|one| one.select.len() + usize::from(one.count));
-        let transfers = self.transfers.iter().map(|one| {
-            let length = usize::from(one.length);
-            let select = if one.is_exchange { length } else { one.select.len() };
-            one.trigger.len().max(select + length)
-        });
-        let commands = self.commands.iter().map(|one| one.prefix.len() + usize::from(one.bytes));
-        let all = init.chain(identity).chain(calibration).chain(transfers).chain(commands);
-        all.max().unwrap_or(0).max(1)
-    }
+/// The size of the work buffer, as `up_chip_work_bytes()` computes it.
+fn work_bytes(
+    (init, identity, calibration): (&[InitPlan], Option<&IdentityPlan>, &[CalibrationPlan]),
+    transfers: &[TransferPlan],
+    commands: &[CommandPlan],
+) -> usize {
+    let init = init.iter().map(|step| step.bytes.len());
+    let identity = identity.into_iter().map(|one| one.select.len() + one.expected.len());
+    let calibration = calibration.iter().map(|one| one.select.len() + usize::from(one.count));
+    let transfers = transfers.iter().map(|one| {
+        let length = usize::from(one.length);
+        let select = if one.is_exchange { length } else { one.select.len() };
+        one.trigger.len().max(select + length)
+    });
+    let commands = commands.iter().map(|one| one.prefix.len() + usize::from(one.bytes));
+    let all = init.chain(identity).chain(calibration).chain(transfers).chain(commands);
+    all.max().unwrap_or(0).max(1)
 }

@@ -1,7 +1,6 @@
 //! A part on a serial port: `up_message_t` and the tables that it points to.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::{MessageChecksum, Uart};
 use sensedsl_model::protocol::{InitStep, TextField};
 use sensedsl_model::words::Words;
@@ -99,7 +98,7 @@ impl FieldCoding {
 
 /// The part's table; `None` if nothing is received from it over a serial port.
 pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
-    let all: Vec<&Device> = source.devices(|kind| matches!(kind, Kind::Uart(_))).collect();
+    let all: Vec<&Device> = source.devices(|kind| kind.uart().is_some()).collect();
     let is_sensor = |device: &&&Device| device.direction == Direction::Sensor;
     let devices: Vec<&Device> = all.iter().filter(is_sensor).copied().collect();
     let first = devices.first().or(all.first())?;
@@ -158,7 +157,7 @@ fn bytes(uart: &Uart) -> u16 {
 
 /// The message that sends a value; `None` if the value is received.
 fn command(device: &Device) -> Option<ComposePlan> {
-    let Kind::Uart(uart) = &device.kind else { return None };
+    let uart = device.kind.uart()?;
     let is_sent = device.direction == Direction::Actuator;
     let words = Words::of(device).filter(|_| is_sent)?;
     let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);

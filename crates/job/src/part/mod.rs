@@ -14,7 +14,6 @@ mod value;
 
 use sensedsl_model::design::{Design, Device, Part, PartIndex};
 use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_wire::Direction;
 
@@ -112,9 +111,7 @@ fn title(part: &Part) -> String {
 #[must_use]
 pub fn has_coding(device: &Device, part: &Part) -> bool {
     let has_formula = part.chip.as_ref().is_some_and(|protocol| protocol.formula.is_some());
-    let is_train = device.kind.icu().is_some_and(|icu| icu.mode == Mode::Ppm);
-    let is_bytes =
-        matches!(device.kind, Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_));
+    let is_bytes = device.kind.bytes().is_some();
     let is_computed = has_formula && device.direction == Direction::Sensor;
-    is_bytes || is_train || is_computed || device.coding.drive.is_some()
+    is_bytes || device.kind.is_train() || is_computed || device.coding.drive.is_some()
 }

@@ -2,7 +2,6 @@
 
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::protocol::{Drive, Formula};
 
 use super::Source;
@@ -61,13 +60,13 @@ pub struct BridgePlan {
 }
 
 pub(super) fn formulas(source: Source<'_>) -> Vec<FormulaPlan> {
-    let devices = source.devices(|kind| matches!(kind, Kind::Analog(_)));
+    let devices = source.devices(Kind::is_sampled);
     let plan = |device: &Device| {
         Some(FormulaPlan {
             field: device.name.value.clone(),
             ident: snake(&device.name.value),
             formula: source.protocol.formula?,
-            output: device.coding.output?,
+            output: device.coding.output?.number,
             parameters: source.protocol.parameters.clone(),
         })
     };
@@ -75,7 +74,7 @@ pub(super) fn formulas(source: Source<'_>) -> Vec<FormulaPlan> {
 }
 
 pub(super) fn trains(source: Source<'_>) -> Vec<TrainPlan> {
-    let devices = source.devices(|kind| kind.icu().is_some_and(|icu| icu.mode == Mode::Ppm));
+    let devices = source.devices(Kind::is_train);
     let plan = |device: &Device| {
         let tick_hz = device.kind.icu()?.tick_hz;
         let ticks = |us: u64| u64::from(tick_hz) * us / 1_000_000;

@@ -108,7 +108,7 @@ pub(super) fn plan(
 /// The bytes that a reading needs; `None` if it is not on a register bus.
 fn wanted(device: &Device) -> Option<Wanted> {
     let coding = &device.coding;
-    let RegisterAccess { trigger, wait_us, register, read, length_bytes } =
+    let RegisterAccess { trigger, wait_us, register, read, length_bytes, address: _ } =
         device.kind.register_access()?;
     let words = Words::of(device).filter(|_| coding.output.is_none());
     let length = words.as_ref().map_or(length_bytes, |words| words.data_bytes);

@@ -3,7 +3,7 @@
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::{PartFacts, ValueFacts, head_of_device};
-use crate::kind::{Kind, KindName, Sharing};
+use crate::kind::{Interface, KindName, Sharing, Values};
 
 /// The board of most examples, because many people have it.
 pub const EXAMPLE_BOARD: &str = "NUCLEO_F446RE";
@@ -82,9 +82,9 @@ fn shown(values: &[ValueFacts], room: usize) -> Vec<&ValueFacts> {
 /// Whether the registers of a value are among those of another, longer value.
 fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
     let place = |one: &ValueFacts| {
-        let i2c = one.kind.i2c()?;
-        let first = u32::from(i2c.register?);
-        Some((first, first + u32::from(i2c.length_bytes)))
+        let own = one.kind.register_access().filter(|own| own.address.is_some())?;
+        let first = u32::from(own.register?);
+        Some((first, first + u32::from(own.length_bytes)))
     };
     let (Some(outer), Some(inner)) = (place(whole), place(part)) else { return false };
     let same_way = whole.direction == part.direction;
@@ -95,10 +95,10 @@ fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
 /// A cycle time that suits the part; none if the part sends on its own, or is sent to.
 fn delay_ms(part: &PartFacts) -> Option<u32> {
     let asked = |one: &&ValueFacts| {
-        one.direction == Direction::Sensor && !matches!(one.kind, Kind::Uart(_))
+        one.direction == Direction::Sensor && !matches!(one.kind.interface(), Interface::Uart(_))
     };
     let asked: Vec<&ValueFacts> = part.values.iter().filter(asked).collect();
-    if asked.iter().any(|one| measures_itself(&one.kind)) {
+    if asked.iter().any(|one| one.kind.measures_itself()) {
         return None;
     }
     // All values on a bus are measured one after the other.
@@ -106,13 +106,6 @@ fn delay_ms(part: &PartFacts) -> Option<u32> {
     let is_bus = asked.first()?.kind.name().spec().sharing != Sharing::Own;
     let takes: u32 = if is_bus { times().sum() } else { times().max().unwrap_or(0) };
     DELAYS_MS.into_iter().find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
-}
-
-/// Whether the cycle time does not apply, because the hardware measures whenever there is something
-/// to measure.
-fn measures_itself(kind: &Kind) -> bool {
-    let is_asked = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
-    kind.name().spec().triggers_itself && !is_asked
 }
 
 /// `magnetic_field` becomes `MagneticField`.
@@ -127,20 +120,16 @@ fn camel(name: &str) -> String {
 
 /// The type that suits a part's only value; where bytes are counted, it has that many.
 pub(super) fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {
-    let scalar = match kind {
-        KindName::Digital => ScalarType::Bool,
-        KindName::Encoder => ScalarType::Int32,
-        KindName::Analog | KindName::Icu | KindName::Pwm | KindName::Dac => ScalarType::Uint16,
-        KindName::I2c | KindName::Spi | KindName::Uart | KindName::Can => {
-            let word = if signed { ScalarType::Int16 } else { ScalarType::Uint16 };
-            return match length {
-                None | Some(2) => ValueType::scalar(word),
-                Some(1) => ValueType::scalar(ScalarType::Uint8),
-                Some(4) => ValueType::scalar(ScalarType::Uint32),
-                Some(even) if even % 2 == 0 => ValueType { scalar: word, length: Some(even / 2) },
-                Some(bytes) => ValueType { scalar: ScalarType::Uint8, length: Some(bytes) },
-            };
-        }
-    };
-    ValueType::scalar(scalar)
+    let word = kind.spec().natural;
+    if kind.spec().values != Values::Any {
+        return ValueType::scalar(word);
+    }
+    let word = if signed { ScalarType::Int16 } else { word };
+    match length {
+        None | Some(2) => ValueType::scalar(word),
+        Some(1) => ValueType::scalar(ScalarType::Uint8),
+        Some(4) => ValueType::scalar(ScalarType::Uint32),
+        Some(even) if even % 2 == 0 => ValueType { scalar: word, length: Some(even / 2) },
+        Some(bytes) => ValueType { scalar: ScalarType::Uint8, length: Some(bytes) },
+    }
 }

@@ -1,9 +1,13 @@
 //! `analog`: a voltage on an ADC input.
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::Function;
+use sensedsl_wire::{Direction, ScalarType, ValueType};
+
+/// The code of a converter at its reference voltage.
+pub(crate) const CONVERTED_MAX: f64 = 4_095.0;
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -14,6 +18,12 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["samples", "sampling", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
+    has_cycle: true,
+    codes: Some((0.0, CONVERTED_MAX)),
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "one ADC input",
     example: "",
     colour: "#E69F00",
@@ -34,6 +44,10 @@ pub struct Analog {
     pub sampling_span: Option<sensedsl_diagnostics::Span>,
 }
 
+fn serves(_: Role, function: &Function) -> bool {
+    matches!(function, Function::Adc { .. })
+}
+
 impl Properties for Analog {
     fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
         let samples = fields.integer("samples", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
@@ -51,6 +65,10 @@ impl Properties for Analog {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::In]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Analog(self)
     }
 }
 

@@ -4,10 +4,11 @@ mod place;
 
 use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::design::Spanned;
 use crate::fields::{Fields, name_or_text, plain_integer};
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::{CanLine, Function};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 pub use place::{BitField, FRAME_BYTES};
 
@@ -23,6 +24,12 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Bus,
     triggers_itself: false,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "RX and TX of one unit, shared by devices of one bit rate",
     example: "frame = 0x120;",
     colour: "#8E6BBF",
@@ -71,9 +78,17 @@ pub struct Mux {
     pub selector: Spanned<String>,
     /// The selector's value in that frame.
     pub value: Spanned<u64>,
-    /// The selector's bits in the frame, and their contents: byte 0 of the frame is the lowest.
-    /// Both are 0 until the selector is resolved.
-    pub bits: (u64, u64),
+    /// The selector's bits in the frame, and their contents: byte 0 of the frame is the lowest; none
+    /// if the frame has no such selector.
+    pub bits: Option<(u64, u64)>,
+}
+
+fn serves(role: Role, function: &Function) -> bool {
+    let Function::Can { line, .. } = function else { return false };
+    match line {
+        CanLine::Tx => role == Role::Tx,
+        CanLine::Rx => role == Role::Rx,
+    }
 }
 
 impl Properties for Can {
@@ -106,6 +121,10 @@ impl Properties for Can {
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Tx, Role::Rx]
     }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Can(self)
+    }
 }
 
 impl Can {
@@ -117,6 +136,13 @@ impl Can {
         } else {
             format!("0x{:X}", self.frame_id)
         }
+    }
+
+    /// The bits of the frame that select the value, and their contents; none if it is in every frame
+    /// with its identifier.
+    #[must_use]
+    pub fn select(&self) -> Option<(u64, u64)> {
+        self.mux.as_ref()?.bits
     }
 
     /// The most bytes that the frame can have.
@@ -174,7 +200,7 @@ fn mux(fields: &mut Fields<'_>) -> Option<Mux> {
         Some(Mux {
             selector: Spanned { value: name_or_text(&selector.value)?, span: selector.span },
             value: Spanned { value: number, span: value.span },
-            bits: (0, 0),
+            bits: None,
         })
     };
     let found = field.value.list().and_then(read);

@@ -1,9 +1,12 @@
 //! `dac`: a voltage from a DAC output.
 
+use sensedsl_board::signal::Function;
+
+use super::analog::CONVERTED_MAX;
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -14,14 +17,17 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["failsafe", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
+    has_cycle: true,
+    codes: Some((0.0, CONVERTED_MAX)),
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "one DAC output",
     example: "",
     colour: "#B8860B",
     letter: 'D',
 };
-
-/// The code for the reference voltage.
-const CODE_MAX: f64 = 4_095.0;
 
 /// A DAC output.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,10 +36,14 @@ pub struct Dac {
     pub failsafe: Option<f64>,
 }
 
+fn serves(_: Role, function: &Function) -> bool {
+    matches!(function, Function::Dac { .. })
+}
+
 impl Properties for Dac {
     fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
         let is_whole = value.scalar.integer_range().is_some();
-        let codes = Codes { range: Some((0.0, CODE_MAX)), is_whole, pulses_us: None };
+        let codes = Codes { range: Some((0.0, CONVERTED_MAX)), is_whole, pulses_us: None };
         Self { failsafe: fields.code("failsafe", codes).map(|code| code.value) }
     }
 
@@ -43,5 +53,9 @@ impl Properties for Dac {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Out]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Dac(self)
     }
 }

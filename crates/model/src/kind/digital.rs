@@ -1,9 +1,9 @@
 //! `digital`: a level on a GPIO, in or out.
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -14,6 +14,12 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["pull", "edge", "active", "debounce", "initial", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Bool,
+    inputs_have: &["pull", "edge", "debounce"],
+    of_part: &[],
+    serves: Serves::AnyPin,
     wires: "one GPIO; as a sensor with `edge` also the interrupt line of its number",
     example: "",
     colour: "#999999",
@@ -98,5 +104,9 @@ impl Properties for Digital {
             Direction::Sensor => vec![Role::In],
             Direction::Actuator => vec![Role::Out],
         }
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Digital(self)
     }
 }

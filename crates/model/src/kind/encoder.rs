@@ -1,9 +1,10 @@
 //! `encoder`: a quadrature encoder, counted by a timer.
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::Function;
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -14,6 +15,12 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["counts", "a", "b"],
     sharing: Sharing::Own,
     triggers_itself: true,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Int32,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "CH1 and CH2 of one timer, which is taken",
     example: "",
     colour: "#2E7D5B",
@@ -25,6 +32,10 @@ pub const SPEC: KindSpec = KindSpec {
 pub struct Encoder {
     /// Counts per turn, for the host; none if not given.
     pub counts: Option<u32>,
+}
+
+fn serves(_: Role, function: &Function) -> bool {
+    matches!(function, Function::Timer { line, .. } if line.is_input())
 }
 
 impl Properties for Encoder {
@@ -39,5 +50,9 @@ impl Properties for Encoder {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::A, Role::B]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Encoder(self)
     }
 }

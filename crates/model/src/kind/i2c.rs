@@ -1,12 +1,13 @@
 //! `i2c`: a device on an I2C bus.
 
+use sensedsl_board::signal::{Function, I2cLine};
 use sensedsl_diagnostics::codes::{
     e0215_bad_address, h0701_eight_bit_address, w0601_unused_property,
 };
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::design::Spanned;
 use crate::fields::Fields;
 
@@ -28,8 +29,14 @@ pub const SPEC: KindSpec = KindSpec {
         "scl",
         "sda",
     ],
-    sharing: Sharing::Bus,
+    sharing: Sharing::Addresses,
     triggers_itself: false,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "SCL and SDA of one unit, shared by devices with different addresses",
     example: "address = 0x40; register = 0;",
     colour: "#56B4E9",
@@ -83,6 +90,14 @@ pub struct I2c {
     pub order: ByteOrder,
 }
 
+fn serves(role: Role, function: &Function) -> bool {
+    let Function::I2c { line, .. } = function else { return false };
+    match line {
+        I2cLine::Scl => role == Role::Scl,
+        I2cLine::Sda => role == Role::Sda,
+    }
+}
+
 impl Properties for I2c {
     fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
         let address = read_address(fields);
@@ -116,6 +131,10 @@ impl Properties for I2c {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Scl, Role::Sda]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::I2c(self)
     }
 
     fn measuring_us(&self) -> u32 {

@@ -1,11 +1,12 @@
 //! `icu`: edges on an input-capture channel; the hardware measures and callbacks collect the
 //! results.
 
+use sensedsl_board::signal::Function;
 use sensedsl_syntax::Unit;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
 
 /// The properties that all devices of this kind share.
@@ -17,6 +18,12 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["mode", "edge", "resolution", "pulse", "wait", "pin", "trigger"],
     sharing: Sharing::Own,
     triggers_itself: true,
+    has_cycle: false,
+    codes: None,
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "one input-capture channel (CH1 or CH2; B of an RP2 slice, ICP of an AVR timer); the whole timer is taken. With `pulse` also a GPIO",
     example: "",
     colour: "#009E73",
@@ -94,6 +101,10 @@ const fn tick_default_hz(mode: Mode) -> u32 {
     }
 }
 
+fn serves(_: Role, function: &Function) -> bool {
+    matches!(function, Function::Timer { line, .. } if line.is_input())
+}
+
 impl Properties for Icu {
     fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
         let mode = mode(fields);
@@ -127,6 +138,10 @@ impl Properties for Icu {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         if self.pulse_us.is_some() { vec![Role::In, Role::Trigger] } else { vec![Role::In] }
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Icu(self)
     }
 
     fn measuring_us(&self) -> u32 {

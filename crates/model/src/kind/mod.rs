@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use sensedsl_board::table::Pin;
 use sensedsl_wire::{Direction, ValueType};
 
 use crate::fields::Fields;
@@ -17,16 +18,16 @@ pub mod digital;
 pub mod encoder;
 pub mod i2c;
 pub mod icu;
+mod interface;
 pub mod pwm;
-mod register_access;
 mod role;
 mod spec;
 pub mod spi;
 pub mod uart;
 
-pub use register_access::RegisterAccess;
+pub use interface::{Bytes, Interface, RegisterAccess};
 pub use role::Role;
-pub use spec::{KindSpec, Sharing, Values};
+pub use spec::{KindSpec, Serves, Sharing, Values};
 
 use spec::Properties;
 
@@ -90,13 +91,11 @@ macro_rules! kinds {
                 match kind { $(KindName::$Kind => Self::$Kind(Properties::plain(address)),)* }
             }
 
-            $(
-                #[doc = concat!("The properties of a device of kind `", stringify!($module), "`.")]
-                #[must_use]
-                pub const fn $module(&self) -> Option<&$module::$Kind> {
-                    if let Self::$Kind(properties) = self { Some(properties) } else { None }
-                }
-            )*
+            /// The signals by which its value travels.
+            #[must_use]
+            pub fn interface(&self) -> Interface<'_> {
+                match self { $(Self::$Kind(properties) => properties.interface(),)* }
+            }
         }
     };
 }
@@ -141,6 +140,15 @@ impl KindName {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Whether the pin can be that wire.
+    pub(crate) fn serves(self, role: Role, pin: &Pin) -> bool {
+        let of_kind = match self.spec().serves {
+            Serves::AnyPin => true,
+            Serves::Signal(is) => pin.usages.iter().any(|usage| is(role, usage.signal.function())),
+        };
+        of_kind || role.is_on_any_pin()
     }
 
     /// All names, for a message.

@@ -2,9 +2,10 @@
 //! `max`.
 
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::Function;
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -15,6 +16,12 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["frequency", "min", "max", "failsafe", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
+    has_cycle: true,
+    codes: Some((0.0, FULL)),
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "one timer output; outputs of one timer share its frequency",
     example: "",
     colour: "#D55E00",
@@ -23,8 +30,8 @@ pub const SPEC: KindSpec = KindSpec {
 
 /// Pulses per second if the file gives none: the frequency of a model servo.
 const FREQUENCY_DEFAULT_HZ: u32 = 50;
-/// The value for the pulse `max`.
-const VALUE_MAX: f64 = 10_000.0;
+/// The code of the pulse `max`, and of an output that is always on.
+pub(crate) const FULL: f64 = 10_000.0;
 
 /// A timer output.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +44,10 @@ pub struct Pwm {
     pub max_us: Option<u32>,
     /// The value taken when the host goes silent; none to keep the last one.
     pub failsafe: Option<f64>,
+}
+
+fn serves(_: Role, function: &Function) -> bool {
+    matches!(function, Function::Timer { line, .. } if line.is_output() || !line.is_input())
 }
 
 impl Properties for Pwm {
@@ -54,9 +65,9 @@ impl Properties for Pwm {
         let (min_us, max_us) = (min.map(|time| time.value), max.map(|time| time.value));
         let pulses_us = (min_us.unwrap_or(0).into(), max_us.unwrap_or(period_us).into());
         // For a bridge, the sign is the direction.
-        let least = if fields.is_of_reading() { -VALUE_MAX } else { 0.0 };
+        let least = if fields.is_of_reading() { -FULL } else { 0.0 };
         let codes = Codes {
-            range: Some((least, VALUE_MAX)),
+            range: Some((least, FULL)),
             is_whole: value.scalar.integer_range().is_some(),
             pulses_us: Some(pulses_us),
         };
@@ -70,6 +81,10 @@ impl Properties for Pwm {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Out]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Pwm(self)
     }
 }
 

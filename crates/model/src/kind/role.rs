@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Generates the type, and what all wires have, from the table below.
 macro_rules! roles {
-    ($($(#[$doc:meta])* $Role:ident($name:literal, pin: $property:literal, driven by $by:ident);)*) => {
+    ($($(#[$doc:meta])* $Role:ident($name:literal, pin: $property:literal, driven by $by:ident, on $on:ident);)*) => {
         /// A wire of a device, in the order of the tie-break.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Role {
@@ -33,6 +33,12 @@ macro_rules! roles {
             pub const fn is_driven_by_device(self) -> bool {
                 matches!(match self { $(Self::$Role => Driver::$by,)* }, Driver::Device)
             }
+
+            /// Whether any pin can be the wire: a GPIO beside those of the interface.
+            #[must_use]
+            pub const fn is_on_any_pin(self) -> bool {
+                matches!(match self { $(Self::$Role => Place::$on,)* }, Place::AnyPin)
+            }
         }
     };
 }
@@ -43,33 +49,41 @@ enum Driver {
     Mcu,
 }
 
+/// The pins that can be a wire.
+enum Place {
+    /// Those of the device's interface.
+    Interface,
+    /// Any: it is a GPIO beside them.
+    AnyPin,
+}
+
 roles! {
     /// The only wire of a sensor.
-    In("in", pin: "pin", driven by Device);
+    In("in", pin: "pin", driven by Device, on Interface);
     /// The only wire of an actuator.
-    Out("out", pin: "pin", driven by Mcu);
+    Out("out", pin: "pin", driven by Mcu, on Interface);
     /// I2C clock; a device may stretch it.
-    Scl("scl", pin: "scl", driven by Device);
+    Scl("scl", pin: "scl", driven by Device, on Interface);
     /// I2C data.
-    Sda("sda", pin: "sda", driven by Device);
+    Sda("sda", pin: "sda", driven by Device, on Interface);
     /// Transmission by the board.
-    Tx("tx", pin: "tx", driven by Mcu);
+    Tx("tx", pin: "tx", driven by Mcu, on Interface);
     /// Reception by the board.
-    Rx("rx", pin: "rx", driven by Device);
+    Rx("rx", pin: "rx", driven by Device, on Interface);
     /// SPI clock.
-    Sck("sck", pin: "sck", driven by Mcu);
+    Sck("sck", pin: "sck", driven by Mcu, on Interface);
     /// SPI data from the device.
-    Miso("miso", pin: "miso", driven by Device);
+    Miso("miso", pin: "miso", driven by Device, on Interface);
     /// SPI data to the device.
-    Mosi("mosi", pin: "mosi", driven by Mcu);
+    Mosi("mosi", pin: "mosi", driven by Mcu, on Interface);
     /// SPI chip select.
-    Cs("cs", pin: "cs", driven by Mcu);
+    Cs("cs", pin: "cs", driven by Mcu, on AnyPin);
     /// First encoder line.
-    A("a", pin: "a", driven by Device);
+    A("a", pin: "a", driven by Device, on Interface);
     /// Second encoder line.
-    B("b", pin: "b", driven by Device);
+    B("b", pin: "b", driven by Device, on Interface);
     /// The pulse that makes an icu device measure (HC-SR04).
-    Trigger("trigger", pin: "trigger", driven by Mcu);
+    Trigger("trigger", pin: "trigger", driven by Mcu, on AnyPin);
 }
 
 impl Role {

@@ -1,8 +1,9 @@
 //! What all devices of a kind share, and what each kind must provide.
 
+use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::Role;
+use super::{Interface, Role};
 use crate::fields::Fields;
 
 /// A kind of device.
@@ -22,6 +23,19 @@ pub struct KindSpec {
     pub sharing: Sharing,
     /// Whether the hardware measures on its own, regardless of the cycle time.
     pub triggers_itself: bool,
+    /// Whether a sensor's values come once a cycle; false if only when something happens.
+    pub has_cycle: bool,
+    /// The least and the greatest code of a value; none if its type and its bits decide.
+    pub codes: Option<(f64, f64)>,
+    /// The type of one number of a driver that gives none.
+    pub natural: ScalarType,
+    /// Properties that only an input has: a driver that gives none of them, and no direction, is for
+    /// an output. Empty if it is for an input then.
+    pub inputs_have: &'static [&'static str],
+    /// Properties that all values of a chip have in common, although each has others of its own.
+    pub of_part: &'static [&'static str],
+    /// The pins that can be its wires, for proposals to who named one that does not exist.
+    pub serves: Serves,
     /// The wires, for the language page.
     pub wires: &'static str,
     /// The properties that a device needs besides `id` and `type`, for examples and tests.
@@ -31,6 +45,15 @@ pub struct KindSpec {
     pub colour: &'static str,
     /// Its letter in pictures, for people who cannot distinguish the colours.
     pub letter: char,
+}
+
+/// The pins that can be a kind's wires, besides those for which any pin will do.
+#[derive(Clone, Copy, Debug)]
+pub enum Serves {
+    /// All pins.
+    AnyPin,
+    /// Those with a function that can be the wire.
+    Signal(fn(Role, &Function) -> bool),
 }
 
 /// The types that a value of a kind may have.
@@ -91,6 +114,8 @@ pub enum Sharing {
     Own,
     /// Any number of devices share the same wires.
     Bus,
+    /// Devices with different addresses share the same wires.
+    Addresses,
     /// Any number of devices share the same wires, and each also has a wire of its own.
     BusAndSelect,
 }
@@ -105,6 +130,9 @@ pub(crate) trait Properties: Sized {
 
     /// The wires, in the order of the tie-break.
     fn roles(&self, direction: Direction) -> Vec<Role>;
+
+    /// How its value travels: an interface of its own, or that of the kind that it builds on.
+    fn interface(&self) -> Interface<'_>;
 
     /// How long a measurement lasts once it has begun, in microseconds.
     fn measuring_us(&self) -> u32 {

@@ -2,9 +2,10 @@
 
 use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::{Function, SpiLine};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -18,6 +19,12 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::BusAndSelect,
     triggers_itself: false,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &[],
+    serves: Serves::Signal(serves),
     wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
     example: "",
     colour: "#0072B2",
@@ -50,6 +57,16 @@ pub struct Spi {
     pub order: ByteOrder,
 }
 
+fn serves(role: Role, function: &Function) -> bool {
+    let Function::Spi { line, .. } = function else { return false };
+    match line {
+        SpiLine::Sck => role == Role::Sck,
+        SpiLine::Miso => role == Role::Miso,
+        SpiLine::Mosi => role == Role::Mosi,
+        SpiLine::Nss => false,
+    }
+}
+
 impl Properties for Spi {
     fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
         let clock = fields.frequency_hz("clock", 1_000..=100_000_000);
@@ -79,6 +96,10 @@ impl Properties for Spi {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs]
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Spi(self)
     }
 
     fn measuring_us(&self) -> u32 {

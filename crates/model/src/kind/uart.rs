@@ -3,9 +3,10 @@
 
 use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
-use super::{KindSpec, Role, Sharing, Values};
+use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
 use crate::fields::Fields;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_board::signal::{Function, UartLine};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -28,6 +29,12 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Own,
     triggers_itself: false,
+    has_cycle: true,
+    codes: None,
+    natural: ScalarType::Uint16,
+    inputs_have: &[],
+    of_part: &["length"],
+    serves: Serves::Signal(serves),
     wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`",
     example: "",
     colour: "#CC79A7",
@@ -100,6 +107,14 @@ pub struct Uart {
     pub receive_only: bool,
 }
 
+fn serves(role: Role, function: &Function) -> bool {
+    let Function::Uart { line, .. } = function else { return false };
+    match line {
+        UartLine::Tx => role == Role::Tx,
+        UartLine::Rx => role == Role::Rx,
+    }
+}
+
 impl Properties for Uart {
     fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let rate = fields.integer("baud", 300..=10_000_000);
@@ -147,6 +162,10 @@ impl Properties for Uart {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         if self.receive_only { vec![Role::Rx] } else { vec![Role::Tx, Role::Rx] }
+    }
+
+    fn interface(&self) -> Interface<'_> {
+        Interface::Uart(self)
     }
 }
 

@@ -3,7 +3,7 @@
 use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts};
 use sensedsl_model::kind::digital::Pull;
 use sensedsl_model::kind::uart::Parity;
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Interface, Kind, Role};
 use sensedsl_model::volts::{shown_mv, shown_ohm};
 use sensedsl_wire::Direction;
 
@@ -205,10 +205,10 @@ fn hertz(hz: u32) -> String {
 
 /// The settings that the board makes for a connection.
 pub(super) fn settings(kind: &Kind) -> String {
-    let words: Vec<String> = match kind {
-        Kind::I2c(i2c) => vec![hertz(i2c.speed_hz)],
-        Kind::Spi(spi) => vec![hertz(spi.clock_hz), format!("mode {}", spi.mode)],
-        Kind::Uart(uart) => {
+    let words: Vec<String> = match kind.interface() {
+        Interface::I2c(i2c) => vec![hertz(i2c.speed_hz)],
+        Interface::Spi(spi) => vec![hertz(spi.clock_hz), format!("mode {}", spi.mode)],
+        Interface::Uart(uart) => {
             let parity = match uart.parity {
                 Parity::None => 'N',
                 Parity::Even => 'E',
@@ -217,7 +217,7 @@ pub(super) fn settings(kind: &Kind) -> String {
             let frame = format!("{}{parity}{}", uart.data_bits, uart.stop_bits);
             vec![format!("{} bit/s", uart.baud), frame]
         }
-        Kind::Pwm(pwm) => {
+        Interface::Pwm(pwm) => {
             let pulses = match (pwm.min_us, pwm.max_us) {
                 (None, None) => None,
                 (min, Some(max)) => Some(format!("pulses of {} to {max} us", min.unwrap_or(0))),
@@ -225,14 +225,14 @@ pub(super) fn settings(kind: &Kind) -> String {
             };
             std::iter::once(hertz(pwm.frequency_hz)).chain(pulses).collect()
         }
-        Kind::Icu(icu) => {
+        Interface::Icu(icu) => {
             let pulse = icu.pulse_us.map(|us| format!("asked by a pulse of {us} us"));
             std::iter::once(format!("mode {}", icu.mode.name())).chain(pulse).collect()
         }
-        Kind::Encoder(encoder) => {
+        Interface::Encoder(encoder) => {
             encoder.counts.map(|counts| format!("{counts} counts a turn")).into_iter().collect()
         }
-        Kind::Digital(digital) => {
+        Interface::Digital(digital) => {
             let pull = match digital.pull {
                 Pull::None => None,
                 Pull::Up => Some("resistor of the MCU to the supply"),
@@ -241,7 +241,7 @@ pub(super) fn settings(kind: &Kind) -> String {
             let active = if digital.active_low { "on when low" } else { "on when high" };
             pull.into_iter().chain([active]).map(str::to_owned).collect()
         }
-        Kind::Analog(_) | Kind::Dac(_) | Kind::Can(_) => Vec::new(),
+        Interface::Analog(_) | Interface::Dac(_) | Interface::Can(_) => Vec::new(),
     };
     words.join(", ")
 }
@@ -263,7 +263,7 @@ pub(super) fn contact<'a>(
 ) -> Option<&'a str> {
     let own = connection.name.as_deref().filter(|_| connection.roles.len() == 1);
     let own = own.map(spelled).unwrap_or_default();
-    let known = names_of(connection.kind.name(), role).iter().filter(|_| own.is_empty());
+    let known = names_of(&connection.kind, role).iter().filter(|_| own.is_empty());
     let names = own.iter().map(String::as_str).chain(known.copied());
     names.into_iter().find_map(|wanted| {
         let is_called = |entry: &&String| {
@@ -287,8 +287,7 @@ fn spelled(name: &str) -> Vec<String> {
 }
 
 /// The names that modules print beside the contact of a wire, the surest first.
-fn names_of(kind: sensedsl_model::kind::KindName, role: Role) -> &'static [&'static str] {
-    use sensedsl_model::kind::KindName;
+fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
     match role {
         Role::Scl => &["SCL"],
         Role::Sda => &["SDA"],
@@ -302,7 +301,7 @@ fn names_of(kind: sensedsl_model::kind::KindName, role: Role) -> &'static [&'sta
         Role::A => &["A"],
         Role::B => &["B"],
         Role::Trigger => &["TRIG"],
-        Role::In if kind == KindName::Analog => {
+        Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
         }
         Role::In => &["ECHO", "PW", "DO", "OUT", "SIGNAL", "S", "PIN"],

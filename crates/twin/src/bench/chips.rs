@@ -67,13 +67,7 @@ impl Bench {
         own.map(|one| one.registers.held_ns()).max().unwrap_or(0)
     }
 
-    pub(super) fn chip(
-        &self,
-        job: &BoardJob<'_>,
-        index: ConnectionIndex,
-        one: &JobConnection<'_>,
-        unit: u8,
-    ) -> Chip {
+    pub(super) fn chip(&self, job: &BoardJob<'_>, one: &JobConnection<'_>, unit: u8) -> Chip {
         let part = one.connection.part;
         let protocol = one.part.chip.clone().unwrap_or_default();
         let driver = one.part.driver.as_deref();
@@ -92,7 +86,7 @@ impl Bench {
                 byte: device.coding.byte,
                 length: own.length_bytes,
                 words: Words::of(device).filter(|_| device.coding.output.is_none()),
-                output: device.coding.output,
+                output: device.coding.output.map(|output| output.number),
                 ranges: driver
                     .map(|driver| Ranges::of(driver, device.coding.reading.as_deref(), &protocol))
                     .unwrap_or_default(),
@@ -103,8 +97,8 @@ impl Bench {
             part,
             name: one.part.name.value.clone(),
             unit,
-            address: one.connection.kind.i2c().map(|own| own.address),
-            connection: index,
+            address: one.connection.kind.register_access().and_then(|own| own.address),
+            connection: one.index,
             is_selected: false,
             registers: Registers::new(protocol, readings, sleep),
         }

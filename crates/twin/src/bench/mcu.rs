@@ -100,15 +100,8 @@ impl Surroundings for Bench {
         if let Some(peer) = &self.peer {
             return peer.next(unit);
         }
-        let faults: Vec<PartIndex> = self
-            .faults
-            .iter()
-            .zip(&self.broken)
-            .filter(|(fault, _)| {
-                matches!(fault.kind, FaultKind::Torn | FaultKind::Silent) && fault.is_there(now_ns)
-            })
-            .filter_map(|(_, (part, _))| *part)
-            .collect();
+        let faults = self.faults.iter().filter(|one| one.cuts(now_ns));
+        let faults: Vec<PartIndex> = faults.filter_map(|one| one.part).collect();
         let senders = self.senders.get_mut(&unit)?;
         let mut due = senders.iter_mut();
         due.find_map(|(part, sender)| sender.next(&self.subjects, now_ns, faults.contains(part)))

@@ -4,7 +4,6 @@ use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use sensedsl_job::BoardJob;
-use sensedsl_model::kind::Kind;
 
 use super::Bench;
 use sensedsl_surroundings::CanFrame;
@@ -28,8 +27,7 @@ struct Lines {
 impl Bench {
     /// Puts a peer on the CAN buses of the board: from now on, the frames of the world's devices there are not sent.
     pub fn open_can(&mut self, job: &BoardJob<'_>) -> Peer {
-        let on_can =
-            job.connections.iter().filter(|one| matches!(one.connection.kind, Kind::Can(_)));
+        let on_can = job.connections.iter().filter(|one| one.connection.kind.can().is_some());
         let units = on_can.filter_map(|one| self.units.number(one.unit?)).collect();
         let peer = Peer { units, lines: Arc::default() };
         self.peer = Some(peer.clone());

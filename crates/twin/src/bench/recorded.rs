@@ -8,7 +8,7 @@ impl Bench {
     /// Whether the world disturbs the board itself or its link.
     #[must_use]
     pub fn is_disturbed(&self) -> bool {
-        self.faults.iter().any(|one| one.kind.is_of_board())
+        self.faults.iter().any(|one| one.fault.kind.is_of_board())
     }
 
     /// The outputs of the board.

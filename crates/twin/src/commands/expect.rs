@@ -7,7 +7,7 @@ use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::pwm::Pwm;
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Interface, Role};
 use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
@@ -63,14 +63,6 @@ pub(super) struct Sent {
     pub(super) devices: u64,
 }
 
-/// A device's wires with their places in the wiring.
-pub(super) fn wires<'j, 'a>(
-    job: &'j BoardJob<'a>,
-    one: &JobDevice<'a>,
-) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
-    job.wires_of(one.device).into_iter().map(|wire| (wire.index, wire)).collect()
-}
-
 /// The number of a wire's unit on the bench.
 fn number(job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<u8> {
     wire.unit.and_then(|name| Units::new(job).number(name))
@@ -80,40 +72,40 @@ fn number(job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<u8> {
 pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
     let all = job.connections.iter().filter(|one| one.devices.is_empty());
     let constant = |one: &JobConnection<'_>| {
-        let Kind::Digital(own) = &one.connection.kind else { return None };
+        let own = one.connection.kind.digital()?;
         let is_driven = one.connection.direction == Direction::Actuator;
-        is_driven.then(|| level(one.index, one, 0, own, own.initial))
+        is_driven.then(|| level(one, 0, own, own.initial))
     };
     all.filter_map(constant).collect()
 }
 
 /// The expected outputs of a device that was set to these raw values.
 pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<Expected> {
-    let wires = wires(job, one);
+    let wires = job.wires_of(one.device);
     let value = |element: usize| raw.get(element).copied().unwrap_or(0.0);
     if let Some(drive) = one.device.coding.drive {
-        return bridge(drive, &wires, value(0));
+        return bridge(job, one, drive, value(0));
     }
-    let each = |(at, wire): &(ConnectionIndex, &JobConnection<'_>)| {
+    let each = |wire: &&JobConnection<'_>| {
         let element = usize::from(wire.element());
-        match &wire.connection.kind {
-            Kind::Digital(own) => Some(level(*at, wire, element, own, value(element) != 0.0)),
-            Kind::Pwm(own) => Some(pulses(*at, wire, element, own, value(element))),
-            Kind::Dac(_) => {
+        match wire.connection.kind.interface() {
+            Interface::Digital(own) => Some(level(wire, element, own, value(element) != 0.0)),
+            Interface::Pwm(own) => Some(pulses(wire, element, own, value(element))),
+            Interface::Dac(_) => {
                 let code = value(element).round().clamp(0.0, FULL_CODE);
                 // A 12-bit converter divides its reference by 4096.
                 let what = What::Millivolts(code / (FULL_CODE + 1.0) * REFERENCE_MV);
-                Some(expected(*at, wire, element, what))
+                Some(expected(wire, element, what))
             }
-            Kind::I2c(_) | Kind::Spi(_) => write(job, (*at, wire), one, raw),
-            Kind::Uart(own) => {
+            Interface::I2c(_) | Interface::Spi(_) => write(job, wire, one, raw),
+            Interface::Uart(own) => {
                 let body = words::bytes(&Words::of(one.device)?, raw);
                 let unit = number(job, wire)?;
                 let what = What::Message(unit, message::framed(own, &body));
-                Some(expected(*at, wire, 0, what))
+                Some(expected(wire, 0, what))
             }
-            Kind::Can(_) => frame(job, (*at, wire), one, raw),
-            Kind::Analog(_) | Kind::Icu(_) | Kind::Encoder(_) => None,
+            Interface::Can(_) => frame(job, wire, one, raw),
+            Interface::Analog(_) | Interface::Icu(_) | Interface::Encoder(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -121,126 +113,89 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
 
 /// The expected outputs of a device that the host has not set yet; empty if the design does not define them.
 pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Vec<Expected> {
-    let wires = wires(job, one);
-    let safe = start(one);
-    if let Some(safe) = safe {
+    let wires = job.wires_of(one.device);
+    if let Some(safe) = one.device.kind.failsafe() {
         return told(job, one, &vec![safe; one.device.value.value.count()]);
     }
-    let each = |(at, wire): &(ConnectionIndex, &JobConnection<'_>)| {
+    let each = |wire: &&JobConnection<'_>| {
         let element = usize::from(wire.element());
-        match &wire.connection.kind {
-            Kind::Digital(own) => Some(level(*at, wire, element, own, own.initial)),
-            Kind::Pwm(_) => Some(expected(*at, wire, element, What::Pulses(None))),
-            Kind::Dac(_) => Some(expected(*at, wire, element, What::Millivolts(0.0))),
-            Kind::I2c(_) | Kind::Spi(_) => written::first(job, (*at, wire), one, now_ns),
-            Kind::Uart(_) | Kind::Can(_) | Kind::Analog(_) | Kind::Icu(_) | Kind::Encoder(_) => {
-                None
-            }
+        match wire.connection.kind.interface() {
+            Interface::Digital(own) => Some(level(wire, element, own, own.initial)),
+            Interface::Pwm(_) => Some(expected(wire, element, What::Pulses(None))),
+            Interface::Dac(_) => Some(expected(wire, element, What::Millivolts(0.0))),
+            Interface::I2c(_) | Interface::Spi(_) => written::first(job, wire, one, now_ns),
+            Interface::Uart(_)
+            | Interface::Can(_)
+            | Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
 }
 
-/// The raw value that pulses and voltages start with; `None` if there is no output at first.
-fn start(one: &JobDevice<'_>) -> Option<f64> {
-    match &one.device.kind {
-        Kind::Pwm(own) => own.failsafe,
-        Kind::Dac(own) => own.failsafe,
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Can(_) => None,
-    }
-}
-
 /// The raw value that a device takes when the host is silent; `None` if it keeps the last one.
 pub(super) fn failsafe(one: &JobDevice<'_>) -> Option<f64> {
-    one.device.coding.failsafe.or_else(|| start(one))
+    one.device.coding.failsafe.or_else(|| one.device.kind.failsafe())
 }
 
-pub(super) fn expected(
-    at: ConnectionIndex,
-    wire: &JobConnection<'_>,
-    element: usize,
-    what: What,
-) -> Expected {
+pub(super) fn expected(wire: &JobConnection<'_>, element: usize, what: What) -> Expected {
     let pins: Vec<String> = wire.pads.iter().map(|pad| pad.pin.name.to_string()).collect();
-    let wire = format!("{} at {}", wire.title, pins.join(", "));
-    Expected { element, wire, at, what }
+    let name = format!("{} at {}", wire.title, pins.join(", "));
+    Expected { element, wire: name, at: wire.index, what }
 }
 
-fn level(
-    at: ConnectionIndex,
-    wire: &JobConnection<'_>,
-    element: usize,
-    own: &Digital,
-    is_on: bool,
-) -> Expected {
-    expected(at, wire, element, What::Level(Role::Out, is_on != own.active_low))
+fn level(wire: &JobConnection<'_>, element: usize, own: &Digital, is_on: bool) -> Expected {
+    expected(wire, element, What::Level(Role::Out, is_on != own.active_low))
 }
 
-fn pulses(
-    at: ConnectionIndex,
-    wire: &JobConnection<'_>,
-    element: usize,
-    own: &Pwm,
-    raw: f64,
-) -> Expected {
+fn pulses(wire: &JobConnection<'_>, element: usize, own: &Pwm, raw: f64) -> Expected {
     let period_ns = 1e9 / f64::from(own.frequency_hz.max(1));
     let least_ns = own.min_us.map_or(0.0, |us| 1e3 * f64::from(us));
     let most_ns = own.max_us.map_or(period_ns, |us| 1e3 * f64::from(us));
     let share = raw.round().clamp(0.0, FULL_LEVEL) / FULL_LEVEL;
     let width_ns = least_ns + (most_ns - least_ns) * share;
     let [period_ns, width_ns] = [period_ns, width_ns].map(crate::arith::nanoseconds);
-    expected(at, wire, element, What::Pulses(Some((period_ns, width_ns))))
+    expected(wire, element, What::Pulses(Some((period_ns, width_ns))))
 }
 
 /// A motor's bridge: a duty and two direction pins, or a duty for each direction.
-fn bridge(
-    drive: Drive,
-    wires: &[(ConnectionIndex, &JobConnection<'_>)],
-    raw: f64,
-) -> Vec<Expected> {
+fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Vec<Expected> {
     let raw = raw.round();
     let (forward, backward) = (raw.max(0.0), (-raw).max(0.0));
     let inputs = match drive {
         Drive::DirectionPins => vec![raw.abs(), forward, backward],
         Drive::TwoPwm => vec![forward, backward],
     };
-    let all = wires.iter().zip(inputs);
-    let each = |((at, wire), input): (&(ConnectionIndex, &JobConnection<'_>), f64)| match &wire
-        .connection
-        .kind
-    {
-        Kind::Digital(own) => Some(level(*at, wire, 0, own, input != 0.0)),
-        Kind::Pwm(own) => Some(pulses(*at, wire, 0, own, input)),
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
+    let each = |(index, input): (&ConnectionIndex, f64)| {
+        let wire = job.wire(*index)?;
+        match wire.connection.kind.interface() {
+            Interface::Digital(own) => Some(level(wire, 0, own, input != 0.0)),
+            Interface::Pwm(own) => Some(pulses(wire, 0, own, input)),
+            Interface::Analog(_)
+            | Interface::I2c(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Uart(_)
+            | Interface::Spi(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => None,
+        }
     };
-    all.filter_map(each).collect()
+    one.device.connections.iter().zip(inputs).filter_map(each).collect()
 }
 
 /// A value in a frame, which is as long as the values in it require.
 fn frame(
     job: &BoardJob<'_>,
-    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    wire: &JobConnection<'_>,
     one: &JobDevice<'_>,
     raw: &[f64],
 ) -> Option<Expected> {
     let own = one.device.kind.can()?;
     let words = Words::of(one.device)?;
     let mask = words.in_frame(own.byte);
-    let select = own.mux.as_ref().map(|mux| mux.bits);
+    let select = own.select();
     let mut length = own.length.map_or(0, u16::from);
     let mut resend_ms = u32::MAX;
     let mut is_selector = false;
@@ -252,7 +207,7 @@ fn frame(
             continue;
         }
         devices += 1;
-        let others = can.mux.as_ref().map(|mux| mux.bits);
+        let others = can.select();
         if select.is_none() && others.is_some_and(|(of, _)| of & mask != 0) {
             is_selector = true;
         }
@@ -282,5 +237,5 @@ fn frame(
         resend_ns: if resend_ms == u32::MAX { 0 } else { 1_000_000 * u64::from(resend_ms) },
         devices,
     };
-    Some(expected(at, wire, 0, What::Frame(sent)))
+    Some(expected(wire, 0, What::Frame(sent)))
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_job::JobConnection;
 use sensedsl_model::design::ConnectionIndex;
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::Role;
 
 use crate::bench::number_of;
 use sensedsl_surroundings::{CanFrame, TimerOutput};
@@ -85,18 +85,19 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Adds a connection of the board.
-    pub(crate) fn connect(&mut self, index: ConnectionIndex, one: &JobConnection<'_>) {
-        let is_output = matches!(one.connection.kind, Kind::Pwm(_) | Kind::Dac(_));
+    pub(crate) fn connect(&mut self, one: &JobConnection<'_>) {
+        let kind = &one.connection.kind;
+        let is_output = kind.pwm().is_some() || kind.dac().is_some();
         let signal = one.pad(Role::Out).and_then(|pad| pad.usage).map(|usage| &usage.signal);
         match signal.filter(|_| is_output).map(sensedsl_board::signal::Signal::function) {
             Some(Function::Timer { unit, channel, line }) => {
                 let Some(timer) = number_of(unit.as_str()) else { return };
                 let is_complement = *line == TimerLine::Inverted;
                 let output = TimerOutput { timer, channel: *channel, is_complement };
-                self.channels.insert(output, index);
+                self.channels.insert(output, one.index);
             }
             Some(Function::Dac { channel, .. }) => {
-                self.converters.insert(*channel, index);
+                self.converters.insert(*channel, one.index);
             }
             Some(_) | None => {}
         }

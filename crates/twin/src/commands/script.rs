@@ -2,7 +2,7 @@
 //! values out of range, and a different value for each element and each device.
 
 use sensedsl_job::{BoardJob, JobDevice};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::words::Words;
 use sensedsl_wire::{Direction, Scalar, ScalarType};
 
@@ -40,7 +40,7 @@ pub(super) fn usual(job: &BoardJob<'_>) -> Vec<(usize, Vec<Vec<Scalar>>)> {
 
 /// Whether a value is only on or off.
 fn is_switch(one: &JobDevice<'_>) -> bool {
-    matches!(one.device.kind, Kind::Digital(_)) || one.device.value.value.scalar == ScalarType::Bool
+    one.device.kind.is_level() || one.device.value.value.scalar == ScalarType::Bool
 }
 
 /// Each switch of the board has its own code word and shows the bits of it one after another, each followed by its
@@ -105,18 +105,18 @@ fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
 
 /// The least and the greatest raw value that the output can follow and that the type holds.
 fn range(one: &JobDevice<'_>) -> (f64, f64) {
-    let own = match &one.device.kind {
-        Kind::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),
-        Kind::Pwm(_) => Some((0.0, FULL_LEVEL)),
-        Kind::Dac(_) => Some((0.0, FULL_CODE)),
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
+    let own = match one.device.kind.interface() {
+        Interface::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),
+        Interface::Pwm(_) => Some((0.0, FULL_LEVEL)),
+        Interface::Dac(_) => Some((0.0, FULL_CODE)),
+        Interface::Analog(_)
+        | Interface::I2c(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
     };
     let held = one.device.value.value.scalar.integer_range();
     let held = held.map(|(least, most)| (whole(least), whole(most)));

@@ -3,7 +3,7 @@
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, Scalar};
 
 use super::expect::{self, Expected, What};
@@ -330,20 +330,20 @@ fn is_repeated(one: &Expected) -> bool {
 
 /// The longest time that a device takes to follow a command.
 fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
-    let cycle_ms = expect::wires(job, one).iter().map(|(_, wire)| wire.cycle.delay_ms).max();
+    let cycle_ms = job.wires_of(one.device).into_iter().map(|wire| wire.cycle.delay_ms).max();
     let cycle_ns = MS * u64::from(cycle_ms.unwrap_or(0));
-    let own_ns = match &one.device.kind {
+    let own_ns = match one.device.kind.interface() {
         // A new width takes effect at the next period.
-        Kind::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
+        Interface::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
         // A bus serves its chips in turn, and waits for those that measure.
-        Kind::I2c(_) | Kind::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
-        Kind::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => 0,
+        Interface::I2c(_) | Interface::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
+        Interface::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
+        Interface::Analog(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Dac(_)
+        | Interface::Can(_) => 0,
     };
     SETTLE_NS + link_ns(job) + own_ns
 }
@@ -351,18 +351,8 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
 /// The time that the chips on a device's bus take to measure.
 fn measuring_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     let on_bus = job.devices.iter().filter(|other| other.unit == one.unit);
-    let wait_us = |other: &JobDevice<'_>| match &other.device.kind {
-        Kind::I2c(own) => own.wait_us,
-        Kind::Spi(own) => own.wait_us,
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => 0,
-    };
+    let wait_us =
+        |other: &JobDevice<'_>| other.device.kind.register_access().map_or(0, |own| own.wait_us);
     on_bus.map(|other| 1_000 * u64::from(wait_us(other))).sum::<u64>() + 40 * MS
 }
 

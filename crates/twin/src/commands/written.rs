@@ -1,7 +1,6 @@
 //! The expected writes to chips.
 
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
-use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::protocol::{InitStep, Protocol};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
@@ -48,7 +47,7 @@ fn register(one: &JobDevice<'_>) -> Option<Option<u16>> {
 /// initialisation leaves them.
 pub(super) fn write(
     job: &BoardJob<'_>,
-    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    wire: &JobConnection<'_>,
     one: &JobDevice<'_>,
     raw: &[f64],
 ) -> Option<Expected> {
@@ -75,7 +74,7 @@ pub(super) fn write(
             all.for_each(|((byte, start), own)| *byte |= start & !own);
         }
     }
-    Some(expected(at, wire, 0, What::Write(Written { bytes, begins, mask })))
+    Some(expected(wire, 0, What::Write(Written { bytes, begins, mask })))
 }
 
 /// The last transfer of the initialisation with the same length and start.
@@ -107,7 +106,7 @@ const START_MS: u64 = 40;
 /// or if the chip may not have started yet.
 pub(super) fn first(
     job: &BoardJob<'_>,
-    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    wire: &JobConnection<'_>,
     one: &JobDevice<'_>,
     now_ns: u64,
 ) -> Option<Expected> {
@@ -119,5 +118,5 @@ pub(super) fn first(
     });
     let starts_ms = u64::from(wire.cycle.start_ms) + pause_ms.sum::<u64>() + START_MS;
     let is_started = now_ns >= starts_ms * 1_000_000;
-    write(job, (at, wire), one, &[f64::from(u8::from(is_on))]).filter(|_| is_started)
+    write(job, wire, one, &[f64::from(u8::from(is_on))]).filter(|_| is_started)
 }

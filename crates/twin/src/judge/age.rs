@@ -2,8 +2,10 @@
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
+use sensedsl_model::kind::i2c::I2c;
 use sensedsl_model::kind::icu::{Icu, Mode};
+use sensedsl_model::kind::spi::Spi;
 use sensedsl_wire::Direction;
 
 use super::{MS, SECOND};
@@ -24,19 +26,25 @@ pub(super) fn link_ns(job: &BoardJob<'_>) -> u64 {
 pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
     let device = one.device;
     let delay_ns = MS * u64::from(device.delay_ms);
-    match &device.kind {
-        Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
-        Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
-        Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
+    match device.kind.interface() {
+        Interface::I2c(I2c { trigger, wait_us, .. })
+        | Interface::Spi(Spi { trigger, wait_us, .. })
+            if !trigger.is_empty() =>
+        {
+            delay_ns + 1_000 * u64::from(*wait_us)
+        }
+        Interface::Analog(_) | Interface::I2c(_) | Interface::Spi(_) => delay_ns.min(50 * MS),
         // A spike restarts a contact's debounce, and without interrupts each sample is a cycle late.
-        Kind::Digital(own) if own.debounce_us > 0 => {
+        Interface::Digital(own) if own.debounce_us > 0 => {
             delay_ns.min(50 * MS) + 3_000 * u64::from(own.debounce_us) + 20 * MS
         }
-        Kind::Digital(_) => delay_ns.min(50 * MS),
-        Kind::Uart(_) | Kind::Can(_) => period_ns + delay_ns.min(SECOND),
-        Kind::Encoder(_) => 20 * MS,
-        Kind::Icu(icu) => pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some()),
-        Kind::Pwm(_) | Kind::Dac(_) => 0,
+        Interface::Digital(_) => delay_ns.min(50 * MS),
+        Interface::Uart(_) | Interface::Can(_) => period_ns + delay_ns.min(SECOND),
+        Interface::Encoder(_) => 20 * MS,
+        Interface::Icu(icu) => {
+            pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some())
+        }
+        Interface::Pwm(_) | Interface::Dac(_) => 0,
     }
 }
 

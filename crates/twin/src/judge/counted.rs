@@ -5,7 +5,7 @@
 //! then.
 
 use sensedsl_job::{BoardJob, JobDevice};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
 use super::age::link_ns;
@@ -39,19 +39,19 @@ impl Counted {
     pub(super) fn of(job: &BoardJob<'_>, one: &JobDevice<'_>, pace: Option<&Pace>) -> Option<Self> {
         let filter = &one.device.filter;
         let is_plain = filter.change.is_none() && filter.median < 2 && filter.smooth_ms == 0;
-        let (read_ns, is_repeated) = match &one.device.kind {
-            Kind::Icu(icu) if icu.mode == Mode::Count => (0, true),
-            Kind::Encoder(_) => (READ_NS, true),
-            Kind::Digital(own) if own.edge.is_some() && own.debounce_us == 0 => (0, false),
-            Kind::Icu(_)
-            | Kind::Digital(_)
-            | Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Spi(_)
-            | Kind::Uart(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => return None,
+        let (read_ns, is_repeated) = match one.device.kind.interface() {
+            Interface::Icu(icu) if icu.mode == Mode::Count => (0, true),
+            Interface::Encoder(_) => (READ_NS, true),
+            Interface::Digital(own) if own.edge.is_some() && own.debounce_us == 0 => (0, false),
+            Interface::Icu(_)
+            | Interface::Digital(_)
+            | Interface::Analog(_)
+            | Interface::I2c(_)
+            | Interface::Spi(_)
+            | Interface::Uart(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => return None,
         };
         let most_ns = pace?.turn_ns + read_ns + link_ns(job);
         is_plain.then_some(Self { most_ns, is_repeated, sum_ns: 0, times: 0 })

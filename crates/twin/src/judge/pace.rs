@@ -1,14 +1,13 @@
 //! How often a device should report, and how often it does.
 
 use sensedsl_job::{BoardJob, JobDevice};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
 use super::{Finding, MS, SECOND, Wrong};
 use crate::arith::number;
 use crate::bench::Bench;
 use crate::parts::pulses;
-use crate::range::is_counter;
 use crate::truth::Subject;
 
 /// How often a board looks for values to report, unless its link sets the rate.
@@ -56,22 +55,20 @@ impl Pace {
         let rate_hz = job.board.link.rate_hz;
         let reporter_ns = rate_hz.map_or(REPORTER_NS, cycle_ns_of);
         let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
-        let (least_ns, most_ns, own_ns) = match &device.kind {
-            _ if is_counter(&device.kind, device) && device.kind.digital().is_none() => {
-                (0, REPEAT_NS, 0)
-            }
-            Kind::Encoder(_) => (0, REPEAT_NS, 0),
-            Kind::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
-            Kind::Digital(_) | Kind::Analog(_) => (cycle_ns, cycle_ns, 0),
-            Kind::I2c(_) | Kind::Spi(_) => {
+        let (least_ns, most_ns, own_ns) = match device.kind.interface() {
+            Interface::Encoder(_) => (0, REPEAT_NS, 0),
+            Interface::Icu(icu) if icu.mode == Mode::Count => (0, REPEAT_NS, 0),
+            Interface::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
+            Interface::Digital(_) | Interface::Analog(_) => (cycle_ns, cycle_ns, 0),
+            Interface::I2c(_) | Interface::Spi(_) => {
                 let (least_ns, most_ns) = of_chip(job, one, cycle_ns);
                 (least_ns, most_ns, 0)
             }
-            Kind::Uart(_) | Kind::Can(_) => {
+            Interface::Uart(_) | Interface::Can(_) => {
                 let period_ns = bench.period_ns(device.part)?;
                 (cycle_ns.max(period_ns), cycle_ns.max(period_ns), 2 * period_ns + cycle_ns)
             }
-            Kind::Icu(icu) => {
+            Interface::Icu(icu) => {
                 let (shortest_ns, longest_ns) = pulses::apart(icu, subject, 0, u64::MAX / 2)?;
                 let is_asked = icu.mode == Mode::Width && icu.pulse_us.is_some();
                 let count = u64::try_from(subject.signals.len()).unwrap_or(1);
@@ -81,22 +78,22 @@ impl Pace {
                     if is_asked { (cycle_ns, cycle_ns.max(waits_ns)) } else { (0, 0) };
                 (shortest_ns.max(least_ns), longest_ns.max(most_ns), 2 * longest_ns)
             }
-            Kind::Pwm(_) | Kind::Dac(_) => return None,
+            Interface::Pwm(_) | Interface::Dac(_) => return None,
         };
         let is_regular = least_ns == most_ns && own_ns == 0;
         let most_ns = most_ns.max(reporter_ns);
         let jitter_ns = 2 * reporter_ns + own_ns;
         let least_ns = least_ns.min(most_ns);
-        let first_ns = match &device.kind {
-            Kind::Analog(_) => Some(MEASURING_NS),
-            Kind::I2c(_) | Kind::Spi(_) => Some(of_chip(job, one, MS).1),
-            Kind::Icu(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => None,
+        let first_ns = match device.kind.interface() {
+            Interface::Analog(_) => Some(MEASURING_NS),
+            Interface::I2c(_) | Interface::Spi(_) => Some(of_chip(job, one, MS).1),
+            Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => None,
         };
         // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);
@@ -137,18 +134,8 @@ fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64)
     let of_part = job.devices.iter().filter(|of| of.device.part == one.device.part);
     let mut asked: Vec<(&[u8], u64)> = Vec::new();
     for of in of_part {
-        let (trigger, wait_us) = match &of.device.kind {
-            Kind::I2c(own) => (&own.trigger, own.wait_us),
-            Kind::Spi(own) => (&own.trigger, own.wait_us),
-            Kind::Analog(_)
-            | Kind::Icu(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => continue,
-        };
+        let Some(own) = of.device.kind.register_access() else { continue };
+        let (trigger, wait_us) = (own.trigger, own.wait_us);
         let wait_ns = 1_000 * u64::from(wait_us);
         if !trigger.is_empty() && !asked.contains(&(trigger, wait_ns)) {
             asked.push((trigger, wait_ns));

@@ -2,7 +2,6 @@
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
 use sensedsl_wire::{DeviceHealth, Scalar};
 
@@ -112,7 +111,7 @@ impl SensorJudge {
             Reasons { filter: filter.clone(), icu: icu.cloned(), tolerance, age_ns: memory_ns };
         let quantity = device.shown.quantity.clone();
         let judged = Judged { age_ns, ..Judged::new(subject.name.clone(), quantity) };
-        let is_encoder = matches!(device.kind, Kind::Encoder(_));
+        let is_encoder = device.kind.encoder().is_some();
         Self {
             judged,
             tolerance,
@@ -126,7 +125,7 @@ impl SensorJudge {
             pressed: Pressed::of(job, one),
             reasons,
             start_ns: START_NS + MS * u64::from(one.cycle.start_ms),
-            halves: u16::from(matches!(device.kind, Kind::Uart(_))),
+            halves: u16::from(device.kind.uart().is_some()),
             last: Vec::new(),
             excuses: bench.excused(job, one.index),
             selections: selections(job, device),

@@ -1,7 +1,7 @@
 //! The tolerance of a correct value.
 
 use sensedsl_job::{BoardJob, JobDevice};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::{Icu, Mode};
 use sensedsl_model::protocol::Format;
 use sensedsl_wire::ScalarType;
@@ -14,32 +14,30 @@ use crate::world::Signal;
 pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 {
     let device = one.device;
     let chip = job.design.part(device.part).and_then(|part| part.chip.as_ref());
-    let formula = chip.and_then(|chip| Some((chip.formula?, &chip.parameters)));
-    if let (Some(output), Some((formula, parameters))) = (device.coding.output, formula) {
+    if let (Some(output), Some(chip)) = (device.coding.output, chip) {
         let bounds = subject.signals.iter().filter_map(Signal::bounds);
         let ends = bounds.flat_map(|(least, greatest)| [least, greatest]);
-        let steps =
-            ends.map(|end| formula::step(formula, parameters, output, subject.scale.raw(end)));
+        let steps = ends.map(|end| formula::step(output, &chip.parameters, subject.scale.raw(end)));
         return steps.fold(1.5, |most, step| f64::max(most, 2.0 * step + 1.0));
     }
     if let Some(text) = &device.coding.text {
         return if text.format == Format::Degrees { 3.0 } else { 0.51 };
     }
     let tick = |icu: &Icu| f64::from(icu.tick_hz) / 1e6;
-    match &device.kind {
-        Kind::Analog(_) => 1.6,
-        Kind::Icu(icu) => match icu.mode {
+    match device.kind.interface() {
+        Interface::Analog(_) => 1.6,
+        Interface::Icu(icu) => match icu.mode {
             Mode::Count => 2.0,
             Mode::Width | Mode::Period => 2.0 + 3.0 * tick(icu),
             Mode::Frequency => frequency_step(icu, subject),
             Mode::Duty => 8.0,
             Mode::Ppm => 2.0 + 3.0 * tick(icu),
         },
-        Kind::Encoder(_) => 3.0,
-        Kind::Digital(_) if subject.scalar != ScalarType::Bool => 2.0,
-        Kind::Digital(_) => 0.0,
-        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => 0.51,
-        Kind::Pwm(_) | Kind::Dac(_) => 0.0,
+        Interface::Encoder(_) => 3.0,
+        Interface::Digital(_) if subject.scalar != ScalarType::Bool => 2.0,
+        Interface::Digital(_) => 0.0,
+        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => 0.51,
+        Interface::Pwm(_) | Interface::Dac(_) => 0.0,
     }
 }
 

@@ -3,7 +3,7 @@
 //! The formulas are those that the data sheets give for floating point. The board computes with integers, so the two
 //! share nothing. The board's result is close to the wanted quantity, and [`step`] tells how close.
 
-use sensedsl_model::protocol::Formula;
+use sensedsl_model::protocol::{Formula, Output};
 
 use crate::arith::{ln, number};
 use crate::truth::halved;
@@ -33,6 +33,27 @@ const INFRARED: f64 = 0.2;
 /// The formula's piece for that ratio: the weights of channels 0 and 1, in 2^-14 lux.
 const TSL_B: f64 = 532.0;
 const TSL_M: f64 = 721.0;
+
+/// The least and the greatest number that a formula gives.
+pub(crate) fn range(output: Output) -> (f64, f64) {
+    match (output.of, output.number) {
+        (Formula::Ntc, _) => (-4_000.0, 12_500.0),
+        (Formula::Tsl2561, _) => (0.0, 20_000_000.0),
+        (Formula::Bmp280 | Formula::Bme280, 0) => (-4_000.0, 8_500.0),
+        (Formula::Bmp280 | Formula::Bme280, 1) => (30_000.0 * 256.0, 110_000.0 * 256.0),
+        (Formula::Bmp280 | Formula::Bme280, _) => (0.0, 100.0 * 1_024.0),
+    }
+}
+
+/// The numbers that a formula gives in a room.
+pub(crate) fn likely(output: Output) -> (f64, f64) {
+    match (output.of, output.number) {
+        (Formula::Ntc, _) | (Formula::Bmp280 | Formula::Bme280, 0) => (1_500.0, 3_000.0),
+        (Formula::Tsl2561, _) => (50_000.0, 500_000.0),
+        (Formula::Bmp280 | Formula::Bme280, 1) => (98_000.0 * 256.0, 103_000.0 * 256.0),
+        (Formula::Bmp280 | Formula::Bme280, _) => (30.0 * 1_024.0, 70.0 * 1_024.0),
+    }
+}
 
 /// The bytes of the calibration registers, in the order in which they are read.
 pub(crate) fn calibration(formula: Formula) -> &'static [u8] {
@@ -73,8 +94,8 @@ pub(crate) fn raw(formula: Formula, parameters: &[i32], wanted: [Option<f64>; 3]
 }
 
 /// By how much an output near a value changes from one raw number to the next: the error that the board may have.
-pub(crate) fn step(formula: Formula, parameters: &[i32], output: u8, near: f64) -> f64 {
-    match (formula, output) {
+pub(crate) fn step(output: Output, parameters: &[i32], near: f64) -> f64 {
+    match (output.of, output.number) {
         (Formula::Bmp280 | Formula::Bme280, 0) => {
             let raw = f64::from(temperature_raw(near));
             (temperature(fine(raw + 1.0)) - temperature(fine(raw))).abs()
@@ -254,7 +275,10 @@ mod tests {
         for wanted in [-1_000.0, 0.0, 4_000.0, 8_000.0] {
             let level = f64::from(thermistor_level(&parameters, wanted));
             let off = (thermistor(&parameters, level) - wanted).abs();
-            assert!(off <= step(Formula::Ntc, &parameters, 0, wanted), "{wanted}: {off}");
+            assert!(
+                off <= step(Output { of: Formula::Ntc, number: 0 }, &parameters, wanted),
+                "{wanted}: {off}"
+            );
         }
     }
 }

@@ -22,15 +22,19 @@ pub(crate) struct Field {
     pub(crate) words: Option<Words>,
     /// The format in a text.
     pub(crate) text: Option<TextField>,
-    /// For degrees: whether the sign is given as north and south.
-    pub(crate) is_latitude: bool,
+}
+
+/// What the messages of a part look like.
+#[derive(Clone, Debug)]
+struct Form {
+    uart: Uart,
+    fields: Vec<Field>,
 }
 
 /// A part that sends messages.
 #[derive(Clone, Debug)]
 pub(crate) struct Talker {
-    uart: Uart,
-    fields: Vec<Field>,
+    form: Form,
     /// The time from one message to the next.
     period_ns: u64,
     /// The bytes of the message on the wire, and the time at which it started.
@@ -43,20 +47,12 @@ pub(crate) struct Talker {
 
 impl Talker {
     pub(crate) fn new(uart: Uart, fields: Vec<Field>, delay_ns: u64, subjects: &[Subject]) -> Self {
-        let mut talker = Self {
-            uart,
-            fields,
-            period_ns: 0,
-            message: Vec::new(),
-            began_ns: 0,
-            sent: 0,
-            number: 0,
-        };
+        let form = Form { uart, fields };
         // Text fields get longer and shorter with their values.
         let longest_ns =
-            2 * talker.byte_ns() * u64::try_from(talker.compose(subjects, 0).len()).unwrap_or(0);
-        talker.period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
-        talker
+            2 * form.byte_ns() * u64::try_from(form.compose(subjects, 0).len()).unwrap_or(0);
+        let period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
+        Self { form, period_ns, message: Vec::new(), began_ns: 0, sent: 0, number: 0 }
     }
 
     /// The time from one message to the next.
@@ -71,12 +67,12 @@ impl Talker {
             // Bytes that were not taken in the meantime are lost, as they are in a receiver.
             self.number = now_ns / self.period_ns;
             self.began_ns = self.period_ns.saturating_mul(self.number);
-            self.message = self.compose(subjects, self.began_ns);
+            self.message = self.form.compose(subjects, self.began_ns);
             self.sent = 0;
         }
         let byte = *self.message.get(self.sent)?;
         let arrived =
-            u64::try_from(self.sent + 1).unwrap_or(u64::MAX).saturating_mul(self.byte_ns());
+            u64::try_from(self.sent + 1).unwrap_or(u64::MAX).saturating_mul(self.form.byte_ns());
         if now_ns < self.began_ns.saturating_add(arrived) {
             return None;
         }
@@ -89,7 +85,9 @@ impl Talker {
         self.message.clear();
         self.sent = 0;
     }
+}
 
+impl Form {
     fn byte_ns(&self) -> u64 {
         let parity = u64::from(self.uart.parity != Parity::None);
         let bits = 1 + u64::from(self.uart.data_bits) + parity + u64::from(self.uart.stop_bits);
@@ -143,9 +141,7 @@ impl Talker {
             for element in 0..subject.signals.len() {
                 let first = usize::from(text.field) + element * width;
                 let raw = subject.raw(element, now_ns);
-                for (column, written) in
-                    written(text, raw, field.is_latitude).into_iter().enumerate()
-                {
+                for (column, written) in written(text, raw).into_iter().enumerate() {
                     if columns.len() <= first + column {
                         columns.resize(first + column + 1, String::new());
                     }
@@ -190,7 +186,7 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
 }
 
 /// A number as it is written in a text; for degrees, the next column as well.
-fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
+fn written(text: &TextField, raw: f64) -> Vec<String> {
     match text.format {
         Format::Hex => vec![format!("{:X}", rounded(raw).max(0))],
         Format::Decimal => vec![decimal(rounded(raw), u32::from(text.decimals))],
@@ -200,7 +196,7 @@ fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
             let (degrees, rest) = (size / 10_000_000, size % 10_000_000);
             // Minutes are written with five decimals; one is 1/60 of a degree.
             let minutes = (rest * 60 + 50) / 100;
-            let side = match (is_latitude, whole < 0) {
+            let side = match (is_latitude(text), whole < 0) {
                 (true, false) => "N",
                 (true, true) => "S",
                 (false, false) => "E",
@@ -210,6 +206,15 @@ fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
             vec![format!("{degrees:02}{minutes:02}.{behind:05}"), side.to_owned()]
         }
     }
+}
+
+/// Whether the degrees are north or south, not east or west: NMEA 0183 says so for each sentence.
+fn is_latitude(text: &TextField) -> bool {
+    const COLUMNS: [(&str, u8); 4] = [("GLL", 0), ("GGA", 1), ("GNS", 1), ("RMC", 2)];
+    let is_in = |sentence: &str| {
+        COLUMNS.iter().any(|(name, column)| sentence.ends_with(name) && text.field == *column)
+    };
+    text.sentence.as_deref().is_some_and(is_in)
 }
 
 /// A number divided by a power of ten.
@@ -232,15 +237,15 @@ mod tests {
     fn numbers_in_texts() {
         assert_eq!(decimal(-5, 2), "-0.05");
         assert_eq!(decimal(1234, 0), "1234");
-        let degrees = TextField {
-            sentence: None,
-            field: 0,
+        let degrees = |field| TextField {
+            sentence: Some("RMC".to_owned()),
+            field,
             separator: Some(b','),
             format: Format::Degrees,
             decimals: 0,
         };
         // The example of NMEA 0183: 48 degrees 07.038 minutes north.
-        assert_eq!(written(&degrees, 481_173_000.0, true), ["4807.03800", "N"]);
-        assert_eq!(written(&degrees, -115_166_667.0, false), ["1131.00000", "W"]);
+        assert_eq!(written(&degrees(2), 481_173_000.0), ["4807.03800", "N"]);
+        assert_eq!(written(&degrees(4), -115_166_667.0), ["1131.00000", "W"]);
     }
 }

@@ -5,7 +5,7 @@ use sense_rt::{
 };
 use sensedsl_job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{Interface, Role};
 use sensedsl_wire::Direction;
 
 use super::tables::{self, kept};
@@ -187,17 +187,17 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
     let units = Units::new(job);
     let mut all = Vec::new();
     for one in &job.connections {
-        let is_spi = match one.connection.kind {
-            Kind::I2c(_) => false,
-            Kind::Spi(_) => true,
-            Kind::Analog(_)
-            | Kind::Icu(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => continue,
+        let is_spi = match one.connection.kind.interface() {
+            Interface::I2c(_) => false,
+            Interface::Spi(_) => true,
+            Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_) => continue,
         };
         let Some(plan) = job.bus_of(one) else {
             continue;
@@ -269,8 +269,8 @@ impl Port {
 pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
     let units = Units::new(job);
     let mut all = Vec::new();
-    for one in job.connections(KindName::Uart) {
-        let (Kind::Uart(uart), Some(tables)) = (&one.connection.kind, job.tables_of(one)) else {
+    for one in &job.connections {
+        let (Some(uart), Some(tables)) = (one.connection.kind.uart(), job.tables_of(one)) else {
             continue;
         };
         let Some(plan) = tables.message.as_ref() else { continue };
@@ -345,7 +345,7 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<CanPeers> {
         let unit = one.unit.and_then(|name| units.number(name)).unwrap_or(0);
         let heard = Heard {
             frame_id: (can.frame_id, can.is_extended),
-            select: can.mux.as_ref().map(|mux| mux.bits).unwrap_or_default(),
+            select: can.select().unwrap_or_default(),
             item,
             what: *what,
             field,

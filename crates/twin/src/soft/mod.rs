@@ -18,7 +18,6 @@ use sense_rt::{
 };
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
-use sensedsl_model::kind::KindName;
 use sensedsl_wire::Direction;
 
 use crate::bench::Bench;
@@ -315,9 +314,9 @@ impl Shape {
         let devices = job.devices.iter();
         let cycles_ms: Vec<u32> = devices
             .map(|one| {
-                let is_event = one.device.kind.name() == KindName::Icu
-                    || one.device.direction == Direction::Actuator;
-                if is_event { 0 } else { one.cycle.delay_ms }
+                let is_read = one.device.direction == Direction::Sensor;
+                let has_cycle = is_read && one.device.kind.name().spec().has_cycle;
+                if has_cycle { one.cycle.delay_ms } else { 0 }
             })
             .collect();
         let filters = job.parts.iter().flat_map(|part| &part.plan.filters).filter_map(|plan| {

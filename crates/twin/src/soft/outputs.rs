@@ -9,7 +9,7 @@ use sensedsl_job::kinds::can;
 use sensedsl_job::part::BridgePlan;
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{Interface, Role};
 use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
@@ -99,7 +99,7 @@ impl Outputs {
             }
             let count = one.device.value.value.count();
             let bytes = |value: f64| tables::value(item.scalar, value).repeat(count);
-            let first = begins(one).map(bytes);
+            let first = one.device.kind.failsafe().map(bytes);
             let own = one.device.coding.failsafe.map(bytes);
             safe.extend(own.or_else(|| first.clone()).map(|value| (index, value)));
             let of_can = sent.get(&index).cloned();
@@ -107,13 +107,13 @@ impl Outputs {
                 all.insert(index, Output { item: *item, first, sink });
             }
         }
-        let bare = wires(job, |one| one.devices.is_empty());
-        let level = |(at, one): (ConnectionIndex, &JobConnection<'_>)| {
+        let bare = job.connections.iter().filter(|one| one.devices.is_empty());
+        let level = |one: &JobConnection<'_>| {
             let own = one.connection.kind.digital()?;
             let is_driven = one.connection.direction == Direction::Actuator;
-            is_driven.then_some((at, own.initial != own.active_low))
+            is_driven.then_some((one.index, own.initial != own.active_low))
         };
-        Self { all, frames, levels: bare.into_iter().filter_map(level).collect(), safe }
+        Self { all, frames, levels: bare.filter_map(level).collect(), safe }
     }
 
     /// The board starts.
@@ -243,39 +243,15 @@ impl Pin {
     }
 }
 
-/// The connections that satisfy a condition, with their places in the design.
-fn wires<'j, 'a>(
-    job: &'j BoardJob<'a>,
-    holds: impl Fn(&JobConnection<'a>) -> bool,
-) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
-    job.connections.iter().filter(|one| holds(one)).map(|one| (one.index, one)).collect()
-}
-
-/// The value that pulses and voltages start with.
-fn begins(one: &JobDevice<'_>) -> Option<f64> {
-    match &one.device.kind {
-        Kind::Pwm(own) => own.failsafe,
-        Kind::Dac(own) => own.failsafe,
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Can(_) => None,
-    }
-}
-
 fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
     let tables = job.parts.iter().find(|part| part.index == one.device.part).map(|part| &part.plan);
     let own = job.wires_of(one.device);
-    if let Kind::Uart(_) = &one.device.kind {
+    if one.device.kind.uart().is_some() {
         let plan = tables?.message.as_ref()?.commands.iter().find(|of| of.field == one.name())?;
         let unit = one.unit.and_then(|name| Units::new(job).number(name))?;
         return Some(Sink::Message(unit, tables::compose(plan)));
     }
-    let pins: Vec<Pin> = own.iter().filter_map(|wire| pin(wire.index, wire)).collect();
+    let pins: Vec<Pin> = own.iter().filter_map(|wire| pin(wire)).collect();
     let bridge = tables.and_then(|all| all.bridges.iter().find(|plan| plan.field == one.name()));
     match bridge {
         Some(plan) => Some(Sink::Bridge(bridge_of(plan), BridgeState::NEW, pins)),
@@ -292,32 +268,34 @@ const fn bridge_of(plan: &BridgePlan) -> Bridge {
     Bridge { mode, full: plan.full }
 }
 
-fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
-    let what = match &wire.connection.kind {
-        Kind::Digital(own) => Drives::Level { is_active_low: own.active_low, is_on: own.initial },
-        Kind::Pwm(own) => {
+fn pin(wire: &JobConnection<'_>) -> Option<Pin> {
+    let what = match wire.connection.kind.interface() {
+        Interface::Digital(own) => {
+            Drives::Level { is_active_low: own.active_low, is_on: own.initial }
+        }
+        Interface::Pwm(own) => {
             let period_ns = 1_000_000_000 / u64::from(own.frequency_hz.max(1));
             let ns = |us: u32| 1_000 * u64::from(us);
             let (least_ns, most_ns) = (own.min_us.map_or(0, ns), own.max_us.map_or(period_ns, ns));
             Drives::Pulses { period_ns, least_ns, most_ns }
         }
-        Kind::Dac(_) => Drives::Volts,
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Can(_) => return None,
+        Interface::Dac(_) => Drives::Volts,
+        Interface::Analog(_)
+        | Interface::I2c(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Can(_) => return None,
     };
-    Some(Pin { at, element: usize::from(wire.element()), what })
+    Some(Pin { at: wire.index, element: usize::from(wire.element()), what })
 }
 
 /// The values in CAN frames, by place in the schema.
 fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
     let mut all: BTreeMap<usize, Vec<InFrame>> = BTreeMap::new();
     let units = Units::new(job);
-    for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
+    for bus in can::buses(job, job.connections.iter(), &mut Vec::new()) {
         // The unit goes by the board's name for it: a profile may use another one.
         let unit = bus.first.unit.and_then(|name| units.number(name)).unwrap_or(0);
         for repeated in &bus.frames {

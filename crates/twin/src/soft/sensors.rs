@@ -7,9 +7,9 @@ use sense_rt::{
 };
 use sensedsl_job::{BoardJob, Cycle, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::Role;
 use sensedsl_model::kind::digital::{self, Pull};
 use sensedsl_model::kind::icu::{self, Mode};
-use sensedsl_model::kind::{Kind, Role};
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::{Core, begins, tables, wrapped};
@@ -61,7 +61,7 @@ pub(super) fn converters(job: &BoardJob<'_>) -> Vec<Converter> {
         let own = one.device.kind.analog()?;
         let chip = job.design.part(one.device.part).and_then(|part| part.chip.as_ref());
         let formula = chip.and_then(|chip| {
-            let output = usize::from(one.device.coding.output?);
+            let output = usize::from(one.device.coding.output?.number);
             Some((tables::formula(chip.formula?), chip.parameters.clone(), output))
         });
         let samples = usize::from(own.samples.max(1));
@@ -416,7 +416,7 @@ struct Wheel {
 
 pub(super) fn encoders(job: &BoardJob<'_>) -> Vec<Encoders> {
     let all = devices(job).filter_map(|(index, one, item)| {
-        let Kind::Encoder(_) = &one.device.kind else { return None };
+        one.device.kind.encoder()?;
         let wheel = |connection| Wheel {
             a: Edges::new(connection, Role::A),
             b: Edges::new(connection, Role::B),

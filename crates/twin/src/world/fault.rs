@@ -1,7 +1,7 @@
 //! Faults: what breaks, when, and for how long.
 
 use sensedsl_model::design::DeviceIndex;
-use sensedsl_model::kind::KindName;
+use sensedsl_model::kind::{Interface, Kind};
 
 /// A fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,13 +89,22 @@ impl FaultKind {
 
     /// Whether a device of a kind can have it.
     #[must_use]
-    pub const fn fits(self, kind: KindName) -> bool {
+    pub fn fits(self, kind: &Kind) -> bool {
         match self {
-            Self::NoAnswer | Self::StuckSda | Self::Hang => matches!(kind, KindName::I2c),
+            Self::NoAnswer | Self::StuckSda | Self::Hang => kind.i2c().is_some(),
             Self::Torn => true,
-            Self::Silent => {
-                matches!(kind, KindName::Uart | KindName::Can | KindName::Icu | KindName::Encoder)
-            }
+            Self::Silent => match kind.interface() {
+                Interface::Uart(_)
+                | Interface::Can(_)
+                | Interface::Icu(_)
+                | Interface::Encoder(_) => true,
+                Interface::Analog(_)
+                | Interface::I2c(_)
+                | Interface::Digital(_)
+                | Interface::Spi(_)
+                | Interface::Pwm(_)
+                | Interface::Dac(_) => false,
+            },
             Self::Reset | Self::Garbage => false,
         }
     }

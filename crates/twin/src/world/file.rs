@@ -268,7 +268,7 @@ impl<'a> Reader<'a> {
         };
         let Some((index, device)) = self.sensor(spanned, device) else { return Ok(None) };
         let on = device.kind.name();
-        if kind.fits(on) {
+        if kind.fits(&device.kind) {
             return Ok(Some(Fault { device: Some(index), ..fault }));
         }
         let name = &device.name.value;

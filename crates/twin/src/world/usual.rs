@@ -2,7 +2,7 @@
 //! that a board without a world shows live values that differ from each other.
 
 use sensedsl_model::design::{Device, DeviceIndex};
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::protocol::Format;
 use sensedsl_model::words::{Code, Words};
@@ -10,6 +10,7 @@ use sensedsl_wire::ScalarType;
 
 use super::signal::{Shape, Signal, Visit};
 use crate::arith::{nanoseconds, number};
+use crate::parts::formula;
 use crate::parts::line::Spikes;
 use crate::range::{edges_a_second_max, is_counter, raw_range};
 use crate::truth::Scale;
@@ -66,7 +67,7 @@ fn visits(device: &Device, base: Shape) -> Shape {
 /// A value in the device's own unit that is `invalid` and that its part can send.
 fn invalid_code(device: &Device) -> Option<f64> {
     let is_coded = Words::of(device).is_some() && device.coding.output.is_none();
-    if !is_coded && device.kind.analog().is_none() {
+    if !is_coded && !device.kind.is_sampled() {
         return None;
     }
     let scale = Scale::of(&device.shown);
@@ -183,12 +184,7 @@ fn largest_piece(range: (f64, f64), invalid: &[(f64, f64)]) -> (f64, f64) {
 fn likely_range(device: &Device) -> (f64, f64) {
     let coding = &device.coding;
     if let Some(output) = coding.output {
-        return match (&device.kind, output) {
-            (Kind::I2c(i2c), 0) if i2c.length_bytes == 4 => (50_000.0, 500_000.0),
-            (_, 0) => (1_500.0, 3_000.0),
-            (_, 1) => (98_000.0 * 256.0, 103_000.0 * 256.0),
-            (_, _) => (30.0 * 1_024.0, 70.0 * 1_024.0),
-        };
+        return formula::likely(output);
     }
     if let Some(text) = &coding.text {
         return match text.format {
@@ -196,8 +192,8 @@ fn likely_range(device: &Device) -> (f64, f64) {
             Format::Decimal | Format::Hex => (10.0, 240.0),
         };
     }
-    match &device.kind {
-        Kind::Icu(icu) => {
+    match device.kind.interface() {
+        Interface::Icu(icu) => {
             let ticks = |us: f64| us * f64::from(icu.tick_hz) / 1e6;
             match icu.mode {
                 Mode::Width if icu.pulse_us.is_some() => (ticks(500.0), ticks(12_000.0)),
@@ -208,10 +204,12 @@ fn likely_range(device: &Device) -> (f64, f64) {
                 Mode::Count => (0.0, 0.0),
             }
         }
-        Kind::Encoder(_) => (-2_000.0, 2_000.0),
-        Kind::Analog(_) => (400.0, 3_700.0),
-        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => of_words(device),
-        Kind::Digital(_) | Kind::Pwm(_) | Kind::Dac(_) => (0.0, 1.0),
+        Interface::Encoder(_) => (-2_000.0, 2_000.0),
+        Interface::Analog(_) => (400.0, 3_700.0),
+        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
+            of_words(device)
+        }
+        Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) => (0.0, 1.0),
     }
 }
 

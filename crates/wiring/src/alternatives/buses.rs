@@ -13,8 +13,6 @@ use crate::names::{Group, Resource};
 pub(super) struct Bus {
     /// The instance to which a usage belongs, and which of its wires the usage is.
     pub(super) wire: fn(&Usage) -> Option<(&UnitName, Role)>,
-    /// The wires for which any GPIO will do.
-    pub(super) gpios: &'static [Role],
     /// How devices share it.
     pub(super) sharing: Sharing,
     /// The address that no other device on it may have.
@@ -61,7 +59,7 @@ impl Maker<'_, '_> {
         };
         let roles = self.wanted.kind.roles(self.wanted.direction);
         let roles = roles.into_iter().map(|role| {
-            if bus.gpios.contains(&role) {
+            if role.is_on_any_pin() {
                 return self.role(role, &Need::Gpio, None);
             }
             let serves = |usage: &Usage| {

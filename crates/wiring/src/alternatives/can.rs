@@ -11,7 +11,7 @@ use super::{Alternatives, Maker, Served};
 impl Served for Can {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let sharing = Sharing::Bus(self.bitrate_hz);
-        maker.units(&Bus { wire, gpios: &[], sharing, address: None })
+        maker.units(&Bus { wire, sharing, address: None })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use sensedsl_board::signal::{Function, I2cLine, UnitName};
 use sensedsl_board::table::Usage;
-use sensedsl_model::kind::Role;
 use sensedsl_model::kind::i2c::I2c;
+use sensedsl_model::kind::{Kind, Role};
 
 use super::buses::{Bus, Sharing};
 use super::{Alternatives, Maker, Served};
@@ -11,7 +11,15 @@ use super::{Alternatives, Maker, Served};
 impl Served for I2c {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let sharing = if self.exclusive { Sharing::Exclusive } else { Sharing::Bus(0) };
-        maker.units(&Bus { wire, gpios: &[], sharing, address: Some(self.address) })
+        maker.units(&Bus { wire, sharing, address: Some(self.address) })
+    }
+
+    fn is_exclusive(&self) -> bool {
+        self.exclusive
+    }
+
+    fn sharing(&self) -> Option<Kind> {
+        self.exclusive.then(|| Kind::I2c(I2c { exclusive: false, ..self.clone() }))
     }
 }
 

@@ -3,8 +3,8 @@
 use sensedsl_board::profile::Timer;
 use sensedsl_board::signal::TimerLine;
 use sensedsl_board::silicon::Ability;
-use sensedsl_model::kind::Role;
 use sensedsl_model::kind::pwm::Pwm;
+use sensedsl_model::kind::{Kind, Role};
 
 use super::timers::{Channel, TimerUse};
 use super::{Alternatives, Maker, Served};
@@ -13,6 +13,14 @@ impl Served for Pwm {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let shared_hz = Some(self.frequency_hz);
         maker.timers(&TimerUse { wires: &[(Role::Out, None)], takes, shared_hz })
+    }
+
+    fn frequency_hz(&self) -> Option<u32> {
+        Some(self.frequency_hz)
+    }
+
+    fn retuned(&self, hz: u32) -> Option<Kind> {
+        Some(Kind::Pwm(Pwm { frequency_hz: hz, ..self.clone() }))
     }
 }
 

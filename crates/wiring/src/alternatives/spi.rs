@@ -10,7 +10,7 @@ use super::{Alternatives, Maker, Served};
 
 impl Served for Spi {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
-        maker.units(&Bus { wire, gpios: &[Role::Cs], sharing: Sharing::Bus(0), address: None })
+        maker.units(&Bus { wire, sharing: Sharing::Bus(0), address: None })
     }
 }
 

@@ -40,7 +40,7 @@ impl Maker<'_, '_> {
             let mut roles = wires
                 .map(|(role, _)| self.role(*role, &Need::Usage(&serves), None))
                 .collect::<Vec<_>>();
-            self.push_trigger(&mut roles);
+            self.push_gpios(&mut roles);
             return self.finish(None, &[], roles);
         }
         let mut made = Vec::new();
@@ -84,7 +84,7 @@ impl Maker<'_, '_> {
             .iter()
             .map(|(role, on)| self.role(*role, &Need::Usage(on), None))
             .collect::<Vec<_>>();
-        self.push_trigger(&mut roles);
+        self.push_gpios(&mut roles);
         let board = self.offer.index;
         let resource = Resource::Unit(board, unit.to_owned());
         let claim = match using.shared_hz {
@@ -98,9 +98,10 @@ impl Maker<'_, '_> {
         self.finish(Some(unit), &claims, roles)
     }
 
-    fn push_trigger(&mut self, roles: &mut Vec<MadeRole>) {
-        if self.wanted.kind.roles(self.wanted.direction).contains(&Role::Trigger) {
-            roles.push(self.role(Role::Trigger, &Need::Gpio, None));
+    fn push_gpios(&mut self, roles: &mut Vec<MadeRole>) {
+        let all = self.wanted.kind.roles(self.wanted.direction);
+        for role in all.into_iter().filter(|role| role.is_on_any_pin()) {
+            roles.push(self.role(role, &Need::Gpio, None));
         }
     }
 

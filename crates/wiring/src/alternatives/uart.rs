@@ -15,7 +15,7 @@ impl Served for Uart {
         if self.ability(maker.offer.board).is_some() {
             return Vec::new();
         }
-        maker.units(&Bus { wire, gpios: &[], sharing: Sharing::Exclusive, address: None })
+        maker.units(&Bus { wire, sharing: Sharing::Exclusive, address: None })
     }
 
     /// Ports that cannot invert their wires cannot serve a device that wants that.

@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::codes::{e0322_array_too_long, w0604_unused_rule};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together, WishFor};
-use sensedsl_model::kind::Kind;
 use sensedsl_wire::Direction;
 
 use super::relaxed;
@@ -22,7 +21,7 @@ pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
 
 /// Reports rules that want wires on one peripheral although they belong to none.
 pub(super) fn without_unit(wires: &Connection) -> Vec<Diagnostic> {
-    if wires.element.is_none() || !matches!(wires.kind, Kind::Digital(_)) {
+    if wires.element.is_none() || !wires.kind.is_level() {
         return Vec::new();
     }
     let hard = wires.placement.together.iter().filter(|one| one.value == Together::Unit);
@@ -113,7 +112,7 @@ fn places(
 ) -> BTreeMap<Place, Room> {
     let fixed = first.placement.unit.as_ref().map(|unit| unit.value.as_str());
     let by_interrupt = first.direction == Direction::Sensor
-        && matches!(&first.kind, Kind::Digital(digital) if digital.edge.is_some());
+        && first.kind.digital().is_some_and(|own| own.edge.is_some());
     let mut places: BTreeMap<Place, Room> = BTreeMap::new();
     for meaning in meanings {
         let Some(board) = design.board(meaning.board) else { continue };

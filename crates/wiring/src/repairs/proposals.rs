@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::Occupation;
 use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex, Placement, Transport};
-use sensedsl_model::kind::Kind;
 
 use super::Repair;
+use crate::alternatives::served;
 use crate::offer::roles;
 
 /// Changes that could help the devices of a conflict.
@@ -64,8 +64,7 @@ fn frequencies<'a>(
     part: PartIndex,
 ) -> impl Iterator<Item = u32> {
     let hz = |part: PartIndex| {
-        let outputs = design.connections_of(part).filter_map(|one| one.kind.pwm());
-        outputs.map(|pwm| pwm.frequency_hz).next()
+        design.connections_of(part).find_map(|one| served(&one.kind).frequency_hz())
     };
     let own = hz(part);
     let all = parts.iter().filter_map(move |index| hz(*index));
@@ -85,5 +84,5 @@ fn links(board: &Board) -> impl Iterator<Item = Transport> {
 
 pub(super) fn is_exclusive(design: &Design, part: PartIndex) -> bool {
     let mut connections = design.connections_of(part);
-    connections.any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.exclusive))
+    connections.any(|one| served(&one.kind).is_exclusive())
 }

@@ -4,8 +4,8 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::release_name;
 use sensedsl_model::design::{BoardIndex, Design, Link, PartIndex, Placement, Spanned, Transport};
-use sensedsl_model::kind::Kind;
 
+use crate::alternatives::served;
 use crate::names::list;
 use crate::offer::roles;
 
@@ -129,17 +129,17 @@ impl Repair {
             }
             Self::Share(devices) => {
                 for wires in &mut design.connections {
-                    if let Kind::I2c(i2c) = &mut wires.kind
-                        && devices.contains(&wires.part)
+                    if devices.contains(&wires.part)
+                        && let Some(kind) = served(&wires.kind).sharing()
                     {
-                        i2c.exclusive = false;
+                        wires.kind = kind;
                     }
                 }
             }
             Self::Retune(index, hz) => {
                 for wires in design.connections_of_mut(*index) {
-                    if let Kind::Pwm(pwm) = &mut wires.kind {
-                        pwm.frequency_hz = *hz;
+                    if let Some(kind) = served(&wires.kind).retuned(*hz) {
+                        wires.kind = kind;
                     }
                 }
             }
