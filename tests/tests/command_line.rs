@@ -21,6 +21,15 @@ fn exits(arguments: &[&str], stdin: &str, status: i32) {
     }
 }
 
+/// The commands that `--help` lists.
+fn commands(help: &str) -> impl Iterator<Item = &str> {
+    let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let listed = listed.take_while(|line| !line.is_empty());
+    // A long description goes on in lines that are indented further.
+    let named = listed.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    named.filter_map(|line| line.split_whitespace().next()).filter(|one| *one != "help")
+}
+
 #[test]
 fn exit_status_of_every_command() {
     let scratch = Scratch::new("status");
@@ -79,6 +88,15 @@ fn exit_status_of_every_command() {
         (&["new", &full], "", 2),
         (&["new", &path("car.sense")], "", 2),
         (&["new", &path("other"), "--board", "nosuch"], "", 2),
+        (&["build", "no such file"], "", 2),
+        (&["flash", "no such file"], "", 2),
+        (&["simulate", "-"], WRONG, 1),
+        (&["capacity", "-"], WRONG, 1),
+        (&["diff", "no such file", "no such file"], "", 2),
+        (&["parts", "-"], WRONG, 1),
+        (&["drivers"], "", 0),
+        (&["drivers", "nosuch"], "", 2),
+        (&["import", "no such file"], "", 2),
         (&["completions", "bash"], "", 0),
         (&["completions", "cobol"], "", 2),
         (&["man"], "", 0),
@@ -87,6 +105,10 @@ fn exit_status_of_every_command() {
         (&["--help"], "", 0),
         (&[], "", 2),
     ];
+    let help = sensedsl(["--help"]).run().exits(0).stdout;
+    for command in commands(&help) {
+        assert!(cases.iter().any(|case| case.0.first() == Some(&command)), "no case of {command}");
+    }
     for (arguments, stdin, status) in cases {
         exits(arguments, stdin, *status);
     }

@@ -8,10 +8,9 @@
 use std::collections::VecDeque;
 use std::sync::Mutex;
 
+use sensedsl_model::kind::KindName;
 use sensedsl_tests::{Random, is_thorough, sensedsl, text};
 
-const KINDS: [&str; 10] =
-    ["analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can"];
 /// A link that frees a board's wires. [`INVERTING_BOARD`] is for drivers whose serial port is
 /// inverted.
 const SERIAL_LINK: &str = "link { transport = uart; }";
@@ -104,7 +103,7 @@ fn of_kinds(board: &str, kinds: &[&str], rule: &str) -> String {
 /// others by itself.
 fn designs(board: &str, target: &str) -> Vec<String> {
     let (mut taken, mut all) = (Vec::new(), Vec::new());
-    for kind in KINDS {
+    for kind in KindName::ALL.map(KindName::name) {
         taken.push(kind);
         if !is_wired(&of_kinds(board, &taken, ""), target) {
             let _ = taken.pop();

@@ -58,6 +58,34 @@ fn the_page_is_fresh() {
     assert!(found == wanted, "docs/diagnostics.md is not what the registry says: SENSEDSL_BLESS=1");
 }
 
+/// The sources of a folder, except those of this crate.
+fn sources(folder: &Path, all: &mut String) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, all);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            all.push_str(&std::fs::read_to_string(&path).unwrap());
+        }
+    }
+}
+
+#[test]
+fn every_code_is_given() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut all = String::new();
+    for entry in std::fs::read_dir(&crates).unwrap() {
+        let folder = entry.unwrap().path();
+        if !folder.ends_with("diagnostics") && folder.join("src").exists() {
+            sources(&folder.join("src"), &mut all);
+        }
+    }
+    for code in ALL {
+        let name = code.name().to_lowercase();
+        assert!(all.contains(&format!("{name}_")), "nothing gives {code}");
+    }
+}
+
 #[test]
 fn every_code_is_in_a_group_of_its_severity() {
     for code in ALL {

@@ -1,4 +1,4 @@
-//! Every listed command has help.
+//! Every listed command has help, and is in the table of the README.
 //!
 //! The other tests of the program are in `tests/` of the repository. Because Cargo builds the
 //! program for this test, they need not build it.
@@ -28,7 +28,12 @@ fn every_command_explains_itself() {
         .filter(|command| *command != "help")
         .collect();
     assert!(named.contains(&"solve") && named.contains(&"generate"), "{named:?}");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md");
+    let readme = std::fs::read_to_string(path).unwrap();
+    let (_, readme) = readme.split_once("| command | does |").unwrap();
     for command in named {
+        let is_described = readme.contains(&format!("`{command} "));
+        assert!(is_described, "the table of README.md lacks {command}");
         let help = says(&[command, "--help"]);
         assert!(help.contains("Usage: sensedsl"), "{command}: {help}");
     }

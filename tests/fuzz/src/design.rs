@@ -28,6 +28,12 @@ impl Files for Input {
     }
 }
 
+/// The kinds of devices that designs are made of.
+#[must_use]
+pub fn kinds() -> Vec<&'static str> {
+    words::KINDS.iter().map(|kind| kind.name).collect()
+}
+
 /// Makes a design of the choices.
 #[must_use]
 pub fn draw(draw: &mut Draw<'_>) -> Input {

@@ -1,7 +1,17 @@
 //! Designs made of chance: enough of them get through, or the fuzzer would try the messages alone.
 
-use sensedsl_fuzzed::pipeline;
+use std::collections::BTreeSet;
+
 use sensedsl_fuzzed::reached::{Stage, percent};
+use sensedsl_fuzzed::{design, pipeline};
+use sensedsl_model::kind::KindName;
+
+#[test]
+fn every_kind_is_drawn() {
+    let drawn: BTreeSet<&str> = design::kinds().into_iter().collect();
+    let all: BTreeSet<&str> = KindName::ALL.map(KindName::name).into();
+    assert_eq!(drawn, all, "KINDS of tests/fuzz/src/design/words.rs");
+}
 
 #[test]
 fn a_third_of_the_designs_reach_generate() {

@@ -44,7 +44,7 @@ fn tried(wrong: &str, world: &str) -> Vec<Tried> {
     tried_as(RIGHT, wrong, world)
 }
 
-fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
+pub(crate) fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
     with_job(right, |right| {
         with_job(wrong, |wrong| {
             assert_eq!(right.schema.hash(), wrong.schema.hash());

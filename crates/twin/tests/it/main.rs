@@ -11,6 +11,7 @@
 mod boards;
 mod commanded;
 mod judged;
+mod kinds;
 mod library;
 mod mistakes;
 mod ranges;

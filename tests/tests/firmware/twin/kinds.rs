@@ -1,9 +1,10 @@
 //! The smallest design of each kind on the twin: the host receives the values of the world, and the
 //! pads follow the host's commands.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_machine::LinkPort;
+use sensedsl_model::kind::KindName;
 use sensedsl_surroundings::CanFrame;
 use sensedsl_wire::Direction::{Actuator, Sensor};
 use sensedsl_wire::ScalarType::{Bool, Float32, Int16, Int32, Uint8, Uint16, Uint32};
@@ -36,6 +37,9 @@ fn embassy_bench(kind: &str) -> Option<Bench> {
 /// Runs each test on both targets, with the image of the kind.
 macro_rules! on_both {
     ($($kind:literal: $name:ident,)*) => {
+        /// The kinds with a test.
+        const KINDS: &[&str] = &[$($kind),*];
+
         mod on_chibios {
             $(
                 #[test]
@@ -71,6 +75,13 @@ on_both! {
     "pwm": pulses_have_the_widths_that_the_host_sets,
     "spi": chips_on_an_spi_bus_are_read_and_written,
     "uart": messages_of_a_serial_port_are_taken,
+}
+
+#[test]
+fn every_kind_is_here() {
+    let here: BTreeSet<&str> = KINDS.iter().copied().collect();
+    let all: BTreeSet<&str> = KindName::ALL.map(KindName::name).into();
+    assert_eq!(here, all, "a test in {}", file!());
 }
 
 pub(super) fn items(
