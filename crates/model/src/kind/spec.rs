@@ -38,7 +38,7 @@ pub struct KindSpec {
     pub serves: Serves,
     /// The wires, for the language page.
     pub wires: &'static str,
-    /// The properties that a device needs besides `id` and `type`, for examples and tests.
+    /// What a device has besides `id` and `type` in tests of all kinds, which need its value to come.
     pub example: &'static str,
     /// Its colour in pictures, `#RRGGBB`, from a palette that people with colour blindness can
     /// distinguish (Okabe and Ito, 2008), and shades of it.
