@@ -26,7 +26,7 @@ pub const SPEC: KindSpec = KindSpec {
     of_part: &[],
     serves: Serves::Signal(serves),
     wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
-    example: "register = 0;",
+    example: "",
     colour: "#0072B2",
     letter: 'S',
 };

@@ -50,6 +50,13 @@ pub(crate) struct Reading {
     pub(crate) ranges: Ranges,
 }
 
+impl Reading {
+    /// Whether nothing is sent before or while it is read.
+    fn is_only_read(&self) -> bool {
+        self.register.is_none() && self.select.is_empty() && self.exchange.is_empty()
+    }
+}
+
 /// A measurement that was started.
 #[derive(Clone, Debug)]
 struct Measurement {
@@ -207,15 +214,18 @@ impl Registers {
             self.used();
             return bytes.get(place - first - 1).copied().unwrap_or(0);
         }
-        let width = self.width();
-        if place <= width {
+        // A part that is only read gives its first byte at once, unless a measurement is started.
+        let is_only_read = self.readings.iter().all(Reading::is_only_read);
+        let is_trigger = |one: &Reading| one.trigger.starts_with(&self.sent);
+        let width = if is_only_read { 0 } else { self.width() };
+        if place <= width || (is_only_read && self.readings.iter().any(is_trigger)) {
             return 0;
         }
         if self.answer.is_empty() {
             let number =
                 self.sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
-            let mask = u16::from(self.protocol.read_mask) << (8 * (width - 1));
-            self.pointer = Some(number & !mask);
+            let mask = u16::from(self.protocol.read_mask) << (8 * width.saturating_sub(1));
+            self.pointer = (!is_only_read).then_some(number & !mask);
             self.taken(now_ns);
             self.answer = self.answer(subjects, now_ns);
         }
