@@ -1,55 +1,59 @@
-//! Analog inputs: a task for each converter and cycle; one that has an array over several converters takes all of them.
+//! Analog inputs: a task for each converter and cycle. A task with an array over several converters has all of them.
 
 use std::collections::BTreeSet;
 
-use sensedsl_board::profile::Cycles;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, scalar};
-use super::hal::Hal;
-use super::item::{Handler, Item, Task};
+use super::hal::contract::Drivers;
+use super::hal::contract::inputs::{Analog, AnalogInput, SampleRoom};
+use super::item::{Item, Task};
 use super::lack::{self, Printed};
-use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
-use super::{chip, filter, rp};
+use super::{chip, filter};
+use sensedsl_job::Cycle;
 use sensedsl_job::snake;
-use sensedsl_job::{Cycle, JobConnection};
 
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
+    let Some(analog) = drivers.analog() else { return section };
     let mut known = BTreeSet::new();
     for ((_, cycle), devices) in context.classes(KindName::Analog) {
         let Some(part) = devices.first().map(|one| one.first.part) else { continue };
-        let made = class(context, cycle, &devices, &mut known, &mut section);
-        context.tell(part, made, diagnostics);
+        let made = class(context, analog, (cycle, &devices), &mut known, &mut section);
+        context.report(part, made, diagnostics);
     }
     section
 }
 
-/// The devices whose first elements are of one converter, and have one cycle.
+/// The devices of one cycle whose first elements have the same converter.
 fn class<'a>(
     context: &Context<'_>,
-    cycle: Cycle,
-    devices: &[Wired<'a>],
+    analog: &dyn Analog,
+    (cycle, devices): (Cycle, &[Wired<'a>]),
     known: &mut BTreeSet<&'a str>,
     section: &mut Section,
 ) -> Printed<()> {
     let converters = Converters::new(devices)?;
     for one in &converters.all {
         if known.insert(one) {
-            unit(context, one, section)?;
+            unit(context, analog, one, section)?;
         }
     }
-    task(context, &converters, cycle, devices, section)
+    task(context, analog, &converters, (cycle, devices), section)
 }
 
-/// The converters of a task: one, or those that have elements of an array.
+/// The converters of a task: one, or those that the elements of an array have.
 struct Converters<'a> {
-    /// That of the first elements.
+    /// The converter of the first elements.
     first: &'a str,
-    /// Every task takes them in this order, so that none waits for another that waits for it.
+    /// All of them. Every task locks them in this order, so that no two wait for each other.
     all: BTreeSet<&'a str>,
 }
 
@@ -61,12 +65,12 @@ impl<'a> Converters<'a> {
         Ok(Self { first: first.unwrap_or_default(), all })
     }
 
-    /// A converter that others use, too.
+    /// The parameter that has a converter, which other tasks use as well.
     fn shared(&self, unit: &str) -> String {
         if self.all.len() == 1 { "unit".to_owned() } else { format!("{}_unit", snake(unit)) }
     }
 
-    /// The same when it is the task's own.
+    /// The variable that has a converter while the task has locked it.
     fn own(&self, unit: &str) -> String {
         if self.all.len() == 1 { "adc".to_owned() } else { snake(unit) }
     }
@@ -77,53 +81,33 @@ impl<'a> Converters<'a> {
     }
 }
 
-/// The converter, which tasks of several cycles share.
-fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()> {
-    let (name, hal) = (snake(unit), context.peripheral(unit));
-    let make = match context.names.adc.new {
-        AdcNew::Unit => format!("hal::adc::Adc::new(p.{hal})"),
-        AdcNew::Interrupt => {
-            let interrupt = context.interrupt(unit, "GLOBAL")?;
-            section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
-            format!("hal::adc::Adc::new(p.{hal}, Irqs)")
-        }
-        AdcNew::Resolution => format!("hal::adc::Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
-        AdcNew::Default => format!("hal::adc::Adc::new(p.{hal}, hal::adc::AdcConfig::default())"),
-        AdcNew::Config => {
-            let interrupt = context.interrupt(unit, "GLOBAL")?;
-            section.bind(interrupt, "hal::adc::InterruptHandler".to_owned());
-            format!("hal::adc::Adc::new(p.{hal}, Irqs, hal::adc::Config::default())")
-        }
-    };
-    let type_ = match context.names.hal {
-        Hal::Stm32 => format!("hal::adc::Adc<'static, {hal}>"),
-        Hal::Rp => "hal::adc::Adc<'static, hal::adc::Async>".to_owned(),
-    };
-    section.fields.push(Field {
-        name: name.clone(),
-        comment: format!("{unit}, which converts"),
-        type_: type_.clone(),
-        make,
-    });
-    if context.names.adc.read == AdcRead::Sampler {
-        sampled(context, unit, section)?;
-    }
+/// The converter, which the tasks of several cycles share.
+fn unit(
+    context: &Context<'_>,
+    analog: &dyn Analog,
+    unit: &str,
+    section: &mut Section,
+) -> Printed<()> {
+    let name = snake(unit);
+    let made = analog.converter(context, unit, section)?;
     let declared = [
-        format!("type {unit}Unit = Mutex<CriticalSectionRawMutex, {type_}>;"),
+        format!("type {unit}Unit = Mutex<CriticalSectionRawMutex, {}>;", made.type_),
         format!("static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"),
     ];
     section.items.extend(declared.map(Item::Line));
     section.starts.push(Start::Make(format!(
         "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
     )));
+    section.fields.push(Field::of(name, format!("{unit}, which converts"), made));
     Ok(())
 }
 
+/// The task that reads the devices of one cycle.
 fn task(
     context: &Context<'_>,
+    analog: &dyn Analog,
     converters: &Converters<'_>,
-    cycle: Cycle,
-    devices: &[Wired<'_>],
+    (cycle, devices): (Cycle, &[Wired<'_>]),
     section: &mut Section,
 ) -> Printed<()> {
     let ident = cycle.ident(converters.first);
@@ -133,22 +117,15 @@ fn task(
     let mut task = Task::in_turn(cycle.title(&units.join(" and ")), ident.clone(), cycle);
     let shared = |one: &str| format!("{}: &'static {one}Unit", converters.shared(one));
     task.parameters.extend(converters.lines(shared));
-    let mutable = if context.names.adc.read == AdcRead::Sampler { "" } else { "mut " };
+    let mutable = match analog.room() {
+        SampleRoom::Task => "mut ",
+        SampleRoom::Interrupt => "",
+    };
     for wire in &wires {
         let pin = &lack::pad(wire, Role::In)?.pin.name;
-        let (type_, make) = match context.names.hal {
-            Hal::Stm32 if context.names.adc.read == AdcRead::Sampler => {
-                let hal = context.peripheral(lack::unit(wire)?);
-                (
-                    format!("hal::adc::AnyAdcChannel<'static, {hal}>"),
-                    format!("hal::adc::AdcChannel::degrade_adc(p.{pin})"),
-                )
-            }
-            Hal::Stm32 => (format!("Peri<'static, {pin}>"), format!("p.{pin}")),
-            Hal::Rp => rp::analog::input(context, pin),
-        };
-        task.parameters.push(format!("{mutable}{}: {type_}", wire.ident));
-        section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
+        let made = analog.input(context, lack::unit(wire)?, pin);
+        task.parameters.push(format!("{mutable}{}: {}", wire.ident, made.type_));
+        section.fields.push(Field::of(wire.ident.clone(), wire.place(), made));
     }
     let lock = |one: &str| {
         format!("let {mutable}{} = {}.lock().await;", converters.own(one), converters.shared(one))
@@ -156,7 +133,10 @@ fn task(
     let mut statements: Vec<String> = converters.lines(lock).collect();
     for device in devices {
         let pass = filter::pass(context, device.index, section, &mut task.before);
-        statements.extend(read(context, converters, device, &pass, (&mut task.before, section))?);
+        let samples = sample(context, analog, converters, device, section)?;
+        task.before.extend(samples.room);
+        statements.extend(samples.statements);
+        statements.push(report(context, analog, device, &pass, &samples.filled));
     }
     statements.extend(converters.lines(|one| format!("drop({});", converters.own(one))));
     task.ticks(cycle.delay_ms, statements, &constant);
@@ -171,118 +151,59 @@ fn task(
     Ok(())
 }
 
-/// All inputs one right after the other, as often as there are samples.
-fn rows(
+/// How one device is sampled.
+struct Samples {
+    /// The statement before the task's loop that makes room for them.
+    room: Option<String>,
+    /// The statements that sample all inputs.
+    statements: Vec<String>,
+    /// The samples, as a slice.
+    filled: String,
+}
+
+fn sample(
+    context: &Context<'_>,
+    analog: &dyn Analog,
     converters: &Converters<'_>,
     wired: &Wired<'_>,
-    call: &str,
-    time: &str,
-    wait: &str,
-) -> Printed<Vec<String>> {
-    let read = |(name, wire): (&String, &&JobConnection<'_>)| {
-        let own = converters.own(lack::unit(wire)?);
-        let ident = &wire.ident;
-        Ok(format!("*{name} = {own}.{call}(&mut {ident}, hal::adc::SampleTime::{time}){wait};"))
-    };
-    let names = sample_names(wired);
-    let reads = names.iter().zip(&wired.wires).map(read).collect::<Printed<Vec<String>>>()?;
-    Ok(vec![each_sample(&names, &reads)])
-}
-
-/// A name for the sample of each input.
-pub(super) fn sample_names(wired: &Wired<'_>) -> Vec<String> {
-    (0..wired.wires.len()).map(|at| format!("s{at}")).collect()
-}
-
-/// The loop over the samples of all inputs.
-pub(super) fn each_sample(names: &[String], reads: &[String]) -> String {
-    format!("for [{}] in samples.as_chunks_mut().0 {{ {} }}", names.join(", "), reads.join(" "))
-}
-
-/// All samples of an input, then those of the next: the interrupt of the converter takes them.
-fn columns(wired: &Wired<'_>, time: &str, slots: &str) -> Printed<Vec<String>> {
-    let count = wired.wires.len();
-    let fill = |(at, wire): (usize, &&JobConnection<'_>)| {
-        let (unit, ident) = (lack::unit(wire)?, &wire.ident);
-        Ok(format!(
-            "{slots} = {}.fill({ident}.get_hw_channel(), hal::adc::SampleTime::{time}, {slots}, {at}, {count}).await;",
-            sampler(unit)
-        ))
-    };
-    wired.wires.iter().enumerate().map(fill).collect()
-}
-
-/// Room for the samples of a device, which its task and the interrupt hand to each other.
-fn slots_of(slots: &str, samples: usize, section: &mut Section) -> String {
-    let room = slots.to_uppercase();
-    section.items.push(Item::Line(format!(
-        "static {room}: StaticCell<[u16; {samples}]> = StaticCell::new();"
-    )));
-    format!("let mut {slots}: &'static mut [u16] = {room}.init([0; {samples}]);")
-}
-
-/// The static with the sampler of a converter.
-fn sampler(unit: &str) -> String {
-    format!("{unit}_SAMPLER")
-}
-
-/// What the interrupt of a converter does, which others may share.
-fn sampled(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()> {
-    section.features.insert("adc-v2");
-    let interrupt = context.interrupt(unit, "GLOBAL")?;
-    let (name, sampler) = (format!("{unit}_SAMPLES"), sampler(unit));
-    section.items.push(Item::Static {
-        doc: format!("The samples of {unit}"),
-        line: format!(
-            "static {sampler}: rt::converter::Sampler = rt::converter::Sampler::new(hal::pac::{});",
-            context.peripheral(unit)
-        ),
+    section: &mut Section,
+) -> Printed<Samples> {
+    let own = lack::kind(wired.first.connection.kind.analog())?;
+    let samples = usize::from(own.samples.max(1)) * wired.wires.len();
+    let inputs = wired.wires.iter().copied().map(|wire| {
+        let unit = lack::unit(wire)?;
+        Ok(AnalogInput { wire, unit, converter: converters.own(unit) })
     });
-    section.bind(interrupt, format!("crate::{name}"));
-    section.items.push(Item::Handler(Handler {
-        doc: format!("The end of a conversion of {unit}"),
-        name,
-        named_as: "the converter",
-        interrupt: interrupt.to_owned(),
-        calls: vec![format!("{sampler}.on_interrupt();")],
-    }));
-    section.begins.push("// Its handler is there.".to_owned());
-    section.begins.push(format!("unsafe {{ interrupt::{interrupt}.enable() }};"));
-    Ok(())
+    let inputs = inputs.collect::<Printed<Vec<_>>>()?;
+    let adc = &context.profile.adc;
+    let sampling = sampling(adc, own.sampling_cycles).unwrap_or(adc.sample_cycles_default);
+    Ok(match analog.room() {
+        SampleRoom::Task => {
+            let mut statements = vec![format!("let mut samples = [0; {samples}];")];
+            statements.extend(analog.sample(&inputs, sampling, "samples"));
+            Samples { room: None, statements, filled: "&samples".to_owned() }
+        }
+        SampleRoom::Interrupt => {
+            let name = format!("{}_samples", wired.device.ident);
+            let room = name.to_uppercase();
+            section.items.push(Item::Line(format!(
+                "static {room}: StaticCell<[u16; {samples}]> = StaticCell::new();"
+            )));
+            let make = format!("let mut {name}: &'static mut [u16] = {room}.init([0; {samples}]);");
+            let statements = analog.sample(&inputs, sampling, &name);
+            Samples { room: Some(make), statements, filled: format!("&*{name}") }
+        }
+    })
 }
 
-/// Samples one device.
-fn read(
+/// The statement that reports the value of one device, computed from its samples.
+fn report(
     context: &Context<'_>,
-    converters: &Converters<'_>,
+    analog: &dyn Analog,
     wired: &Wired<'_>,
     filter: &str,
-    (before, section): (&mut Vec<String>, &mut Section),
-) -> Printed<Vec<String>> {
-    let analog = lack::kind(wired.first.connection.kind.analog())?;
-    let count = wired.wires.len();
-    let time = sampling(&context.profile.adc, analog.sampling_cycles);
-    let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
-    let time = sample_time(time);
-    let samples = usize::from(analog.samples.max(1)) * count;
-    let slots = format!("{}_samples", wired.device.ident);
-    let mut statements = Vec::new();
-    let held = match context.names.adc.read {
-        AdcRead::Sampler => {
-            before.push(slots_of(&slots, samples, section));
-            format!("&*{slots}")
-        }
-        AdcRead::Blocking | AdcRead::Async | AdcRead::Checked => {
-            statements.push(format!("let mut samples = [0; {samples}];"));
-            "&samples".to_owned()
-        }
-    };
-    statements.extend(match context.names.adc.read {
-        AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
-        AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
-        AdcRead::Sampler => columns(wired, &time, &slots)?,
-        AdcRead::Checked => rp::analog::rows(wired),
-    });
+    samples: &str,
+) -> String {
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
     let mut formulas = context.job.tables_of(wired.first).into_iter().flat_map(|one| &one.formulas);
@@ -299,20 +220,11 @@ fn read(
         }
         None => "rt::analog::Value::Mean".to_owned(),
     };
-    let tell = format!(
-        "rt::analog::report(&BOARD, {filter}, tables::{upper}, {}, &{how}, {held}, {count}, &mut [0; {}]);",
+    let report = format!(
+        "rt::analog::report(&BOARD, {filter}, tables::{upper}, {}, &{how}, {samples}, {}, &mut [0; {}]);",
         scalar(value.scalar),
+        wired.wires.len(),
         value.size_bytes(),
     );
-    statements.push(match context.names.adc.read {
-        AdcRead::Blocking | AdcRead::Async | AdcRead::Sampler => tell,
-        AdcRead::Checked => rp::analog::tell(&upper, &tell),
-    });
-    Ok(statements)
-}
-
-/// `CYCLES84`, `CYCLES1_5`
-fn sample_time(cycles: Cycles) -> String {
-    let half = if cycles.halves() % 2 == 1 { "_5" } else { "" };
-    format!("CYCLES{}{half}", cycles.whole())
+    analog.report(&upper, report)
 }

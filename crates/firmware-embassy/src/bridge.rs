@@ -1,38 +1,38 @@
-//! Motors behind H-bridges: one value becomes the strength of a pulse and the levels of two pins, or two pulses.
+//! Motors behind H-bridges: one value sets a pulse and the levels of two pins, or two pulses.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
+use super::actuators::level_of;
 use super::context::{Context, Wired, scalar};
+use super::hal::contract::outputs::Pulses;
 use super::item::{BridgeItem, Constant, Item};
 use super::lack::{self, Printed};
-use super::outputs::{Pulse, level_of};
+use super::pwm::pulse;
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
 use sensedsl_job::part::BridgePlan;
 
-/// Whether the outputs of a device are those of a bridge.
-pub(super) fn is_bridge(wired: &Wired<'_>) -> bool {
-    wired.device.device.coding.drive.is_some()
-}
-
 pub(super) fn plan(
     context: &Context<'_>,
+    pulses: &dyn Pulses,
     section: &mut Section,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for wired in context.wired(KindName::Pwm) {
         let mut all = context.job.parts.iter().flat_map(|part| &part.plan.bridges);
         if let Some(plan) = all.find(|plan| plan.field == wired.device.name()) {
-            let made = bridge(context, &wired, plan, section);
-            context.tell(wired.first.part, made, diagnostics);
+            let made = bridge(context, pulses, &wired, plan, section);
+            context.report(wired.first.part, made, diagnostics);
         }
     }
 }
 
+/// A device with the function that drives its outputs.
 fn bridge(
     context: &Context<'_>,
+    pulses: &dyn Pulses,
     wired: &Wired<'_>,
     plan: &BridgePlan,
     section: &mut Section,
@@ -52,11 +52,11 @@ fn bridge(
         type_: "sense_rt::BridgeState".to_owned(),
         make: "sense_rt::BridgeState::NEW".to_owned(),
     });
-    // In the order of the runtime's outputs.
+    // The wires are in the order of the runtime's outputs.
     let outputs = context.job.wires_of(wired.device.device);
     let mut arms = Vec::new();
     for (at, one) in outputs.iter().enumerate() {
-        arms.extend(write(context, at, one)?);
+        arms.extend(write(context, pulses, at, one)?);
     }
     section.items.push(Item::Bridge(BridgeItem {
         name: wired.device.name().to_owned(),
@@ -71,16 +71,17 @@ fn bridge(
         && let Some(failsafe) = pwm.failsafe
     {
         let safe = drive("Scalar::Int32", &format!("&{}_i32.to_be_bytes()", level(failsafe)));
-        // Until the host speaks it is as silent as later: that is the start as well.
+        // Before the host speaks it is silent as well, so this is how the outputs start.
         section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
         section.fails.push(safe);
     }
     Ok(())
 }
 
-/// What writes one output: patterns of its number and value, and what is done.
+/// The arms that write one output: patterns of its number and value, and an expression each.
 fn write(
     context: &Context<'_>,
+    pulses: &dyn Pulses,
     at: usize,
     wire: &JobConnection<'_>,
 ) -> Printed<Vec<(String, String)>> {
@@ -90,14 +91,14 @@ fn write(
         let level = format!("if write.value != 0 {{ {high} }} else {{ {low} }}");
         return Ok(vec![(at.to_string(), format!("outputs.{}.set_level({level})", wire.ident))]);
     }
-    let pulse = Pulse::of(context, wire)?;
+    let pulse = pulse(context, wire)?;
     Ok(vec![
-        (format!("{at} if write.value == 0"), format!("{{ {} }}", pulse.stop())),
-        (at.to_string(), format!("{{ {} }}", pulse.set("write.value"))),
+        (format!("{at} if write.value == 0"), format!("{{ {} }}", pulses.stop(&pulse))),
+        (at.to_string(), format!("{{ {} }}", pulses.set(&pulse, "write.value"))),
     ])
 }
 
-/// A level with its direction.
+/// A level with its direction, in ten-thousandths.
 #[expect(clippy::cast_possible_truncation, reason = "it is clamped")]
 fn level(value: f64) -> i32 {
     value.clamp(-10_000.0, 10_000.0).round() as i32

@@ -1,6 +1,5 @@
-//! CAN: a task for each bus, which takes frames as they come; the reporter sends what the host has set.
+//! CAN: a task for each bus that takes frames as they come; the reporter sends what the host has set.
 
-use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::can_bit;
@@ -8,29 +7,32 @@ use sensedsl_timing::can_bit;
 use super::chip::coding;
 use super::context::Context;
 use super::filter;
+use super::hal::contract::Drivers;
+use super::hal::contract::buses::Can;
 use super::item::{Constant, Item, Task, beat};
 use super::lack::{self, Missing, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
-use sensedsl_job::kinds::can::{BANKS, Bus, Frame, Identifier, Value, buses};
+use sensedsl_job::kinds::can::{Bus, Frame, Identifier, Value, buses};
 use sensedsl_job::snake;
 
-/// Controllers with banks of filters are alone, or two of these; the third of a chip has banks of its own.
-const FIRST: &str = "CAN1";
-const SECOND: &str = "CAN2";
-
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
+    let Some(can) = drivers.can() else { return section };
     for wire in context.connections(KindName::Can) {
-        context.tell(wire.part, lack::unit(wire).map(drop), diagnostics);
+        context.report(wire.part, lack::unit(wire).map(drop), diagnostics);
     }
     for bus in buses(context.job, context.connections(KindName::Can), diagnostics) {
-        let made = plan_bus(context, &bus, &mut section);
-        context.tell(bus.first.part, made, diagnostics);
+        let made = plan_bus(context, can, &bus, &mut section);
+        context.report(bus.first.part, made, diagnostics);
     }
     section
 }
 
-/// An identifier in the HAL's words. None is greater than its bits, which the model has seen to.
+/// An identifier in the runtime's words. The model has seen to it that it fits into its bits.
 fn identifier((identifier, is_extended): Identifier) -> String {
     if is_extended {
         format!("crate::rt::can::extended({identifier:#X})")
@@ -48,79 +50,52 @@ fn keep(parameter: &str, name: &str) -> Keep {
     }
 }
 
-fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
-    let (name, hal) = (snake(bus.unit), context.peripheral(bus.unit));
+/// A bus with its tables and its two halves.
+fn plan_bus(
+    context: &Context<'_>,
+    can: &dyn Can,
+    bus: &Bus<'_>,
+    section: &mut Section,
+) -> Printed<()> {
+    let name = snake(bus.unit);
     let (rx, tx) = (lack::pad(bus.first, Role::Rx)?, lack::pad(bus.first, Role::Tx)?);
-    let (rx, tx) = (&rx.pin.name, &tx.pin.name);
-    let has_banks = context.names.has_can_banks();
-    let handlers: &[(&str, &str)] = if has_banks {
-        &[("TX", "Tx"), ("RX0", "Rx0"), ("RX1", "Rx1"), ("SCE", "Sce")]
-    } else {
-        &[("IT0", "IT0"), ("IT1", "IT1")]
-    };
-    for (signal, handler) in handlers {
-        let interrupt = context.interrupt(bus.unit, signal)?;
-        section.bind(interrupt, format!("hal::can::{handler}InterruptHandler<{hal}>"));
-    }
-    let maker = if has_banks { "Can" } else { "CanConfigurator" };
-    // As the pins spell the unit: `CAN`, where there is one.
-    let moved = context.generics(lack::unit(bus.first)?, &["_"]);
+    let made = can.controller(context, bus, section)?;
     let who: Vec<&str> = bus.wires.iter().map(|one| one.title.as_str()).collect();
-    section.fields.push(Field {
-        name: name.clone(),
-        comment: format!("{} at {rx} (RX) and {tx} (TX): {}", bus.unit, who.join(", ")),
-        type_: format!("hal::can::{maker}<'static>"),
-        make: format!("hal::can::{maker}::new{moved}(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
-    });
-    section.features.insert(if has_banks { "can-banks" } else { "can-fd" });
-    start(context, bus, &name, section)?;
+    let (rx, tx, who) = (&rx.pin.name, &tx.pin.name, who.join(", "));
+    let comment = format!("{} at {rx} (RX) and {tx} (TX): {who}", bus.unit);
+    section.fields.push(Field::of(name.clone(), comment, made));
+    start(context, can, bus, &name, section)?;
     tables(bus, section);
     listen(context, bus, &name, section);
     say(bus, &name, section);
     Ok(())
 }
 
-/// What turns the bus on, and parts it into its halves.
-fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Printed<()> {
+/// The statement that turns the bus on and splits it into its halves.
+fn start(
+    context: &Context<'_>,
+    can: &dyn Can,
+    bus: &Bus<'_>,
+    name: &str,
+    section: &mut Section,
+) -> Printed<()> {
     let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
     let memory = format!("static {upper}_KEPT: rt::can::Memory = rt::can::Memory::new();");
     section.items.push(Item::Line(memory));
-    let (banks, wanted) = if context.names.has_can_banks() {
-        (banks(context, bus, section)?, bus.wanted())
-    } else {
-        (String::new(), bus.wanted_in_memory())
-    };
-    // Where the identifiers are too many for the hardware it lets all through, and the task looks.
-    let wanted: Vec<String> = wanted.unwrap_or_default().into_iter().map(identifier).collect();
+    let filters = can.filters(context, bus, section)?;
+    let wanted: Vec<String> =
+        filters.wanted.unwrap_or_default().into_iter().map(identifier).collect();
     section.starts.push(Start::Make(format!(
         "let ({name}_tx, {name}_rx) = \
-         rt::can::start(wiring.{name}, hal::pac::{hal}, {banks}&{upper}_KEPT, {}, &[{}]);",
+         rt::can::start(wiring.{name}, hal::pac::{hal}, {}&{upper}_KEPT, {}, &[{}]);",
+        filters.place,
         bit(context, bus)?,
         wanted.join(", ")
     )));
     Ok(())
 }
 
-/// Where the filters of a controller are: the second of two has those of the first, whose clock they need.
-fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<String> {
-    let own = |first: &str, number: usize| {
-        format!("&rt::can::Banks {{ registers: hal::pac::{first}, first: {number} }}, ")
-    };
-    if bus.unit != SECOND {
-        return Ok(own(&context.peripheral(bus.unit), 0));
-    }
-    let first = context.peripheral(FIRST);
-    if context.profile.unit(FIRST).is_none() {
-        return Err(Missing::name(format!("{FIRST}, which has the filters of {SECOND},")));
-    }
-    let mut units = context.job.connections.iter().filter_map(|one| one.unit);
-    if !units.any(|unit| UnitName::new(unit) == UnitName::new(FIRST)) {
-        section.starts.push(Start::Make(format!("hal::rcc::enable_and_reset::<{first}>();")));
-    }
-    Ok(own(&first, BANKS))
-}
-
-/// What the bits of a bus are made of.
+/// The timing of a bit.
 fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Printed<String> {
     let hz = context.unit_hz(bus.unit);
     let hz = hz.ok_or_else(|| Missing::name(format!("the clock of {}", bus.unit)))?;
@@ -136,11 +111,12 @@ fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Printed<String> {
     ))
 }
 
-/// The bits of a frame that count, and what they are.
+/// A mask for the bits that select a frame, and their values.
 fn select((mask, bits): (u64, u64)) -> String {
     format!("({mask:#x}, {bits:#x})")
 }
 
+/// The tables of the values: those that are received, and those that are sent.
 fn tables(bus: &Bus<'_>, section: &mut Section) {
     let value = |one: &Value| {
         format!(
@@ -168,6 +144,7 @@ fn tables(bus: &Bus<'_>, section: &mut Section) {
     }
 }
 
+/// The task that takes the frames of a bus.
 fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) {
     let upper = bus.unit.to_uppercase();
     let is_own = |index: usize| bus.wires.iter().any(|one| one.devices.contains(&index));
@@ -208,7 +185,7 @@ fn place(one: &Value<'_>) -> String {
     format!("rt::can::Place::new({}){masked}{quiet}", one.byte)
 }
 
-/// A frame as it is at the start.
+/// A frame as it is before the host sets anything.
 fn sent(frame: &Frame<'_>) -> String {
     let new = format!("rt::can::Sent::new({}, {})", identifier(frame.identifier()), frame.bytes);
     let repeated = match frame.resend_ms {
@@ -222,11 +199,11 @@ fn sent(frame: &Frame<'_>) -> String {
     format!("{new}{repeated}{selected}, ")
 }
 
-/// The reporter has the bus: a frame that finds no room is sent in a later cycle.
+/// The reporter has the half that sends: a frame for which there is no room is sent in a later cycle.
 fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
     let upper = bus.unit.to_uppercase();
     if bus.frames.is_empty() {
-        // Dropping this half would turn the bus off.
+        // To drop this half would turn the bus off.
         section.keeps.push(keep(&format!("_{name}_tx"), name));
         return;
     }

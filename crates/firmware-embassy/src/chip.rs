@@ -1,4 +1,4 @@
-//! The tables of a chip in Rust: constants of the runtime's types.
+//! The tables of a part on a bus in Rust: constants of the runtime's types.
 
 use sensedsl_model::protocol::{Crc, Formula};
 use sensedsl_model::words::Code;
@@ -57,7 +57,7 @@ pub(super) fn bytes(all: &[u8]) -> String {
     format!("&[{}]", all.join(", "))
 }
 
-/// How a part is set up.
+/// The steps that set a part up.
 pub(super) fn init(steps: &[InitPlan]) -> Vec<String> {
     let step = |step: &InitPlan| {
         format!("InitStep {{ bytes: {}, pause_ms: {} }}", bytes(&step.bytes), step.pause_ms)

@@ -1,4 +1,4 @@
-//! Parts on register buses, I²C and SPI alike: which task serves which part.
+//! Parts on register buses, both I²C and SPI: which task serves which part.
 
 use std::collections::BTreeMap;
 
@@ -15,15 +15,15 @@ use sensedsl_job::part::BusPlan;
 use sensedsl_job::snake;
 use sensedsl_job::{Cycle, JobConnection, by_unit};
 
-/// Time for a part to think, beside the bits.
+/// The time that a part may take to answer, besides the time of the bits.
 const TIMEOUT_BASE_MS: u32 = 10;
 
-/// A bus with what is on it.
+/// A bus with the connections on it.
 pub(super) struct Bus<'a> {
     pub(super) unit: UnitName,
     /// The runtime's type of it.
     type_: String,
-    /// One of those on it: all have the wires of the bus.
+    /// One of the connections on it: all have the wires of the bus.
     pub(super) first: &'a JobConnection<'a>,
     pub(super) all: Vec<&'a JobConnection<'a>>,
 }
@@ -36,7 +36,7 @@ pub(super) fn buses<'a>(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Bus<'a>> {
     for wire in context.connections(kind) {
-        context.tell(wire.part, lack::unit(wire).map(drop), diagnostics);
+        context.report(wire.part, lack::unit(wire).map(drop), diagnostics);
     }
     let buses = by_unit(context.connections(kind)).into_iter();
     let bus = |(unit, all): (UnitName, Vec<&'a JobConnection<'a>>)| {
@@ -46,7 +46,7 @@ pub(super) fn buses<'a>(
 }
 
 impl Bus<'_> {
-    /// What is on it, for a comment.
+    /// The names of the connections, for a comment.
     pub(super) fn titles(&self) -> String {
         let titles: Vec<&str> = self.all.iter().map(|one| one.title.as_str()).collect();
         titles.join(", ")
@@ -75,15 +75,15 @@ pub(super) struct Served<'a> {
 /// How a task of a bus reaches its parts.
 #[derive(Default)]
 pub(super) struct Reach {
-    /// Parameters of the task beside the bus.
+    /// Parameters of the task besides the bus.
     pub(super) parameters: Vec<String>,
-    /// What they are called with.
+    /// The arguments for them.
     pub(super) arguments: Vec<String>,
-    /// Statements that make `NAME_line` for each part.
+    /// Statements that make `{part}_line` for each part.
     pub(super) lines: Vec<String>,
 }
 
-/// The tasks of a bus: one for each cycle. `hz`: bits a second of the slowest part.
+/// The tasks of a bus: one for each cycle. `hz` is the clock of the slowest part.
 pub(super) fn tasks(
     context: &Context<'_>,
     bus: &Bus<'_>,
@@ -107,6 +107,7 @@ fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Printed<BTreeMap<Cycle, V
     Ok(cycles)
 }
 
+/// The task that serves the parts of one cycle.
 fn task(
     context: &Context<'_>,
     bus: &Bus<'_>,
@@ -155,7 +156,7 @@ fn task(
     Ok(())
 }
 
-/// What a task keeps of a part.
+/// The variables of a task for a part.
 fn state(plan: &BusPlan) -> Vec<String> {
     let (ident, table) = (&plan.prefix, plan.prefix.to_uppercase());
     let mut statements = vec![format!(

@@ -1,4 +1,4 @@
-//! Digital inputs with a memory: those whose edges interrupt, and those whose level counts when it has lasted.
+//! Digital inputs with a memory: those whose edges count, and those whose level counts once it has lasted.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,21 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
-use super::hal::Hal;
-use super::item::{Handler, Item};
-use super::lack::{self, Printed};
-use super::section::{Field, Section};
-use super::{filter, rp};
-use sensedsl_job::{JobConnection, Pad};
+use super::filter;
+use super::hal::contract::Drivers;
+use super::hal::contract::inputs::{EdgeInput, WatchedBy};
+use super::item::{Handler, Item, Task};
+use super::lack::{self, Missing, Printed};
+use super::section::{Field, Made, Section, Start};
+use sensedsl_job::JobConnection;
 
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
-    let mut lines: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut shared: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for wired in context.wired(KindName::Digital) {
         let own = wired.first.connection.kind.digital();
         let Some(own) = own.filter(|own| is_kept(own)) else { continue };
@@ -25,15 +30,15 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             continue;
         }
         for wire in &wired.wires {
-            let prio = wired.device.cycle.prio;
-            let made = input(context, wire, (own, prio), &mut lines, &mut section);
-            context.tell(wire.part, made, diagnostics);
+            let input = Input { wire, own, prio: wired.device.cycle.prio };
+            let made = input.plan(context, drivers, &mut shared, &mut section);
+            context.report(wire.part, made, diagnostics);
         }
         if own.edge.is_some() {
             poll(context, &wired, own, &mut section);
         }
     }
-    for (interrupt, statics) in lines {
+    for (interrupt, statics) in shared {
         handler(&interrupt, &statics, &mut section);
     }
     section
@@ -49,7 +54,7 @@ pub(super) fn name(wire: &JobConnection<'_>) -> String {
     format!("{}_KEPT", wire.ident.to_uppercase())
 }
 
-/// The resistor in the HAL's words.
+/// The resistor in the words of all HALs.
 pub(super) const fn pull(own: &Digital) -> &'static str {
     match own.pull {
         Pull::Up => "Pull::Up",
@@ -58,77 +63,100 @@ pub(super) const fn pull(own: &Digital) -> &'static str {
     }
 }
 
-fn input(
-    context: &Context<'_>,
-    wire: &JobConnection<'_>,
-    (own, prio): (&Digital, i8),
-    lines: &mut BTreeMap<String, Vec<String>>,
-    section: &mut Section,
-) -> Printed<()> {
-    let pad = lack::pad(wire, Role::In)?;
-    let kept = name(wire);
-    let edge = match own.edge {
-        Some(Edge::Rising) => "Rising",
-        Some(Edge::Falling) => "Falling",
-        Some(Edge::Both) | None => "Both",
-    };
-    let (kind, type_, make) = if own.edge.is_some() {
-        // A level that is to last must be seen to come and to go.
+/// An input with a memory.
+#[derive(Clone, Copy)]
+struct Input<'a> {
+    wire: &'a JobConnection<'a>,
+    own: &'a Digital,
+    prio: i8,
+}
+
+impl Input<'_> {
+    /// The input with its static. `shared`: the statics by the interrupt that the project has the handler of.
+    fn plan(
+        self,
+        context: &Context<'_>,
+        drivers: &dyn Drivers,
+        shared: &mut BTreeMap<String, Vec<String>>,
+        section: &mut Section,
+    ) -> Printed<()> {
+        let Self { wire, own, .. } = self;
+        let kept = name(wire);
+        let (kind, made) = if own.edge.is_some() {
+            ("rt::edges::InterruptInput", self.watched(context, drivers, shared, section)?)
+        } else {
+            section.polls.push(vec![format!("{kept}.sample();")]);
+            ("rt::edges::SampledInput", self.sampled(drivers, section)?)
+        };
+        section.fields.push(Field::of(wire.ident.clone(), wire.place(), made));
+        let edge = match own.edge {
+            Some(Edge::Rising) => "Rising",
+            Some(Edge::Falling) => "Falling",
+            Some(Edge::Both) | None => "Both",
+        };
+        section.items.push(Item::Static {
+            doc: wire.place(),
+            line: format!(
+                "static {kept}: {kind} = rt::contact::Watched::new(sense_rt::ContactConfig {{ \
+                 lasting: {}, edge: sense_rt::Edge::{edge} }});",
+                own.debounce_us
+            ),
+        });
+        Ok(())
+    }
+
+    /// An input whose level the reporter reads in each cycle.
+    fn sampled(self, drivers: &dyn Drivers, section: &mut Section) -> Printed<Made> {
+        let pad = lack::pad(self.wire, Role::In)?;
+        section.begins.push(format!("{}.begin(wiring.{});", name(self.wire), self.wire.ident));
+        Ok(Made {
+            type_: "Input<'static>".to_owned(),
+            make: format!(
+                "Input::new(p.{}, {})",
+                drivers.pins().pin(&pad.pin.name),
+                pull(self.own)
+            ),
+        })
+    }
+
+    /// An input whose edges interrupt.
+    fn watched(
+        self,
+        context: &Context<'_>,
+        drivers: &dyn Drivers,
+        shared: &mut BTreeMap<String, Vec<String>>,
+        section: &mut Section,
+    ) -> Printed<Made> {
+        let Self { wire, own, prio } = self;
+        let (pad, kept) = (lack::pad(wire, Role::In)?, name(wire));
+        // A level that must last has to be seen when it comes and when it goes.
         let trigger = match own.edge {
             Some(Edge::Rising) if own.debounce_us == 0 => "Rising",
             Some(Edge::Falling) if own.debounce_us == 0 => "Falling",
             Some(Edge::Rising | Edge::Falling | Edge::Both) | None => "Any",
         };
-        match context.names.hal {
-            Hal::Stm32 => awaited(context, (wire, pad), own, trigger, (lines, section))?,
-            Hal::Rp => rp::edges::input(context, wire, (pad, own), prio, trigger, section),
+        let edges = drivers.edges().ok_or_else(|| Missing::unit("edges".to_owned()))?;
+        let input = EdgeInput { wire, pad, pull: pull(own), trigger, kept: &kept };
+        let watch = edges.watch(context, &input)?;
+        section.begins.push(format!("{kept}.begin({});", watch.begin));
+        match watch.by {
+            WatchedBy::Handler(interrupt) => shared.entry(interrupt).or_default().push(kept),
+            WatchedBy::Task(statement) => {
+                let ident = &wire.ident;
+                let doc = format!("{}: its edges", wire.place());
+                let mut task = Task::new(doc, format!("{ident}_edges"));
+                task.parameters.push(format!("pin: {}", watch.made.type_));
+                task.before.push(statement);
+                section.items.push(Item::Task(task));
+                let call = format!("{ident}_edges(wiring.{ident})");
+                section.starts.push(Start::Task(prio, call));
+            }
         }
-    } else {
-        let make = format!("Input::new(p.{}, {})", context.pin(&pad.pin.name), pull(own));
-        section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
-        ("rt::edges::SampledInput", "Input<'static>".to_owned(), make)
-    };
-    section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
-    section.items.push(Item::Static {
-        doc: wire.place(),
-        line: format!(
-            "static {kept}: {kind} = rt::contact::Watched::new(sense_rt::ContactConfig {{ \
-             lasting: {}, edge: sense_rt::Edge::{edge} }});",
-            own.debounce_us
-        ),
-    });
-    if own.edge.is_none() {
-        section.polls.push(vec![format!("{kept}.sample();")]);
+        Ok(watch.made)
     }
-    Ok(())
 }
 
-/// An input whose edges interrupt on a line: the static's kind, the type of what the wiring hands over, and what that is
-/// made of.
-fn awaited(
-    context: &Context<'_>,
-    (wire, pad): (&JobConnection<'_>, &Pad<'_>),
-    own: &Digital,
-    trigger: &str,
-    (lines, section): (&mut BTreeMap<String, Vec<String>>, &mut Section),
-) -> Printed<(&'static str, String, String)> {
-    let (pin, kept) = (&pad.pin.name, name(wire));
-    let line = pin.number().ok_or_else(|| lack::Missing::wire("a pin of a port".to_owned()))?;
-    let line = format!("EXTI{line}");
-    let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
-    section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
-    lines.entry(interrupt).or_default().push(kept);
-    Ok((
-        "rt::edges::InterruptInput",
-        "hal::exti::ExtiInput<'static, hal::mode::Blocking>".to_owned(),
-        format!(
-            "hal::exti::ExtiInput::new_blocking(p.{pin}, p.{line}, {}, hal::exti::TriggerEdge::{trigger})",
-            pull(own)
-        ),
-    ))
-}
-
-/// The handler of an interrupt, which lines may share.
+/// The handler of an interrupt, which inputs may share.
 fn handler(interrupt: &str, statics: &[String], section: &mut Section) {
     let name = format!("{interrupt}_EDGES");
     section.bind(interrupt, format!("crate::{name}"));

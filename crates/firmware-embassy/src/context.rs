@@ -1,77 +1,48 @@
-//! One board with everything its sections are planned from.
+//! One board with everything that its sections are planned from, and what all kinds ask of it. No HAL: what is spelled
+//! in a HAL's words is asked of its drivers, which look into the context as the kinds do.
 
 use std::collections::BTreeMap;
 
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
-use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
+use sensedsl_model::design::Part;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
-use super::hal::Hal;
 use super::lack::{Missing, Printed};
 use super::names::{Chip, Names};
-use super::{gaps, moved, rp};
 use sensedsl_job::{BoardJob, Cycle, JobConnection, JobDevice};
 
 /// One board on its way to a plan.
 pub(super) struct Context<'a> {
     pub(super) job: &'a BoardJob<'a>,
     pub(super) profile: &'a TargetProfile,
-    pub(super) names: Names,
+    pub(super) names: &'a Names,
     pub(super) chip: Chip,
-    /// The timer that the clock runs on; `None` where the HAL has one of its own.
-    pub(super) timer: Option<String>,
-    /// The block of pins of each unit that moves as a whole.
-    pub(super) blocks: BTreeMap<UnitName, u8>,
+    /// The connections that there is code for, in the design's order. The others are reported as gaps.
+    pub(super) served: Vec<&'a JobConnection<'a>>,
 }
 
 /// A device of one value with its wires.
 #[derive(Clone)]
 pub(super) struct Wired<'a> {
-    /// Index of its item.
+    /// The index of its item.
     pub(super) index: usize,
     pub(super) device: &'a JobDevice<'a>,
     pub(super) first: &'a JobConnection<'a>,
-    /// One for each element, the first among them.
+    /// One for each element, including the first.
     pub(super) wires: Vec<&'a JobConnection<'a>>,
 }
 
 impl<'a> Context<'a> {
-    /// Fails if Embassy does not support the board's MCU, or if the devices leave no timer for its clock.
-    pub(super) fn new(job: &'a BoardJob<'a>) -> Result<Self, Vec<Diagnostic>> {
-        let board = &job.board.name;
-        let lack = |why: &str| vec![no_firmware_target(board.span, &board.value, why)];
-        let profile = job.profile.ok_or_else(|| lack("it has no target profile"))?;
-        let names = Names::of(profile).map_err(|error| lack(&error))?;
-        let chip = job.board.mcu.as_deref().and_then(|mcu| names.chip(mcu));
-        let chip = chip.ok_or_else(|| lack("Embassy does not support its MCU"))?;
-        let timer = match names.hal {
-            Hal::Stm32 => Some(super::clock::timer(job, profile).ok_or_else(|| {
-                let timers = profile.kernel.timers.join(", ");
-                lack(&format!(
-                    "its devices leave no timer for Embassy's clock, which runs on one of {timers}; another pin or \
-                     kind for one of them frees one"
-                ))
-            })?),
-            Hal::Rp => None,
-        };
-        if let Some(why) = rp::refusal(names.hal, job) {
-            return Err(lack(&why));
-        }
-        Ok(Self { job, profile, names, chip, timer, blocks: moved::blocks(job) })
-    }
-
-    /// The connections of a kind, in the design's order. Those that no code is made for are left out: they are told as
-    /// gaps.
+    /// The connections of a kind that there is code for, in the design's order.
     pub(super) fn connections(
         &self,
         kind: KindName,
     ) -> impl Iterator<Item = &'a JobConnection<'a>> {
-        let job = self.job;
-        job.connections(kind).filter(|one| gaps::lacks(job, one).is_none())
+        self.served.iter().copied().filter(move |one| one.connection.kind.name() == kind)
     }
 
     /// The devices of a kind with their wires, in the design's order.
@@ -85,7 +56,7 @@ impl<'a> Context<'a> {
         wired.collect()
     }
 
-    /// The devices of a kind by unit and cycle: a task each.
+    /// The devices of a kind by unit and cycle: each entry becomes a task.
     pub(super) fn classes(&self, kind: KindName) -> BTreeMap<(String, Cycle), Vec<Wired<'a>>> {
         let mut classes: BTreeMap<(String, Cycle), Vec<Wired<'a>>> = BTreeMap::new();
         for wired in self.wired(kind) {
@@ -95,7 +66,7 @@ impl<'a> Context<'a> {
         classes
     }
 
-    /// The identifier of the first device of a wire; 0 where it has none.
+    /// The identifier of the first device of a wire; 0 if it has none.
     pub(super) fn id_of(&self, wire: &JobConnection<'_>) -> u8 {
         let own = wire.devices.iter().filter_map(|index| self.job.devices.get(*index));
         own.map(|one| one.device.id.value).next().unwrap_or(0)
@@ -118,9 +89,26 @@ impl<'a> Context<'a> {
         self.job.board.facts.as_ref().map(|facts| facts.crystal.clone()).unwrap_or_default()
     }
 
-    /// What the HAL calls a unit.
+    /// The HAL's name of a unit.
     pub(super) fn peripheral(&self, unit: &str) -> String {
         self.names.peripheral(unit).to_owned()
+    }
+
+    /// The interrupt of a unit, a DMA channel or an external line.
+    pub(super) fn interrupt(&self, unit: &str, signal: &str) -> Printed<&'a str> {
+        let found = self.names.interrupt(unit, signal);
+        found.ok_or_else(|| Missing::name(format!("the interrupt of {unit} ({signal})")))
+    }
+
+    /// Reports what is missing for a part.
+    pub(super) fn report(&self, part: &Part, made: Printed<()>, diagnostics: &mut Vec<Diagnostic>) {
+        let Err(missing) = made else { return };
+        let (name, board) = (&part.name, &self.job.board.name.value);
+        let report = no_firmware_target(name.span, board, &missing.why(&name.value));
+        // All wires of a chip or an array give the same report.
+        if diagnostics.last() != Some(&report) {
+            diagnostics.push(report);
+        }
     }
 }
 

@@ -1,10 +1,10 @@
-//! What actuators take when the host is silent, where it goes the way of a value of the host's.
+//! The values that actuators take when the host is silent, where they are applied like values of the host.
 
 use sensedsl_wire::ScalarType;
 
 use super::context::Context;
 
-/// By item: the bytes of its value, as they are on the wire.
+/// The bytes of each value as they are on the wire, by the index of its item.
 pub(super) fn values(context: &Context<'_>) -> Vec<(usize, Vec<u8>)> {
     let all = context.job.devices.iter().enumerate();
     let value = |(index, one): (usize, &sensedsl_job::JobDevice<'_>)| {
@@ -15,7 +15,7 @@ pub(super) fn values(context: &Context<'_>) -> Vec<(usize, Vec<u8>)> {
     all.filter_map(value).collect()
 }
 
-/// The number as the type has it; the model has seen to it that the type holds it.
+/// The bytes of a number. The model has seen to it that the type holds it.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
 fn bytes(scalar: ScalarType, number: f64) -> Vec<u8> {
     match scalar {

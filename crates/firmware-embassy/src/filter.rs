@@ -1,12 +1,12 @@
-//! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
+//! The filters of values before they are reported: constants of the runtime's types, and the variables of tasks.
 
 use super::context::Context;
 use super::item::{Constant, Entry, Table};
 use super::section::Section;
 use sensedsl_job::part::{FilterPlan, Number};
 
-/// What a task hands over with the values of an item: its filter, or `None`. The filter's table is added to the
-/// section, and its state to what the task keeps.
+/// The argument for the filter of an item: the filter, or `None`. The filter's table is added to the section, and its
+/// variable to `state`.
 pub(super) fn pass(
     context: &Context<'_>,
     index: usize,
@@ -23,7 +23,7 @@ pub(super) fn pass(
     format!("Some(&mut *{ident}_filter)")
 }
 
-/// [`pass`] for a device that the reporter polls: the state is the reporter's.
+/// [`pass`] for a device that the reporter polls: the variable is the reporter's.
 pub(super) fn polled(context: &Context<'_>, index: usize, section: &mut Section) -> String {
     let mut state = Vec::new();
     let filter = pass(context, index, section, &mut state);
@@ -31,7 +31,7 @@ pub(super) fn polled(context: &Context<'_>, index: usize, section: &mut Section)
     filter
 }
 
-/// The filters of items: what a task keeps, and an expression for that of the item `index`.
+/// The filters of several items: the variables of a task, and an expression for the filter of the item `index`.
 pub(super) fn of_items(
     context: &Context<'_>,
     is_own: impl Fn(usize) -> bool,
@@ -87,7 +87,7 @@ fn table(plan: &FilterPlan) -> Table {
 fn number(number: Number) -> String {
     match number {
         Number::Unsigned(number) => format!("Number::unsigned({number})"),
-        // The least one is not spelled as it is written.
+        // The literal of the least number would overflow before its sign is applied.
         Number::Signed(i64::MIN) => "Number::signed(i64::MIN)".to_owned(),
         Number::Signed(number) => format!("Number::signed({number})"),
         Number::Float32(number) => format!("Number::float32({number:?})"),

@@ -1,14 +1,12 @@
-//! What Embassy firmware cannot do yet. Every gap is reported; nothing is left out in silence.
+//! What Embassy firmware cannot do yet. Every gap is reported; no device is left out in silence.
 
 use sensedsl_model::kind::{Kind, KindName};
 
-use super::hal::Hal;
-use super::names::Names;
-use super::rp;
+use super::hal::contract::Drivers;
 use sensedsl_job::{BoardJob, JobConnection};
 
-/// The kinds that there is code for.
-pub(super) const KINDS: &[KindName] = &[
+/// All kinds, in the order of the documentation.
+pub(super) const KINDS: [KindName; 10] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -21,18 +19,40 @@ pub(super) const KINDS: &[KindName] = &[
     KindName::Can,
 ];
 
-/// What a connection needs and no code is made for.
-pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
-    match hal(job) {
-        Some(Hal::Rp) => {
-            if let Some(gap) = rp::gaps::lacks(job, connection) {
-                return Some(gap);
-            }
-        }
-        Some(Hal::Stm32) | None => {}
+/// The kinds that a HAL has drivers for.
+pub(super) fn kinds(drivers: &dyn Drivers) -> Vec<KindName> {
+    KINDS.into_iter().filter(|kind| serves(drivers, *kind)).collect()
+}
+
+fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
+    match kind {
+        KindName::Analog => drivers.analog().is_some(),
+        KindName::I2c => drivers.i2c().is_some(),
+        KindName::Icu => drivers.capture().is_some(),
+        KindName::Encoder => drivers.encoder().is_some(),
+        KindName::Digital => true,
+        KindName::Pwm => drivers.pulses().is_some(),
+        KindName::Dac => drivers.dac().is_some(),
+        KindName::Uart => drivers.serial().is_some(),
+        KindName::Spi => drivers.spi().is_some(),
+        KindName::Can => drivers.can().is_some(),
+    }
+}
+
+/// What a connection needs and there is no code for, although its kind is served.
+pub(super) fn lacks(
+    drivers: &dyn Drivers,
+    job: &BoardJob<'_>,
+    connection: &JobConnection<'_>,
+) -> Option<&'static str> {
+    if let Some(gap) = drivers.project().lacks(job, connection) {
+        return Some(gap);
     }
     match &connection.connection.kind {
         Kind::I2c(_) | Kind::Spi(_) => job.lacks_on_buses(connection),
+        Kind::Digital(own) if own.edge.is_some() && drivers.edges().is_none() => {
+            Some("edges of digital inputs on this MCU")
+        }
         Kind::Analog(_)
         | Kind::Icu(_)
         | Kind::Encoder(_)
@@ -44,6 +64,13 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
     }
 }
 
-fn hal(job: &BoardJob<'_>) -> Option<Hal> {
-    Some(Names::of(job.profile?).ok()?.hal)
+/// The connections that there is code for, in the design's order.
+pub(super) fn served<'a>(
+    drivers: &dyn Drivers,
+    job: &'a BoardJob<'a>,
+) -> Vec<&'a JobConnection<'a>> {
+    let is_served = |one: &&JobConnection<'_>| {
+        serves(drivers, one.connection.kind.name()) && lacks(drivers, job, one).is_none()
+    };
+    job.connections.iter().filter(is_served).collect()
 }

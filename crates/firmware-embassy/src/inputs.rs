@@ -1,42 +1,52 @@
-//! Digital inputs and encoders: a task for each cycle looks at them.
+//! Digital inputs and encoders: a task for each cycle reads the inputs, and the reporter the encoders.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
+use super::hal::contract::Drivers;
+use super::hal::contract::inputs::Encoder;
+use super::hal::contract::outputs::Pins;
 use super::item::{Item, Task};
 use super::lack::{self, Printed};
-use super::section::{Field, Keep, Section, Start, Watched};
-use super::{contacts, filter};
-use sensedsl_job::{Cycle, JobConnection};
+use super::section::{Field, Section, Start, Watched};
+use super::{contacts, counters, filter};
+use sensedsl_job::Cycle;
 
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
     for ((_, cycle), devices) in context.classes(KindName::Digital) {
         let has_edges = |one: &Wired<'_>| {
             one.first.connection.kind.digital().is_some_and(|own| own.edge.is_some())
         };
-        // Those with edges are the reporter's.
+        // The reporter has those with edges.
         let is_read =
             |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor && !has_edges(one);
         let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_read).collect();
         if let Some(first) = sensors.first() {
-            let made = digital(context, cycle, &sensors, &mut section);
-            context.tell(first.first.part, made, diagnostics);
+            let made = digital(context, drivers.pins(), (cycle, &sensors), &mut section);
+            context.report(first.first.part, made, diagnostics);
         }
     }
-    for wired in context.wired(KindName::Encoder) {
-        let made = encoder(context, &wired, &mut section);
-        context.tell(wired.first.part, made, diagnostics);
+    if let Some(driver) = drivers.encoder() {
+        for wired in context.wired(KindName::Encoder) {
+            let made = encoder(context, driver, &wired, &mut section);
+            context.report(wired.first.part, made, diagnostics);
+        }
     }
     section
 }
 
+/// The sensors of one cycle with the task that reads them.
 fn digital(
     context: &Context<'_>,
-    cycle: Cycle,
-    devices: &[&Wired<'_>],
+    pins: &dyn Pins,
+    (cycle, devices): (Cycle, &[&Wired<'_>]),
     section: &mut Section,
 ) -> Printed<()> {
     let ident = cycle.ident("gpio");
@@ -59,11 +69,7 @@ fn digital(
                 name: wire.ident.clone(),
                 comment: wire.place(),
                 type_: "Input<'static>".to_owned(),
-                make: format!(
-                    "Input::new(p.{}, {})",
-                    context.pin(&pad.pin.name),
-                    contacts::pull(own)
-                ),
+                make: format!("Input::new(p.{}, {})", pins.pin(&pad.pin.name), contacts::pull(own)),
             });
             task.parameters.push(format!("{}: Input<'static>", wire.ident));
             arguments.push(format!("wiring.{}", wire.ident));
@@ -93,69 +99,18 @@ fn digital(
     Ok(())
 }
 
-/// An encoder: its timers count in hardware, and the reporter looks at them.
-fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
+/// An encoder: its timers count in hardware.
+fn encoder(
+    context: &Context<'_>,
+    encoder: &dyn Encoder,
+    wired: &Wired<'_>,
+    section: &mut Section,
+) -> Printed<()> {
     let mut counts = Vec::new();
     for wire in &wired.wires {
-        counter(context, wire, section)?;
-        counts.push(format!("{}_qei.count()", wire.ident));
+        let counter = encoder.counter(context, wire)?;
+        counts.push(counters::keep(wire, counter, section));
     }
-    poll_counts(context, wired, &counts, section);
-    Ok(())
-}
-
-/// The reporter looks at counters of 16 bits so often that no wrap is lost. `counts`: an expression for each wire.
-pub(super) fn poll_counts(
-    context: &Context<'_>,
-    wired: &Wired<'_>,
-    counts: &[String],
-    section: &mut Section,
-) {
-    let filter = filter::polled(context, wired.index, section);
-    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
-    section.states.push(format!("let mut {ident}_counters = [Counter::NEW; {}];", counts.len()));
-    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
-    let mut poll = vec![format!("let before = {ident}_counters.map(|counter| counter.total());")];
-    let steps = counts.iter().enumerate();
-    poll.extend(steps.map(|(at, count)| format!("{ident}_counters[{at}].step({count});")));
-    poll.push(format!("let counts = {ident}_counters.map(|counter| counter.total());"));
-    let store = format!(
-        "store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());",
-        scalar(value.scalar),
-        value.scalar.size_bytes()
-    );
-    poll.push(format!("if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{"));
-    poll.push(format!("    let mut value = [0; {}];", value.size_bytes()));
-    poll.push(format!("    for (at, count) in counts.into_iter().enumerate() {{ {store} }}"));
-    poll.push(format!(
-        "    BOARD.report({filter}, tables::{}, Outcome::Fresh, &mut value);",
-        wired.device.ident.to_uppercase()
-    ));
-    poll.push("}".to_owned());
-    section.polls.push(poll);
-}
-
-/// The timer of two tracks, which the reporter keeps.
-fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Printed<()> {
-    let unit = lack::unit(wire)?;
-    let (a, b) = (lack::pad(wire, Role::A)?, lack::pad(wire, Role::B)?);
-    let hal = context.peripheral(unit);
-    // The HAL takes either order of the channels.
-    let type_of = |channel| format!("hal::timer::Ch{channel}");
-    let (first, second) = (type_of(lack::channel(a)?), type_of(lack::channel(b)?));
-    let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
-    section.fields.push(Field {
-        name: wire.ident.clone(),
-        comment: wire.place(),
-        type_: type_.clone(),
-        make: format!(
-            "hal::timer::qei::Qei::new{}(p.{hal}, p.{}, p.{}, Default::default())",
-            context.generics(unit, &[&first, &second]),
-            a.pin.name,
-            b.pin.name
-        ),
-    });
-    let from = format!("wiring.{}", wire.ident);
-    section.keeps.push(Keep { name: format!("{}_qei", wire.ident), type_, from });
+    counters::poll(context, wired, &counts, section);
     Ok(())
 }

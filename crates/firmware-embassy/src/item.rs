@@ -1,4 +1,4 @@
-//! What the kinds add to `main.rs` and `tables.rs`, as data that templates print. A text here is a line of Rust at most.
+//! What kinds add to `main.rs` and `tables.rs`, as data that templates print. A text is at most one line of Rust.
 
 use sensedsl_job::Cycle;
 
@@ -9,7 +9,7 @@ pub(super) enum Item {
     Line(String),
     /// A declaration with its documentation.
     Static {
-        /// Without a full stop.
+        /// The documentation, without a full stop.
         doc: String,
         /// The declaration.
         line: String,
@@ -22,24 +22,24 @@ pub(super) enum Item {
     Bridge(BridgeItem),
 }
 
-/// A task: what it keeps, and what it does for ever.
+/// A task: what it keeps, and what it does in its loop.
 #[derive(Debug)]
 pub(super) struct Task {
-    /// Its documentation, without a full stop.
+    /// The documentation, without a full stop.
     pub(super) doc: String,
     pub(super) ident: String,
     /// `name: Type`
     pub(super) parameters: Vec<String>,
-    /// When it starts among those that take turns.
+    /// The delay of its start: tasks with the same cycle take turns.
     pub(super) start_ms: u32,
     /// Statements before the loop.
     pub(super) before: Vec<String>,
-    /// Statements of the loop; none: there is no loop.
+    /// Statements of the loop; there is no loop if there are none.
     pub(super) cycle: Vec<String>,
 }
 
 impl Task {
-    /// A task that waits for something, without a cycle.
+    /// A task without a cycle, which waits for something.
     pub(super) fn new(doc: String, ident: String) -> Self {
         Self {
             doc,
@@ -56,7 +56,7 @@ impl Task {
         Self { start_ms: cycle.start_ms, ..Self::new(doc, ident) }
     }
 
-    /// What it does in each cycle: the statements, then the beat that the watchdog waits for, then the next tick.
+    /// Makes a loop of statements, the beat that the watchdog waits for, and the wait for the next tick.
     pub(super) fn ticks(&mut self, delay_ms: u32, statements: Vec<String>, constant: &str) {
         self.before
             .push(format!("let mut ticker = Ticker::every(Duration::from_millis({delay_ms}));"));
@@ -66,7 +66,7 @@ impl Task {
     }
 }
 
-/// Tells the watchdog that a task has made its cycle.
+/// The statement that reports a cycle of a task to the watchdog.
 pub(super) fn beat(constant: &str) -> String {
     format!("WATCH.beat(tables::{constant}, now_ms());")
 }
@@ -74,13 +74,13 @@ pub(super) fn beat(constant: &str) -> String {
 /// The handler of an interrupt: a type that is bound to it.
 #[derive(Debug)]
 pub(super) struct Handler {
-    /// Its documentation, without a full stop.
+    /// The documentation, without a full stop.
     pub(super) doc: String,
     pub(super) name: String,
-    /// What it is called as: `the device`.
+    /// What it is named after: `the device`.
     pub(super) named_as: &'static str,
     pub(super) interrupt: String,
-    /// What it does.
+    /// Its statements.
     pub(super) calls: Vec<String>,
 }
 
@@ -91,7 +91,7 @@ pub(super) struct BridgeItem {
     pub(super) name: String,
     pub(super) ident: String,
     pub(super) constant: String,
-    /// By output: a pattern and what is done.
+    /// The arms of a `match` over the outputs: a pattern and an expression each.
     pub(super) arms: Vec<(String, String)>,
 }
 
@@ -101,7 +101,7 @@ pub(super) struct Table {
     pub(super) name: String,
     pub(super) type_: &'static str,
     pub(super) members: Vec<(&'static str, Entry)>,
-    /// Whether members that are not named are as usual.
+    /// Whether members that are not named have their usual values.
     pub(super) has_more: bool,
 }
 
@@ -123,7 +123,7 @@ pub(super) enum Constant {
     Table(Table),
     /// A list with a line for each.
     List {
-        /// Without a full stop; may be empty.
+        /// The documentation, without a full stop; may be empty.
         doc: &'static str,
         /// `NAME: TYPE`
         declaration: String,

@@ -1,26 +1,23 @@
-//! What no code can be made of because something is missing. It is told, so that no device is left out in silence.
+//! What a device needs and does not have, so that there is no code for it. It is reported: no device is left out in
+//! silence.
 
 use sensedsl_board::signal::Function;
-use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0504_no_firmware_target;
-use sensedsl_model::design::Part;
 use sensedsl_model::kind::Role;
 
-use super::context::Context;
 use sensedsl_job::{JobConnection, Pad};
 
-/// What a device needs, and who does not have it.
+/// What a device needs, and whose fault it is that it is missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Missing {
     what: String,
     whose: &'static str,
 }
 
-/// What code is made of, or what is missing for it.
+/// Code, or what is missing for it.
 pub(super) type Printed<T> = Result<T, Missing>;
 
 impl Missing {
-    /// A name that the target's profile does not have.
+    /// A name that the target profile does not have.
     pub(super) fn name(what: String) -> Self {
         Self { what, whose: "its target profile" }
     }
@@ -39,25 +36,10 @@ impl Missing {
     pub(super) fn table(what: &str) -> Self {
         Self { what: what.to_owned(), whose: "its part" }
     }
-}
 
-impl Context<'_> {
-    /// Tells what is missing for a part.
-    pub(super) fn tell(&self, part: &Part, made: Printed<()>, diagnostics: &mut Vec<Diagnostic>) {
-        let Err(Missing { what, whose }) = made else { return };
-        let (name, board) = (&part.name, &self.job.board.name.value);
-        let why = format!("`{}` needs {what}, which {whose} does not have", name.value);
-        let report = e0504_no_firmware_target::no_firmware_target(name.span, board, &why);
-        // All wires of a chip or an array have one thing to say.
-        if diagnostics.last() != Some(&report) {
-            diagnostics.push(report);
-        }
-    }
-
-    /// The interrupt of a unit, a DMA channel or a line.
-    pub(super) fn interrupt(&self, unit: &str, signal: &str) -> Printed<&str> {
-        let found = self.names.interrupt(unit, signal);
-        found.ok_or_else(|| Missing::name(format!("the interrupt of {unit} ({signal})")))
+    /// Why there is no code for a part of that name.
+    pub(super) fn why(&self, name: &str) -> String {
+        format!("`{name}` needs {}, which {} does not have", self.what, self.whose)
     }
 }
 
@@ -71,7 +53,7 @@ pub(super) fn pad<'w, 'a>(wire: &'w JobConnection<'a>, role: Role) -> Printed<&'
     wire.pad(role).ok_or_else(|| Missing::wire(format!("a pin for `{}`", role.name())))
 }
 
-/// The channel of a timer that a pad is on.
+/// The timer channel that a pad is on.
 pub(super) fn channel(pad: &Pad<'_>) -> Printed<u8> {
     let function = pad.usage.map(|usage| usage.signal.function());
     let Some(Function::Timer { channel, .. }) = function else {

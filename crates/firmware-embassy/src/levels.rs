@@ -1,4 +1,5 @@
-//! Priorities: tasks of the lowest run in the main loop, those of each higher one in an interrupt that nothing else takes.
+//! Priorities: tasks of the lowest run in the main loop, those of each higher one in an interrupt that nothing else
+//! uses.
 
 use std::collections::BTreeSet;
 
@@ -6,28 +7,29 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
 
 use super::context::Context;
+use super::hal::contract::Project;
 use super::section::Start;
 
 /// A priority above the lowest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Level {
-    /// What the task's priority is in the file.
+    /// The priority of the tasks in the file.
     pub(super) prio: i8,
     /// The interrupt that its tasks run in.
     pub(super) interrupt: String,
-    /// Of the interrupt; a lower number comes before a higher.
+    /// The priority of the interrupt: one with a lower number is more urgent.
     pub(super) number: usize,
 }
 
 /// The levels, from the lowest up.
 pub(super) fn levels(
     context: &Context<'_>,
+    project: &dyn Project,
     starts: &[Start],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Level> {
     let prios: BTreeSet<i8> = starts.iter().filter_map(Start::prio).chain([0]).collect();
-    // The HAL's own interrupts have the number 0.
-    let last = context.names.hal.last_priority(&context.names.target);
+    let last = project.last_priority(context);
     let spare = &context.names.line.spare;
     let above: Vec<i8> = prios.into_iter().skip(1).collect();
     if above.len() > spare.len().min(last) {
@@ -46,7 +48,7 @@ pub(super) fn levels(
     levels.map(level).collect()
 }
 
-/// The statements of `main`: each task with the one that runs it.
+/// The statements of `main` that start tasks: each task in the executor of its priority.
 pub(super) fn statements(starts: &[Start], levels: &[Level]) -> Vec<String> {
     let by = |prio: i8| match levels.iter().position(|level| level.prio == prio) {
         Some(at) => format!("level_{at}"),

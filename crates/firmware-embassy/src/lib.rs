@@ -1,8 +1,8 @@
 //! Embassy firmware: a Cargo project in Rust, with the HAL's typed pins.
 //!
-//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy of the
-//! runtime. `names.rs` reads how the HAL spells what a profile knows; `typed.rs` puts a wiring, of whatever target, into
-//! types that the Rust compiler judges.
+//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy
+//! of the runtime. What one HAL of Embassy needs is in its folder of `hal/`; a file for each kind of device plans what is
+//! the same under all HALs. `typed.rs` puts a wiring of any target into types that the Rust compiler judges.
 //!
 //! # Example
 //!
@@ -27,18 +27,20 @@
 //! assert!(wires.contains("light: p.PB0,"));
 //! ```
 
+mod actuators;
 mod analog;
 mod bridge;
 mod can;
 mod cargo;
 mod chip;
 mod chips;
-mod clock;
 mod contacts;
 mod context;
+mod counters;
 mod fallback;
 mod filter;
 mod gaps;
+mod generate;
 mod hal;
 mod i2c;
 mod icu;
@@ -49,17 +51,15 @@ mod levels;
 mod link;
 mod lock;
 mod message;
-mod moved;
 mod names;
 mod outputs;
 mod plan;
 mod pulse;
+mod pwm;
 mod render;
-mod rp;
 mod section;
 mod serial;
 mod spi;
-mod stm32;
 mod typed;
 
 use sensedsl_board::catalog;
@@ -67,8 +67,7 @@ use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
-use context::Context;
-pub use names::{Chip, Names};
+use hal::{HALS, Opened};
 use sensedsl_files::FileSet;
 use sensedsl_job::Target;
 use sensedsl_job::{BoardJob, JobConnection};
@@ -83,32 +82,32 @@ impl Target for Embassy {
     }
 
     fn refusal(&self, profile: &TargetProfile, _facts: Option<&catalog::Board>) -> Option<String> {
-        match Names::of(profile) {
-            Ok(_) => None,
-            Err(message) => Some(format!("its profile is damaged: {message}")),
-        }
+        let damage = Opened::new(profile, HALS).err()?;
+        Some(format!("its profile is damaged: {damage}"))
     }
 
     fn problems(&self, profile: &TargetProfile) -> Vec<String> {
-        match Names::of(profile) {
-            Ok(names) => names.problems(profile),
+        match Opened::new(profile, HALS) {
+            Ok(opened) => opened.problems(profile),
             Err(message) => vec![message],
         }
     }
 
-    fn kinds(&self, _profile: &TargetProfile) -> Vec<KindName> {
-        gaps::KINDS.to_vec()
+    fn kinds(&self, profile: &TargetProfile) -> Vec<KindName> {
+        match Opened::new(profile, HALS) {
+            Ok(opened) => gaps::kinds(&*opened.drivers),
+            // The damage is reported; there is no need to report every device as well.
+            Err(_) => gaps::KINDS.to_vec(),
+        }
     }
 
     fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
-        gaps::lacks(job, connection)
+        let opened = Opened::new(job.profile?, HALS).ok()?;
+        gaps::lacks(&*opened.drivers, job, connection)
     }
 
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
-        let context = Context::new(job)?;
-        let mut diagnostics = Vec::new();
-        let plan = plan::plan(&context, &mut diagnostics);
-        if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }
+        generate::generate(job, HALS)
     }
 
     fn build_option(&self) -> &'static str {

@@ -1,7 +1,7 @@
 //! Lock files: which crates a project is built from, in which versions.
 //!
-//! They are computed from one table that is part of this program, so that a project is built from the same sources
-//! everywhere and for good.
+//! In: the root of a project, and conditions that hold for it. Out: its lock file, computed from one table that is part
+//! of this program, so that a project is built from the same sources everywhere and for good.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,13 +17,13 @@ type Package = (&'static str, &'static str);
 /// A crate of the table.
 #[derive(Default)]
 struct Row {
-    /// `-` for those that are in the project itself.
+    /// `-` for crates that are in the project itself.
     checksum: &'static str,
-    /// What it needs, and where; in the order of a lock file.
+    /// Its dependencies with their conditions, in the order of a lock file.
     needs: Vec<(Package, &'static str)>,
 }
 
-/// The table by crate, and the crates in the order of a lock file.
+/// The table: its rows by crate, and the crates in the order of a lock file.
 #[derive(Default)]
 struct Table {
     order: Vec<Package>,
@@ -48,13 +48,13 @@ impl Table {
         table
     }
 
-    /// What a crate needs there.
+    /// The dependencies of a crate whose conditions hold.
     fn needs(&self, package: Package, tags: &[&str]) -> impl Iterator<Item = Package> {
         let needs = self.rows.get(&package).into_iter().flat_map(|row| &row.needs);
         needs.filter(|(_, condition)| holds(condition, tags)).map(|(package, _)| *package)
     }
 
-    /// A crate and all that it needs, and what these need.
+    /// A crate with its direct and indirect dependencies.
     fn closure(&self, root: &str, tags: &[&str]) -> BTreeSet<Package> {
         let mut open: Vec<Package> =
             self.order.iter().copied().filter(|(name, _)| *name == root).collect();
@@ -68,7 +68,7 @@ impl Table {
     }
 }
 
-/// `firmware`, `check stm32` for both, `f3 or g4` for either; always where nothing is said.
+/// Whether a condition holds: `firmware`, `check stm32` for both, `f3 or g4` for either; an empty one always does.
 fn holds(condition: &str, tags: &[&str]) -> bool {
     match condition.split_once(" or ") {
         Some((one, other)) => tags.contains(&one) || tags.contains(&other),
@@ -76,7 +76,7 @@ fn holds(condition: &str, tags: &[&str]) -> bool {
     }
 }
 
-/// The lock file of the crate `root` of a project, where `tags` are what the conditions of the table are about.
+/// The lock file of the crate `root` of a project. `tags` are the words of the conditions that hold for it.
 pub(super) fn lock(root: &str, tags: &[&str]) -> String {
     let table = Table::read();
     let all = table.closure(root, tags);
@@ -97,7 +97,7 @@ pub(super) fn lock(root: &str, tags: &[&str]) -> String {
     text
 }
 
-/// A line of what a crate needs: with its version where the project has several.
+/// The line of a dependency: with its version where the project has several.
 fn named((name, version): Package, all: &BTreeSet<Package>) -> String {
     let is_alone = all.iter().filter(|(other, _)| *other == name).count() == 1;
     if is_alone { format!(" \"{name}\",\n") } else { format!(" \"{name} {version}\",\n") }
@@ -114,7 +114,7 @@ mod tests {
         assert!(holds("f3 or g4", &["g4"]) && !holds("f3 or g4", &["stm32"]));
     }
 
-    /// Each need is a row, and each row is needed by somebody.
+    /// Each dependency has a row, and each row but the roots is a dependency.
     #[test]
     fn the_table_is_closed() {
         let table = Table::read();

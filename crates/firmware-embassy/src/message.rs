@@ -9,7 +9,7 @@ use super::item::{Constant, Entry, Table};
 use super::lack::Printed;
 use sensedsl_job::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
-/// The tables of a device: its messages, how it is set up, and what it is sent.
+/// The tables of a device: its messages, how it is set up, and what is sent to it.
 pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Printed<Vec<Constant>> {
     let name = plan.prefix.to_uppercase();
     let mut tables = Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Printed<Vec<C
     Ok(tables)
 }
 
-/// What the table of a message that is sent is called.
+/// The name of the table for a message that is sent.
 pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> Printed<String> {
     let device = context.job.devices.get(context.item(&plan.field)?);
     Ok(format!("{}_COMPOSE", device.map_or("", |one| one.ident.as_str()).to_uppercase()))

@@ -1,4 +1,4 @@
-//! A board's whole project: the sections of its kinds, put together.
+//! A board's whole project: the sections of all kinds, joined, and what templates print of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,14 +8,17 @@ use sensedsl_wire::{Checksum, Direction};
 
 use super::cargo::Manifests;
 use super::context::{Context, scalar};
-use super::hal::{Hal, Speed};
+use super::hal::contract::outputs::{Pins, Speed};
+use super::hal::contract::{Begin, Drivers, Package};
 use super::item::{Constant, Item};
 use super::levels::{self, Level};
-use super::section::{Field, Handlers, Keep, LinkPlan, Peripheral, Section, Start, Watched};
+use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial,
-    spi, stm32,
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
 };
+
+/// What a kind adds to a project.
+type Peripheral = fn(&Context<'_>, &dyn Drivers, &mut Vec<Diagnostic>) -> Section;
 
 /// All kinds, in the order in which their tasks are started.
 const PERIPHERALS: &[Peripheral] = &[
@@ -32,24 +35,20 @@ const PERIPHERALS: &[Peripheral] = &[
     inputs::plan,
 ];
 
-/// The reporter's cycle where nothing asks for a shorter one.
+/// The cycle of the reporter if nothing asks for a shorter one.
 const REPORT_MS: u32 = 10;
 
 /// What the templates print.
 pub(super) struct Plan {
     pub(super) board: String,
     pub(super) chip: String,
-    /// What debug probes call it.
+    /// What debug probes call the chip.
     pub(super) probe: String,
     /// The triple of the core.
     pub(super) target: String,
     pub(super) manifests: Manifests,
     pub(super) lock: String,
-    /// What `main.rs` and `wiring.rs` import of the HAL.
-    pub(super) main_uses: &'static str,
-    pub(super) wiring_uses: &'static str,
-    /// What writes a program to the board without a debug probe, where its boot loader takes one over USB.
-    pub(super) loader: Option<&'static str>,
+    pub(super) hal: &'static Package,
     pub(super) begin: Begin,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
@@ -63,49 +62,28 @@ pub(super) struct Plan {
     pub(super) keeps: Vec<Keep>,
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<Vec<String>>,
-    /// By the constant of an item: what is done when the host sets it.
+    /// The statements that set an item, by its constant.
     pub(super) sets: Vec<(String, Vec<String>)>,
     /// Whether the host sets anything.
     pub(super) has_actuators: bool,
-    /// Whether there is anything that only the program drives.
+    /// Whether there are fields of `Outputs`.
     pub(super) has_outputs: bool,
     pub(super) hushes: Vec<String>,
     pub(super) fails: Vec<String>,
-    /// What is done with outputs and interrupts at the start.
+    /// Statements of `main` before tasks are started.
     pub(super) begins: Vec<String>,
-    /// By the constant of an item: the value that is sent when the host is silent.
+    /// The values that items get when the host is silent, by their constants.
     pub(super) fallbacks: Vec<(String, Vec<u8>)>,
     pub(super) watched: Vec<Watched>,
     pub(super) report_ms: u32,
     pub(super) silence_ms: u32,
-    /// The light, whether it shines when high, and what it is made of.
+    /// The pin of the light, whether it shines when high, and what it is made of.
     pub(super) led: Option<(String, bool, String)>,
     pub(super) is_usb: bool,
     pub(super) is_otg: bool,
     pub(super) is_uart: bool,
-    /// Of the queue of a serial port for what the host sends.
+    /// The size of a serial port's queue for what the host sends.
     pub(super) heard_bytes: u32,
-}
-
-/// How a project begins, in the words of its HAL.
-pub(super) struct Begin {
-    /// What is set of the HAL's clocks; nothing: they are as usual.
-    pub(super) clocks: Vec<String>,
-    /// The type of the HAL's configuration.
-    pub(super) config: &'static str,
-    /// The first statements of `main`, up to the wiring.
-    pub(super) start: Vec<String>,
-    pub(super) watchdog: Watchdog,
-    /// Arguments of the linker beside those of all cores.
-    pub(super) scripts: &'static str,
-    /// `memory.x`, where the HAL does not have it.
-    pub(super) memory: Option<&'static str>,
-}
-
-/// The watchdog: its type, and what it is made of.
-pub(super) struct Watchdog {
-    pub(super) type_: String,
-    pub(super) make: String,
 }
 
 /// The schema in the runtime's words.
@@ -123,13 +101,18 @@ pub(super) struct ItemPlan {
     pub(super) make: String,
 }
 
-/// Puts a project together.
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Plan {
+/// Joins the sections of all kinds.
+pub(super) fn plan(
+    context: &Context<'_>,
+    hal: &'static Package,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Plan {
     let mut section = Section::default();
     for peripheral in PERIPHERALS {
-        section.append(peripheral(context, diagnostics));
+        section.append(peripheral(context, drivers, diagnostics));
     }
-    let (board, hal) = (context.job.board, context.names.hal);
+    let (board, project) = (context.job.board, drivers.project());
     let is_usb = matches!(section.link, LinkPlan::Usb | LinkPlan::Otg);
     let report_ms = report_ms(context);
     let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
@@ -139,22 +122,17 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     call.push_str(if led.is_some() { ", wiring.led" } else { "" });
     call.extend(section.keeps.iter().map(|keep| format!(", {}", keep.from)));
     section.starts.push(Start::Task(0, call + ")"));
-    let levels = levels::levels(context, &section.starts, diagnostics);
+    let levels = levels::levels(context, project, &section.starts, diagnostics);
     let fallbacks: BTreeMap<usize, Vec<u8>> = fallback::values(context).into_iter().collect();
     Plan {
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
         probe: context.chip.probe.clone(),
         target: context.names.target.clone(),
-        manifests: Manifests::new(context, &section.features),
-        lock: cargo::firmware_lock(context),
-        main_uses: hal.main_uses(),
-        wiring_uses: hal.wiring_uses(),
-        loader: hal.loader(),
-        begin: match hal {
-            Hal::Stm32 => stm32::begin(context, is_usb),
-            Hal::Rp => rp::begin(context),
-        },
+        manifests: Manifests::new(context, hal, project, &section.features),
+        lock: cargo::firmware_lock(context, hal, project),
+        hal,
+        begin: project.begin(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
         has_actuators: context.job.has_actuators(),
@@ -165,7 +143,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),
         report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
-        led: led.map(|led| light(context, led)),
+        led: led.map(|led| light(drivers.pins(), led)),
         is_usb,
         is_otg: section.link == LinkPlan::Otg,
         is_uart: section.link == LinkPlan::Uart,
@@ -184,7 +162,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     }
 }
 
-/// As often as something can become due, or as the link says.
+/// The cycle of the reporter: as often as the link says, or as something can become due.
 fn report_ms(context: &Context<'_>) -> u32 {
     if let Some(rate_hz) = context.job.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
@@ -196,9 +174,9 @@ fn report_ms(context: &Context<'_>) -> u32 {
 }
 
 /// The board's light, which is off at first.
-fn light(context: &Context<'_>, led: &ActivePin) -> (String, bool, String) {
+fn light(pins: &dyn Pins, led: &ActivePin) -> (String, bool, String) {
     let off = if led.active_high { "Level::Low" } else { "Level::High" };
-    (led.pin.to_string(), led.active_high, context.output(&led.pin, off, Speed::Low))
+    (led.pin.to_string(), led.active_high, pins.output(&led.pin, off, Speed::Low))
 }
 
 fn handlers(all: &Handlers) -> Vec<(String, String)> {
@@ -208,7 +186,7 @@ fn handlers(all: &Handlers) -> Vec<(String, String)> {
     all.iter().map(|(interrupt, handlers)| (interrupt.clone(), joined(handlers))).collect()
 }
 
-/// What there is of each item, with the item's constant.
+/// What `of` gives for each item, with the item's constant.
 fn by_item<T>(context: &Context<'_>, of: impl Fn(usize) -> Option<T>) -> Vec<(String, T)> {
     let devices = context.job.devices.iter().enumerate();
     devices.filter_map(|(at, one)| Some((one.ident.to_uppercase(), of(at)?))).collect()
@@ -246,7 +224,7 @@ fn schema(context: &Context<'_>) -> SchemaPlan {
     }
 }
 
-/// How often a value is read; 0 where it comes by itself, or is set.
+/// How often a value is read; 0 if it comes by itself, or is set.
 fn cycle_ms(device: &sensedsl_model::design::Device) -> u32 {
     let is_read = device.direction == Direction::Sensor && device.kind.icu().is_none();
     if is_read { device.delay_ms } else { 0 }

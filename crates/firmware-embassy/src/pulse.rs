@@ -1,27 +1,32 @@
-//! Pulses that make rangers measure: a task for each cycle and length.
+//! Pulses that make rangefinders measure: a task for each cycle and length.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::Role;
 
 use super::context::Context;
-use super::hal::Speed;
+use super::hal::contract::Drivers;
+use super::hal::contract::outputs::{Pins, Speed};
 use super::item::{Item, Task};
 use super::lack::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use sensedsl_job::kinds::pulse::{Pulses, pulses};
 
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
     for one in pulses(context.job) {
-        let made = task(context, &one, &mut section);
+        let made = task(drivers.pins(), &one, &mut section);
         if let Some(first) = one.lines.first() {
-            context.tell(first.wire.part, made, diagnostics);
+            context.report(first.wire.part, made, diagnostics);
         }
     }
     section
 }
 
-fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Printed<()> {
+fn task(pins: &dyn Pins, pulses: &Pulses<'_>, section: &mut Section) -> Printed<()> {
     let Pulses { cycle, pulse_us, id, lines } = pulses;
     let ident = format!("{}_{pulse_us}us", cycle.ident("pulse"));
     let constant = ident.to_uppercase();
@@ -34,7 +39,7 @@ fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Pr
             name: ident.clone(),
             comment: format!("{}: the pulse that makes it measure", line.wire.title),
             type_: "Output<'static>".to_owned(),
-            make: context.output(&pad.pin.name, "Level::Low", Speed::Low),
+            make: pins.output(&pad.pin.name, "Level::Low", Speed::Low),
         });
         task.parameters.push(format!("mut {ident}: Output<'static>"));
         arguments.push(format!("wiring.{ident}"));

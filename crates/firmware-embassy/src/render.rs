@@ -1,4 +1,4 @@
-//! Printing: each file of a project is one template over its plan.
+//! Printing. In: a plan. Out: the files of a project, each one template over the plan.
 
 use askama::Template;
 
@@ -8,7 +8,7 @@ use super::plan::Plan;
 use sensedsl_files::FileSet;
 use sensedsl_files::print;
 
-/// The user's file as it is made once.
+/// The user's file as it is first made.
 const USER: &str = include_str!("templates/user.rs.txt");
 
 /// Declares templates that print a plan under a name.
@@ -40,7 +40,7 @@ templates! {
     Runtime = "templates/sense-rt.toml.txt";
 }
 
-/// Prints everything.
+/// Prints all files.
 pub(super) fn render(b: &Plan) -> FileSet {
     let mut files = FileSet::default();
     files.add("README.md", print(&Readme { b }));

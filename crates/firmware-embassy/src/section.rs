@@ -1,18 +1,14 @@
-//! What a kind of device adds to a project.
+//! What a kind of device adds to a project, as data.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_diagnostics::Diagnostic;
-
-use super::context::Context;
 use super::item::{Constant, Item};
-use super::lack::{Missing, Printed};
-use sensedsl_job::{Cycle, JobConnection, JobStream};
+use sensedsl_job::Cycle;
 
-/// What one kind adds. A text is a line of Rust at most; `plan.rs` puts the sections together and looks into none.
+/// What one kind adds. A text is at most one line of Rust; `plan.rs` joins the sections and looks into none of them.
 #[derive(Debug, Default)]
 pub(super) struct Section {
-    /// What the wiring hands over, in order.
+    /// The fields of `Wiring`, in order.
     pub(super) fields: Vec<Field>,
     /// The handlers of interrupts.
     pub(super) handlers: Handlers,
@@ -22,32 +18,34 @@ pub(super) struct Section {
     pub(super) tables: Vec<Constant>,
     /// Statements that start tasks.
     pub(super) starts: Vec<Start>,
-    /// What the reporter keeps.
+    /// The parameters of the reporter.
     pub(super) keeps: Vec<Keep>,
-    /// What else it keeps, and what it looks at in each cycle.
+    /// The reporter's variables, a statement each.
     pub(super) states: Vec<String>,
+    /// Blocks of statements that the reporter runs in each cycle.
     pub(super) polls: Vec<Vec<String>>,
-    /// What the host sets: the fields of `Outputs`, and what is done for an item.
+    /// The fields of `Outputs`, which the host sets.
     pub(super) outputs: Vec<Field>,
+    /// The statements that set an item, by its index.
     pub(super) sets: BTreeMap<usize, Vec<String>>,
-    /// What is done with outputs at the start.
+    /// Statements of `main` before tasks are started.
     pub(super) begins: Vec<String>,
-    /// What is done first when the host is silent.
+    /// The first statements when the host is silent.
     pub(super) hushes: Vec<String>,
-    /// What is done when the host is silent.
+    /// The statements with the outputs when the host is silent.
     pub(super) fails: Vec<String>,
-    /// The cycles of the tasks, which the watchdog watches.
+    /// The tasks that the watchdog watches.
     pub(super) watched: Vec<Watched>,
-    /// What the link goes over.
+    /// How the link is made.
     pub(super) link: LinkPlan,
-    /// Features of `sense-embassy`: the versions of units that are in use.
+    /// Features of `sense-embassy` for the versions of units in use.
     pub(super) features: BTreeSet<&'static str>,
 }
 
-/// What the link to the host goes over.
+/// How the link to the host is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum LinkPlan {
-    /// Nothing that is known yet.
+    /// The section does not make it.
     #[default]
     None,
     /// A USB device.
@@ -61,9 +59,9 @@ pub(super) enum LinkPlan {
 /// A statement of `main`.
 #[derive(Clone, Debug)]
 pub(super) enum Start {
-    /// Something is made that tasks share.
+    /// It makes something that tasks share.
     Make(String),
-    /// A task of a priority is started by this call.
+    /// It starts a task of a priority by this call.
     Task(i8, String),
 }
 
@@ -79,7 +77,7 @@ impl Start {
 /// The handlers of each interrupt.
 pub(super) type Handlers = BTreeMap<String, BTreeSet<String>>;
 
-/// A line of the wiring: a device or a unit, and what it is made of.
+/// A field of `Wiring` or `Outputs`: a device or a unit, and what it is made of.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub(super) name: String,
@@ -89,22 +87,22 @@ pub(super) struct Field {
     pub(super) make: String,
 }
 
-/// Something that the reporter keeps.
+/// A parameter of the reporter.
 #[derive(Clone, Debug)]
 pub(super) struct Keep {
-    /// Its parameter, which may be `mut`.
+    /// Its name, which may begin with `mut`.
     pub(super) name: String,
     pub(super) type_: String,
-    /// What is handed over for it.
+    /// The argument.
     pub(super) from: String,
 }
 
-/// A task that must make its cycles.
+/// A task that the watchdog watches.
 #[derive(Clone, Debug)]
 pub(super) struct Watched {
-    /// The constant with its number.
+    /// The constant that has its number.
     pub(super) constant: String,
-    /// So long it may take to a beat, beside what every task may be late.
+    /// How long it may take from beat to beat, besides the delay that every task may have.
     pub(super) cycle_ms: u32,
     /// The identifier of its first device.
     pub(super) device: u8,
@@ -116,8 +114,21 @@ impl Watched {
     }
 }
 
-/// A kind of device.
-pub(super) type Peripheral = fn(&Context<'_>, &mut Vec<Diagnostic>) -> Section;
+/// What a HAL's driver is made of.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    /// The type in `wiring.rs`.
+    pub(super) type_: String,
+    /// The expression that makes it of the peripherals `p`.
+    pub(super) make: String,
+}
+
+impl Field {
+    /// A field that has a driver.
+    pub(super) fn of(name: String, comment: String, made: Made) -> Self {
+        Self { name, comment, type_: made.type_, make: made.make }
+    }
+}
 
 impl Section {
     /// Binds a handler to an interrupt.
@@ -125,25 +136,7 @@ impl Section {
         self.handlers.entry(interrupt.to_owned()).or_default().insert(handler);
     }
 
-    /// The DMA channel of a request of a unit, with its handler bound.
-    pub(super) fn stream(
-        &mut self,
-        context: &Context<'_>,
-        wire: &JobConnection<'_>,
-        request: &str,
-    ) -> Printed<String> {
-        let of = |one: &&JobStream<'_>| one.request.ends_with(request);
-        let stream = wire.streams.iter().find(of);
-        let stream =
-            stream.ok_or_else(|| Missing::wire(format!("a DMA stream for {request}")))?.stream;
-        let channel = context.names.channel(stream);
-        let channel = channel.ok_or_else(|| Missing::name(format!("the DMA stream {stream}")))?;
-        let interrupt = context.interrupt(&channel, "GLOBAL")?;
-        self.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
-        Ok(channel)
-    }
-
-    /// Takes over what another has.
+    /// Adds everything that another section has.
     pub(super) fn append(&mut self, mut other: Self) {
         self.fields.append(&mut other.fields);
         for (interrupt, handlers) in other.handlers {

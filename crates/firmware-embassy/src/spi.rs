@@ -2,44 +2,47 @@
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::kind::spi::Spi;
+use sensedsl_model::kind::spi;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::spi_divider;
 
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
-use super::hal::{Hal, Speed};
+use super::hal::contract::Drivers;
+use super::hal::contract::buses::Spi;
+use super::hal::contract::outputs::{Pins, Speed};
 use super::lack::{self, Printed};
-use super::rp;
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
 use sensedsl_job::snake;
 
-pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(
+    context: &Context<'_>,
+    drivers: &dyn Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Section {
     let mut section = Section::default();
-    let type_ = |unit: &UnitName| match context.names.hal {
-        Hal::Stm32 => "rt::spi::SpiBus".to_owned(),
-        Hal::Rp => rp::buses::spi_type(unit),
-    };
+    let Some(spi) = drivers.spi() else { return section };
+    let type_ = |unit: &UnitName| spi.bus_type(unit);
     for one in chips::buses(context, KindName::Spi, type_, diagnostics) {
-        let made = bus(context, &one, &mut section);
-        context.tell(one.first.part, made, diagnostics);
+        let made = bus(context, (spi, drivers.pins()), &one, &mut section);
+        context.report(one.first.part, made, diagnostics);
     }
     section
 }
 
 /// A chip select, which is high before it is an output.
-fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Field> {
+fn select(pins: &dyn Pins, wire: &JobConnection<'_>) -> Printed<Field> {
     let pin = &lack::pad(wire, Role::Cs)?.pin.name;
     Ok(Field {
         name: format!("{}_select", wire.ident),
         comment: format!("{}, selected by {pin}", wire.title),
         type_: "Output<'static>".to_owned(),
-        make: context.output(pin, "Level::High", Speed::Medium),
+        make: pins.output(pin, "Level::High", Speed::Medium),
     })
 }
 
-/// Every part is reached by its chip select, in its mode and at its clock.
+/// How a task reaches the parts: each by its chip select, in its mode and at its clock.
 fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Reach> {
     let mut reach = Reach::default();
     for Served { plan, wire } in served {
@@ -57,47 +60,31 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Re
     Ok(reach)
 }
 
-/// The bus, in the words of the HAL, with the chip selects and the tasks that serve its parts.
-fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
-    let unit = bus.unit.as_str();
-    let hal = context.peripheral(unit);
-    let (tx, rx) =
-        (section.stream(context, bus.first, "_TX")?, section.stream(context, bus.first, "_RX")?);
+/// The bus with its chip selects and the tasks that serve its parts.
+fn bus(
+    context: &Context<'_>,
+    drivers: (&dyn Spi, &dyn Pins),
+    bus: &Bus<'_>,
+    section: &mut Section,
+) -> Printed<()> {
+    let ((spi, pins), unit) = (drivers, bus.unit.as_str());
+    let made = spi.unit(context, &bus.unit, bus.first, section)?;
     let pin = |role| Ok(&lack::pad(bus.first, role)?.pin.name);
     let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
-    let type_ = match context.names.hal {
-        Hal::Stm32 => "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
-        Hal::Rp => format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
-    };
-    bus.share(
-        Field {
-            name: snake(unit),
-            comment: format!(
-                "{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}",
-                bus.titles()
-            ),
-            type_,
-            make: format!(
-                "hal::spi::Spi::new{}(p.{hal}, p.{}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, Default::default())",
-                context.generics(unit, &["_"; 3]),
-                context.pin(sck),
-                context.pin(mosi),
-                context.pin(miso)
-            ),
-        },
-        section,
-    );
+    let comment =
+        format!("{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}", bus.titles());
+    bus.share(Field::of(snake(unit), comment, made), section);
     for one in &bus.all {
-        section.fields.push(select(context, one)?);
+        section.fields.push(select(pins, one)?);
     }
     let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());
     let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
     chips::tasks(context, bus, hz, |served| reach(context, unit, served), section)
 }
 
-/// The fastest clock of a unit that a part can follow. The HAL is asked for exactly that, because it takes the nearest.
-fn clock_hz(context: &Context<'_>, unit: &str, spi: &Spi) -> Option<u32> {
+/// The fastest clock of a unit that a part can follow. The HAL is asked for exactly this one, as it takes the nearest.
+fn clock_hz(context: &Context<'_>, unit: &str, spi: &spi::Spi) -> Option<u32> {
     let unit_hz = context.unit_hz(unit)?;
-    // What is too slow for the unit has been told with the timing.
+    // A clock that is too slow for the unit has been reported with the timing.
     Some(unit_hz / spi_divider(context.profile, unit_hz, spi.clock_hz)?.max(1))
 }

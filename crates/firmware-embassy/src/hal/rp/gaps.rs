@@ -1,14 +1,13 @@
-//! What there is no code for on RP2040 and RP2350, beside what there is none for under Embassy at all.
+//! What there is no code for on RP2040 and RP2350, although the HAL has drivers of the kind.
 
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use sensedsl_wire::{Direction, ScalarType};
 
-use sensedsl_job::{BoardJob, JobConnection, JobDevice};
-
-/// What a connection needs and no code is made for.
-pub(crate) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+/// What a connection needs and there is no code for.
+pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
     if devices.iter().any(|one| one.device.coding.drive.is_some()) {
@@ -31,7 +30,8 @@ pub(crate) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
     }
 }
 
-/// A slice counts edges of one direction, or how long its pin is active. It does not keep when an edge was.
+/// A slice counts edges of one direction, or how long its pin is active. It has no register that keeps the count of an
+/// edge.
 const fn of_capture(icu: &Icu) -> Option<&'static str> {
     match (icu.mode, icu.edge) {
         (Mode::Count, Edge::Both) => {
@@ -44,7 +44,7 @@ const fn of_capture(icu: &Icu) -> Option<&'static str> {
     }
 }
 
-/// Whether edges are counted that may be any number in any time: tasks are woken by them, and two of them can be one.
+/// Whether any number of edges is counted in any time. An edge wakes a task, which may see two of them as one.
 fn counts(own: &Digital, devices: &[&JobDevice<'_>]) -> bool {
     let is_count = |one: &&JobDevice<'_>| {
         one.device.direction == Direction::Sensor

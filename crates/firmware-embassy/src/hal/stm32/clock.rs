@@ -1,13 +1,12 @@
-//! The timer that the clock runs on, and the tree of clocks that the firmware makes.
+//! The timer that the HAL's clock runs on, and the tree of clocks that the firmware sets.
 
 use std::collections::BTreeSet;
 
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::UnitName;
-use serde::Deserialize;
-
 use sensedsl_job::BoardJob;
+use serde::Deserialize;
 
 /// The first timer of the profile that no device uses; `None` if all are taken.
 pub(super) fn timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
@@ -17,37 +16,37 @@ pub(super) fn timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<Strin
     profile.kernel.timers.iter().find(is_free).cloned()
 }
 
-/// What the firmware makes of the clocks of a line: members of the HAL's configuration and their values.
+/// How the firmware sets the clocks of a line: members of the HAL's configuration and their values.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Clock {
-    /// Whatever drives it.
+    /// The members that are the same whatever drives the tree.
     #[serde(default)]
     set: Vec<String>,
-    /// What can drive it, best first; all of them come to the same clocks.
+    /// What can drive it, best first; all ways give the same clocks.
     ways: Vec<Way>,
 }
 
-/// One of the oscillators, and what is made of it. `{hse}` stands for the crystal's frequency, `{mode}` for whether it
-/// is a crystal, `{divide}` for its whole megahertz.
+/// An oscillator and what is made of it. `{hse}` stands for the frequency of the crystal, `{mode}` for whether it is a
+/// crystal or a driven clock, `{divide}` for its frequency in whole megahertz.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Way {
-    /// The crystals that it takes; none: the internal oscillator.
+    /// The crystals that it takes; `None` for the internal oscillator.
     crystal: Option<Crystals>,
     #[serde(default)]
     set: Vec<String>,
-    /// What gives a USB device its 48 MHz; `None` if nothing does.
+    /// The members that give a USB device its 48 MHz; `None` if it cannot have them.
     usb: Option<Vec<String>>,
 }
 
-/// Crystals in Hz.
+/// A range of crystals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Crystals {
     least_hz: u32,
     greatest_hz: u32,
-    /// Only multiples of it.
+    /// Only multiples of this frequency.
     step_hz: u32,
 }
 

@@ -1,0 +1,124 @@
+//! What a HAL says about buses and ports: I²C, SPI, serial ports, CAN.
+
+use sensedsl_board::signal::UnitName;
+use sensedsl_job::kinds::can::{self, Identifier};
+use sensedsl_job::{JobConnection, Pad};
+use sensedsl_model::kind::uart::Uart;
+
+use crate::context::Context;
+use crate::lack::Printed;
+use crate::section::{Made, Section};
+
+/// I²C buses.
+pub(crate) trait I2c {
+    /// The runtime's type of a bus that tasks share.
+    fn bus_type(&self, unit: &UnitName) -> String;
+
+    /// A unit as master at a clock, with its interrupts and DMA channels bound in the section. `wire` is one of those
+    /// on the bus: all have its pads.
+    fn unit(
+        &self,
+        context: &Context<'_>,
+        unit: &UnitName,
+        wire: &JobConnection<'_>,
+        hz: u32,
+        section: &mut Section,
+    ) -> Printed<Made>;
+}
+
+/// SPI buses.
+pub(crate) trait Spi {
+    /// The runtime's type of a bus that tasks share.
+    fn bus_type(&self, unit: &UnitName) -> String;
+
+    /// A unit as master, with its DMA channels bound in the section. `wire` is one of those on the bus.
+    fn unit(
+        &self,
+        context: &Context<'_>,
+        unit: &UnitName,
+        wire: &JobConnection<'_>,
+        section: &mut Section,
+    ) -> Printed<Made>;
+}
+
+/// Serial ports of devices. The project has the handler of their interrupts.
+pub(crate) trait Serial {
+    /// The runtime's module of serial ports, which has `transmit`, `listen` and `on_interrupt`.
+    fn module(&self) -> &'static str;
+
+    /// Whether a port can take wires whose levels are inverted.
+    fn can_invert(&self) -> bool {
+        true
+    }
+
+    /// The type of a port or of one of its directions.
+    fn half_type(&self, half: Half) -> String;
+
+    /// A port that is read and written by waiting.
+    fn port(&self, context: &Context<'_>, port: &Port<'_>, section: &mut Section) -> String;
+
+    /// The registers of a port, by the HAL's name of the unit.
+    fn registers(&self, unit: &str) -> String {
+        format!("hal::pac::{unit}")
+    }
+}
+
+/// A serial port or one of its directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Half {
+    Both,
+    Rx,
+    Tx,
+}
+
+/// The wires of a serial port with its settings.
+pub(crate) struct Port<'a> {
+    pub(crate) unit: &'a str,
+    pub(crate) uart: &'a Uart,
+    pub(crate) pins: PortPins<'a>,
+}
+
+/// The pins of a serial port.
+#[derive(Clone, Copy)]
+pub(crate) enum PortPins<'a> {
+    Both { rx: &'a Pad<'a>, tx: &'a Pad<'a> },
+    Rx(&'a Pad<'a>),
+    Tx(&'a Pad<'a>),
+}
+
+impl<'a> PortPins<'a> {
+    /// The pin that hears.
+    pub(crate) const fn rx(self) -> Option<&'a Pad<'a>> {
+        match self {
+            Self::Both { rx, .. } | Self::Rx(rx) => Some(rx),
+            Self::Tx(_) => None,
+        }
+    }
+}
+
+/// CAN controllers.
+pub(crate) trait Can {
+    /// A controller, with its interrupts bound in the section.
+    fn controller(
+        &self,
+        context: &Context<'_>,
+        bus: &can::Bus<'_>,
+        section: &mut Section,
+    ) -> Printed<Made>;
+
+    /// Which frames the controller lets through. What must be turned on for that is a start of the section.
+    fn filters(
+        &self,
+        context: &Context<'_>,
+        bus: &can::Bus<'_>,
+        section: &mut Section,
+    ) -> Printed<Filters>;
+}
+
+/// Which frames a CAN controller lets through.
+pub(crate) struct Filters {
+    /// The arguments of the runtime's `can::start` that say where the filters are, each with a comma after it.
+    pub(crate) place: String,
+    /// The identifiers that are let through; `None` if they exceed the filters, so that all are and the task looks.
+    pub(crate) wanted: Option<Vec<Identifier>>,
+}

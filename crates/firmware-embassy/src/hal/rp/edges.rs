@@ -1,0 +1,25 @@
+//! Digital inputs whose edges interrupt. The HAL has the one interrupt of all pins, and wakes a task for each.
+
+use super::settings::Settings;
+use crate::context::Context;
+use crate::hal::contract::inputs::{EdgeInput, Edges, Watch, WatchedBy};
+use crate::hal::contract::outputs::Pins as _;
+use crate::lack::Printed;
+use crate::section::Made;
+
+impl Edges for Settings {
+    fn watch(&self, _context: &Context<'_>, input: &EdgeInput<'_>) -> Printed<Watch> {
+        let EdgeInput { pad, pull, trigger, kept, .. } = input;
+        let pin = self.pin(&pad.pin.name);
+        Ok(Watch {
+            begin: format!("rt::edges::Pad({})", pin.trim_start_matches("PIN_")),
+            made: Made {
+                type_: "Input<'static>".to_owned(),
+                make: format!("Input::new(p.{pin}, {pull})"),
+            },
+            by: WatchedBy::Task(format!(
+                "rt::edges::watch(pin, rt::edges::Trigger::{trigger}, &{kept}).await;"
+            )),
+        })
+    }
+}

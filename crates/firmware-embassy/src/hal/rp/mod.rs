@@ -1,0 +1,86 @@
+//! `embassy-rp`: what only the HAL of RP2040 and RP2350 needs.
+
+mod analog;
+mod buses;
+mod capture;
+mod edges;
+mod gaps;
+mod link;
+mod project;
+mod pulses;
+mod serial;
+mod settings;
+mod types;
+
+use super::contract::buses::{I2c, Serial, Spi};
+use super::contract::inputs::{Analog, Capture, Edges};
+use super::contract::link::Link;
+use super::contract::outputs::{Pins, Pulses};
+use super::contract::types::Types;
+use super::contract::{Drivers, Hal, Loader, Package, Project};
+use crate::names::Names;
+use settings::Settings;
+
+/// `embassy-rp`
+pub(super) struct Rp;
+
+static PACKAGE: Package = Package {
+    name: "rp",
+    version: "0.10.0",
+    main_uses: include_str!("templates/main_uses.rs.txt"),
+    wiring_uses: include_str!("templates/wiring_uses.rs.txt"),
+    runtime_asks: &["unstable-pac"],
+    runtime_features: &[],
+    runtime_needs: &["fixed = \"=1.31.0\""],
+    check_needs: &[],
+    loader: Some(Loader {
+        how: "hold BOOTSEL while the board is plugged in",
+        command: "picotool load -u -v -x -t elf",
+    }),
+};
+
+impl Hal for Rp {
+    fn package(&self) -> &'static Package {
+        &PACKAGE
+    }
+
+    fn drivers(&self, names: &Names) -> Result<Box<dyn Drivers>, String> {
+        Ok(Box::new(Settings::of(names)?))
+    }
+}
+
+impl Drivers for Settings {
+    fn project(&self) -> &dyn Project {
+        self
+    }
+    fn pins(&self) -> &dyn Pins {
+        self
+    }
+    fn link(&self) -> &dyn Link {
+        self
+    }
+    fn edges(&self) -> Option<&dyn Edges> {
+        Some(self)
+    }
+    fn analog(&self) -> Option<&dyn Analog> {
+        Some(self)
+    }
+    fn capture(&self) -> Option<&dyn Capture> {
+        Some(self)
+    }
+    fn pulses(&self) -> Option<&dyn Pulses> {
+        Some(self)
+    }
+    fn i2c(&self) -> Option<&dyn I2c> {
+        Some(self)
+    }
+    fn spi(&self) -> Option<&dyn Spi> {
+        Some(self)
+    }
+    fn serial(&self) -> Option<&dyn Serial> {
+        Some(self)
+    }
+    fn types(&self) -> Option<&dyn Types> {
+        Some(self)
+    }
+}

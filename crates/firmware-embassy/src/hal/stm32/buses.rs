@@ -1,0 +1,80 @@
+//! I²C and SPI, whose transfers go by DMA.
+
+use sensedsl_board::signal::UnitName;
+use sensedsl_job::JobConnection;
+use sensedsl_model::kind::Role;
+
+use super::settings::Settings;
+use crate::context::Context;
+use crate::hal::contract::buses::{I2c, Spi};
+use crate::hal::dma::channel;
+use crate::lack::{self, Printed};
+use crate::section::{Made, Section};
+
+impl I2c for Settings {
+    fn bus_type(&self, _unit: &UnitName) -> String {
+        "rt::i2c::I2cBus".to_owned()
+    }
+
+    fn unit(
+        &self,
+        context: &Context<'_>,
+        unit: &UnitName,
+        wire: &JobConnection<'_>,
+        hz: u32,
+        section: &mut Section,
+    ) -> Printed<Made> {
+        let unit = unit.as_str();
+        let hal = context.peripheral(unit);
+        let (scl, sda) = (lack::pad(wire, Role::Scl)?, lack::pad(wire, Role::Sda)?);
+        let tx = channel(context, wire, "_TX", section)?;
+        let rx = channel(context, wire, "_RX", section)?;
+        for (signal, handler) in [("EV", "EventInterruptHandler"), ("ER", "ErrorInterruptHandler")]
+        {
+            // A unit with one interrupt for both has it under either name.
+            let interrupt = context.interrupt(unit, signal)?;
+            section.bind(interrupt, format!("hal::i2c::{handler}<{hal}>"));
+        }
+        section.features.insert(if self.has_old_buses() { "i2c-v1" } else { "i2c-v2" });
+        if self.has_pulls() {
+            section.features.insert("gpio-v2");
+        }
+        Ok(Made {
+            type_: "hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>".to_owned(),
+            make: format!(
+                "hal::i2c::I2c::new{}(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, crate::rt::i2c::config({hz}))",
+                self.generics(context, unit, &["_"; 3]),
+                scl.pin.name,
+                sda.pin.name
+            ),
+        })
+    }
+}
+
+impl Spi for Settings {
+    fn bus_type(&self, _unit: &UnitName) -> String {
+        "rt::spi::SpiBus".to_owned()
+    }
+
+    fn unit(
+        &self,
+        context: &Context<'_>,
+        unit: &UnitName,
+        wire: &JobConnection<'_>,
+        section: &mut Section,
+    ) -> Printed<Made> {
+        let unit = unit.as_str();
+        let hal = context.peripheral(unit);
+        let tx = channel(context, wire, "_TX", section)?;
+        let rx = channel(context, wire, "_RX", section)?;
+        let pin = |role| Ok(&lack::pad(wire, role)?.pin.name);
+        let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+        Ok(Made {
+            type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
+            make: format!(
+                "hal::spi::Spi::new{}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())",
+                self.generics(context, unit, &["_"; 3])
+            ),
+        })
+    }
+}

@@ -1,0 +1,22 @@
+//! Voltages of the digital-analog converters.
+
+use sensedsl_board::pin::PinName;
+
+use super::settings::Settings;
+use crate::context::Context;
+use crate::hal::contract::outputs::Dac;
+use crate::section::Made;
+
+impl Dac for Settings {
+    fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made {
+        let hal = context.peripheral(unit);
+        Made {
+            type_: "hal::dac::DacChannel<'static, hal::mode::Blocking>".to_owned(),
+            make: format!("hal::dac::DacChannel::new_blocking(p.{hal}, p.{pin})"),
+        }
+    }
+
+    fn set(&self, field: &str, value: &str) -> String {
+        format!("outputs.{field}.set(hal::dac::Value::Bit12Right({value}))")
+    }
+}

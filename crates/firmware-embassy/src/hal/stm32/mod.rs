@@ -1,0 +1,109 @@
+//! `embassy-stm32`: what only the HAL of ST's MCUs needs.
+
+mod analog;
+mod buses;
+mod can;
+mod capture;
+mod clock;
+mod dac;
+mod edges;
+mod link;
+mod moved;
+mod project;
+mod pulses;
+mod serial;
+mod settings;
+mod types;
+
+use super::contract::buses::{Can, I2c, Serial, Spi};
+use super::contract::inputs::{Analog, Capture, Edges, Encoder};
+use super::contract::link::Link;
+use super::contract::outputs::{Dac, Pins, Pulses};
+use super::contract::types::Types;
+use super::contract::{Drivers, Hal, Package, Project};
+use crate::names::Names;
+use settings::Settings;
+
+/// `embassy-stm32`
+pub(super) struct Stm32;
+
+static PACKAGE: Package = Package {
+    name: "stm32",
+    version: "0.6.0",
+    main_uses: include_str!("templates/main_uses.rs.txt"),
+    wiring_uses: include_str!("templates/wiring_uses.rs.txt"),
+    runtime_asks: &["exti", "unstable-pac"],
+    runtime_features: &[
+        "adc-v2",
+        "can-banks",
+        "can-fd",
+        "gpio-v2",
+        "i2c-v1",
+        "i2c-v2",
+        "otg",
+        "usart-v1",
+        "usart-v3",
+    ],
+    runtime_needs: &["embedded-can = \"=0.4.1\""],
+    check_needs: &[
+        "embassy-time = \"=0.5.1\"",
+        "embassy-time-driver = { version = \"=0.2.2\", features = [\"tick-hz-1_000_000\"] }",
+        "embassy-time-queue-utils = \"=0.3.2\"",
+    ],
+    loader: None,
+};
+
+impl Hal for Stm32 {
+    fn package(&self) -> &'static Package {
+        &PACKAGE
+    }
+
+    fn drivers(&self, names: &Names) -> Result<Box<dyn Drivers>, String> {
+        Ok(Box::new(Settings::of(names)?))
+    }
+}
+
+impl Drivers for Settings {
+    fn project(&self) -> &dyn Project {
+        self
+    }
+    fn pins(&self) -> &dyn Pins {
+        self
+    }
+    fn link(&self) -> &dyn Link {
+        self
+    }
+    fn edges(&self) -> Option<&dyn Edges> {
+        Some(self)
+    }
+    fn analog(&self) -> Option<&dyn Analog> {
+        Some(self)
+    }
+    fn capture(&self) -> Option<&dyn Capture> {
+        Some(self)
+    }
+    fn encoder(&self) -> Option<&dyn Encoder> {
+        Some(self)
+    }
+    fn pulses(&self) -> Option<&dyn Pulses> {
+        Some(self)
+    }
+    fn dac(&self) -> Option<&dyn Dac> {
+        Some(self)
+    }
+    fn i2c(&self) -> Option<&dyn I2c> {
+        Some(self)
+    }
+    fn spi(&self) -> Option<&dyn Spi> {
+        Some(self)
+    }
+    fn serial(&self) -> Option<&dyn Serial> {
+        Some(self)
+    }
+    fn can(&self) -> Option<&dyn Can> {
+        Some(self)
+    }
+    fn types(&self) -> Option<&dyn Types> {
+        Some(self)
+    }
+}

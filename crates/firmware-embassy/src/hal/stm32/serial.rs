@@ -1,0 +1,73 @@
+//! Serial ports of devices.
+
+use sensedsl_model::kind::uart::{Parity, Uart};
+
+use super::settings::Settings;
+use crate::context::Context;
+use crate::hal::contract::buses::{Half, Port, PortPins, Serial};
+use crate::section::Section;
+
+impl Serial for Settings {
+    fn module(&self) -> &'static str {
+        "usart"
+    }
+
+    fn can_invert(&self) -> bool {
+        !self.has_old_ports()
+    }
+
+    fn half_type(&self, half: Half) -> String {
+        format!("hal::usart::{}<'static, hal::mode::Blocking>", name(half))
+    }
+
+    /// The HAL refuses rates that a unit cannot make, which is a fault of the runtime.
+    fn port(&self, context: &Context<'_>, port: &Port<'_>, section: &mut Section) -> String {
+        section.features.insert(self.port_feature());
+        let hal = context.peripheral(port.unit);
+        let (half, pins) = match port.pins {
+            PortPins::Both { rx, tx } => {
+                (Half::Both, format!("p.{}, p.{}", rx.pin.name, tx.pin.name))
+            }
+            PortPins::Rx(rx) => (Half::Rx, format!("p.{}", rx.pin.name)),
+            PortPins::Tx(tx) => (Half::Tx, format!("p.{}", tx.pin.name)),
+        };
+        format!(
+            "crate::rt::usart::port(hal::usart::{}::new_blocking{}(p.{hal}, {pins}, {}))",
+            name(half),
+            self.generics(context, port.unit, &["_"]),
+            config(port.uart)
+        )
+    }
+
+    /// Low-power ports have registers of another type.
+    fn registers(&self, unit: &str) -> String {
+        if unit.starts_with("LPUART") {
+            format!("unsafe {{ rt::usart::low_power(hal::pac::{unit}.as_ptr()) }}")
+        } else {
+            format!("hal::pac::{unit}")
+        }
+    }
+}
+
+/// The HAL's type of a port or of one of its directions.
+const fn name(half: Half) -> &'static str {
+    match half {
+        Half::Both => "Uart",
+        Half::Rx => "UartRx",
+        Half::Tx => "UartTx",
+    }
+}
+
+/// The HAL's configuration.
+fn config(uart: &Uart) -> String {
+    let Uart { baud, data_bits, parity, stop_bits, is_inverted, .. } = uart;
+    let parity = match parity {
+        Parity::None => "ParityNone",
+        Parity::Even => "ParityEven",
+        Parity::Odd => "ParityOdd",
+    };
+    let config = format!(
+        "crate::rt::usart::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
+    );
+    if *is_inverted { format!("crate::rt::usart::inverted({config})") } else { config }
+}
