@@ -60,6 +60,8 @@ mod render;
 mod section;
 mod serial;
 mod spi;
+#[cfg(test)]
+mod tests;
 mod typed;
 
 use sensedsl_board::catalog;
