@@ -1,8 +1,8 @@
 //! Embassy firmware: a Cargo project in Rust, with the HAL's typed pins.
 //!
-//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy
-//! of the runtime. What one HAL of Embassy needs is in its folder of `hal/`; a file for each kind of device plans what is
-//! the same under all HALs. `typed.rs` puts a wiring of any target into types that the Rust compiler judges.
+//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a
+//! copy of the runtime. What one HAL of Embassy needs is in its folder of `hal/`; a file for each kind of device plans
+//! what is the same under all HALs. `typed.rs` puts a wiring of any target into types that the Rust compiler judges.
 //!
 //! # Example
 //!

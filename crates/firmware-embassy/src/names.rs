@@ -1,4 +1,5 @@
-//! How Embassy spells what a profile knows, whichever HAL serves its MCUs: chips, peripherals, DMA channels, interrupts.
+//! How Embassy spells what a profile knows, whichever HAL serves its MCUs: chips, peripherals, DMA channels,
+//! interrupts.
 //!
 //! In: what a profile keeps for this target's generator. Out: [`Names`] of one line of MCUs. Keys that only one HAL
 //! reads are handed on to it unread.

@@ -272,7 +272,8 @@ impl<'a> Port<'a> {
         ])
     }
 
-    /// What the task does in a cycle. It reports the first value of a cycle, as that is when one is due, and all faults.
+    /// What the task does in a cycle. It reports the first value of a cycle, as that is when one is due, and all
+    /// faults.
     fn cycle(&self, has_fields: bool, pass: &str) -> Vec<String> {
         let mut statements = Vec::new();
         if let (Some(said), false) = (&self.said, self.plan.init.is_empty()) {

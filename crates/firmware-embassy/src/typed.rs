@@ -1,8 +1,8 @@
 //! The wiring in types: one line of Rust for each wire, which only compiles if the HAL knows the wire.
 //!
-//! In: a [`BoardJob`] of any target, whose MCU Embassy knows. Out: a crate that is checked on the host and does nothing,
-//! and for each of its lines the device that it is of. The types of the HALs are the work of other people, so what they
-//! refuse is a mistake of theirs or of ours.
+//! In: a [`BoardJob`] of any target, whose MCU Embassy knows. Out: a crate that is checked on the host and does
+//! nothing, and for each of its lines the device that it is of. The types of the HALs are the work of other people, so
+//! what they refuse is a mistake of theirs or of ours.
 
 use std::collections::{BTreeMap, BTreeSet};
 

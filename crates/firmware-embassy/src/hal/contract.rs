@@ -5,9 +5,9 @@
 //! as gaps. In: the context of a board. Out: pieces of a project as data, in the words of the HAL. What is the same for
 //! all HALs is decided by the file of the kind, which names none of them.
 //!
-//! What all HALs have in common, and a new one must have as well: `Input`, `Output`, `Level` and `Pull` for GPIO; `Peri`
-//! and `interrupt`; `hal::pac`, where a unit's registers have the unit's name; and a folder in `sense-embassy` with
-//! modules of the same names as those of its neighbours.
+//! What all HALs have in common, and a new one must have as well: `Input`, `Output`, `Level` and `Pull` for GPIO;
+//! `Peri` and `interrupt`; `hal::pac`, where a unit's registers have the unit's name; and a folder in `sense-embassy`
+//! with modules of the same names as those of its neighbours.
 
 pub(crate) mod buses;
 pub(crate) mod inputs;

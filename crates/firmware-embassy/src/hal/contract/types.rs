@@ -5,7 +5,8 @@ use sensedsl_model::kind::KindName;
 
 use crate::context::Context;
 
-/// The wiring in types. Each line calls a function of the crate that is printed; `unit` and `pin` are always among them.
+/// The wiring in types. Each line calls a function of the crate that is printed; `unit` and `pin` are always among
+/// them.
 pub(crate) trait Types {
     /// The features of the HAL for a check, the chip's among them.
     fn features(&self, context: &Context<'_>) -> Vec<String>;

@@ -35,8 +35,8 @@ impl Serial for Settings {
 }
 
 impl Settings {
-    /// Pulls a receiving pin to the level of a wire at rest, in case nothing drives it: the HAL has turned its resistors
-    /// off.
+    /// Pulls a receiving pin to the level of a wire at rest, in case nothing drives it: the HAL has turned its
+    /// resistors off.
     pub(super) fn pull(&self, rx: &Pad<'_>, is_inverted: bool) -> String {
         let pin = self.pin(&rx.pin.name);
         let number = pin.trim_start_matches("PIN_");

@@ -16,8 +16,8 @@ struct Check<'a> {
     lines: &'a [String],
 }
 
-/// What cargo needs for ARMv8-M: the HAL names registers that the core's crate only has for these cores, even when it is
-/// checked for another one.
+/// What cargo needs for ARMv8-M: the HAL names registers that the core's crate only has for these cores, even when it
+/// is checked for another one.
 const CONFIG: &str = include_str!("templates/check_config.toml.txt");
 
 /// The functions that the lines call.
