@@ -24,7 +24,7 @@
 //! let rover = jobs(&design, &wiring).next().unwrap();
 //! let files = Embassy.generate(&rover).unwrap();
 //! let wires = str::from_utf8(&files.get("src/wiring.rs").unwrap().bytes).unwrap();
-//! assert!(wires.contains("light: p.PB0,"));
+//! assert!(wires.contains("light: hal::adc::AdcChannel::degrade_adc(p.PB0),"));
 //! ```
 
 mod actuators;

@@ -111,23 +111,17 @@ impl Analog for Settings {
         })
     }
 
-    fn input(&self, pin: &PinName) -> Made {
+    fn input(&self, _context: &Context<'_>, _unit: &str, pin: &PinName) -> Made {
         Made {
             type_: "hal::saadc::AnyInput<'static>".to_owned(),
             make: format!("hal::saadc::Input::degrade_saadc(p.{})", self.pin(pin)),
         }
     }
 
-    fn sample(
-        &self,
-        _context: &Context<'_>,
-        inputs: &[AnalogInput<'_>],
-        _sampling: Cycles,
-        _section: &mut Section,
-    ) -> Printed<Vec<String>> {
-        Ok(vec![each_round(inputs, |name, AnalogInput { wire, converter, .. }| {
+    fn sample(&self, inputs: &[AnalogInput<'_>], _sampling: Cycles, samples: &str) -> Vec<String> {
+        vec![each_round(inputs, samples, |name, AnalogInput { wire, converter, .. }| {
             format!("{converter}.sample(&mut {}, {name}).await;", wire.ident)
-        })])
+        })]
     }
 }
 
