@@ -413,6 +413,19 @@ fn controllers_of_all_sorts_are_started() {
     }
 }
 
+/// The HAL turns the interrupt of STM32F1's converters on, and no type asks for its handler.
+#[test]
+fn converters_that_interrupt_have_a_handler() {
+    let text =
+        "board BLUEPILL_F103C8 { sensor Light returns uint16 { type = analog; unit = ADC1; } }";
+    with_job(text, Some("embassy"), |job| {
+        let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
+        let wiring = &files.get("src/wiring.rs").unwrap().bytes;
+        let wiring = String::from_utf8_lossy(wiring);
+        assert!(wiring.contains("ADC1_2 => hal::adc::InterruptHandler<ADC1>;"), "{wiring}");
+    });
+}
+
 /// What else there is of several wires.
 const MORE: &str = "
 board NUCLEO_F429ZI {

@@ -13,13 +13,14 @@ use crate::section::{Made, Section};
 impl Analog for Settings {
     fn converter(&self, context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<Made> {
         let hal = context.peripheral(unit);
+        if self.file.adc.read == AdcRead::Async {
+            // The HAL turns the interrupt on whether or not it asks for the handler.
+            let interrupt = context.interrupt(unit, "GLOBAL")?;
+            section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
+        }
         let arguments = match self.file.adc.new {
             AdcNew::Unit => "",
-            AdcNew::Interrupt => {
-                let interrupt = context.interrupt(unit, "GLOBAL")?;
-                section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
-                ", Irqs"
-            }
+            AdcNew::Interrupt => ", Irqs",
             AdcNew::Resolution => ", hal::adc::Resolution::BITS12",
             AdcNew::Default => ", hal::adc::AdcConfig::default()",
         };
