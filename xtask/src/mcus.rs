@@ -1,8 +1,8 @@
 //! `cargo xtask mcus [--check]`: writes the facts that the emulated machine needs about each MCU, or compares them.
 //!
 //! In: the metadata of the crate `stm32-metapac`, and [`MCUS`], which has the facts that they lack. Out: a file for
-//! each MCU in `crates/machine/mcus/`. It gives the memories; block, version, address, clock and interrupts of each
-//! unit; and the units that use each channel of the DMA.
+//! each MCU in `crates/machine/mcus/`. It gives the core and the memories; block, version, address, clock and interrupts
+//! of each unit, and the field that moves its signals to other pads; and the units that use each channel of the DMA.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -21,26 +21,57 @@ struct Mcu {
     parts: &'static [&'static str],
     /// The part with the most pads and memory.
     largest: &'static str,
+    core: &'static str,
     /// The MCU's identifier in the debug unit: `DBGMCU_IDCODE` in the reference manual.
     idcode: u32,
+    /// The address of the half-word that has the size of the flash in kibibytes.
+    size_at: u32,
     /// The units for which the machine's model of their version is not correct.
     without: &'static [&'static str],
 }
 
-const MCUS: [Mcu; 5] = [
-    Mcu { parts: &["STM32F401"], largest: "STM32F401VE", idcode: 0x1000_6433, without: &[] },
+/// What the lines of STM32F4 have in common.
+const F4: Mcu = Mcu {
+    parts: &[],
+    largest: "",
+    core: "cortex-m4f",
+    idcode: 0,
+    size_at: 0x1FFF_7A22,
+    without: &[],
+};
+
+const MCUS: [Mcu; 6] = [
+    // Medium density.
+    Mcu {
+        parts: &[
+            "STM32F103C8",
+            "STM32F103CB",
+            "STM32F103R8",
+            "STM32F103RB",
+            "STM32F103T8",
+            "STM32F103TB",
+            "STM32F103V8",
+            "STM32F103VB",
+        ],
+        largest: "STM32F103VB",
+        core: "cortex-m3",
+        idcode: 0x2003_6410,
+        size_at: 0x1FFF_F7E0,
+        without: &[],
+    },
+    Mcu { parts: &["STM32F401"], largest: "STM32F401VE", idcode: 0x1000_6433, ..F4 },
     Mcu {
         parts: &["STM32F405", "STM32F407", "STM32F415", "STM32F417"],
         largest: "STM32F407IG",
         idcode: 0x100F_6413,
-        without: &[],
+        ..F4
     },
-    Mcu { parts: &["STM32F411"], largest: "STM32F411VE", idcode: 0x1000_6431, without: &[] },
+    Mcu { parts: &["STM32F411"], largest: "STM32F411VE", idcode: 0x1000_6431, ..F4 },
     Mcu {
         parts: &["STM32F427", "STM32F429", "STM32F437", "STM32F439"],
         largest: "STM32F429NI",
         idcode: 0x2003_6419,
-        without: &[],
+        ..F4
     },
     // Its USB unit senses the bus in a different way.
     Mcu {
@@ -48,12 +79,9 @@ const MCUS: [Mcu; 5] = [
         largest: "STM32F446ZE",
         idcode: 0x1000_6421,
         without: &["USB_OTG_FS"],
+        ..F4
     },
 ];
-
-/// The registers of the RCC that enable clocks, and their offsets.
-const ENABLES: [(&str, u32); 5] =
-    [("AHB1ENR", 0x30), ("AHB2ENR", 0x34), ("AHB3ENR", 0x38), ("APB1ENR", 0x40), ("APB2ENR", 0x44)];
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
@@ -64,12 +92,11 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let chips = sources::fetch(&root)?.metapac;
-    let bits = clock_bits(&text(&chips.join("../registers/rcc_f4.rs"))?);
     let folder = root.join("crates/machine/mcus");
     std::fs::create_dir_all(&folder)?;
     let mut stale = Vec::new();
     for mcu in &MCUS {
-        let printed = file(mcu, &chips, &bits).with_context(|| mcu.largest)?;
+        let printed = file(mcu, &chips).with_context(|| mcu.largest)?;
         let name = mcu.parts.first().context("no parts")?.to_lowercase();
         let path = folder.join(format!("{name}.toml"));
         if !is_check {
@@ -82,56 +109,112 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     crate::say(&format!("{} MCUs\n", MCUS.len()))
 }
 
-/// The bit of each clock, by register and field: `apb1enr`, `tim2en`.
-fn clock_bits(registers: &str) -> BTreeMap<(String, String), u32> {
-    let mut bits = BTreeMap::new();
+/// The fields of a block's registers, by register and field: `apb1enr`, `tim2en`.
+type Fields = BTreeMap<(String, String), Field>;
+
+#[derive(Clone, Copy)]
+struct Field {
+    /// The offset of its register.
+    register: u32,
+    bit: u32,
+    bits: u32,
+}
+
+/// The fields in a file of registers.
+fn fields(registers: &str) -> Fields {
+    let mut offsets: BTreeMap<String, u32> = BTreeMap::new();
+    for item in registers.split("BlockItem {").skip(1) {
+        let name = between(item, "name: \"", "\"");
+        let offset = between(item, "byte_offset: 0x", ",");
+        if let (Some(name), Some(offset)) = (name, offset) {
+            offsets.extend(u32::from_str_radix(offset, 16).map(|offset| (name.to_owned(), offset)));
+        }
+    }
+    let mut fields = Fields::new();
     for set in registers.split("        FieldSet {").skip(1) {
-        let Some(register) = between(set, "name: \"", "\"") else { continue };
+        let Some(register) = between(set, "name: \"", "\"").map(str::to_lowercase) else {
+            continue;
+        };
+        let Some(offset) = offsets.get(&register) else { continue };
         for field in set.split("Field {").skip(1) {
+            let place = field.split_once("RegularBitOffset {").map(|(_, rest)| rest);
+            let bit = place.and_then(|rest| number_after(rest, "offset: "));
+            let bits = place.and_then(|rest| number_after(rest, "bit_size: "));
             let name = between(field, "name: \"", "\"");
-            let offset = field.split_once("RegularBitOffset {").map(|(_, rest)| rest);
-            let offset = offset.and_then(|rest| between(rest, "offset: ", ",")?.parse().ok());
-            if let (Some(name), Some(offset)) = (name, offset) {
-                bits.insert((register.to_lowercase(), name.to_lowercase()), offset);
+            if let (Some(name), Some(bit), Some(bits)) = (name, bit, bits) {
+                let own = Field { register: *offset, bit, bits };
+                fields.insert((register.clone(), name.to_lowercase()), own);
             }
         }
     }
-    bits
+    fields
 }
 
-fn file(mcu: &Mcu, chips: &Path, bits: &BTreeMap<(String, String), u32>) -> Result<String> {
+fn number_after(text: &str, start: &str) -> Option<u32> {
+    let (_, number) = text.split_once(start)?;
+    let digits: String = number.chars().take_while(char::is_ascii_digit).collect();
+    digits.parse().ok()
+}
+
+/// The facts that the units of a chip share.
+struct Chip {
+    interrupts: BTreeMap<String, u16>,
+    /// The fields of its RCC, and of the unit that moves signals to other pads, if it has one.
+    rcc: Fields,
+    afio: Fields,
+}
+
+impl Chip {
+    fn read(body: &str, chips: &Path) -> Result<Self> {
+        let registers = |unit: &str| {
+            let source = body
+                .split("\n    Peripheral {")
+                .find(|one| between(one, "name: \"", "\"") == Some(unit));
+            let version = source.and_then(|source| between(source, "version: \"", "\""));
+            let Some(version) = version else { return Ok(Fields::new()) };
+            let file = format!("../registers/{}_{version}.rs", unit.to_lowercase());
+            anyhow::Ok(fields(&text(&chips.join(file))?))
+        };
+        let (rcc, afio) = (registers("RCC")?, registers("AFIO")?);
+        Ok(Self { interrupts: interrupts(body), rcc, afio })
+    }
+}
+
+fn file(mcu: &Mcu, chips: &Path) -> Result<String> {
     let head = text(&chips.join(mcu.largest.to_lowercase()).join("metadata.rs"))?;
     let body = between(&head, "include!(\"../", "\"").context("a chip without facts")?;
     let body = text(&chips.join(body))?;
-    let numbers = interrupts(&body);
+    let chip = Chip::read(&body, chips)?;
     let mut printed = format!(
         "# Written by `cargo xtask mcus` from stm32-metapac 21.0.0; do not edit.\nparts = {:?}\nlargest = {:?}\n\
-         idcode = {:#010X}\n",
-        mcu.parts, mcu.largest, mcu.idcode
+         core = {:?}\nidcode = {:#010X}\nsize_at = {:#010X}\n",
+        mcu.parts, mcu.largest, mcu.core, mcu.idcode, mcu.size_at
     );
     for (name, is_own) in memories() {
         let _ = writeln!(printed, "{name}_bytes = {}", bytes(&head, is_own));
     }
     printed.push_str("\n[units]\n");
-    let mut requests: BTreeMap<&str, [Vec<String>; 8]> = BTreeMap::new();
+    let mut requests: BTreeMap<&str, Vec<Vec<String>>> = BTreeMap::new();
     for peripheral in body.split("\n    Peripheral {").skip(1) {
         let peripheral = peripheral.split("\n    },").next().unwrap_or(peripheral);
         let name = between(peripheral, "name: \"", "\"").context("a peripheral without a name")?;
         if !mcu.without.contains(&name)
-            && let Some(unit) = unit(name, peripheral, bits, &numbers)
+            && let Some(unit) = unit(name, peripheral, &chip)
         {
             let _ = writeln!(printed, "{name} = {{ {unit} }}");
         }
         for request in peripheral.split("PeripheralDmaChannel {").skip(1) {
             let channel = between(request, "channel: Some(\"", "\"");
-            let number = between(request, "request: Some(", ")").and_then(|one| one.parse().ok());
             let signal = between(request, "signal: \"", "\"");
-            let (Some(channel), Some(number), Some(signal)) = (channel, number, signal) else {
-                continue;
-            };
-            let row: Option<&mut Vec<String>> =
-                requests.entry(channel).or_default().get_mut::<usize>(number);
-            row.context("a request beyond 7")?.push(format!("{name}_{signal}"));
+            let (Some(channel), Some(signal)) = (channel, signal) else { continue };
+            // A channel without numbers serves all its requests, as if they had one.
+            let number = between(request, "request: Some(", ")");
+            let number: usize = number.map_or(Ok(0), str::parse)?;
+            let rows = requests.entry(channel).or_default();
+            let length = if between(request, "request: ", ",") == Some("None") { 1 } else { 8 };
+            ensure!(number < length, "a request beyond {length}");
+            rows.resize_with(rows.len().max(length), Vec::new);
+            rows.get_mut(number).context("a missing row")?.push(format!("{name}_{signal}"));
         }
     }
     printed.push_str("\n# By number of the request.\n[requests]\n");
@@ -176,29 +259,34 @@ fn interrupts(body: &str) -> BTreeMap<String, u16> {
     list.split("Interrupt {").skip(1).filter_map(one).collect()
 }
 
-fn unit(
-    name: &str,
-    source: &str,
-    bits: &BTreeMap<(String, String), u32>,
-    numbers: &BTreeMap<String, u16>,
-) -> Option<String> {
+fn unit(name: &str, source: &str, chip: &Chip) -> Option<String> {
     let base = between(source, "address: ", ",")?;
     let kind = between(source, "kind: \"", "\"")?;
     let version = between(source, "version: \"", "\"")?;
     let mut text = format!("block = \"{kind}_{version}\", base = {base}");
+    // How many channels a timer has, and of which width.
+    if kind == "timer" {
+        let _ = write!(text, ", shape = \"{}\"", between(source, "block: \"", "\"")?);
+    }
+    let field = |fields: &Fields, place: &str| {
+        let register = between(place, "register: \"", "\"")?.to_lowercase();
+        let field = between(place, "field: \"", "\"")?.to_lowercase();
+        fields.get(&(register, field)).copied()
+    };
     let enable = source.split_once("enable: Some(").map(|(_, rest)| rest);
     // RTC: the other MCUs of the family have no such bit.
     if let Some(enable) = enable.filter(|_| name != "RTC") {
-        let register = between(enable, "register: \"", "\"")?;
-        let field = between(enable, "field: \"", "\"")?;
-        let (_, offset) = ENABLES.iter().find(|(own, _)| *own == register)?;
-        let bit = bits.get(&(register.to_lowercase(), field.to_lowercase()))?;
-        let _ = write!(text, ", clock = [{offset:#04x}, {bit}]");
+        let Field { register, bit, .. } = field(&chip.rcc, enable)?;
+        let _ = write!(text, ", clock = [{register:#04x}, {bit}]");
+    }
+    if let Some((_, moved)) = source.split_once("afio: Some(") {
+        let Field { register, bit, bits } = field(&chip.afio, moved)?;
+        let _ = write!(text, ", remap = [{register:#04x}, {bit}, {bits}]");
     }
     let mut irqs: BTreeMap<&str, u16> = BTreeMap::new();
     for one in source.split("PeripheralInterrupt {").skip(1) {
         let signal = between(one, "signal: \"", "\"")?;
-        irqs.insert(signal, *numbers.get(between(one, "interrupt: \"", "\"")?)?);
+        irqs.insert(signal, *chip.interrupts.get(between(one, "interrupt: \"", "\"")?)?);
     }
     if !irqs.is_empty() {
         let all: Vec<String> =

@@ -1,4 +1,4 @@
-//! CAN1 and CAN2. CAN1 has the acceptance filters of both.
+//! The CAN units; the first one has the acceptance filters of both, if there are two.
 
 use std::collections::VecDeque;
 
@@ -12,12 +12,14 @@ const INIT: u32 = 1;
 const SLEEP: u32 = 1 << 1;
 /// The bits of the shortest frame.
 const SHORTEST: u64 = 47;
-/// The filter banks that the two units share.
+/// The filter banks that two units share, and those of a unit that is alone.
 const BANKS: usize = 28;
+const BANKS_OF_ONE: usize = 14;
 
 /// The acceptance filters of both units.
 #[derive(Debug)]
 pub(super) struct Filters {
+    is_shared: bool,
     fmr: u32,
     is_list: u32,
     is_wide: u32,
@@ -27,8 +29,9 @@ pub(super) struct Filters {
 }
 
 impl Filters {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(is_shared: bool) -> Self {
         Self {
+            is_shared,
             fmr: 0x2A1C_0E01,
             is_list: 0,
             is_wide: 0,
@@ -67,7 +70,7 @@ impl Filters {
 
     /// The queue that a frame goes to, and the number of the filter that accepted it.
     fn accept(&self, unit: u8, frame: &CanFrame) -> Option<(usize, u32)> {
-        let split = (self.fmr >> 8 & 63) as usize;
+        let split = if self.is_shared { (self.fmr >> 8 & 63) as usize } else { BANKS_OF_ONE };
         let banks = if unit == 1 { 0..split.min(BANKS) } else { split.min(BANKS)..BANKS };
         let mut numbers = [0; 2];
         for bank in banks {
@@ -143,7 +146,7 @@ pub(super) struct Can {
 
 impl Can {
     pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
-        let own = format!("CAN{unit}");
+        let own = mcu.unit("CAN", unit);
         Self {
             unit,
             mcu,
@@ -160,8 +163,8 @@ impl Can {
             sending: None,
             sent_at: NEVER,
             listens_at: NEVER,
-            tx: format!("CAN{unit}_TX"),
-            rx: format!("CAN{unit}_RX"),
+            tx: format!("{own}_TX"),
+            rx: format!("{own}_RX"),
         }
     }
 
@@ -184,7 +187,8 @@ impl Can {
     /// Its settings, once it has started.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let setting = Setting::Can { bitrate_hz: wires.clocks.apb1 / self.divider() };
-        self.is_on().then(|| PortState { unit: format!("CAN{}", self.unit), setting })
+        let unit = self.tx.trim_end_matches("_TX");
+        self.is_on().then(|| PortState { unit: unit.to_owned(), setting })
     }
 
     pub(super) fn deadline(&self) -> u64 {

@@ -1,48 +1,50 @@
 //! All peripherals together: the one that answers at an address, the next deadline, and the transfers of the DMA.
 
-use super::adc::Adc;
+use super::adc::{self, Adc};
 use super::can::{Can, Filters};
 use super::dac::Dac;
-use super::dma::Dma;
+use super::dma::{self, Dma, STREAMS};
 use super::exti::Exti;
 use super::i2c::I2c;
 use super::iwdg::Iwdg;
 use super::map::{Device, Row};
 use super::mcu::Mcu;
-use super::plain::{self, Plain};
+use super::plain::{Plain, next_random};
 use super::ports::PortState;
 use super::rcc::Rcc;
 use super::spi::Spi;
 use super::timer::Timer;
 use super::transfer::{Memory, left_of};
 use super::usart::Usart;
-use super::usb::Usb;
+use super::usb::{self, Usb};
 use super::wires::{Event, NEVER, Request, ResetCause, Wires, merge};
 
 /// Everything on the chip but the core and its memory.
 pub(super) struct Chip {
     pub(super) mcu: &'static Mcu,
     pub wires: Wires,
-    pub rcc: Rcc,
+    pub rcc: Box<dyn Rcc>,
     pub(super) memory: Memory,
-    pub(super) timers: [Timer; 14],
-    pub(super) usarts: [Usart; 8],
-    pub(super) spis: [Spi; 6],
-    pub(super) i2cs: [I2c; 3],
-    pub(super) adcs: [Adc; 3],
+    // Units stand at their numbers, counted from 0, up to the last one that the MCU has.
+    pub(super) timers: Vec<Timer>,
+    pub(super) usarts: Vec<Usart>,
+    pub(super) spis: Vec<Spi>,
+    pub(super) i2cs: Vec<I2c>,
+    pub(super) adcs: Vec<Box<dyn Adc>>,
     adc_common: u32,
-    cans: [Can; 2],
+    cans: Vec<Can>,
     filters: Filters,
-    pub(super) dmas: [Dma; 2],
-    pub(super) dma_irqs: [[u16; 8]; 2],
+    pub(super) dmas: Vec<Box<dyn Dma>>,
+    pub(super) dma_irqs: Vec<[u16; STREAMS]>,
     adc_irq: u16,
     dac: Dac,
     exti: Exti,
     iwdg: Iwdg,
-    pub usb: Usb,
+    usb: Box<dyn Usb>,
     pwr: Plain,
     flash: Plain,
     rtc: Plain,
+    backup: Plain,
     crc: u32,
     random: (Plain, u32),
     debug: [u32; 4],
@@ -55,34 +57,39 @@ pub(super) struct Chip {
 }
 
 impl Chip {
-    pub(super) fn new(wires: Wires, memory: Memory, crystal_hz: u64, mcu: &'static Mcu) -> Self {
+    pub(super) fn new(wires: Wires, memory: Memory, rcc: Box<dyn Rcc>, mcu: &'static Mcu) -> Self {
         let stream_irq =
             |dma: usize, stream: usize| mcu.irq(&format!("DMA{}", dma + 1), &format!("CH{stream}"));
+        let irqs = |dma| std::array::from_fn(|stream| stream_irq(dma, stream));
+        let numbers = |kinds: &[&str]| (1_u8..).take(mcu.last(kinds));
+        let dmas = mcu.last(&["DMA"]);
+        let plain = |unit: &str| Plain::new(mcu.block(unit));
         Self {
             mcu,
+            iwdg: Iwdg::new(wires.clocks.lsi),
             wires,
-            rcc: Rcc::new(crystal_hz),
+            rcc,
             memory,
-            timers: std::array::from_fn(|at| Timer::new(at, mcu)),
-            usarts: [1, 2, 3, 4, 5, 6, 7, 8].map(|unit| Usart::new(unit, mcu)),
-            spis: [1, 2, 3, 4, 5, 6].map(|unit| Spi::new(unit, mcu)),
-            i2cs: [1, 2, 3].map(|unit| I2c::new(unit, mcu)),
-            adcs: [1, 2, 3].map(Adc::new),
+            timers: (0..mcu.last(&["TIM"])).map(|at| Timer::new(at, mcu)).collect(),
+            usarts: numbers(&["USART", "UART"]).map(|unit| Usart::new(unit, mcu)).collect(),
+            spis: numbers(&["SPI"]).map(|unit| Spi::new(unit, mcu)).collect(),
+            i2cs: numbers(&["I2C"]).map(|unit| I2c::new(unit, mcu)).collect(),
+            adcs: numbers(&["ADC"]).map(|unit| adc::new(mcu.block("ADC1"), unit)).collect(),
             adc_common: 0,
-            cans: [1, 2].map(|unit| Can::new(unit, mcu)),
-            filters: Filters::new(),
-            dmas: [Dma::default(), Dma::default()],
-            dma_irqs: [0, 1].map(|dma| std::array::from_fn(|stream| stream_irq(dma, stream))),
+            cans: numbers(&["CAN"]).map(|unit| Can::new(unit, mcu)).collect(),
+            filters: Filters::new(mcu.last(&["CAN"]) > 1),
+            dmas: (0..dmas).map(|_| dma::new(mcu.block("DMA1"))).collect(),
+            dma_irqs: (0..dmas).map(irqs).collect(),
             adc_irq: mcu.irq("ADC1", "GLOBAL"),
             dac: Dac::default(),
             exti: Exti::new(mcu),
-            iwdg: Iwdg::new(),
-            usb: Usb::new(mcu),
-            pwr: Plain::new(0x400, plain::PWR),
-            flash: Plain::new(0x400, plain::FLASH),
-            rtc: Plain::new(0x400, plain::RTC),
+            usb: usb::new(mcu),
+            pwr: plain("PWR"),
+            flash: plain("FLASH"),
+            rtc: plain("RTC"),
+            backup: plain("BKP"),
             crc: u32::MAX,
-            random: (Plain::new(0x400, plain::RNG), 0),
+            random: (plain("RNG"), 0),
             debug: [0; 4],
             told: Vec::new(),
             pc: 0,
@@ -107,10 +114,13 @@ impl Chip {
     /// Puts all peripherals into their state after a reset; the backup domain keeps its contents unless power was lost.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);
-        for register in [0x30, 0x34, 0x38, 0x40, 0x44] {
-            self.reset_behind(register, u32::MAX);
+        for register in self.rcc.enables() {
+            self.reset_behind(*register, u32::MAX);
         }
-        self.iwdg = Iwdg::new();
+        if cause == ResetCause::Power {
+            self.backup = Plain::new(self.mcu.block("BKP"));
+        }
+        self.iwdg = Iwdg::new(self.wires.clocks.lsi);
         self.exti = Exti::new(self.mcu);
         self.wires.gpio.reset();
         self.wires.clocks = self.rcc.clocks();
@@ -130,7 +140,8 @@ impl Chip {
         let timers = self.timers.iter().map(Timer::deadline);
         let ports = self.usarts.iter().map(Usart::deadline);
         let buses = self.spis.iter().map(Spi::deadline).chain(self.i2cs.iter().map(I2c::deadline));
-        let others = self.adcs.iter().map(Adc::deadline).chain(self.cans.iter().map(Can::deadline));
+        let others =
+            self.adcs.iter().map(|adc| adc.deadline()).chain(self.cans.iter().map(Can::deadline));
         let single = [self.exti.deadline(), self.iwdg.deadline(), self.usb.deadline()];
         timers.chain(ports).chain(buses).chain(others).chain(single).min().unwrap_or(NEVER)
     }
@@ -178,7 +189,7 @@ impl Chip {
         }
         if self.iwdg.deadline() <= now {
             self.reset = Some(ResetCause::Watchdog);
-            self.iwdg = Iwdg::new();
+            self.iwdg = Iwdg::new(self.wires.clocks.lsi);
         }
         self.settle();
     }
@@ -199,8 +210,7 @@ impl Chip {
         for timer in &mut self.timers {
             timer.review_edges(&self.wires);
         }
-        let holds = |adc: &Adc| adc.interrupts();
-        let is_held = self.adcs.iter().any(holds);
+        let is_held = self.adcs.iter().any(|adc| adc.interrupts());
         self.wires.interrupt(self.adc_irq, 0, is_held);
     }
 
@@ -224,7 +234,10 @@ impl Chip {
         let shift = 8 * (address & 3);
         // Some lost writes are harmless: a 0 changes nothing after a reset, and neither does clearing flags that are
         // not set. ChibiOS does both.
-        let is_clear = matches!(device, Device::Dma(_)) && matches!(address - base, 0x08 | 0x0C);
+        let is_clear = match device {
+            Device::Dma(controller) => self.dmas[controller].clears_flags(address - base),
+            _ => false,
+        };
         let is_lost = value != 0 && !is_clear;
         if !self.has_clock(row, address, is_lost) {
             return Some(());
@@ -239,19 +252,19 @@ impl Chip {
         self.settle();
     }
 
+    fn is_enabled(&self, row: Row) -> bool {
+        row.clock.is_none_or(|(register, bit)| self.rcc.is_enabled(register, bit))
+    }
+
     fn has_clock(&mut self, row: Row, address: u32, is_lost: bool) -> bool {
         let Row { base, device, clock, .. } = row;
         let is_on = match (device, clock) {
-            (Device::Adc, _) => {
-                let unit = (address - base) / 0x100;
-                if unit < 3 {
-                    self.rcc.is_enabled(0x44, 8 + unit)
-                } else {
-                    self.rcc.read(0x44) & 0x700 != 0
-                }
+            // What converters share has the clock of any of them.
+            (Device::AdcCommon, _) => {
+                let mut rows = self.mcu.rows.iter();
+                rows.any(|row| matches!(row.device, Device::Adc(_)) && self.is_enabled(*row))
             }
-            (_, Some((register, bit))) => self.rcc.is_enabled(register, bit),
-            (_, None) => true,
+            _ => self.is_enabled(row),
         };
         let is_modelled = device != Device::Other;
         if (!is_on && is_lost || is_on && !is_modelled) && !self.told.contains(&base) {
@@ -270,8 +283,10 @@ impl Chip {
         let wires = &mut self.wires;
         match device {
             Device::Gpio(port) => {
-                let levels = if offset == 0x10 { levels(wires, port) } else { 0 };
-                wires.gpio.read(port, offset, |_| levels)
+                if wires.gpio.has_levels(port, offset) {
+                    return levels(wires, port);
+                }
+                wires.gpio.read(port, offset)
             }
             Device::Timer(unit) => self.timers[unit].read(offset, wires),
             Device::Usart(unit) => self.usarts[unit].read(offset, wires),
@@ -281,20 +296,24 @@ impl Chip {
                 self.i2cs[unit].read(offset, wires)
             }
             Device::Can(unit) => self.cans[unit].read(offset, &self.filters),
-            Device::Adc => self.read_adc(offset),
+            Device::Adc(unit) => self.adcs[unit].read(offset),
+            Device::AdcCommon => self.read_adc_common(offset),
             Device::Dac => self.dac.read(offset),
             Device::Dma(controller) => self.dmas[controller].read(offset),
             Device::Exti => self.exti.read(offset),
-            Device::Syscfg => self.exti.read_ports(offset),
+            Device::Afio if !EXTI_PORTS.contains(&offset) => wires.gpio.read_afio(offset),
+            Device::Syscfg | Device::Afio => self.exti.read_ports(offset),
             Device::Rcc => self.rcc.read(offset),
             Device::Iwdg => self.iwdg.read(offset),
             Device::Usb => self.usb.read(offset, wires),
+            Device::UsbMemory => self.usb.read_memory(offset),
             Device::Pwr => self.pwr.read(offset),
             Device::Flash => self.flash.read(offset),
             Device::Rtc => self.rtc.read(offset),
+            Device::Backup => self.backup.read(offset),
             Device::Crc => self.crc,
             Device::Random => {
-                self.random.1 = plain::next_random(self.random.1);
+                self.random.1 = next_random(self.random.1);
                 if offset == 8 { self.random.1 } else { self.random.0.read(offset) }
             }
             Device::Debug => match offset {
@@ -309,9 +328,9 @@ impl Chip {
         let wires = &mut self.wires;
         match device {
             Device::Gpio(port) => {
-                wires.gpio.write(port, offset, value, mask);
                 // A pad may be switched to a timer that already runs.
-                wires.version += u64::from(matches!(offset, 0x00 | 0x20 | 0x24));
+                let leads_elsewhere = wires.gpio.write(port, offset, value, mask);
+                wires.version += u64::from(leads_elsewhere);
             }
             Device::Timer(unit) => self.timers[unit].write(offset, value, mask, wires),
             Device::Usart(unit) => self.usarts[unit].write(offset, value, mask, wires),
@@ -323,24 +342,31 @@ impl Chip {
             Device::Can(unit) => {
                 self.cans[unit].write(offset, value, mask, wires, &mut self.filters);
             }
-            Device::Adc => self.write_adc(offset, value, mask),
+            Device::Adc(unit) => self.adcs[unit].write(offset, value, mask, wires),
+            Device::AdcCommon => self.write_adc_common(offset, value, mask),
             Device::Dac => self.dac.write(offset, value, mask, wires),
             Device::Dma(controller) => {
                 self.dmas[controller].write(offset, value, mask);
             }
             Device::Exti => self.exti.write(offset, value, mask, wires),
-            Device::Syscfg => self.exti.write_ports(offset, value, mask, wires),
+            Device::Afio if !EXTI_PORTS.contains(&offset) => {
+                let leads_elsewhere = wires.gpio.write_afio(offset, value, mask);
+                wires.version += u64::from(leads_elsewhere);
+            }
+            Device::Syscfg | Device::Afio => self.exti.write_ports(offset, value, mask, wires),
             Device::Rcc => {
                 if let Some((register, bits)) = self.rcc.write(offset, value, mask) {
-                    self.reset_behind(register + 0x20, bits);
+                    self.reset_behind(register, bits);
                 }
                 self.wires.clocks = self.rcc.clocks();
             }
             Device::Iwdg => self.iwdg.write(offset, value, wires.now),
             Device::Usb => self.usb.write(offset, value, mask, wires),
+            Device::UsbMemory => self.usb.write_memory(offset, value, mask),
             Device::Pwr => self.pwr.write(offset, value, mask),
             Device::Flash => self.flash.write(offset, value, mask),
             Device::Rtc => self.rtc.write(offset, value, mask),
+            Device::Backup => self.backup.write(offset, value, mask),
             Device::Crc => self.crc = if offset == 8 { u32::MAX } else { self.crc },
             Device::Random => self.random.0.write(offset, value, mask),
             Device::Debug => {
@@ -352,25 +378,20 @@ impl Chip {
         }
     }
 
-    fn read_adc(&mut self, offset: u32) -> u32 {
-        let (unit, register) = ((offset / 0x100) as usize, offset % 0x100);
-        match (self.adcs.get_mut(unit), register) {
-            (Some(adc), _) => adc.read(register),
-            (None, 0) => self.adcs.iter().rev().fold(0, |all, adc| all << 8 | adc.status()),
-            (None, 4) => self.adc_common,
-            (None, _) => 0,
+    fn read_adc_common(&self, offset: u32) -> u32 {
+        match offset {
+            0x00 => self.adcs.iter().rev().fold(0, |all, adc| all << 8 | adc.status()),
+            0x04 => self.adc_common,
+            _ => 0,
         }
     }
 
-    fn write_adc(&mut self, offset: u32, value: u32, mask: u32) {
-        let (unit, register) = ((offset / 0x100) as usize, offset % 0x100);
-        if let Some(adc) = self.adcs.get_mut(unit) {
-            adc.write(register, value, mask, &self.wires);
-        } else if register == 4 {
+    fn write_adc_common(&mut self, offset: u32, value: u32, mask: u32) {
+        if offset == 0x04 {
             self.adc_common = merge(self.adc_common, value, mask);
             let divider = u64::from(self.adc_common >> 16 & 3) * 2 + 2;
             for adc in &mut self.adcs {
-                adc.divider = divider;
+                adc.set_divider(divider);
             }
         }
     }
@@ -389,17 +410,37 @@ impl Chip {
                 Device::I2c(unit) => self.i2cs[unit].restart(&mut self.wires),
                 Device::Can(unit) => self.cans[unit].restart(&mut self.wires),
                 Device::Dac => self.dac = Dac::default(),
-                Device::Dma(controller) => self.dmas[controller] = Dma::default(),
+                Device::Dma(controller) => {
+                    self.dmas[controller] = dma::new(self.mcu.block("DMA1"));
+                }
+                Device::Adc(unit) => self.reset_adc(unit),
+                Device::Afio => {
+                    self.wires.gpio.reset_afio();
+                    self.wires.version += 1;
+                }
                 Device::Usb => self.usb.restart(&mut self.wires),
                 _ => {}
             }
         }
-        if register == 0x44 && bits & 0x100 != 0 {
-            self.adcs = [1, 2, 3].map(Adc::new);
-            self.adc_common = 0;
+    }
+
+    /// Resets a converter. Those that share registers share the first one's reset.
+    fn reset_adc(&mut self, unit: usize) {
+        let block = self.mcu.block("ADC1");
+        let shares = self.mcu.rows.iter().any(|row| row.device == Device::AdcCommon);
+        let last = if shares { self.adcs.len() } else { unit + 1 };
+        if shares && unit > 0 {
+            return;
         }
+        for (at, adc) in (1_u8..).zip(&mut self.adcs).take(last).skip(unit) {
+            *adc = adc::new(block, at);
+        }
+        self.adc_common = 0;
     }
 }
+
+/// The registers that have the ports of the lines of EXTI, in SYSCFG and AFIO alike.
+const EXTI_PORTS: std::ops::RangeInclusive<u32> = 0x08..=0x14;
 
 /// The levels on a port's pads.
 fn levels(wires: &Wires, port: usize) -> u32 {

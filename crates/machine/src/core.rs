@@ -15,7 +15,8 @@ use super::Settings;
 use super::chip::Chip;
 use super::lockup::Lockup;
 use super::map::DEBUG_BASE;
-use super::mcu::Mcu;
+use super::mcu::{self, Mcu};
+use super::rcc;
 use super::transfer::{CCM_BASE, FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
 use sensedsl_surroundings::Surroundings;
@@ -23,8 +24,7 @@ use sensedsl_surroundings::Surroundings;
 /// The address range of the peripherals, up to the core's own.
 const PERIPHERALS: u32 = 0x4000_0000;
 const PERIPHERALS_BYTES: u64 = 0x2000_0000;
-/// The system memory: the unique number, and the size of the flash.
-const SYSTEM_BASE: u64 = 0x1FFF_7000;
+/// The size of the system memory's part that has the unique number and the size of the flash.
 const SYSTEM_BYTES: u64 = 0x1000;
 /// A core that stands still for so long, without a watchdog, does so for ever.
 const PATIENCE_NS: u64 = 3 * SECOND_NS;
@@ -152,9 +152,10 @@ impl Core {
     pub(super) fn new(settings: Settings, surroundings: Arc<Mutex<dyn Surroundings>>) -> Self {
         let mcu = settings.mcu;
         let memory = Memory::new(mcu);
-        let wires = Wires::new(Arc::clone(&surroundings), settings.link, mcu);
-        let hz = wires.clocks.core;
-        let chip = Chip::new(wires, memory.clone(), settings.crystal_hz, mcu);
+        let rcc = rcc::new(mcu, settings.crystal_hz);
+        let hz = rcc.clocks().core;
+        let wires = Wires::new(Arc::clone(&surroundings), settings.link, rcc.clocks(), mcu);
+        let chip = Chip::new(wires, memory.clone(), rcc, mcu);
         let chip = Arc::new(Mutex::new(chip));
         let line = Arc::new(Mutex::new(Line { cycles: 0, ns: 0, hz }));
         let shared = Arc::new(Shared::default());
@@ -169,7 +170,11 @@ impl Core {
             };
             map(&space, Region::io("peripherals", bytes, Arc::new(bus)), u64::from(base));
         }
-        let cpu = ArmV7m::new(Config::CORTEX_M4F.with_priority_bits(4));
+        let core = match mcu.core {
+            mcu::Core::M3 => Config::CORTEX_M3,
+            mcu::Core::M4F => Config::CORTEX_M4F,
+        };
+        let cpu = ArmV7m::new(core.with_priority_bits(4));
         cpu.attach_space(Arc::new(space));
         Self {
             cpu,
@@ -488,7 +493,10 @@ fn map_memory(space: &AddressSpace, memory: &Memory, mcu: &Mcu) {
     }
     let system = RamStore::new(SYSTEM_BYTES);
     let kibibytes = u16::try_from(mcu.flash_bytes >> 10).unwrap_or(u16::MAX);
-    let _ = system.write_at(0xA10, b"SenseDSL twin");
-    let _ = system.write_at(0xA22, &kibibytes.to_le_bytes());
-    map(space, Region::ram("system", Arc::new(system)), SYSTEM_BASE);
+    let at = |address: u32| u64::from(address) % SYSTEM_BYTES;
+    let _ = system.write_at(at(mcu.size_at), &kibibytes.to_le_bytes());
+    if let Some(number_at) = mcu.number_at() {
+        let _ = system.write_at(at(number_at), b"SenseDSL twi");
+    }
+    map(space, Region::ram("system", Arc::new(system)), u64::from(mcu.size_at) - at(mcu.size_at));
 }

@@ -1,12 +1,11 @@
-//! The independent watchdog, clocked by the internal 32 kHz oscillator.
+//! The independent watchdog, clocked by the slow oscillator inside.
 
 use super::wires::{NEVER, periods_ns};
-
-const LSI_HZ: u64 = 32_000;
 
 /// Its registers, and the time of its next reset.
 #[derive(Debug)]
 pub(super) struct Iwdg {
+    hz: u64,
     is_open: bool,
     prescaler: u32,
     reload: u32,
@@ -14,8 +13,8 @@ pub(super) struct Iwdg {
 }
 
 impl Iwdg {
-    pub(super) fn new() -> Self {
-        Self { is_open: false, prescaler: 0, reload: 0xFFF, bites_at: NEVER }
+    pub(super) fn new(hz: u64) -> Self {
+        Self { hz, is_open: false, prescaler: 0, reload: 0xFFF, bites_at: NEVER }
     }
 
     pub(super) fn deadline(&self) -> u64 {
@@ -25,7 +24,7 @@ impl Iwdg {
     /// The time from a reload to the reset.
     pub(super) fn period_ns(&self) -> u64 {
         let divider = 4 << self.prescaler.min(6);
-        periods_ns(u64::from(self.reload + 1) * divider, LSI_HZ)
+        periods_ns(u64::from(self.reload + 1) * divider, self.hz)
     }
 
     fn feed(&mut self, now: u64) {

@@ -2,8 +2,13 @@
 //!
 //! In: an image (`Machine::load`), and what a host sends. Out: what the host receives, and events. The core, its
 //! interrupt controller and its exceptions are rsemu's (`core.rs`). Everything else on the chip is here, with a file
-//! for each device (`chip.rs`); data tell which of them an MCU has (`mcu.rs`). The pads are connected to
-//! [`Surroundings`](sensedsl_surroundings::Surroundings).
+//! for each version of each device (`chip.rs`); data tell which of them an MCU has (`mcu.rs`). The pads are connected
+//! to [`Surroundings`](sensedsl_surroundings::Surroundings).
+//!
+//! Of rsemu's models of ST's devices none is used. They have neither converters, CAN units nor a USB device, and they
+//! know ports and RCC of STM32F4 and later families only. They advance in ticks of rsemu's own machine, where here the
+//! time jumps from event to event. What is outside of the MCU would still have to be led from each of their pads to
+//! [`Surroundings`](sensedsl_surroundings::Surroundings), whichever peripheral the program has put there.
 //!
 //! The core counts cycles of its own clock, everything else nanoseconds. While the core waits in a loop of one
 //! instruction, the time jumps to the next event. Nothing here reads a clock or draws random numbers, so a run is the
@@ -73,7 +78,6 @@ mod timer;
 mod transfer;
 mod usart;
 mod usb;
-mod usb_host;
 mod wires;
 
 use std::sync::{Arc, Mutex};

@@ -10,17 +10,25 @@ pub(super) enum Device {
     Spi(usize),
     I2c(usize),
     Can(usize),
-    Adc,
+    Adc(usize),
+    /// The registers that converters share.
+    AdcCommon,
     Dac,
     Dma(usize),
     Exti,
+    /// The ports of the lines of EXTI; AFIO also has the places of peripherals' signals.
     Syscfg,
+    Afio,
     Rcc,
     Iwdg,
     Usb,
+    /// The memory for packets, where it is apart from the registers.
+    UsbMemory,
     Pwr,
     Flash,
     Rtc,
+    /// Registers that keep their contents as long as there is power.
+    Backup,
     Crc,
     Random,
     Debug,

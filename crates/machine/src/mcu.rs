@@ -11,7 +11,8 @@ use serde::Deserialize;
 use crate::map::{DEBUG_BASE, Device, Row};
 use crate::wires::Request;
 
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
+    include_str!("../mcus/stm32f103c8.toml"),
     include_str!("../mcus/stm32f401.toml"),
     include_str!("../mcus/stm32f405.toml"),
     include_str!("../mcus/stm32f411.toml"),
@@ -28,12 +29,23 @@ static MCUS: LazyLock<Vec<Mcu>> =
 struct File {
     parts: Vec<String>,
     largest: String,
+    core: Core,
     idcode: u32,
+    size_at: u32,
     flash_bytes: u32,
     sram_bytes: u32,
     ccm_bytes: u32,
     units: BTreeMap<String, Unit>,
-    requests: BTreeMap<String, [Vec<String>; 8]>,
+    requests: BTreeMap<String, Vec<Vec<String>>>,
+}
+
+/// The processor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub(crate) enum Core {
+    #[serde(rename = "cortex-m3")]
+    M3,
+    #[serde(rename = "cortex-m4f")]
+    M4F,
 }
 
 /// A unit of a file.
@@ -42,8 +54,12 @@ struct File {
 struct Unit {
     block: String,
     base: u32,
+    /// How many channels a timer has, and of which width, by the name that the source of the file has for it.
+    shape: Option<String>,
     /// The offset of an enable register of the RCC, and the bit; `None` for a unit that always runs.
     clock: Option<(u32, u32)>,
+    /// The field of AFIO that moves the unit's signals to other pads: offset, lowest bit, bits.
+    remap: Option<(u32, u32, u32)>,
     #[serde(default)]
     irqs: BTreeMap<String, u16>,
 }
@@ -53,7 +69,10 @@ struct Unit {
 pub struct Mcu {
     parts: Vec<String>,
     largest: String,
+    pub(crate) core: Core,
     pub(crate) idcode: u32,
+    /// The address of the half-word that has the size of the flash in kibibytes.
+    pub(crate) size_at: u32,
     pub(crate) flash_bytes: u32,
     pub(crate) sram_bytes: u32,
     /// The size of the core-coupled memory, which the DMA does not reach; 0 if there is none.
@@ -62,7 +81,7 @@ pub struct Mcu {
     pub(crate) rows: Vec<Row>,
     units: BTreeMap<String, Unit>,
     /// The requests, by controller, stream and channel.
-    requests: [[[Vec<Request>; 8]; 8]; 2],
+    requests: Vec<Vec<Vec<Vec<Request>>>>,
 }
 
 /// The number of an interrupt that no core has.
@@ -83,22 +102,25 @@ impl Mcu {
     /// Reads a file; `None` if it is damaged, which a test rules out.
     fn read(text: &str) -> Option<Self> {
         let file: File = toml::from_str(text).ok()?;
+        let units = &file.units;
         let mut rows: Vec<Row> =
-            file.units.iter().filter_map(|(name, unit)| row(name, unit)).collect();
+            units.iter().filter_map(|(name, unit)| row(name, unit, units)).collect();
         rows.sort_by_key(|row| row.base);
-        let mut requests = <[[[Vec<Request>; 8]; 8]; 2]>::default();
+        let mut requests: Vec<Vec<Vec<Vec<Request>>>> = Vec::new();
         for (channel, row) in &file.requests {
             let place = channel.strip_prefix("DMA").and_then(|rest| rest.split_once("_CH"));
             let (controller, stream) = place?;
             let controller = controller.parse::<usize>().ok()?.checked_sub(1)?;
-            let stream = requests.get_mut(controller)?.get_mut(stream.parse::<usize>().ok()?)?;
-            for (asking, names) in stream.iter_mut().zip(row) {
-                *asking = names.iter().filter_map(|name| request(name)).collect();
-            }
+            let stream = at_index(at_index(&mut requests, controller)?, stream.parse().ok()?)?;
+            let named =
+                |names: &Vec<String>| names.iter().filter_map(|name| request(name)).collect();
+            *stream = row.iter().map(named).collect();
         }
         Some(Self {
             parts: file.parts,
             largest: file.largest,
+            core: file.core,
+            size_at: file.size_at,
             idcode: file.idcode,
             flash_bytes: file.flash_bytes,
             sram_bytes: file.sram_bytes,
@@ -131,7 +153,58 @@ impl Mcu {
         self.units.get(unit).is_some_and(|unit| unit.base >= 0x4001_0000)
     }
 
-    /// The requests that a stream serves on one of its channels. Streams and controllers count from 0.
+    /// The name and version of a unit's block, as in `timer_v1`; empty if the MCU lacks the unit.
+    pub(crate) fn block(&self, unit: &str) -> &str {
+        self.units.get(unit).map_or("", |unit| &unit.block)
+    }
+
+    /// How many channels a timer has, and of which width, as in `TIM_GP16`.
+    pub(crate) fn shape(&self, timer: &str) -> &str {
+        self.units.get(timer).and_then(|unit| unit.shape.as_deref()).unwrap_or_default()
+    }
+
+    /// The field of AFIO that moves a unit's signals.
+    pub(crate) fn remap(&self, unit: &str) -> Option<(u32, u32, u32)> {
+        self.units.get(unit)?.remap
+    }
+
+    /// The address of the unique number.
+    pub(crate) fn number_at(&self) -> Option<u32> {
+        Some(self.units.get("UID")?.base)
+    }
+
+    /// The highest number among the units of these kinds: 4 with TIM1 and TIM4. A unit without a number has number 1.
+    pub(crate) fn last(&self, kinds: &[&str]) -> usize {
+        let is_own = |name: &&String| kinds.contains(&kind(name));
+        self.units.keys().filter(is_own).filter_map(|name| index(name)).max().map_or(0, |at| at + 1)
+    }
+
+    /// The name of a unit by its number, from 1 on: that of CAN 1 is `CAN` where it is the only one.
+    pub(crate) fn unit(&self, kind: &str, number: u8) -> String {
+        let own = format!("{kind}{number}");
+        let is_only =
+            number == 1 && !self.units.contains_key(&own) && self.units.contains_key(kind);
+        if is_only { kind.to_owned() } else { own }
+    }
+
+    /// The number of ports up to the last one.
+    pub(crate) fn ports(&self) -> usize {
+        let ports = self.rows.iter().filter_map(|row| match row.device {
+            Device::Gpio(port) => Some(port + 1),
+            _ => None,
+        });
+        ports.max().unwrap_or(0)
+    }
+
+    /// Whether each pad chooses a peripheral by the number of an alternate function. Otherwise each peripheral chooses
+    /// its pads, and reads those that are inputs.
+    #[must_use]
+    pub fn numbers_functions(&self) -> bool {
+        self.block("GPIOA") != "gpio_v1"
+    }
+
+    /// The requests that a stream serves on one of its channels. Controllers count from 0, and streams as in the
+    /// manual.
     pub(crate) fn requests(&self, controller: usize, stream: usize, channel: u32) -> &[Request] {
         let streams = self.requests.get(controller).and_then(|streams| streams.get(stream));
         streams.and_then(|channels| channels.get(channel as usize)).map_or(&[], Vec::as_slice)
@@ -144,8 +217,7 @@ impl Mcu {
         (address - row.base < row.bytes).then_some(*row)
     }
 
-    /// The peripherals whose clock bit, and reset bit, is in a register. The reset registers are 0x20 below the enable
-    /// registers.
+    /// The peripherals whose clock bits are in an enable register. Their reset bits are at the same places.
     pub(crate) fn behind(&self, register: u32, bits: u32) -> impl Iterator<Item = Device> {
         let has = move |row: &&Row| {
             row.clock.is_some_and(|(enable, bit)| enable == register && bits >> bit & 1 == 1)
@@ -154,57 +226,78 @@ impl Mcu {
     }
 }
 
-/// The number at the end of a unit's name, counted from 0.
-fn index(name: &str) -> Option<usize> {
-    let kind = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let digits = name.strip_prefix(kind)?;
-    digits.parse::<usize>().ok()?.checked_sub(1)
+/// An element of a list, which becomes longer if it has to; `None` beyond what any MCU has.
+fn at_index<T: Default>(list: &mut Vec<T>, at: usize) -> Option<&mut T> {
+    const LONGEST: usize = 64;
+    if at < LONGEST {
+        list.resize_with(list.len().max(at + 1), T::default);
+    }
+    list.get_mut(at)
 }
 
-/// The model for a unit; `None` for a unit that shares the place of another.
+/// A unit's name without the number at its end.
+fn kind(name: &str) -> &str {
+    name.trim_end_matches(|letter: char| letter.is_ascii_digit())
+}
+
+/// The number at the end of a unit's name, counted from 0; the only unit of a kind may have none.
+fn index(name: &str) -> Option<usize> {
+    match name.strip_prefix(kind(name))? {
+        "" => Some(0),
+        digits => digits.parse::<usize>().ok()?.checked_sub(1),
+    }
+}
+
+/// The model for a unit; `None` for one whose name is not of its block.
 fn device(name: &str, block: &str) -> Option<Device> {
     Some(match block {
-        "gpio_v2" => {
+        "gpio_v1" | "gpio_v2" => {
             let port = name.strip_prefix("GPIO")?.bytes().next()?;
             Device::Gpio(usize::from(port.checked_sub(b'A')?))
         }
         "timer_v1" => Device::Timer(index(name)?),
-        "usart_v2" => Device::Usart(index(name)?),
-        "spi_v2_i2s" => Device::Spi(index(name)?),
+        // The two versions differ in oversampling, which no firmware of this generator uses.
+        "usart_v1" | "usart_v2" => Device::Usart(index(name)?),
+        "spi_v1" | "spi_v2_i2s" => Device::Spi(index(name)?),
         // The fast-mode I2C is a different block.
         "i2c_v1" => Device::I2c(index(name)?),
         "can_bxcan" => Device::Can(index(name)?),
-        // All converters, with the registers that they share, are in one place.
-        "adc_v2" if name == "ADC1" => Device::Adc,
-        "adc_v2" | "adccommon_v2" => return None,
+        "adc_f1" | "adc_v2" => Device::Adc(index(name)?),
+        "adccommon_v2" => Device::AdcCommon,
         "dac_v2" => Device::Dac,
-        "dma_v2" => Device::Dma(index(name)?),
+        "bdma_v1" | "dma_v2" => Device::Dma(index(name)?),
         "exti_v1" => Device::Exti,
         "syscfg_f4" => Device::Syscfg,
-        "rcc_f4" => Device::Rcc,
+        "afio_f1" => Device::Afio,
+        "rcc_f1" | "rcc_f4" => Device::Rcc,
         "iwdg_v1" => Device::Iwdg,
         "otg_v1" if name == "USB_OTG_FS" => Device::Usb,
-        "pwr_f4" => Device::Pwr,
-        "flash_f4" => Device::Flash,
-        "rtc_v2_f4" => Device::Rtc,
+        "usb_v1" => Device::Usb,
+        "usbram_16x1_512" => Device::UsbMemory,
+        "pwr_f1" | "pwr_f4" => Device::Pwr,
+        "flash_f1" | "flash_f4" => Device::Flash,
+        "rtc_v1" | "rtc_v2_f4" => Device::Rtc,
+        "bkp_v1" => Device::Backup,
         "crc_v1" => Device::Crc,
         "rng_v1" => Device::Random,
-        "dbgmcu_f4" => Device::Debug,
+        "dbgmcu_f1" | "dbgmcu_f4" => Device::Debug,
         _ => Device::Other,
     })
 }
 
 /// The place of a unit; `None` for one outside the peripherals' addresses.
-fn row(name: &str, unit: &Unit) -> Option<Row> {
+fn row(name: &str, unit: &Unit, units: &BTreeMap<String, Unit>) -> Option<Row> {
     let is_within = (0x4000_0000..0x6000_0000).contains(&unit.base) || unit.base == DEBUG_BASE;
     let device = device(name, &unit.block).filter(|_| is_within)?;
     let bytes = match unit.block.as_str() {
         "otg_v1" => 0x4_0000,
         "eth_v1b" => 0x1400,
+        "adc_v2" | "adccommon_v2" => 0x100,
         _ => 0x400,
     };
-    // Each converter has its own clock, which `chip.rs` checks.
-    let clock = unit.clock.filter(|_| device != Device::Adc);
+    // The memory for packets has the clock of its unit.
+    let of_usb = || units.get("USB").filter(|_| device == Device::UsbMemory)?.clock;
+    let clock = unit.clock.or_else(of_usb);
     Some(Row { base: unit.base, bytes, device, clock })
 }
 
@@ -212,8 +305,7 @@ fn row(name: &str, unit: &Unit) -> Option<Row> {
 fn request(name: &str) -> Option<Request> {
     let (unit, signal) = name.split_once('_')?;
     let at = index(unit)?;
-    let kind = unit.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    Some(match (kind, signal) {
+    Some(match (kind(unit), signal) {
         ("ADC", _) => Request::Adc(at),
         ("I2C", "RX") => Request::I2cRx(at),
         ("I2C", "TX") => Request::I2cTx(at),
@@ -241,6 +333,7 @@ mod tests {
             assert!(sensedsl_parts::find(mcu.largest()).is_some(), "{}", mcu.largest());
             let overlaps = mcu.rows.windows(2).any(|two| two[1].base - two[0].base < two[0].bytes);
             assert!(!overlaps && mcu.rows.len() > 30, "{}", mcu.name());
+            assert!(mcu.number_at().is_some() && mcu.ports() > 4, "{}", mcu.name());
         }
     }
 
@@ -256,6 +349,29 @@ mod tests {
         assert_eq!(f411.requests(0, 5, 6), [Request::I2cTx(2)]);
         assert_eq!((f407.irq("I2C3", "EV"), f411.irq("UART4", "GLOBAL")), (72, u16::MAX));
         assert!(f407.is_on_apb2("USART6") && !f407.is_on_apb2("USART3"));
-        assert!(Mcu::find("STM32F103C8").is_none());
+        assert_eq!((f407.last(&["TIM"]), f411.last(&["USART", "UART"])), (14, 6));
+        assert_eq!((f407.shape("TIM2"), f407.shape("TIM12")), ("TIM_GP32", "TIM_2CH"));
+        assert!(f407.numbers_functions() && f407.remap("TIM2").is_none());
+    }
+
+    #[test]
+    fn the_parts_of_f1_have_what_their_manual_says() {
+        let f103 = Mcu::find("STM32F103C8T6").unwrap();
+        assert_eq!((f103.name(), f103.core), ("STM32F103", super::Core::M3));
+        assert_eq!(f103.at(0x4001_2800).unwrap().device, Device::Adc(1));
+        assert_eq!(f103.at(0x4000_6204).unwrap().device, Device::UsbMemory);
+        assert_eq!(f103.at(0x4000_6204).unwrap().clock, f103.at(0x4000_5C00).unwrap().clock);
+        assert_eq!(f103.at(0x4001_0004).unwrap().device, Device::Afio);
+        // The first stream, which has one list.
+        let first = [Request::Adc(0), Request::Timer(1, 3), Request::Timer(3, 1)];
+        assert!(first.iter().all(|one| f103.requests(0, 1, 0).contains(one)));
+        assert!(f103.requests(0, 1, 1).is_empty() && f103.requests(1, 1, 0).is_empty());
+        assert_eq!((f103.irq("USB", "LP"), f103.irq("CAN", "RX0")), (20, 20));
+        assert_eq!((f103.unit("CAN", 1), f103.last(&["CAN"])), ("CAN".to_owned(), 1));
+        assert_eq!((f103.shape("TIM2"), f103.remap("TIM2")), ("TIM_GP16", Some((4, 8, 2))));
+        assert!(!f103.numbers_functions());
+        assert_eq!((f103.ports(), f103.number_at()), (5, Some(0x1FFF_F7E8)));
+        // Other densities have other units.
+        assert!(Mcu::find("STM32F103ZE").is_none() && Mcu::find("STM32F103C6").is_none());
     }
 }

@@ -2,6 +2,9 @@
 
 use super::wires::merge;
 
+/// The size of a block.
+const BYTES: u32 = 0x400;
+
 /// A block of registers that keep what is written, except for the bits that hardware sets.
 #[derive(Debug)]
 pub(super) struct Plain {
@@ -10,19 +13,26 @@ pub(super) struct Plain {
     ready: &'static [(u32, u32)],
 }
 
-/// The regulator has reached the selected voltage, including the higher one if there is one; the backup regulator is
-/// ready.
-pub(super) const PWR: &[(u32, u32)] = &[(0x04, 0x0003_4008)];
-/// The calendar can be set, and its shadow registers are up to date.
-pub(super) const RTC: &[(u32, u32)] = &[(0x0C, 0x67)];
-/// There is always another random number.
-pub(super) const RNG: &[(u32, u32)] = &[(0x04, 1)];
-/// The flash's latency can be read back, and it is never busy.
-pub(super) const FLASH: &[(u32, u32)] = &[];
+/// The registers of a block that have bits which always read as 1.
+fn ready(block: &str) -> &'static [(u32, u32)] {
+    match block {
+        // The regulator has reached the selected voltage, including the higher one if there is one; the backup
+        // regulator is ready.
+        "pwr_f4" => &[(0x04, 0x0003_4008)],
+        // The calendar can be set, and its registers are up to date.
+        "rtc_v1" => &[(0x04, 0x28)],
+        "rtc_v2_f4" => &[(0x0C, 0x67)],
+        // There is always another random number.
+        "rng_v1" => &[(0x04, 1)],
+        // The flash's latency can be read back, and it is never busy.
+        _ => &[],
+    }
+}
 
 impl Plain {
-    pub(super) fn new(bytes: u32, ready: &'static [(u32, u32)]) -> Self {
-        Self { registers: vec![0; (bytes / 4) as usize], ready }
+    /// A block in its state after a reset.
+    pub(super) fn new(block: &str) -> Self {
+        Self { registers: vec![0; (BYTES / 4) as usize], ready: ready(block) }
     }
 
     pub(super) fn read(&self, offset: u32) -> u32 {

@@ -1,4 +1,4 @@
-//! TIM1 to TIM14: time base, compare, PWM, and the registers of all modes. Inputs are in `capture.rs`.
+//! The timers: time base, compare, PWM, and the registers of all modes. Inputs are in `capture.rs`.
 //!
 //! A counter is only computed when it is read; between changes of its settings it is a linear function of time.
 
@@ -11,13 +11,15 @@ use sensedsl_surroundings::TimerOutput;
 const UPDATE: u32 = 1;
 const TRIGGER: u32 = 1 << 6;
 
-/// The hardware variant of a timer, by its number.
+/// The hardware variant of a timer.
 #[derive(Clone, Copy, Debug)]
 struct Variant {
     /// The timer's number: `3` is TIM3.
     number: u8,
     channels: u8,
     is_wide: bool,
+    /// Whether its outputs have complements, and a switch for all of them.
+    is_advanced: bool,
     is_on_apb2: bool,
     /// The interrupts for update, for trigger, and for capture and compare; `holder` identifies the timer among those
     /// that share them.
@@ -25,17 +27,21 @@ struct Variant {
     holder: u8,
 }
 
-/// The channels of TIM1 to TIM14.
-const CHANNELS: [u8; 14] = [4, 4, 4, 4, 4, 0, 0, 4, 2, 1, 1, 2, 1, 1];
-
 impl Variant {
     fn new(index: usize, mcu: &Mcu) -> Self {
         let number = u8::try_from(index + 1).unwrap_or(1);
         let name = format!("TIM{number}");
+        let shape = mcu.shape(&name);
         Self {
             number,
-            channels: CHANNELS[index],
-            is_wide: matches!(number, 2 | 5),
+            channels: match shape {
+                "TIM_1CH" => 1,
+                "TIM_2CH" => 2,
+                "TIM_ADV" | "TIM_GP16" | "TIM_GP32" => 4,
+                _ => 0,
+            },
+            is_wide: shape == "TIM_GP32",
+            is_advanced: shape == "TIM_ADV",
             is_on_apb2: mcu.is_on_apb2(&name),
             irqs: ["UP", "TRG", "CC"].map(|signal| mcu.irq(&name, signal)),
             // The small timers share the lines of TIM1 and TIM8.
@@ -99,7 +105,8 @@ impl Timer {
             prescaler: 1,
             base_count: 0,
             base_ns: 0,
-            hz: 16_000_000,
+            // The first write sets it.
+            hz: 1,
             seen: 0,
             next: NEVER,
             inputs: Inputs::new(variant.number),
@@ -410,7 +417,7 @@ impl Timer {
     /// Period and width, in nanoseconds, of the output of a channel or its complement. A complement that is on alone
     /// follows the channel; next to an active channel, it is inverted (RM0090, table 97).
     fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
-        let has_complement = matches!(self.variant.number, 1 | 8) && channel < 3;
+        let has_complement = self.variant.is_advanced && channel < 3;
         if is_complement && !has_complement {
             return (0, 0);
         }
@@ -419,7 +426,7 @@ impl Timer {
         let (bits, is_against) =
             if is_complement { (own >> 2, own & 1 == 1) } else { (own, false) };
         let is_on = bits & 1 == 1 && self.cr1 & 1 != 0;
-        let main = !matches!(self.variant.number, 1 | 8) || self.bdtr >> 15 & 1 == 1;
+        let main = !self.variant.is_advanced || self.bdtr >> 15 & 1 == 1;
         if !is_on || !main || !self.compares(channel) || !matches!(mode, 6 | 7) {
             return (0, 0);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rsemu::core::space::RamStore;
 
 use super::chip::Chip;
-use super::dma::{Direction, Dma};
+use super::dma::{Direction, Dma, Item, STREAMS};
 use super::mcu::Mcu;
 use super::wires::Request;
 
@@ -71,34 +71,33 @@ impl Memory {
 impl Chip {
     pub(super) fn serve_dma(&mut self) {
         for controller in 0..self.dmas.len() {
-            for stream in 0..8 {
-                if self.dmas[controller].streams[stream].is_enabled() {
-                    self.serve_stream(controller, stream);
-                }
+            for stream in members(self.dmas[controller].enabled()) {
+                self.serve_stream(controller, stream);
             }
-            for stream in 0..8 {
-                let is_held = self.dmas[controller].interrupts(stream);
-                self.wires.interrupt(self.dma_irqs[controller][stream], 0, is_held);
+            let held = self.dmas[controller].held();
+            for (stream, irq) in self.dma_irqs[controller].iter().enumerate() {
+                self.wires.interrupt(*irq, 0, held >> stream & 1 == 1);
             }
         }
     }
 
     fn serve_stream(&mut self, controller: usize, stream: usize) {
         for _ in 0..ITEMS_MAX {
-            let state = self.dmas[controller].streams[stream];
-            if !state.is_enabled() {
+            let dma = &self.dmas[controller];
+            if dma.enabled() >> stream & 1 == 0 {
                 return;
             }
-            if state.direction() != Direction::Memory {
-                let channel = state.cr >> 25 & 7;
-                let may_ask = self.mcu.requests(controller, stream, channel).iter();
+            let item = dma.item(stream);
+            if item.direction != Direction::Memory {
+                let may_ask = self.mcu.requests(controller, stream, item.channel).iter();
                 let Some(request) = may_ask.copied().find(|one| self.asks(*one)) else { return };
-                self.served(request, state.left);
+                self.served(request, item.left);
             }
-            if self.move_item(controller, stream).is_none() {
+            if self.move_item(item).is_none() {
                 self.dmas[controller].fail(stream);
                 return;
             }
+            self.dmas[controller].count(stream);
         }
     }
 
@@ -132,28 +131,23 @@ impl Chip {
         }
     }
 
-    /// Moves an item of the peripheral's size; `None` if there is nothing at an address.
-    fn move_item(&mut self, controller: usize, stream: usize) -> Option<()> {
-        let state = self.dmas[controller].streams[stream];
-        let (size, _) = state.sizes();
-        let (peripheral, memory) =
-            (state.peripheral_address(), state.memory_address(state.moved()));
-        match state.direction() {
+    /// Moves an item; `None` if there is nothing at an address. Only the low bytes of a longer item fit into a shorter
+    /// one.
+    fn move_item(&mut self, Item { direction, peripheral, memory, .. }: Item) -> Option<()> {
+        match direction {
             Direction::FromPeripheral => {
-                let value = self.fetch(peripheral, size)?;
-                self.store_bytes(memory, value, size)?;
+                let value = self.fetch(peripheral.address, peripheral.bytes)?;
+                self.store_bytes(memory.address, value, memory.bytes)
             }
             Direction::ToPeripheral => {
-                let value = self.load_bytes(memory, size)?;
-                self.put(peripheral, value, size)?;
+                let value = self.load_bytes(memory.address, memory.bytes)?;
+                self.put(peripheral.address, value, peripheral.bytes)
             }
             Direction::Memory => {
-                let value = self.load_bytes(peripheral, size)?;
-                self.store_bytes(memory, value, size)?;
+                let value = self.load_bytes(peripheral.address, peripheral.bytes)?;
+                self.store_bytes(memory.address, value, memory.bytes)
             }
         }
-        self.dmas[controller].count(stream);
-        Some(())
     }
 
     fn load_bytes(&self, address: u32, size: u32) -> Option<u32> {
@@ -170,15 +164,19 @@ impl Chip {
 }
 
 /// The number of items left in the stream that serves a request.
-pub(super) fn left_of(mcu: &Mcu, dmas: &[Dma; 2], wanted: Request) -> Option<u32> {
+pub(super) fn left_of(mcu: &Mcu, dmas: &[Box<dyn Dma>], wanted: Request) -> Option<u32> {
     for (controller, dma) in dmas.iter().enumerate() {
-        for (stream, state) in dma.streams.iter().enumerate() {
-            if state.is_enabled()
-                && mcu.requests(controller, stream, state.cr >> 25 & 7).contains(&wanted)
-            {
-                return Some(state.left);
+        for stream in members(dma.enabled()) {
+            let item = dma.item(stream);
+            if mcu.requests(controller, stream, item.channel).contains(&wanted) {
+                return Some(item.left);
             }
         }
     }
     None
+}
+
+/// The numbers of the streams in a set.
+fn members(set: u32) -> impl Iterator<Item = usize> {
+    (0..STREAMS).filter(move |stream| set >> stream & 1 == 1)
 }

@@ -22,6 +22,11 @@ pub(super) struct Clocks {
     pub apb2: u64,
     pub timers1: u64,
     pub timers2: u64,
+    /// The clock of the converters, before a divider of their own.
+    pub adc: u64,
+    pub usb: u64,
+    /// The slow oscillator inside, which the watchdog has.
+    pub lsi: u64,
 }
 
 /// The port of the MCU that a host computer is connected to.
@@ -112,7 +117,7 @@ pub(super) struct Wires {
     /// A counter of changes after which the world may have other edges.
     pub version: u64,
     /// The number of items left in the stream of each I2C unit's receiver: it refuses the byte after the last one.
-    pub i2c_left: [Option<u32>; 3],
+    pub i2c_left: Vec<Option<u32>>,
     world: Arc<Mutex<dyn Surroundings>>,
     /// The holders of each interrupt's line, one bit each.
     holders: [u16; IRQS],
@@ -123,17 +128,22 @@ pub(super) struct Wires {
 const IRQS: usize = 97;
 
 impl Wires {
-    pub(super) fn new(world: Arc<Mutex<dyn Surroundings>>, port: LinkPort, mcu: &Mcu) -> Self {
+    pub(super) fn new(
+        world: Arc<Mutex<dyn Surroundings>>,
+        port: LinkPort,
+        clocks: Clocks,
+        mcu: &Mcu,
+    ) -> Self {
         let link = Link { port, to_mcu: VecDeque::new(), from_mcu: Vec::new(), is_open: true };
         Self {
             now: 0,
-            clocks: super::rcc::AT_RESET,
+            clocks,
             gpio: Gpio::new(mcu),
             link,
             events: Vec::new(),
             triggers: 0,
             version: 0,
-            i2c_left: [None; 3],
+            i2c_left: vec![None; mcu.last(&["I2C"])],
             world,
             holders: [0; IRQS],
             changed: Vec::new(),

@@ -1,7 +1,7 @@
-//! ADC1 to ADC3: regular sequences, started by software or by a timer's trigger, with DMA; injected ones, started by
-//! software.
+//! The converters of STM32F2, F4 and F7: started by software or by a timer's trigger; up to three share a divider.
 
-use super::wires::{NEVER, SUPPLY_MV, Wires, merge, periods_ns};
+use super::{Adc, channel_at, code_of, injected, input_mv, sampling};
+use crate::wires::{NEVER, Wires, merge, periods_ns};
 
 /// Bits of SR.
 const WATCHDOG: u32 = 1;
@@ -28,7 +28,7 @@ const BATTERY_MV: f64 = 1650.0;
 
 /// A converter.
 #[derive(Debug)]
-pub(super) struct Adc {
+pub(super) struct Unit {
     unit: u8,
     sr: u32,
     cr: [u32; 2],
@@ -45,11 +45,11 @@ pub(super) struct Adc {
     at: u32,
     done_at: u64,
     injected_at: u64,
-    /// The common prescaler, from the common registers.
-    pub divider: u64,
+    /// The common divider, from the common registers.
+    divider: u64,
 }
 
-impl Adc {
+impl Unit {
     pub(super) fn new(unit: u8) -> Self {
         Self {
             unit,
@@ -78,21 +78,9 @@ impl Adc {
         if self.cr[0] >> 8 & 1 == 1 { (self.sqr[0] >> 20 & 15) + 1 } else { 1 }
     }
 
-    fn channel(&self, at: u32) -> u32 {
-        match at {
-            0..=5 => self.sqr[2] >> (5 * at) & 31,
-            6..=11 => self.sqr[1] >> (5 * (at - 6)) & 31,
-            _ => self.sqr[0] >> (5 * (at - 12)) & 31,
-        }
-    }
-
     fn conversion_ns(&self, channel: u32, wires: &Wires) -> u64 {
-        let code = match channel {
-            0..=9 => self.smpr[1] >> (3 * channel) & 7,
-            _ => self.smpr[0] >> (3 * (channel.min(18) - 10)) & 7,
-        };
-        let cycles = SAMPLING[code as usize] + self.bits();
-        periods_ns(cycles * self.divider, wires.clocks.apb2).max(1)
+        let cycles = SAMPLING[sampling(self.smpr, channel)] + self.bits();
+        periods_ns(cycles * self.divider, wires.clocks.adc).max(1)
     }
 
     fn sample(&self, channel: u32, wires: &Wires) -> u32 {
@@ -100,41 +88,21 @@ impl Adc {
             16 => TEMPERATURE_MV,
             17 => REFERENCE_MV,
             18 => BATTERY_MV,
-            _ => match wires.pad_of(&format!("ADC{}_IN{channel}", self.unit)) {
-                Some(pad) => wires.world(|world, now| world.millivolts(pad, now)),
-                None => 0.0,
-            },
+            _ => input_mv(self.unit, channel, wires),
         };
-        let steps = f64::from(1_u32 << self.bits());
-        let code = (millivolts / SUPPLY_MV * steps).floor().clamp(0.0, steps - 1.0);
-        // The clamped value is a small whole number.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 4095")]
-        let code = code as u32;
+        let code = code_of(millivolts, self.bits());
         if self.cr[1] & LEFT != 0 { code << (16 - self.bits()) } else { code }
-    }
-
-    pub(super) fn deadline(&self) -> u64 {
-        self.done_at.min(self.injected_at)
-    }
-
-    pub(super) fn advance(&mut self, wires: &mut Wires) {
-        if self.injected_at <= wires.now {
-            self.finish_injected(wires);
-        }
-        if self.done_at <= wires.now {
-            self.finish(wires);
-        }
     }
 
     fn start(&mut self, wires: &Wires) {
         if self.cr[1] & ON != 0 && self.done_at == NEVER {
             self.at = 0;
             self.sr |= STARTED;
-            self.done_at = wires.now + self.conversion_ns(self.channel(0), wires);
+            self.done_at = wires.now + self.conversion_ns(channel_at(self.sqr, 0), wires);
         }
     }
 
-    fn finish(&mut self, wires: &mut Wires) {
+    fn finish(&mut self, wires: &Wires) {
         let at = self.done_at;
         self.done_at = NEVER;
         let is_last = self.at + 1 >= self.length();
@@ -148,7 +116,7 @@ impl Adc {
             self.asking = false;
             return;
         }
-        let channel = self.channel(self.at);
+        let channel = channel_at(self.sqr, self.at);
         self.dr = self.sample(channel, wires);
         self.asking = self.cr[1] & DMA != 0;
         if is_last || self.cr[1] & EACH != 0 {
@@ -162,7 +130,7 @@ impl Adc {
         } else {
             return;
         }
-        self.done_at = at + self.conversion_ns(self.channel(self.at), wires);
+        self.done_at = at + self.conversion_ns(channel_at(self.sqr, self.at), wires);
     }
 
     fn watch(&mut self, channel: u32) {
@@ -176,17 +144,49 @@ impl Adc {
 
     fn finish_injected(&mut self, wires: &Wires) {
         self.injected_at = NEVER;
-        let length = (self.jsqr >> 20 & 3) + 1;
-        for index in 0..length {
-            let channel = self.jsqr >> (5 * (4 - length + index)) & 31;
+        for (index, channel) in injected(self.jsqr).enumerate() {
             let value = self.sample(channel, wires);
-            self.jdr[index as usize] = value.wrapping_sub(self.jofr[index as usize]) & 0xFFFF;
+            self.jdr[index] = value.wrapping_sub(self.jofr[index]) & 0xFFFF;
         }
         self.sr |= INJECTED_DONE;
     }
 
-    /// Starts the sequence if it waits for one of these timers' triggers.
-    pub(super) fn trigger(&mut self, triggers: u32, wires: &Wires) {
+    fn control(&mut self, new: u32, wires: &Wires) {
+        self.cr[1] = new & !((1 << 30) | (1 << 22));
+        if new & ON == 0 {
+            (self.done_at, self.injected_at) = (NEVER, NEVER);
+            self.asking = false;
+            return;
+        }
+        if new & DMA == 0 {
+            self.asking = false;
+        }
+        if new >> 30 & 1 == 1 {
+            self.start(wires);
+        }
+        if new >> 22 & 1 == 1 {
+            self.sr |= INJECTED_STARTED;
+            let time = injected(self.jsqr).map(|channel| self.conversion_ns(channel, wires));
+            self.injected_at = wires.now + time.sum::<u64>();
+        }
+    }
+}
+
+impl Adc for Unit {
+    fn deadline(&self) -> u64 {
+        self.done_at.min(self.injected_at)
+    }
+
+    fn advance(&mut self, wires: &Wires) {
+        if self.injected_at <= wires.now {
+            self.finish_injected(wires);
+        }
+        if self.done_at <= wires.now {
+            self.finish(wires);
+        }
+    }
+
+    fn trigger(&mut self, triggers: u32, wires: &Wires) {
         // EXTSEL: 6 is TIM2's trigger output, 8 TIM3's, 14 TIM8's.
         let timer = match self.cr[1] >> 24 & 15 {
             6 => 1,
@@ -199,18 +199,18 @@ impl Adc {
         }
     }
 
-    pub(super) fn asks(&self) -> bool {
+    fn asks(&self) -> bool {
         self.asking
     }
 
-    /// The DMA moved the last item: no more requests are made unless they are to go on.
-    pub(super) fn dma_ended(&mut self) {
+    /// No more requests are made unless they are to go on.
+    fn dma_ended(&mut self) {
         if self.cr[1] & DMA_GOES_ON == 0 {
             self.done_at = if self.cr[1] & CONTINUOUS == 0 { self.done_at } else { NEVER };
         }
     }
 
-    pub(super) fn interrupts(&self) -> bool {
+    fn interrupts(&self) -> bool {
         let enabled = (self.cr[0] >> 5 & 1) << 1
             | (self.cr[0] >> 6 & 1)
             | (self.cr[0] >> 7 & 1) << 2
@@ -218,12 +218,11 @@ impl Adc {
         self.sr & enabled != 0
     }
 
-    /// The bits of this unit in the common status register.
-    pub(super) fn status(&self) -> u32 {
+    fn status(&self) -> u32 {
         self.sr & 0x3F
     }
 
-    pub(super) fn read(&mut self, offset: u32) -> u32 {
+    fn read(&mut self, offset: u32) -> u32 {
         match offset {
             0x00 => self.sr,
             0x04 => self.cr[0],
@@ -243,7 +242,7 @@ impl Adc {
         }
     }
 
-    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &Wires) {
+    fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &Wires) {
         let put = |old: &mut u32| *old = merge(*old, value, mask);
         match offset {
             0x00 => self.sr &= value | !mask,
@@ -258,26 +257,7 @@ impl Adc {
         }
     }
 
-    fn control(&mut self, new: u32, wires: &Wires) {
-        self.cr[1] = new & !((1 << 30) | (1 << 22));
-        if new & ON == 0 {
-            (self.done_at, self.injected_at) = (NEVER, NEVER);
-            self.asking = false;
-            return;
-        }
-        if new & DMA == 0 {
-            self.asking = false;
-        }
-        if new >> 30 & 1 == 1 {
-            self.start(wires);
-        }
-        if new >> 22 & 1 == 1 {
-            self.sr |= INJECTED_STARTED;
-            let length = (self.jsqr >> 20 & 3) + 1;
-            let time = (0..length).map(|index| {
-                self.conversion_ns(self.jsqr >> (5 * (4 - length + index)) & 31, wires)
-            });
-            self.injected_at = wires.now + time.sum::<u64>();
-        }
+    fn set_divider(&mut self, divider: u64) {
+        self.divider = divider;
     }
 }

@@ -1,10 +1,11 @@
-//! `OTG_FS` as a device: endpoints and FIFOs as the program sees them. The host at the other end is in `usb_host.rs`.
+//! `OTG_FS` as a device: endpoints and FIFOs as the program sees them.
 
 use std::collections::VecDeque;
 
-use super::mcu::Mcu;
-use super::usb_host::Host;
-use super::wires::{LinkPort, NEVER, Wires, merge};
+use super::host::Host;
+use super::{Function, Usb};
+use crate::mcu::Mcu;
+use crate::wires::{LinkPort, NEVER, Wires, merge};
 
 /// The number of endpoints in each direction.
 const ENDPOINTS: usize = 4;
@@ -15,8 +16,8 @@ const SOF: u32 = 1 << 3;
 const RECEIVED: u32 = 1 << 4;
 const IN_ENDPOINT: u32 = 1 << 18;
 const OUT_ENDPOINT: u32 = 1 << 19;
-pub(super) const BUS_RESET: u32 = 1 << 12;
-pub(super) const ENUMERATED: u32 = 1 << 13;
+const BUS_RESET: u32 = 1 << 12;
+const ENUMERATED: u32 = 1 << 13;
 const SESSION: u32 = 1 << 30;
 /// The time until the comparators have detected the bus voltage.
 const SENSING_NS: u64 = 100_000;
@@ -90,7 +91,7 @@ impl Endpoint {
 
 /// The USB port.
 #[derive(Debug)]
-pub(super) struct Usb {
+pub(super) struct Otg {
     irq: u16,
     registers: Vec<u32>,
     status: u32,
@@ -107,7 +108,7 @@ pub(super) struct Usb {
     session_ns: u64,
 }
 
-impl Usb {
+impl Otg {
     pub(super) fn new(mcu: &Mcu) -> Self {
         Self::with(mcu.irq("USB_OTG_FS", "GLOBAL"))
     }
@@ -127,15 +128,6 @@ impl Usb {
         }
     }
 
-    pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::with(self.irq);
-        self.tell(wires);
-    }
-
-    pub(super) fn deadline(&self) -> u64 {
-        self.host.next_ns.min(self.session_ns)
-    }
-
     fn register(&self, offset: u32) -> u32 {
         self.registers.get((offset / 4) as usize).copied().unwrap_or(0)
     }
@@ -150,19 +142,6 @@ impl Usb {
         is_on && is_wanted && has_pads && wires.link.port == LinkPort::Usb
     }
 
-    pub(super) fn advance(&mut self, wires: &mut Wires) {
-        let mut host = std::mem::replace(&mut self.host, Host::new());
-        while host.next_ns <= wires.now {
-            host.act(self, wires);
-        }
-        self.host = host;
-        if self.session_ns <= wires.now {
-            self.session_ns = NEVER;
-            self.status |= SESSION;
-        }
-        self.tell(wires);
-    }
-
     /// The other end of the cable supplies the bus voltage, which is detected by a device that looks for it.
     fn sense(&mut self, was: u32, wires: &Wires) {
         let looks = |configuration: u32| configuration >> 16 & configuration >> 19 & 1 == 1;
@@ -171,83 +150,6 @@ impl Usb {
             self.session_ns = wires.now + SENSING_NS;
         }
     }
-
-    // --- what the host does ---
-
-    pub(super) fn raise(&mut self, bits: u32) {
-        self.status |= bits;
-        if bits & BUS_RESET != 0 {
-            self.received.clear();
-            self.reading.clear();
-            for endpoint in &mut self.ins {
-                endpoint.fifo.clear();
-            }
-        }
-    }
-
-    pub(super) fn start_frame(&mut self) {
-        self.frame = (self.frame + 1) & 0x3FFF;
-        self.status |= SOF;
-    }
-
-    pub(super) fn setup(&mut self, packet: [u8; 8]) {
-        self.ins[0].control &= !STALL;
-        self.outs[0].control = (self.outs[0].control & !STALL) | NAK;
-        self.ins[0].fifo.clear();
-        self.received.push_back((SETUP_DATA << 17 | 8 << 4, packet.to_vec()));
-        self.received.push_back((SETUP_COMPLETE << 17, Vec::new()));
-    }
-
-    pub(super) fn has_stalled(&self, endpoint: usize) -> bool {
-        (self.ins[endpoint].control | self.outs[endpoint].control) & STALL != 0
-    }
-
-    /// Whether everything that was received has been taken.
-    pub(super) fn is_idle(&self) -> bool {
-        self.received.is_empty() && self.reading.is_empty()
-    }
-
-    /// Sends a packet to an endpoint; `false` if it is not ready for one.
-    pub(super) fn send(&mut self, endpoint: usize, data: &[u8]) -> bool {
-        let out = &mut self.outs[endpoint];
-        // On an active endpoint, only NAK holds packets back.
-        if out.control_of(endpoint) & (ACTIVE | NAK | STALL) != ACTIVE {
-            return false;
-        }
-        let length = u32::try_from(data.len()).unwrap_or(0);
-        let number = u32::try_from(endpoint).unwrap_or(0);
-        let is_short = length < packet_bytes(out.control, endpoint);
-        out.take(length);
-        self.received.push_back((OUT_DATA << 17 | length << 4 | number, data.to_vec()));
-        if is_short || out.packets() == 0 {
-            out.control = (out.control & !ENABLE) | NAK;
-            self.received.push_back((OUT_COMPLETE << 17 | number, Vec::new()));
-        }
-        true
-    }
-
-    /// Takes a packet from an endpoint, if there is one.
-    pub(super) fn fetch(&mut self, endpoint: usize) -> Option<Vec<u8>> {
-        let from = &mut self.ins[endpoint];
-        if from.control & ENABLE == 0 || from.control & (NAK | STALL) != 0 || from.packets() == 0 {
-            return None;
-        }
-        let length = from.left().min(packet_bytes(from.control, endpoint));
-        // The FIFO is filled in words.
-        let words = length.div_ceil(4) as usize * 4;
-        if from.fifo.len() < words {
-            return None;
-        }
-        let data: Vec<u8> = from.fifo.drain(..words).take(length as usize).collect();
-        from.take(length);
-        if from.packets() == 0 {
-            from.control &= !ENABLE;
-            from.interrupts |= TRANSFERRED;
-        }
-        Some(data)
-    }
-
-    // --- what the program sees ---
 
     fn endpoint_interrupts(&self) -> u32 {
         let (in_mask, out_mask) = (self.register(0x810), self.register(0x814));
@@ -279,33 +181,6 @@ impl Usb {
         let is_held =
             self.core_interrupts() & self.register(0x18) != 0 && self.register(0x08) & 1 == 1;
         wires.interrupt(self.irq, 0, is_held);
-    }
-
-    pub(super) fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
-        let value = match offset {
-            0x10 => 1 << 31,
-            0x14 => self.core_interrupts(),
-            0x1C => self.received.front().map_or(0, |entry| entry.0),
-            0x20 => self.pop(),
-            0x3C => 0x1200,
-            0x808 => self.frame << 8 | 6,
-            0x818 => self.endpoint_interrupts(),
-            0x900..=0x97C => self.read_in(((offset - 0x900) / 0x20) as usize, offset % 0x20),
-            0xB00..=0xB7C => {
-                let number = ((offset - 0xB00) / 0x20) as usize;
-                let endpoint = &self.outs[number];
-                match offset % 0x20 {
-                    0x00 => endpoint.control_of(number),
-                    0x08 => endpoint.interrupts,
-                    0x10 => endpoint.size,
-                    _ => 0,
-                }
-            }
-            0x1000..=0x1FFF => self.read_fifo(),
-            _ => self.register(offset),
-        };
-        self.tell(wires);
-        value
     }
 
     fn read_in(&self, number: usize, register: u32) -> u32 {
@@ -344,7 +219,163 @@ impl Usb {
         u32::from_le_bytes(bytes)
     }
 
-    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
+    fn reset_parts(&mut self, bits: u32) {
+        if bits & 1 != 0 {
+            // A reset of the core clears the FIFOs and the state of the endpoints.
+            self.received.clear();
+            self.ins = Default::default();
+            self.outs = Default::default();
+        }
+        if bits & 0x10 != 0 {
+            self.received.clear();
+            self.reading.clear();
+        }
+        if bits & 0x20 != 0 {
+            let number = (bits >> 6 & 31) as usize;
+            for (at, endpoint) in self.ins.iter_mut().enumerate() {
+                if number == 16 || at == number {
+                    endpoint.fifo.clear();
+                }
+            }
+        }
+    }
+}
+
+impl Function for Otg {
+    fn endpoints(&self) -> usize {
+        ENDPOINTS
+    }
+
+    fn reset(&mut self) {
+        self.status |= BUS_RESET;
+        self.received.clear();
+        self.reading.clear();
+        for endpoint in &mut self.ins {
+            endpoint.fifo.clear();
+        }
+    }
+
+    fn enumerated(&mut self) {
+        self.status |= ENUMERATED;
+    }
+
+    /// DCFG has the address; a new one counts from the end of the request that gives it.
+    fn hears(&self, address: u8) -> bool {
+        address == 0 || self.register(0x800) >> 4 & 0x7F == u32::from(address)
+    }
+
+    fn start_frame(&mut self) {
+        self.frame = (self.frame + 1) & 0x3FFF;
+        self.status |= SOF;
+    }
+
+    fn setup(&mut self, packet: [u8; 8]) {
+        self.ins[0].control &= !STALL;
+        self.outs[0].control = (self.outs[0].control & !STALL) | NAK;
+        self.ins[0].fifo.clear();
+        self.received.push_back((SETUP_DATA << 17 | 8 << 4, packet.to_vec()));
+        self.received.push_back((SETUP_COMPLETE << 17, Vec::new()));
+    }
+
+    fn has_stalled(&self, endpoint: usize, is_in: bool) -> bool {
+        let side = if is_in { &self.ins } else { &self.outs };
+        side[endpoint].control & STALL != 0
+    }
+
+    fn is_idle(&self) -> bool {
+        self.received.is_empty() && self.reading.is_empty()
+    }
+
+    fn send(&mut self, endpoint: usize, data: &[u8]) -> bool {
+        let out = &mut self.outs[endpoint];
+        // On an active endpoint, only NAK holds packets back.
+        if out.control_of(endpoint) & (ACTIVE | NAK | STALL) != ACTIVE {
+            return false;
+        }
+        let length = u32::try_from(data.len()).unwrap_or(0);
+        let number = u32::try_from(endpoint).unwrap_or(0);
+        let is_short = length < packet_bytes(out.control, endpoint);
+        out.take(length);
+        self.received.push_back((OUT_DATA << 17 | length << 4 | number, data.to_vec()));
+        if is_short || out.packets() == 0 {
+            out.control = (out.control & !ENABLE) | NAK;
+            self.received.push_back((OUT_COMPLETE << 17 | number, Vec::new()));
+        }
+        true
+    }
+
+    fn fetch(&mut self, endpoint: usize) -> Option<Vec<u8>> {
+        let from = &mut self.ins[endpoint];
+        if from.control & ENABLE == 0 || from.control & (NAK | STALL) != 0 || from.packets() == 0 {
+            return None;
+        }
+        let length = from.left().min(packet_bytes(from.control, endpoint));
+        // The FIFO is filled in words.
+        let words = length.div_ceil(4) as usize * 4;
+        if from.fifo.len() < words {
+            return None;
+        }
+        let data: Vec<u8> = from.fifo.drain(..words).take(length as usize).collect();
+        from.take(length);
+        if from.packets() == 0 {
+            from.control &= !ENABLE;
+            from.interrupts |= TRANSFERRED;
+        }
+        Some(data)
+    }
+}
+
+impl Usb for Otg {
+    fn restart(&mut self, wires: &mut Wires) {
+        *self = Self::with(self.irq);
+        self.tell(wires);
+    }
+
+    fn deadline(&self) -> u64 {
+        self.host.next_ns.min(self.session_ns)
+    }
+
+    fn advance(&mut self, wires: &mut Wires) {
+        let mut host = std::mem::replace(&mut self.host, Host::new());
+        while host.next_ns <= wires.now {
+            host.act(self, wires);
+        }
+        self.host = host;
+        if self.session_ns <= wires.now {
+            self.session_ns = NEVER;
+            self.status |= SESSION;
+        }
+        self.tell(wires);
+    }
+
+    fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
+        let value = match offset {
+            0x10 => 1 << 31,
+            0x14 => self.core_interrupts(),
+            0x1C => self.received.front().map_or(0, |entry| entry.0),
+            0x20 => self.pop(),
+            0x3C => 0x1200,
+            0x808 => self.frame << 8 | 6,
+            0x818 => self.endpoint_interrupts(),
+            0x900..=0x97C => self.read_in(((offset - 0x900) / 0x20) as usize, offset % 0x20),
+            0xB00..=0xB7C => {
+                let number = ((offset - 0xB00) / 0x20) as usize;
+                let endpoint = &self.outs[number];
+                match offset % 0x20 {
+                    0x00 => endpoint.control_of(number),
+                    0x08 => endpoint.interrupts,
+                    0x10 => endpoint.size,
+                    _ => 0,
+                }
+            }
+            0x1000..=0x1FFF => self.read_fifo(),
+            _ => self.register(offset),
+        };
+        self.tell(wires);
+        value
+    }
+
+    fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
         let (bits, configuration) = (value & mask, self.register(0x38));
         match offset {
             0x10 => self.reset_parts(bits),
@@ -386,27 +417,6 @@ impl Usb {
             self.host.plugged(is_connected, wires.now);
         }
         self.tell(wires);
-    }
-
-    fn reset_parts(&mut self, bits: u32) {
-        if bits & 1 != 0 {
-            // A reset of the core clears the FIFOs and the state of the endpoints.
-            self.received.clear();
-            self.ins = Default::default();
-            self.outs = Default::default();
-        }
-        if bits & 0x10 != 0 {
-            self.received.clear();
-            self.reading.clear();
-        }
-        if bits & 0x20 != 0 {
-            let number = (bits >> 6 & 31) as usize;
-            for (at, endpoint) in self.ins.iter_mut().enumerate() {
-                if number == 16 || at == number {
-                    endpoint.fifo.clear();
-                }
-            }
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A host computer that uses the board as a serial port: it enumerates the device and moves bytes both ways.
 
-use super::usb::{BUS_RESET, ENUMERATED, Usb};
-use super::wires::{NEVER, Wires};
+use super::Function;
+use crate::wires::{NEVER, Wires};
 
 /// The length of a frame, and the time after which the host polls again.
 const FRAME_NS: u64 = 1_000_000;
@@ -13,6 +13,9 @@ const RESET_NS: u64 = 10_000_000;
 const PATIENCE_TURNS: u32 = 20_000;
 /// The index of the last request in the list, which tells the device whether a program has the port open.
 const LINES: usize = 7;
+/// The address that it gives the device, and the number of the request that does.
+const ADDRESS: u8 = 7;
+const ADDRESSING: usize = 1;
 /// The longest packet of an endpoint at full speed.
 const PACKET_BYTES: usize = 64;
 
@@ -44,6 +47,8 @@ pub(super) struct Host {
     state: State,
     step: Step,
     frame_ns: u64,
+    /// The address at which it talks to the device.
+    address: u8,
     answer: Vec<u8>,
     waited: u32,
     configuration_bytes: u16,
@@ -84,6 +89,7 @@ impl Host {
             state: State::Absent,
             step: Step::Setup,
             frame_ns: 0,
+            address: 0,
             answer: Vec::new(),
             waited: 0,
             configuration_bytes: 9,
@@ -105,17 +111,18 @@ impl Host {
         }
     }
 
-    pub(super) fn act(&mut self, usb: &mut Usb, wires: &mut Wires) {
+    pub(super) fn act(&mut self, usb: &mut dyn Function, wires: &mut Wires) {
         let now = self.next_ns;
         match self.state {
             State::Absent => self.next_ns = NEVER,
             State::Debouncing => {
-                usb.raise(BUS_RESET);
+                usb.reset();
+                self.address = 0;
                 self.state = State::Resetting;
                 self.next_ns = now + RESET_NS;
             }
             State::Resetting => {
-                usb.raise(ENUMERATED);
+                usb.enumerated();
                 (self.state, self.step) = (State::Enumerating(0), Step::Setup);
                 self.frame_ns = now + FRAME_NS;
                 self.next_ns = now + FRAME_NS;
@@ -140,7 +147,7 @@ impl Host {
         }
     }
 
-    fn frame(&mut self, usb: &mut Usb, now: u64) {
+    fn frame(&mut self, usb: &mut dyn Function, now: u64) {
         if now >= self.frame_ns {
             usb.start_frame();
             self.frame_ns += FRAME_NS;
@@ -153,7 +160,7 @@ impl Host {
         let line = vec![0x00, 0xC2, 0x01, 0x00, 0, 0, 8];
         let (packet, data) = match at {
             0 => (request(0x80, 6, 0x0100, 0, 64), Vec::new()),
-            1 => (request(0x00, 5, 7, 0, 0), Vec::new()),
+            ADDRESSING => (request(0x00, 5, u16::from(ADDRESS), 0, 0), Vec::new()),
             2 => (request(0x80, 6, 0x0100, 0, 18), Vec::new()),
             3 => (request(0x80, 6, 0x0200, 0, 9), Vec::new()),
             4 => (request(0x80, 6, 0x0200, 0, self.configuration_bytes), Vec::new()),
@@ -168,7 +175,7 @@ impl Host {
         Some(Enquiry { packet, data })
     }
 
-    fn enumerate(&mut self, at: usize, usb: &mut Usb) {
+    fn enumerate(&mut self, at: usize, usb: &mut dyn Function) {
         let Some(enquiry) = self.enquiry(at) else {
             self.state = State::Running;
             return;
@@ -178,9 +185,13 @@ impl Host {
             (self.waited, self.state) = (0, State::Debouncing);
             return;
         }
-        if self.step != Step::Setup && usb.has_stalled(0) {
+        if !usb.hears(self.address) {
+            return;
+        }
+        let is_in = matches!(self.step, Step::DataIn | Step::StatusIn);
+        if self.step != Step::Setup && usb.has_stalled(0, is_in) {
             // The device does not know the request: a host goes on without its answer.
-            self.finish(at);
+            self.finish(at, usb);
             return;
         }
         match self.step {
@@ -204,14 +215,14 @@ impl Host {
                 }
             }
             Step::DataOut if usb.send(0, &enquiry.data) => self.step = Step::StatusIn,
-            Step::StatusIn if usb.fetch(0).is_some() => self.finish(at),
-            Step::StatusOut if usb.send(0, &[]) => self.finish(at),
+            Step::StatusIn if usb.fetch(0).is_some() => self.finish(at, usb),
+            Step::StatusOut if usb.send(0, &[]) => self.finish(at, usb),
             Step::DataOut | Step::StatusIn | Step::StatusOut => {}
         }
     }
 
     /// Reads the answer and goes on.
-    fn finish(&mut self, at: usize) {
+    fn finish(&mut self, at: usize, usb: &dyn Function) {
         let answer = std::mem::take(&mut self.answer);
         if at == 3
             && let (Some(low), Some(high)) = (answer.get(2), answer.get(3))
@@ -219,32 +230,39 @@ impl Host {
             self.configuration_bytes = u16::from_le_bytes([*low, *high]);
         }
         if at == 4 {
-            self.read_configuration(&answer);
+            self.read_configuration(&answer, usb.endpoints());
+        }
+        if at == ADDRESSING {
+            self.address = ADDRESS;
         }
         (self.step, self.waited) = (Step::Setup, 0);
         self.state = State::Enumerating(at + 1);
     }
 
     /// Finds the interface of the communications class and the endpoints for the bytes.
-    fn read_configuration(&mut self, answer: &[u8]) {
+    fn read_configuration(&mut self, answer: &[u8], endpoints: usize) {
+        let number = |address: u8| usize::from(address & 15) % endpoints;
         let mut rest = answer;
         while let Some(length) =
             rest.first().map(|length| usize::from(*length)).filter(|length| *length >= 2)
         {
             match *rest {
                 [_, 2, _, _, _, value, ..] => self.configuration = value,
-                [_, 4, number, _, _, 2, 2, ..] => self.interface = number,
+                [_, 4, interface, _, _, 2, 2, ..] => self.interface = interface,
                 [_, 5, address, 2, ..] if address & 0x80 != 0 => {
-                    self.input = usize::from(address & 3);
+                    self.input = number(address);
                 }
-                [_, 5, address, 2, ..] => self.output = usize::from(address & 3),
+                [_, 5, address, 2, ..] => self.output = number(address),
                 _ => {}
             }
             rest = rest.get(length..).unwrap_or_default();
         }
     }
 
-    fn exchange(&mut self, usb: &mut Usb, wires: &mut Wires, now: u64) {
+    fn exchange(&mut self, usb: &mut dyn Function, wires: &mut Wires, now: u64) {
+        if !usb.hears(self.address) {
+            return;
+        }
         if let Some(data) = usb.fetch(self.input) {
             wires.link.from_mcu.extend(data.into_iter().map(|byte| (now, byte)));
         }

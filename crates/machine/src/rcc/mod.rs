@@ -1,0 +1,79 @@
+//! Reset and clock control, with a file for each version of the block: the frequencies of clocks, the peripherals that
+//! have one, the causes of resets.
+//!
+//! In: writes to the registers, the board's crystal, resets. Out: frequencies, and the peripherals that a write holds
+//! in reset. Oscillators that are switched on are ready at once.
+
+mod f1;
+mod f4;
+
+use crate::mcu::Mcu;
+use crate::wires::{Clocks, ResetCause};
+
+/// The unit, in one of its versions.
+pub(crate) trait Rcc: Send {
+    /// Restarts it in its state after a reset. Earlier causes stay until the program clears them, or until power is
+    /// lost, which also clears the backup domain.
+    fn reset(&mut self, cause: ResetCause);
+    /// The causes of resets, as bits 25 to 31 of CSR.
+    fn causes(&self) -> u32;
+    fn read(&self, offset: u32) -> u32;
+    /// Writes a register; returns the peripherals that this holds in reset, by their bits in the enable register at an
+    /// offset.
+    fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)>;
+    /// The offsets of the enable registers.
+    fn enables(&self) -> &'static [u32];
+    fn clocks(&self) -> Clocks;
+
+    /// Whether the peripheral that belongs to a bit of an enable register has its clock.
+    fn is_enabled(&self, offset: u32, bit: u32) -> bool {
+        self.read(offset) >> bit & 1 == 1
+    }
+}
+
+/// The unit of an MCU in its state after power-up.
+pub(crate) fn new(mcu: &Mcu, crystal_hz: u64) -> Box<dyn Rcc> {
+    match mcu.block("RCC") {
+        "rcc_f1" => Box::new(f1::Unit::new(crystal_hz)),
+        _ => Box::new(f4::Unit::new(crystal_hz)),
+    }
+}
+
+/// The bits of CSR that the versions have in common: causes of resets, and the bit that clears them.
+const CLEAR: u32 = 1 << 24;
+const CAUSES: u32 = 0xFE00_0000;
+const CAUSE_PIN: u32 = 1 << 26;
+const CAUSE_POWER: u32 = 1 << 27;
+const CAUSE_SOFTWARE: u32 = 1 << 28;
+const CAUSE_WATCHDOG: u32 = 1 << 29;
+
+/// The divider of the core's clock, by the code in HPRE, and those of the buses, by the codes in PPRE1 and PPRE2.
+const AHB: [u64; 16] = [1, 1, 1, 1, 1, 1, 1, 1, 2, 4, 8, 16, 64, 128, 256, 512];
+const APB: [u64; 8] = [1, 1, 1, 1, 2, 4, 8, 16];
+
+/// CR after a write: what is switched on is ready. Each pair is the bit that switches an oscillator or a PLL on, and
+/// the bit that reports it ready.
+fn with_ready(written: u32, pairs: &[(u32, u32)]) -> u32 {
+    pairs
+        .iter()
+        .fold(written, |all, (on, ready)| (all & !(1 << ready)) | (written >> on & 1) << ready)
+}
+
+/// CFGR after a write: the switch follows the selection once the oscillator runs. HSI, HSE and PLL have the codes 0 to
+/// 2.
+fn with_switch(written: u32, was: u32, cr: u32) -> u32 {
+    let ready = [1, 17, 25].get((written & 3) as usize);
+    let is_ready = ready.is_some_and(|bit| cr >> bit & 1 == 1);
+    let status = if is_ready { written & 3 } else { was >> 2 & 3 };
+    (written & !0xC) | status << 2
+}
+
+/// CSR after a write: only the LSI's switch and the bit that clears causes have an effect.
+fn with_causes(written: u32, was: u32) -> u32 {
+    let causes = if written & CLEAR == 0 { was & CAUSES } else { 0 };
+    causes | (written & 1) | (written & 1) << 1
+}
+
+fn index(offset: u32) -> usize {
+    (offset / 4) as usize
+}
