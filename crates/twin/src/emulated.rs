@@ -87,7 +87,7 @@ impl EmulatedBoard {
         Ok(Self {
             machine,
             bench,
-            planned: planned(job),
+            planned: planned(job, mcu.numbers_functions()),
             ports: ports::planned(job),
             garbage: Vec::new(),
             garbage_ms: 0,

@@ -45,20 +45,22 @@ const DOWN: &[Pull] = &[Pull::Down];
 const BUS: &[Pull] = &[Pull::None, Pull::Up];
 const ANY: &[Pull] = &[Pull::None, Pull::Up, Pull::Down];
 
-/// The pads of all devices and of a serial link.
-pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<Planned> {
+/// The pads of all devices and of a serial link. `is_numbered` says whether each pad of the MCU has a number that
+/// switches it to a peripheral.
+pub(crate) fn planned(job: &BoardJob<'_>, is_numbered: bool) -> Vec<Planned> {
     let devices = job.connections.iter().flat_map(|one| {
         let kind = &one.connection.kind;
-        one.pads.iter().filter_map(move |pad| of_kind(&one.title, kind, pad))
+        one.pads.iter().filter_map(move |pad| of_kind(&one.title, kind, pad, is_numbered))
     });
     let link = job.link.iter().flat_map(|link| &link.pads).filter_map(|pad| {
         let pulls = if pad.role == Role::Rx { BUS } else { FREE };
-        led("the link", pad, pad.alternate?, Some(false), pulls)
+        led("the link", pad, is_numbered, Some(false), pulls)
     });
     devices.chain(link).collect()
 }
 
-fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
+fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Option<Planned> {
+    let led = |open_drain, pulls| led(title, pad, is_numbered, open_drain, pulls);
     let named = Pad::named(&pad.pin.name.to_string())?;
     let plain = |mode, open_drain, pulls| {
         let title = title.to_owned();
@@ -80,32 +82,39 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
                 Wanted::Down => DOWN,
             },
         ),
-        Interface::I2c(_) => led(title, pad, pad.alternate?, Some(true), BUS),
+        Interface::I2c(_) => led(Some(true), BUS),
         Interface::Uart(own) if pad.role == Role::Rx => {
-            led(title, pad, pad.alternate?, None, if own.is_inverted { DOWN } else { UP })
+            led(None, if own.is_inverted { DOWN } else { UP })
         }
-        Interface::Spi(_) => led(title, pad, pad.alternate?, driven, ANY),
-        Interface::Can(_) if pad.role == Role::Rx => led(title, pad, pad.alternate?, None, BUS),
+        Interface::Spi(_) => led(driven, ANY),
+        Interface::Can(_) if pad.role == Role::Rx => led(None, BUS),
         Interface::Uart(_)
         | Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Pwm(_)
-        | Interface::Can(_) => led(title, pad, pad.alternate?, driven, FREE),
+        | Interface::Can(_) => led(driven, FREE),
     }
 }
 
-/// A pad that belongs to a peripheral.
+/// A pad that belongs to a peripheral. Where it has no number, the peripheral controls it only if it drives it, as both
+/// ends do with the wires of an open-drain bus.
 fn led(
     title: &str,
     pad: &Wired<'_>,
-    number: u8,
+    is_numbered: bool,
     open_drain: Option<bool>,
     pulls: &'static [Pull],
 ) -> Option<Planned> {
+    let is_driven = open_drain == Some(true) || !pad.role.is_driven_by_device();
+    let mode = match (is_numbered, is_driven) {
+        (true, _) => Mode::Alternate(Some(pad.alternate?)),
+        (false, true) => Mode::Alternate(None),
+        (false, false) => Mode::Input,
+    };
     Some(Planned {
         pad: Pad::named(&pad.pin.name.to_string())?,
         title: title.to_owned(),
-        mode: Mode::Alternate(number),
+        mode,
         wire: pad.usage.map(|usage| usage.signal.clone()),
         open_drain,
         pulls,
@@ -143,7 +152,8 @@ fn mode(of: Mode) -> String {
     match of {
         Mode::Input => "an input".to_owned(),
         Mode::Output => "an output".to_owned(),
-        Mode::Alternate(number) => format!("alternate function {number}"),
+        Mode::Alternate(Some(number)) => format!("alternate function {number}"),
+        Mode::Alternate(None) => "an alternate function".to_owned(),
         Mode::Analog => "analog".to_owned(),
     }
 }

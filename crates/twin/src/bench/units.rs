@@ -1,15 +1,15 @@
 //! The numbers of a board's peripheral instances.
 //!
-//! Emulated MCUs know their units by number. Boards that cannot be emulated may have units without a number (`TWI`,
-//! `SPI` of an AVR), or two of a kind that end in the same number (`USART1`, `LPUART1`). Such units get numbers that no
-//! other unit has.
+//! Emulated MCUs know their units by number; the only unit of a kind may have none in its name (`CAN`) and is the first.
+//! Boards that cannot be emulated may have two of a kind that end in the same number (`USART1`, `LPUART1`). The second
+//! one gets a number that no other unit has.
 
 use std::collections::BTreeMap;
 
 use sensedsl_job::BoardJob;
 use sensedsl_model::kind::KindName;
 
-/// The first number for units that have none of their own.
+/// The first number for units whose own is taken.
 const OTHERS_FROM: u8 = 128;
 
 /// The numbers of all units that devices are wired to.
@@ -24,7 +24,9 @@ impl Units {
         for one in &job.connections {
             let Some(name) = one.unit.filter(|name| !units.contains_key(*name)) else { continue };
             let kind = one.connection.kind.name();
-            let own = number_of(name).filter(|number| *number < OTHERS_FROM);
+            let is_only = !name.contains(|c: char| c.is_ascii_digit());
+            let own = if is_only { Some(1) } else { number_of(name) };
+            let own = own.filter(|number| *number < OTHERS_FROM);
             let own = own.filter(|number| *taken.entry((kind, *number)).or_insert(name) == name);
             let number = own.unwrap_or_else(|| {
                 other = other.saturating_add(1);
