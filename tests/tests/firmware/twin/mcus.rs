@@ -13,8 +13,15 @@ use crate::false_alarms::is_wired;
 use crate::firmware::chibios::{build, tree};
 
 /// Boards that each have an MCU other than the F407.
-const BOARDS: [&str; 5] =
-    ["BLACKPILL_F401CC", "BLACKPILL_F411CE", "NUCLEO_F401RE", "NUCLEO_F429ZI", "NUCLEO_F446RE"];
+const BOARDS: [&str; 7] = [
+    "BLACKPILL_F401CC",
+    "BLACKPILL_F411CE",
+    "BLUEPILL_F103C8",
+    "NUCLEO_F103RB",
+    "NUCLEO_F401RE",
+    "NUCLEO_F429ZI",
+    "NUCLEO_F446RE",
+];
 const EXAMPLES: [&str; 7] =
     ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
 /// Devices of most kinds that the smallest of these boards can carry.

@@ -4,6 +4,7 @@
 //! Needs the feature `machine` and a ChibiOS tree.
 
 mod bench;
+mod bluepill;
 mod both;
 mod buses;
 mod examples;
