@@ -56,6 +56,7 @@ pub struct Fix {
 }
 
 /// A statement about the input.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The stable code.
@@ -88,11 +89,10 @@ fn short(sentence: String) -> String {
 
 impl Diagnostic {
     /// A diagnostic of `code` with the severity of its registry entry.
-    #[must_use]
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
-            severity: code.info().severity,
+            severity: code.severity(),
             message: short(message.into()),
             primary: Label { span, message: String::new() },
             labels: Vec::new(),
@@ -102,28 +102,36 @@ impl Diagnostic {
     }
 
     /// Sets the words for the primary place.
-    #[must_use]
     pub fn here(mut self, message: impl Into<String>) -> Self {
         self.primary.message = short(message.into());
         self
     }
 
-    /// Adds a further place.
-    #[must_use]
-    pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
-        self.labels.push(Label { span, message: short(message.into()) });
+    /// Adds a further place, if there is one.
+    pub fn label(mut self, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        let place = |span| Label { span, message: short(message.into()) };
+        self.labels.extend(span.into().map(place));
         self
     }
 
     /// Sets the way out.
-    #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(short(help.into()));
         self
     }
 
+    /// Asks whether another word was meant, if there is one, and sets it as the way out.
+    pub fn meant(self, word: Option<&str>) -> Self {
+        let Some(word) = word else { return self };
+        let span = self.primary.span;
+        self.here(format!("did you mean `{word}`?")).replace(
+            format!("change to `{word}`"),
+            span,
+            word,
+        )
+    }
+
     /// Sets the way out as one replacement.
-    #[must_use]
     pub fn replace(
         mut self,
         title: impl Into<String>,

@@ -6,8 +6,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use sensedsl_diagnostics::Severity;
 use sensedsl_diagnostics::codes::ALL;
+use sensedsl_diagnostics::{CodeInfo, Severity};
 
 /// The groups of codes, by their first two digits.
 const GROUPS: &[(&str, &str)] = &[
@@ -40,8 +40,8 @@ fn page() -> String {
         write!(text, "\n## {title}\n").unwrap();
         let of_group = ALL.iter().filter(|code| code.name().get(1..3) == Some(*digits));
         for info in of_group.map(|code| code.info()) {
-            let explanation = info.explanation.trim_end();
-            write!(text, "\n### {}: {}\n\n{explanation}\n", info.code, info.title).unwrap();
+            let CodeInfo { code, title, explanation } = info;
+            write!(text, "\n### {code}: {title}\n\n{explanation}\n").unwrap();
         }
     }
     text
@@ -97,6 +97,6 @@ fn every_code_is_in_a_group_of_its_severity() {
             "06" | "08" => continue,
             _ => Severity::Error,
         };
-        assert_eq!(code.info().severity, expected, "{code}");
+        assert_eq!(code.severity(), expected, "{code}");
     }
 }

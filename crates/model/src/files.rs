@@ -128,7 +128,6 @@ impl Unread {
     }
 
     /// The diagnostic, at the place that names the file.
-    #[must_use]
     pub fn diagnostic(&self, at: Span, wanted: &Wanted<'_>) -> Diagnostic {
         let Wanted { path, what, by_user } = *wanted;
         match (self, what) {

@@ -17,7 +17,6 @@ use crate::fields::span;
 use crate::other_types;
 
 /// The diagnostic for a syntax error in `file`.
-#[must_use]
 pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
     use SyntaxErrorKind as Kind;
     let at = span(file, error.range);

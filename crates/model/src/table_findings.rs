@@ -9,7 +9,6 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 
 /// The diagnostic for a finding in the table `file`.
-#[must_use]
 pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagnostic {
     use FindingKind as Kind;
     let at = Span::new(file, finding.range.clone());

@@ -163,7 +163,6 @@ fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Conteste
 
 impl NoWiring {
     /// The diagnostic: all devices of the conflict, each at its place.
-    #[must_use]
     pub fn diagnostic(&self, design: &Design) -> Diagnostic {
         let mut names: Vec<&str> = self.parts.iter().map(|one| design.part_name(*one)).collect();
         let link_names: Vec<String> = self

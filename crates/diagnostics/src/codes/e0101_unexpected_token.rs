@@ -1,13 +1,10 @@
 //! E0101: something else was expected here.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0101",
-    severity: Severity::Error,
     title: "something else was expected here",
     explanation: r#"The text does not follow the grammar here. A file consists of `board`, `sensor`, `actuator`,
 `chip`, `driver`, `const` and `use`. Braces hold properties, one `name = value;` per line:
@@ -17,15 +14,10 @@ pub const INFO: CodeInfo = CodeInfo {
         type = analog;
     }
 
-Way out: write what the message expects, or remove what is there.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: write what the message expects, or remove what is there."#,
+});
 
 /// `expected` and `found` are descriptions ("a property name", "`}`").
-#[must_use]
 pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("expected {expected}, found {found}"))
         .here(format!("expected {expected}"))
@@ -36,7 +28,6 @@ pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
 }
 
 /// `span` is the `(` of a list with commas.
-#[must_use]
 pub fn parentheses_around_list(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "a list is written in brackets, not in parentheses")
         .here("expected `[`")
@@ -44,7 +35,6 @@ pub fn parentheses_around_list(span: Span) -> Diagnostic {
 }
 
 /// A pin is in the place of the type; `head` is the head with a type, and `kind` a type of device that fits the pin.
-#[must_use]
 pub fn pin_in_head(span: Span, head: &str, kind: &str, pin: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, "a pin stands in the block, and a type behind the name")
         .here("expected a type")

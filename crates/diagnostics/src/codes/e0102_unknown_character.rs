@@ -1,14 +1,11 @@
 //! E0102: a character that means nothing here.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 use crate::visible::visible;
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0102",
-    severity: Severity::Error,
     title: "a character that means nothing here",
     explanation: r#"The language is written with letters, digits and `{ } [ ] ( ) = ; , + - * / . " _`. Other characters
 are allowed only in comments and strings; they often come from copying out of a document (typographic
@@ -16,22 +13,16 @@ quotes, non-breaking spaces), or from another language: a comment begins with `/
 and a property is `name = value;`, without a colon.
 
 Way out: remove the character, write what this language has for it, or put the text between straight
-quotes.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+quotes."#,
+});
 
 /// `found` is the character as it is in the text.
-#[must_use]
 pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{}` means nothing here", visible(found)))
         .help("remove it; text belongs between straight quotes or in a comment")
 }
 
 /// A `#` and the rest of its line, meant as a comment.
-#[must_use]
 pub fn comment_with_hash(span: Span) -> Diagnostic {
     let hash = Span { end: span.start + 1, ..span };
     Diagnostic::new(CODE, span, "`#` does not begin a comment")
@@ -41,7 +32,6 @@ pub fn comment_with_hash(span: Span) -> Diagnostic {
 }
 
 /// A `:` instead of `=`.
-#[must_use]
 pub fn colon(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`:` means nothing here")
         .here("write `=`")
@@ -50,7 +40,6 @@ pub fn colon(span: Span) -> Diagnostic {
 }
 
 /// The single character that word processors make out of three dots.
-#[must_use]
 pub fn ellipsis(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`…` means nothing here")
         .here("write `..`")
@@ -59,7 +48,6 @@ pub fn ellipsis(span: Span) -> Diagnostic {
 }
 
 /// A text between quotes that are not `"`.
-#[must_use]
 pub fn other_quotes(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "text is written between straight double quotes")
         .here("these are other quotes")

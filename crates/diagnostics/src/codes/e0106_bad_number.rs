@@ -1,34 +1,25 @@
 //! E0106: not a number.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0106",
-    severity: Severity::Error,
     title: "not a number",
     explanation: r#"Numbers are decimal (`60`, `0.5`, `1.5e-3`), hexadecimal (`0xE6`) or binary (`0b1010`), with `_`
 between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz mV V Ohm kOhm`,
 and of shown values `% mm cm m deg degC mA A W rpm deg/s mm/s cm/s m/s m/s^2`.
 
-Way out: write it in one of these forms.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: write it in one of these forms."#,
+});
 
 /// `text` is the number as written, `why` what is wrong with it.
-#[must_use]
 pub fn bad_number(span: Span, text: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{text}` is not a number: {why}"))
         .help("write it like 60, 0.5, 0xE6 or 0b1010, with a unit such as ms or kHz where one is meant")
 }
 
 /// A unit after something that is not a number, such as a name.
-#[must_use]
 pub fn unit_alone(span: Span, unit: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the unit `{unit}` does not follow a number"))
         .here("only a number has a unit")

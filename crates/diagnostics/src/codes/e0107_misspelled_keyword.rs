@@ -1,25 +1,17 @@
 //! E0107: probably a misspelled keyword.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0107",
-    severity: Severity::Error,
     title: "probably a misspelled keyword",
     explanation: r#"Only a few words are possible here, and this one is nearly one of them.
 
-Way out: correct the spelling.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the spelling."#,
+});
 
 /// `found` is the word as written, `meant` the keyword that was meant.
-#[must_use]
 pub fn misspelled_keyword(span: Span, found: &str, meant: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{found}` is not a keyword"))
         .here(format!("did you mean `{meant}`?"))

@@ -1,26 +1,18 @@
 //! E0201: no such property.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0201",
-    severity: Severity::Error,
     title: "no such property",
     explanation: r#"The device, board, driver or link has no property of that name. `docs/language.md` lists all
 properties of each kind.
 
-Way out: correct the spelling, or remove the line.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the spelling, or remove the line."#,
+});
 
 /// A property of the chip in one of its devices.
-#[must_use]
 pub fn property_of_chip(span: Span, name: &str, chip: &str) -> Diagnostic {
     let message = format!("`{name}` belongs to the chip, not to one of its devices");
     Diagnostic::new(CODE, span, message)
@@ -29,14 +21,10 @@ pub fn property_of_chip(span: Span, name: &str, chip: &str) -> Diagnostic {
 }
 
 /// `of` describes the owner ("an analog device"); `known` is the nearest known name.
-#[must_use]
 pub fn unknown_property(span: Span, name: &str, of: &str, known: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("{of} has no property `{name}`"));
     match known {
-        Some(known) => diagnostic
-            .here(format!("did you mean `{known}`?"))
-            .help(format!("write `{known}`"))
-            .replace(format!("change to `{known}`"), span, known),
+        Some(word) => diagnostic.meant(known).help(format!("write `{word}`")),
         None => diagnostic.here("unknown").help("remove the line, or look the name up in the language reference"),
     }
 }

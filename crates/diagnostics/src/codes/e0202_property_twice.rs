@@ -1,25 +1,17 @@
 //! E0202: a property is given twice.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0202",
-    severity: Severity::Error,
     title: "a property is given twice",
     explanation: r#"A property may be given once in a block. With two values there is no telling which one counts.
 
-Way out: remove one of them.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: remove one of them."#,
+});
 
 /// `first` is the earlier place of the name.
-#[must_use]
 pub fn property_twice(span: Span, name: &str, first: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` is given twice"))
         .here("again here")

@@ -1,26 +1,18 @@
 //! E0203: two devices have the same identifier.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0203",
-    severity: Severity::Error,
     title: "two devices have the same identifier",
     explanation: r#"The `id` is the one byte by which the host tells the values apart, so it is unique in the whole
 file, whichever board a device is on.
 
-Way out: give one of the devices another number from 1 to 254.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: give one of the devices another number from 1 to 254."#,
+});
 
 /// `free` is the least identifier that is not in use.
-#[must_use]
 pub fn duplicate_identifier(span: Span, id: u8, first: Span, free: Option<u8>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("identifier {id} is taken"))
         .here("taken again here")

@@ -1,26 +1,18 @@
 //! E0207: no such kind of device.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0207",
-    severity: Severity::Error,
     title: "no such kind of device",
     explanation: r#"`type` says what the device is connected to: analog, i2c, icu, encoder, digital, uart, spi, pwm, dac
 or can.
 
-Way out: use one of these.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: use one of these."#,
+});
 
 /// The name of a library part in the place of a kind.
-#[must_use]
 pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` is a part, not a kind of connection"))
         .here(format!("write `driver = {driver};` instead of this line"))
@@ -28,14 +20,8 @@ pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
 }
 
 /// `known` lists all kinds; `meant` is the nearest.
-#[must_use]
 pub fn unknown_kind(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {
-    let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a kind of device"))
-        .help(format!("use one of {known}"));
-    match meant {
-        Some(meant) => diagnostic
-            .here(format!("did you mean `{meant}`?"))
-            .replace(format!("change to `{meant}`"), span, meant),
-        None => diagnostic,
-    }
+    Diagnostic::new(CODE, span, format!("`{name}` is not a kind of device"))
+        .help(format!("use one of {known}"))
+        .meant(meant)
 }

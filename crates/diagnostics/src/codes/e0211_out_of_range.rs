@@ -1,26 +1,18 @@
 //! E0211: a value is out of range.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0211",
-    severity: Severity::Error,
     title: "a value is out of range",
     explanation: r#"The value is of the right sort but outside what the hardware, the wire or the operating system can
 hold.
 
-Way out: take a value inside the range that the message names.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: take a value inside the range that the message names."#,
+});
 
 /// A time without a unit, which is read as milliseconds; `written` is the time as written.
-#[must_use]
 pub fn bare_time(span: Span, name: &str, written: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {written} ms"))
         .here("a time without a unit is in milliseconds")
@@ -29,7 +21,6 @@ pub fn bare_time(span: Span, name: &str, written: &str, range: &str) -> Diagnost
 }
 
 /// A list whose number of entries differs from the number of elements of the array.
-#[must_use]
 pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> Diagnostic {
     let message = format!("`{name}` has {entries} entries, and the array has {elements} elements");
     Diagnostic::new(CODE, span, message)
@@ -38,7 +29,6 @@ pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> D
 }
 
 /// `value` is the value as written, `range` the range as text ("1 to 254").
-#[must_use]
 pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}"))
         .here(format!("must be {range}"))

@@ -1,25 +1,17 @@
 //! E0218: a used file cannot be read.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0218",
-    severity: Severity::Error,
     title: "a used file cannot be read",
     explanation: r#"The path after `use` is relative to the file that holds it.
 
-Way out: correct the path.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the path."#,
+});
 
 /// `path` is the resolved path, `why` the operating system's reason.
-#[must_use]
 pub fn used_file_missing(span: Span, path: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("cannot read `{path}`: {why}"))
         .help("the path is relative to the file that holds this line")

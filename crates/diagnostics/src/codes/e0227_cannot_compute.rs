@@ -1,32 +1,23 @@
 //! E0227: an expression cannot be computed.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0227",
-    severity: Severity::Error,
     title: "an expression cannot be computed",
     explanation: r#"Expressions are made of numbers, units, constants, `+ - * /` and parentheses. Something in this one is not a
 number, the units do not go together (a time can be added to a time, not to a voltage), or the result is too large.
 
-Way out: the message says what is wrong; a name in an expression must be that of a `const`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: the message says what is wrong; a name in an expression must be that of a `const`."#,
+});
 
 /// `message` says what is wrong, `help` what to do.
-#[must_use]
 pub fn cannot_compute(span: Span, message: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help(help)
 }
 
 /// A name that is not the name of a constant.
-#[must_use]
 pub fn not_a_constant(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a constant"));
     match meant {

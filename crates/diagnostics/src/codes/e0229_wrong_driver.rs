@@ -1,27 +1,19 @@
 //! E0229: a driver contradicts itself.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0229",
-    severity: Severity::Error,
     title: "a driver contradicts itself",
     explanation: r#"A driver says how a part is started and read, as data. This one says something that cannot be: two readings of one
 name, a register named twice, an identity that no part can have, a formula without its calibration, a reading over a
 connection that there is not.
 
-Way out: the message says what; `sensedsl drivers NAME` shows a driver of the library to compare with.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: the message says what; `sensedsl drivers NAME` shows a driver of the library to compare with."#,
+});
 
 /// `message` says what is wrong.
-#[must_use]
 pub fn wrong_driver(span: Span, message: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message).help("correct the driver: `sensedsl drivers` lists those of the library to compare with")
 }

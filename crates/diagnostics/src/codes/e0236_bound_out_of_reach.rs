@@ -1,28 +1,20 @@
 //! E0236: a bound that the value never reaches.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0236",
-    severity: Severity::Error,
     title: "a bound that the value cannot reach",
     explanation: r#"`min` and `max` bound the shown value, after `scale`, `offset` and `curve`. What the type holds and what the
 part gives or takes end before this bound, so one of the lines is wrong: mostly `scale` is missing,
 or the bound is in another unit than the one that is shown.
 
 Way out: write the bound in the unit that is shown, within the range that the message names; give
-`scale`; or take a wider type.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+`scale`; or take a wider type."#,
+});
 
 /// `bound` is the value of the property, `range` the range of the device.
-#[must_use]
 pub fn bound_out_of_reach(
     span: Span,
     (property, bound): (&str, &str),

@@ -1,27 +1,19 @@
 //! E0240: two commands of a chip take the same bits of a register.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0240",
-    severity: Severity::Error,
     title: "two commands of a chip take the same bits of a register",
     explanation: r#"Commands of a chip that are written to the same register share it: each changes its own bits and leaves the others as
 they are. Where two of them take the same bits, each would undo what the other one has done. The whole port of an
 expander and one of its pins are such a pair.
 
-Way out: take out one of the two. In a driver, give each command bits of its own (`bits = 3..3`).
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: take out one of the two. In a driver, give each command bits of its own (`bits = 3..3`)."#,
+});
 
 /// `name` and `other` are the commands; `register` is the register's number, if it has one.
-#[must_use]
 pub fn overlap_in_register(
     span: Span,
     name: &str,

@@ -1,28 +1,20 @@
 //! E0301: no such board.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0301",
-    severity: Severity::Error,
     title: "no such board",
     explanation: r#"`board NAME on BOARD` takes a built-in board or part, or a table beside the file between quotes.
 Without `on`, the board's own name must be a built-in one, or `--board TABLE` must name a table.
 `sensedsl boards` lists what is built in.
 
-Way out: correct the name, or say which table is meant.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the name, or say which table is meant."#,
+});
 
 /// `meant` is the nearest built-in board or part, shown as a file has to spell it. `is_own` is true if the block has no
 /// `on`, so that its own name was looked up.
-#[must_use]
 pub fn unknown_board(span: Span, name: &str, meant: Option<&str>, is_own: bool) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(CODE, span, format!("there is no built-in board or part `{name}`"));

@@ -1,25 +1,17 @@
 //! E0305: not a pin name.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0305",
-    severity: Severity::Error,
     title: "not a pin name",
     explanation: r#"The column `Pin` holds the pin's name as the data sheet spells it: PA1, PB10, GP4, D13.
 
-Way out: correct the cell.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the cell."#,
+});
 
 /// `row` is the number of the row, `found` the cell's text.
-#[must_use]
 pub fn table_pin_name(span: Span, row: usize, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("row {row}, column Pin: `{found}` is not a pin name"))
         .help("write the name of the data sheet, such as PA1 or GP4")

@@ -1,25 +1,17 @@
 //! E0307: a row has too many or too few cells.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0307",
-    severity: Severity::Error,
     title: "a row has too many or too few cells",
     explanation: r#"Every row has a cell for each column of the head; an empty cell is empty or `-`.
 
-Way out: add or remove separators.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: add or remove separators."#,
+});
 
 /// `cells` is the number of cells of the row, `columns` that of the head.
-#[must_use]
 pub fn table_ragged_row(span: Span, row: usize, cells: usize, columns: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("row {row} has {cells} cells, the head has {columns} columns"))
         .help("give each column a cell; an empty one is `-`")

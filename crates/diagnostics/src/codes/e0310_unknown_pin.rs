@@ -1,31 +1,20 @@
 //! E0310: the board has no such pin.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0310",
-    severity: Severity::Error,
     title: "the board has no such pin",
     explanation: r#"The pin is not in the board's table, so nothing is known about it.
 
-Way out: correct the name, or add a row to the table.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the name, or add a row to the table."#,
+});
 
 /// `meant` is the nearest pin.
-#[must_use]
 pub fn unknown_pin(span: Span, pin: &str, board: &str, meant: Option<&str>) -> Diagnostic {
-    let diagnostic = Diagnostic::new(CODE, span, format!("{board} has no pin {pin}"));
-    match meant {
-        Some(meant) => diagnostic
-            .here(format!("did you mean `{meant}`?"))
-            .help("correct the name, or add a row to the board's table"),
-        None => diagnostic.help("correct the name, or add a row to the board's table"),
-    }
+    let asked = meant.map(|meant| format!("did you mean `{meant}`?"));
+    Diagnostic::new(CODE, span, format!("{board} has no pin {pin}"))
+        .here(asked.unwrap_or_default())
+        .help("correct the name, or add a row to the board's table")
 }

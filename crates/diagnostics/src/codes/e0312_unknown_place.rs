@@ -1,25 +1,17 @@
 //! E0312: the board has no such side or header.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0312",
-    severity: Severity::Error,
     title: "the board has no such side or header",
     explanation: r#"`side` and `header` are names from the columns Side and Header of the board's table.
 
-Way out: use one of the names that the message lists, or add the column to the table.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: use one of the names that the message lists, or add the column to the table."#,
+});
 
 /// `what` is "side" or "header"; `names` lists those of the table.
-#[must_use]
 pub fn unknown_place(span: Span, what: &str, name: &str, names: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no pin of the board is on the {what} `{name}`"))
         .help(if names.is_empty() {

@@ -1,26 +1,18 @@
 //! E0314: a fixed pin cannot serve the device.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0314",
-    severity: Severity::Error,
     title: "a fixed pin cannot serve the device",
     explanation: r#"The pin is in the board's table, but none of its usages is what the device needs at that place.
 
-Way out: take one of the pins that the message lists, or leave the choice to the tool.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: take one of the pins that the message lists, or leave the choice to the tool."#,
+});
 
 /// Two pins of a device that would fit if they were swapped; `needs` is what their roles need, `lines` has both lines
 /// corrected.
-#[must_use]
 pub fn pins_swapped(span: Span, pin: &str, needs: &str, other: Span, lines: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
         .here("fixed here")
@@ -29,17 +21,13 @@ pub fn pins_swapped(span: Span, pin: &str, needs: &str, other: Span, lines: &str
 }
 
 /// `needs` is what the role needs, `row` the place of the pin's usages, `pins` lists the pins that fit.
-#[must_use]
 pub fn pin_cannot_serve(span: Span, pin: &str, needs: &str, row: Option<Span>, pins: &str) -> Diagnostic {
-    let diagnostic = Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
+    Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
         .here("fixed here")
         .help(if pins.is_empty() {
             format!("no pin of the board can be {needs}")
         } else {
             format!("take one of {pins}, or remove the line and let the tool choose")
-        });
-    match row {
-        Some(row) => diagnostic.label(row, "all its usages"),
-        None => diagnostic,
-    }
+        })
+        .label(row, "all its usages")
 }

@@ -1,26 +1,18 @@
 //! E0317: a board table is too large.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0317",
-    severity: Severity::Error,
     title: "a board table is too large",
     explanation: r#"A table describes the pins of one board or MCU: a few hundred rows with a few dozen columns. What is far
 beyond is not read; `docs/limits.md` has the limits for cells, pins and usages of one pin.
 
-Way out: name the right file, and remove rows, columns and cells that do not describe pins.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: name the right file, and remove rows, columns and cells that do not describe pins."#,
+});
 
 /// `what` is what there is too much of, `most` the greatest number allowed.
-#[must_use]
 pub fn table_too_large(span: Span, what: &str, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the table has more than {most} {what}"))
         .here("not read from here on")

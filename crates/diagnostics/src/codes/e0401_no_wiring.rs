@@ -1,13 +1,10 @@
 //! E0401: there is no wiring.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0401",
-    severity: Severity::Error,
     title: "there is no wiring",
     explanation: r#"The devices that the message names cannot all be connected, whatever pins are chosen, and the set is
 minimal: without any one of them the others can. The message lists the pins and resources they fight
@@ -17,15 +14,10 @@ rules apply to these devices; of more, those beyond are marked without having be
 ran out before all that was known, the message says so.
 
 Way out: one of the changes that the message proposes; each was tried by solving. Otherwise drop or
-move one of the devices, or use a kind that needs something else.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+move one of the devices, or use a kind that needs something else."#,
+});
 
 /// `devices` lists the devices, `resources` the resources that they compete for.
-#[must_use]
 pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("no wiring: {devices} cannot be connected together"));
     if resources.is_empty() {
@@ -36,7 +28,6 @@ pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
 }
 
 /// A single device: no pins of the board are what it needs.
-#[must_use]
 pub fn nothing_serves(span: Span, device: &str, resources: &str) -> Diagnostic {
     let message = format!("no wiring: no free pins of the board can serve {device}");
     let diagnostic = Diagnostic::new(CODE, span, message);

@@ -1,27 +1,19 @@
 //! E0402: the solver contradicted itself.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0402",
-    severity: Severity::Error,
     title: "the solver contradicted itself",
     explanation: r#"The independent checker refused the solver's answer. That is a mistake of the tool, never of the
 input; nothing was written.
 
 Way out: report it with the file and the table; `--target none` or a small change of the file may avoid
-it meanwhile.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+it meanwhile."#,
+});
 
 /// `violation` is what the checker found.
-#[must_use]
 pub fn solver_disagrees(span: Span, violation: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("internal: the answer did not pass its check: {violation}"))
         .help("please report this with the file and the board table")

@@ -1,28 +1,20 @@
 //! E0403: an answer without a certificate.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0403",
-    severity: Severity::Error,
     title: "no certificate was found",
     explanation: r#"`solve --proof` records the search that proves the answer, for a separate checker to follow. A record has a
 bounded number of steps and a certificate a bounded size; or `--timeout` came first. This says nothing against the
 answer, which is printed as always; no certificate was written.
 
 Way out: solve without `--proof`, give `--timeout` more seconds, or fix some pins, units or boards: the fewer
-choices are left, the shorter is the proof.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+choices are left, the shorter is the proof."#,
+});
 
 /// `span` is the board; `why` is the reason why there is none.
-#[must_use]
 pub fn no_certificate(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no certificate: {why}"))
         .help("`solve` without `--proof` gives the answer with the proof of its own search alone; fixed pins and units make proofs shorter")

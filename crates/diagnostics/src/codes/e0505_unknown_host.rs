@@ -1,25 +1,17 @@
 //! E0505: no such host application.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0505",
-    severity: Severity::Error,
     title: "no such host application",
     explanation: r#"`--host` names the host applications to generate.
 
-Way out: use the names that the message lists.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: use the names that the message lists."#,
+});
 
 /// `known` lists all hosts.
-#[must_use]
 pub fn unknown_host(span: Span, name: &str, known: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no host application `{name}`"))
         .help(format!("choose from {known}"))

@@ -1,13 +1,10 @@
 //! E0509: the output folder could not be written.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0509",
-    severity: Severity::Error,
     title: "the output folder could not be written",
     explanation: r#"`generate` writes all or nothing. The disk is full, or something may not be written there, so the
 folder is as it was before; what was written beside it is removed again.
@@ -15,22 +12,16 @@ In rare cases the disk fails when the new files are in their places and only the
 left. The message says so, and the next run completes it.
 
 Way out: make room on the disk or allow writing, as the message says, and run `generate` again. It
-needs room for the new files beside the old ones for a moment.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+needs room for the new files beside the old ones for a moment."#,
+});
 
 /// The folder is unchanged.
-#[must_use]
 pub fn not_written(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` could not be written: {why}"))
         .help("it is as it was before; fix what the message says and run `generate` again")
 }
 
 /// The new files are there, or will be when the next run has completed the rest.
-#[must_use]
 pub fn not_completed(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("writing `{folder}` could not be completed: {why}"))
         .help("fix what the message says; the next `generate` completes what is left")

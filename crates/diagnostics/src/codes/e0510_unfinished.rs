@@ -1,13 +1,10 @@
 //! E0510: an earlier run was cut off, and what it belongs to was moved.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0510",
-    severity: Severity::Error,
     title: "an unfinished folder holds files of yours",
     explanation: r#"A run of `generate` that is cut off in the middle of its switch leaves a folder `.NAME.sensedsl-unfinished`
 beside the output folder `NAME`, which may hold your `user/` folders; the next run completes it by
@@ -15,15 +12,10 @@ itself. Here it cannot, because the output folder was moved or replaced in betwe
 removes nothing of yours.
 
 Way out: move your files from the folder that the message names to where you want them, remove that
-folder, and run `generate` again.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+folder, and run `generate` again."#,
+});
 
 /// `folder` is the output folder, `left` what the earlier run left.
-#[must_use]
 pub fn unfinished(span: Span, folder: &str, left: &str) -> Diagnostic {
     let message = format!("`{left}` is left over from an earlier run and does not belong to `{folder}`");
     Diagnostic::new(CODE, span, message)

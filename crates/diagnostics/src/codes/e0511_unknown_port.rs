@@ -1,28 +1,20 @@
 //! E0511: the MCU has no such port.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0511",
-    severity: Severity::Error,
     title: "the MCU has no such port",
     explanation: r#"Firmware sets up a pin by its port and its number: `PB7` is pad 7 of port B. This pin's name in the board
 table does not have that form, or the MCU has no such port, so there is no telling which pad it is.
 `solve` takes any name, because it only needs to tell pins apart.
 
 Way out: write the MCU's own names into the column `Pin` of the table, and names that are printed on
-the board into the column `Label`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+the board into the column `Label`."#,
+});
 
 /// `ports` has the letters of the ports that the MCU has.
-#[must_use]
 pub fn unknown_port(span: Span, pin: &str, ports: &str) -> Diagnostic {
     let ports: Vec<String> = ports.chars().map(String::from).collect();
     let message = format!("the firmware cannot tell which pad of the MCU `{pin}` is");

@@ -1,13 +1,10 @@
 //! E0512: no ChibiOS tree is named.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0512",
-    severity: Severity::Error,
     title: "no ChibiOS tree is named",
     explanation: r#"Firmware is built together with a source tree of ChibiOS, which is not part of this tool. `build` and `flash`
 look for it in `--chibios PATH`, then in the variable `CHIBIOS`.
@@ -15,15 +12,10 @@ look for it in `--chibios PATH`, then in the variable `CHIBIOS`.
 Way out: fetch a tree once and name it:
 
     git clone --depth 1 -b stable_21.11.x https://github.com/ChibiOS/ChibiOS.git
-    export CHIBIOS=$PWD/ChibiOS
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+    export CHIBIOS=$PWD/ChibiOS"#,
+});
 
 /// `version` is the required release: `21.11`.
-#[must_use]
 pub fn no_tree(span: Span, version: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("this firmware needs a source tree of ChibiOS {version}, and none is named"))
         .help(format!(

@@ -1,13 +1,10 @@
 //! E0514: the tree is another release of ChibiOS.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0514",
-    severity: Severity::Error,
     title: "the tree is another release of ChibiOS",
     explanation: r#"Drivers and their settings differ from one release of ChibiOS to the next, and this firmware was written for one
 of them. Patch releases of the same one (21.11.1, 21.11.5) all do. The release is read from
@@ -15,15 +12,10 @@ of them. Patch releases of the same one (21.11.1, 21.11.5) all do. The release i
 
 Way out: name a tree of the release that the message asks for, or switch the one you have:
 
-    git -C $CHIBIOS switch stable_21.11.x
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+    git -C $CHIBIOS switch stable_21.11.x"#,
+});
 
 /// `found` is the release of the tree in `folder`, `version` the required one.
-#[must_use]
 pub fn other_tree(span: Span, folder: &str, found: &str, version: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` is ChibiOS {found}, this firmware needs {version}"))
         .help(format!(

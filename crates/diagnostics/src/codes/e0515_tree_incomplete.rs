@@ -1,13 +1,10 @@
 //! E0515: the tree lacks a file that the board needs.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0515",
-    severity: Severity::Error,
     title: "the tree lacks a file that the board needs",
     explanation: r#"Firmware is built from files of the ChibiOS tree: start-up code, drivers, the folder of the board, and the
 configuration of a demo that the board's own builds on. One of them is missing, so the tree was fetched in
@@ -15,15 +12,10 @@ part (a sparse clone, `os` without `demos`), or something was removed from it.
 
 Way out: fetch the tree again, whole:
 
-    git clone --depth 1 -b stable_21.11.x https://github.com/ChibiOS/ChibiOS.git
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+    git clone --depth 1 -b stable_21.11.x https://github.com/ChibiOS/ChibiOS.git"#,
+});
 
 /// `missing` lists the files that the board needs and the tree in `folder` lacks.
-#[must_use]
 pub fn tree_incomplete(span: Span, folder: &str, board: &str, missing: &[String]) -> Diagnostic {
     let all = missing.join("`, `");
     Diagnostic::new(CODE, span, format!("the ChibiOS tree `{folder}` lacks what {board} needs: `{all}`"))

@@ -1,13 +1,10 @@
 //! E0516: a tool for building is missing.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0516",
-    severity: Severity::Error,
     title: "a tool for building is missing",
     explanation: r#"Firmware is built with GNU make, the compiler `arm-none-eabi-gcc` and its C library, newlib. All are looked for
 before anything is built.
@@ -19,15 +16,10 @@ Way out: install them.
     Windows           in WSL (`wsl --install`), as on Ubuntu
 
 The formula `arm-none-eabi-gcc` of Homebrew has no newlib; the cask has. A tool that is installed and not found
-is in a folder that PATH does not name.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+is in a folder that PATH does not name."#,
+});
 
 /// `tool` is the missing tool, `what` what it is needed for.
-#[must_use]
 pub fn tool_missing(span: Span, tool: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{tool}` is missing: {what}")).help(INSTALL)
 }

@@ -1,13 +1,10 @@
 //! E0517: the compiler is too old.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0517",
-    severity: Severity::Error,
     title: "the compiler is too old",
     explanation: r#"`arm-none-eabi-gcc` must be of version 9 or later. Up to version 8, GCC may give an instruction of a Cortex-M0 a
 register that it cannot take, so ChibiOS does not build on such an MCU; GCC 9 is the first without that mistake
@@ -15,15 +12,10 @@ register that it cannot take, so ChibiOS does not build on such an MCU; GCC 9 is
 version 12.
 
 Way out: install a newer one. Debian 12, Ubuntu 22.04 and the cask of Homebrew have version 10 or later; Arm has
-builds for every system at https://developer.arm.com/downloads/-/arm-gnu-toolchain-downloads.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+builds for every system at https://developer.arm.com/downloads/-/arm-gnu-toolchain-downloads."#,
+});
 
 /// `found` is the version found, `needed` the first one that is sufficient.
-#[must_use]
 pub fn compiler_too_old(span: Span, found: &str, needed: u32) -> Diagnostic {
     Diagnostic::new(
         CODE,

@@ -1,13 +1,10 @@
 //! E0521: the build failed.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0521",
-    severity: Severity::Error,
     title: "the build failed",
     explanation: r#"Everything that the build needs was there, and make or cargo ended with an error, which stands above the message. Where
 it names a file in `user/` or `src/user/`, the mistake is in your own code. A `_Static_assert` of `generated/sense_hw.c` says that
@@ -18,15 +15,10 @@ leaves the shell out, which saves a third or more.
 Cargo downloads the crates of a first build; without a network it names the one that it could not get.
 
 Way out: mend what the first error names. `make -C FOLDER CHIBIOS=… USE_VERBOSE_COMPILE=yes` shows the whole
-commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a bug of SenseDSL.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a bug of SenseDSL."#,
+});
 
 /// `how` says how `tool` ended.
-#[must_use]
 pub fn build_failed(span: Span, board: &str, tool: &str, how: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the firmware of {board} was not built: {tool} ended with {how}"))
         .help("mend what the first error above names; nothing was flashed")

@@ -1,34 +1,25 @@
 //! E0522: the board was not flashed.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0522",
-    severity: Severity::Error,
     title: "the board was not flashed",
     explanation: r#"The firmware was built, and the tool that writes it to the board ended with an error, which stands above the
 message. Common causes: another program (a debugger, another `flash`) holds the probe; the MCU sleeps or its debug
 pins are used otherwise; the probe is that of another board.
 
-Way out: end the other program, hold the reset button while flashing begins, or try another tool with `--with`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: end the other program, hold the reset button while flashing begins, or try another tool with `--with`."#,
+});
 
 /// `how` says how `command` ended.
-#[must_use]
 pub fn not_flashed(span: Span, board: &str, command: &str, how: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{board} was not flashed: `{command}` ended with {how}"))
         .help("hold the reset button while flashing begins, or try another tool with `--with`")
 }
 
 /// The MCU is not known, but the tool needs it.
-#[must_use]
 pub fn unknown_mcu(span: Span, board: &str, tool: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{tool} wants to be told the MCU of {board}, which is not known here"))
         .help("name the whole folder that `generate` wrote, or the file; or flash with `--with st-flash`")

@@ -1,13 +1,10 @@
 //! E0525: an unfinished run is not of this machine.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0525",
-    severity: Severity::Error,
     title: "an unfinished run is not of this machine",
     explanation: r#"A run of `generate` that is cut off leaves its work in `DIR/.sensedsl-work`, or in
 `.NAME.sensedsl-work` and `.NAME.sensedsl-unfinished` beside the output folder `NAME`. The next run
@@ -17,15 +14,10 @@ such code: it came with a download or a copy, is of an earlier version, or the u
 state (`~/.local/state/sensedsl`) is gone.
 
 Way out: look into what the message names. Move what is yours to where you want it, remove the rest,
-and run `generate` again.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+and run `generate` again."#,
+});
 
 /// `left` is what looks like an unfinished run.
-#[must_use]
 pub fn not_our_work(span: Span, folder: &str, left: &str) -> Diagnostic {
     let message = format!("`{left}` looks like an unfinished run for `{folder}`, and not one of this machine");
     Diagnostic::new(CODE, span, message)

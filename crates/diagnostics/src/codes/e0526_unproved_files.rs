@@ -1,13 +1,10 @@
 //! E0526: the output folder was not written by this machine, and has changed since.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0526",
-    severity: Severity::Error,
     title: "the output folder was not written by this machine, and changed since",
     explanation: r#"The output folder has a list of generated files, `.sensedsl-files`, which this machine did not write:
 the folder was cloned, copied, or is of an earlier version. What the list says of a file then counts
@@ -16,15 +13,10 @@ not: somebody changed them, a tool changed their line ends, or the list is not a
 `generate` would replace or remove them.
 
 Way out: look at the files. If all that the list names was generated, say so once with `--adopt`;
-else move your files away, or choose another folder.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+else move your files away, or choose another folder."#,
+});
 
 /// `files` lists some of the files.
-#[must_use]
 pub fn unproved_files(span: Span, folder: &str, files: &str) -> Diagnostic {
     let message = format!(
         "`{folder}` was not written by this machine, and these files are not as they were generated: {files}"

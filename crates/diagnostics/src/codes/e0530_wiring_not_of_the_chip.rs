@@ -1,28 +1,20 @@
 //! E0530: the compiler refuses a wire.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0530",
-    severity: Severity::Error,
     title: "the compiler refuses a wire",
     explanation: r#"`check --typecheck` writes each wire as a line of Rust and lets the compiler judge it by the types of Embassy's
 HAL, which other people make from ST's data: which pins a unit's signal has, which DMA streams serve it, that nothing is
 taken twice. Here they refuse a wire that the solver chose.
 
 Way out: look the pin up in the data sheet. Where a table of your own is wrong, correct it. Where the table is
-right, one of the two tools is not: please report it, with the file and this message.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+right, one of the two tools is not: please report it, with the file and this message."#,
+});
 
 /// `wire` is the wire, `why` the compiler's message.
-#[must_use]
 pub fn refused(span: Span, wire: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the compiler refuses {wire}"))
         .here(why.to_owned())

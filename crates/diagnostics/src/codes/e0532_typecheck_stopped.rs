@@ -1,28 +1,20 @@
 //! E0532: the type check did not finish.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0532",
-    severity: Severity::Error,
     title: "the type check did not come to an end",
     explanation: r#"`check --typecheck` builds crates in exact versions, which cargo downloads the first time: for that it needs the
 network, a registry that has these versions, and a Rust compiler that is new enough. Here cargo ended before it could
 judge the wiring.
 
 Way out: the message has what cargo says. Without a network, run the check once where there is one and copy the
-folder of `CARGO_HOME`; with an old compiler, run `rustup update`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+folder of `CARGO_HOME`; with an old compiler, run `rustup update`."#,
+});
 
 /// `said` is cargo's output.
-#[must_use]
 pub fn stopped(span: Span, board: &str, said: &str) -> Diagnostic {
     let help = if said.contains("rustc") && said.contains("requires") {
         "the crates need a newer compiler: `rustup update`"

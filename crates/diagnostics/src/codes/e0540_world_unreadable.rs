@@ -1,13 +1,10 @@
 //! E0540: a world is not the TOML that it should be.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0540",
-    severity: Severity::Error,
     title: "a world cannot be read",
     explanation: r#"A world is a text in TOML: a line for each device that has something to do, and a block for each fault.
 
@@ -25,22 +22,16 @@ pub const INFO: CodeInfo = CodeInfo {
 
 `docs/simulate.md` has everything that can stand in it.
 
-Way out: mend what the message points at.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: mend what the message points at."#,
+});
 
 /// `why` is the message of the TOML parser.
-#[must_use]
 pub fn not_toml(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the world is not TOML: {why}"))
         .help("a world is a text in TOML: `[devices]`, then a line such as `IRFront = 20.0`")
 }
 
 /// A value of another sort is needed: `a number`, `a table`.
-#[must_use]
 pub fn wrong_sort(span: Span, what: &str, wanted: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} must be {wanted}"))
         .here(format!("not {wanted}"))
@@ -48,7 +39,6 @@ pub fn wrong_sort(span: Span, what: &str, wanted: &str, example: &str) -> Diagno
 }
 
 /// Something required is missing.
-#[must_use]
 pub fn missing(span: Span, what: &str, needs: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} needs `{needs}`"))
         .here(format!("`{needs}` is missing"))
@@ -56,7 +46,6 @@ pub fn missing(span: Span, what: &str, needs: &str, example: &str) -> Diagnostic
 }
 
 /// Two things exclude each other, or nothing says what happens.
-#[must_use]
 pub fn unclear(span: Span, what: &str, why: &str, example: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what}: {why}")).help(format!("write for example `{example}`"))
 }

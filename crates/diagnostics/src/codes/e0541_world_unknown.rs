@@ -1,27 +1,19 @@
 //! E0541: a world names something that does not exist.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0541",
-    severity: Severity::Error,
     title: "a world names something unknown",
     explanation: r#"Under `[devices]` stand the names of the sensors of the simulated board as the `.sense` file has them. What the chip
 `Climate` measures by itself is called `ClimateTemperature`, `ClimateHumidity` and so on; `sensedsl simulate FILE`
 shows all names. An actuator has no line: the host sets it, and `[[command]]` says to what.
 
-Way out: write a name or a word that there is; the message has the nearest one, or all of them.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: write a name or a word that there is; the message has the nearest one, or all of them."#,
+});
 
 /// No sensor of the board has this name.
-#[must_use]
 pub fn unknown_device(span: Span, name: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("the board has no sensor called `{name}`"));
     match near {
@@ -35,7 +27,6 @@ pub fn unknown_device(span: Span, name: &str, near: Option<&str>, all: &str) -> 
 }
 
 /// No actuator of the board has this name.
-#[must_use]
 pub fn unknown_actuator(span: Span, name: &str, near: Option<&str>, all: &[&str]) -> Diagnostic {
     let what = format!("the board has no actuator called `{name}`");
     let report = Diagnostic::new(CODE, span, what).here("unknown");
@@ -51,14 +42,12 @@ pub fn unknown_actuator(span: Span, name: &str, near: Option<&str>, all: &[&str]
 }
 
 /// The device is an actuator, or on another board.
-#[must_use]
 pub fn not_simulated(span: Span, name: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` {why}"))
         .help("a world says what sensors of the simulated board measure: take the line out")
 }
 
 /// A key or a word that means nothing here.
-#[must_use]
 pub fn unknown_word(span: Span, word: &str, place: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("`{word}` means nothing in {place}")).here("unknown");
     match near {

@@ -1,13 +1,10 @@
 //! E0542: a world wants a value that a device cannot have.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0542",
-    severity: Severity::Error,
     title: "a value that the device cannot have",
     explanation: r#"The world speaks in the device's own unit: what a host shows, after `scale`, `offset` and `curve`. A text may carry the unit
 (`"1500 us"`, `"90 deg/s"`), which is converted where it fits, or a code (`"raw 307"`). Some values cannot be:
@@ -19,15 +16,10 @@ pub const INFO: CodeInfo = CodeInfo {
 - a count of edges that grows faster than `debounce` lets it: with 20 ms, levels that are shorter do not count;
 - four values for an array of three.
 
-Way out: write values within the range that the message tells, or give the device a wider type.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: write values within the range that the message tells, or give the device a wider type."#,
+});
 
 /// A value is outside the device's range, in its own unit.
-#[must_use]
 pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}: it goes from {range}"))
         .here("out of range")
@@ -35,13 +27,11 @@ pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnos
 }
 
 /// A value is not in the device's unit; `why` is the reason, `help` says what to write.
-#[must_use]
 pub fn does_not_fit(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}`: {why}")).here("this value").help(help)
 }
 
 /// An array has the wrong number of elements.
-#[must_use]
 pub fn wrong_count(span: Span, name: &str, found: usize, wanted: usize) -> Diagnostic {
     let what = format!("`{name}` has {wanted} elements, and there are {found} here");
     Diagnostic::new(CODE, span, what)
@@ -49,7 +39,6 @@ pub fn wrong_count(span: Span, name: &str, found: usize, wanted: usize) -> Diagn
 }
 
 /// A count of edges decreases.
-#[must_use]
 pub fn falls(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot become less"))
         .here("becomes less")
@@ -57,7 +46,6 @@ pub fn falls(span: Span, name: &str) -> Diagnostic {
 }
 
 /// The source of the edges would have to turn infinitely fast.
-#[must_use]
 pub fn jumps(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot jump"))
         .here("jumps")
@@ -65,7 +53,6 @@ pub fn jumps(span: Span, name: &str) -> Diagnostic {
 }
 
 /// Edges come faster than a contact is debounced; both numbers are edges per second.
-#[must_use]
 pub fn too_fast(span: Span, name: &str, wanted: &str, most: &str) -> Diagnostic {
     let what = format!("`{name}` cannot count {wanted} edges a second: `debounce` lets fewer than {most} through");
     Diagnostic::new(CODE, span, what)

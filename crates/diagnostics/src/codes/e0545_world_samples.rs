@@ -1,34 +1,25 @@
 //! E0545: the samples of a world cannot be read.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0545",
-    severity: Severity::Error,
     title: "samples that cannot be read",
     explanation: r#"`{ csv = "drive.csv", column = "speed" }` takes the values of a quantity from a file beside the world: the first line names
 the columns, the first column is the time in seconds, and each further line is a point. Between points the value goes
 straight from one to the next.
 
-Way out: mend the line that the message names, or name a column that the file has.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: mend the line that the message names, or name a column that the file has."#,
+});
 
 /// The file could not be read.
-#[must_use]
 pub fn unread(span: Span, file: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the samples in {file} were not read: {why}"))
         .help("name a CSV file beside the world, or in a folder below")
 }
 
 /// No column has this name.
-#[must_use]
 pub fn no_column(span: Span, column: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("the samples have no column `{column}`"));
     match near {
@@ -38,7 +29,6 @@ pub fn no_column(span: Span, column: &str, near: Option<&str>, all: &str) -> Dia
 }
 
 /// A line of the file is not as it should be.
-#[must_use]
 pub fn bad_line(span: Span, file: &str, line: usize, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("line {line} of {file}: {why}"))
         .help("each line is a time in seconds and a number for each column")

@@ -1,13 +1,10 @@
 //! E0547: this program does not include an emulated MCU.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0547",
-    severity: Severity::Error,
     title: "this program has no emulated MCU",
     explanation: r#"The MCU that runs an image of firmware is a part of `sensedsl` that is left out unless it is asked for, because it takes
 longer to compile than everything else.
@@ -16,15 +13,10 @@ Way out: install `sensedsl` with it:
 
     cargo install --path crates/sensedsl --features twin
 
-Without `--firmware` the board's job runs in this program, which needs nothing.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Without `--firmware` the board's job runs in this program, which needs nothing."#,
+});
 
 /// `--firmware` was given.
-#[must_use]
 pub fn no_machine(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "this sensedsl was built without the emulated MCU")
         .help("install it with `cargo install --path crates/sensedsl --features twin`, or leave `--firmware` out")

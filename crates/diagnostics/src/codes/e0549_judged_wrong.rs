@@ -1,13 +1,10 @@
 //! E0549: reports disagree with the world.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0549",
-    severity: Severity::Error,
     title: "reports disagree with the world",
     explanation: r#"`simulate --judge` compares every report with the world: what a device reports must lie within what the world did since
 the measurement can have been made, give or take what hardware and coding round. A device disagrees as well that reports
@@ -16,22 +13,16 @@ often or too rarely; and one that the board says has failed, with nothing wrong 
 
 Values of another scale, order or device, old values, lost ones and wrong addresses are found this way.
 
-Way out: look at the device that the message names; the table before it has them all.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: look at the device that the message names; the table before it has them all."#,
+});
 
 /// `what` is the worst disagreement, in words.
-#[must_use]
 pub fn disagrees(span: Span, name: &str, what: &str, wrong: u64, all: u64) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` disagrees with the world: {what}"))
         .help(format!("{wrong} findings in {all} reports of the board's sensors; the table has each of them"))
 }
 
 /// Nothing was reported at all.
-#[must_use]
 pub fn silent(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "the board has reported nothing")
         .help("simulate for longer: `--seconds 10`; a board without sensors has nothing to report")

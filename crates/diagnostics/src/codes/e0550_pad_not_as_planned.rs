@@ -1,13 +1,10 @@
 //! E0550: the firmware has set up a pad or a port differently than planned.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0550",
-    severity: Severity::Error,
     title: "a pad or a port that is not set up as planned",
     explanation: r#"`simulate --firmware IMAGE` compares the registers of the pads with the wiring one second after each start: mode, number
 of the alternate function, open drain or push-pull, pull-up and pull-down. A pad with another alternate function is led
@@ -17,15 +14,10 @@ It compares the ports that have started as well: bits per second of serial ports
 a character, clocks of I2C and SPI, the mode of SPI. Two ends that do not agree on these do not understand each other.
 
 Way out: build the firmware of this very file (`sensedsl build FILE`); if code of yours sets up pads or ports, take the
-one that the message names out of it.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+one that the message names out of it."#,
+});
 
 /// `found` is how the pad or the port of a device is set up, `expected` how it should be.
-#[must_use]
 pub fn not_as_planned(
     span: Span,
     title: &str,

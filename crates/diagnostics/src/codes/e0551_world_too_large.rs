@@ -1,26 +1,18 @@
 //! E0551: a world contains more than is read.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0551",
-    severity: Severity::Error,
     title: "a world holds too much",
     explanation: r#"Each table and each list of a world takes far more memory than its text, so their number is bounded, those within
 others included ([limits.md](limits.md)).
 
-Way out: long courses of values belong in a file of samples: `Speed = { csv = "drive.csv", column = "speed" }`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: long courses of values belong in a file of samples: `Speed = { csv = "drive.csv", column = "speed" }`."#,
+});
 
 /// `span` is the first table or list that is too much.
-#[must_use]
 pub fn too_large(span: Span, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the world has more than {most} tables and lists"))
         .here("the first one beyond")

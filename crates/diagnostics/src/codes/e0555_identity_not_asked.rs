@@ -1,27 +1,19 @@
 //! E0555: the board read a part but not its identity.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0555",
-    severity: Severity::Error,
     title: "the identity of a part was not read",
     explanation: r#"The driver of a part names the register that tells it from other parts (`identity`), and generated firmware
 reads that register before anything else. In a run of `simulate --judge` the board read the part and not that register.
 With another part at the same address it would report wrong values as good ones.
 
-Way out: build the firmware of this very file (`sensedsl build FILE`).
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: build the firmware of this very file (`sensedsl build FILE`)."#,
+});
 
 /// `name` is the part's name.
-#[must_use]
 pub fn not_asked(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the board read `{name}` and not its identity"))
         .help("another part at the same address would not be noticed: build the firmware of this file with `sensedsl build`")

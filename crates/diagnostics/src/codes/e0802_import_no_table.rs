@@ -1,26 +1,18 @@
 //! E0802: there is no pin table in the source.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0802",
-    severity: Severity::Error,
     title: "there is no pin table in the source",
     explanation: r#"A table is found by its head: a row with a cell such as `Pin`, `Pin name` or `GPIO`, or with the columns
 `AF0` to `AF15`. Below it stand rows that name pins.
 
-Way out: call the column of the pins `Pin`; in a workbook, name the sheet with `--sheet`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: call the column of the pins `Pin`; in a workbook, name the sheet with `--sheet`."#,
+});
 
 /// `what` says what was looked for, and where.
-#[must_use]
 pub fn import_no_table(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no pin table: {what}"))
         .help("call the column of the pins `Pin`")

@@ -1,25 +1,17 @@
 //! E0803: the workbook has no such sheet.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0803",
-    severity: Severity::Error,
     title: "the workbook has no such sheet",
     explanation: r#"`--sheet` names a sheet that is not in the workbook, or the source is not a workbook.
 
-Way out: give one of the names in the message, or leave `--sheet` out.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: give one of the names in the message, or leave `--sheet` out."#,
+});
 
 /// `name` is the sheet asked for, `sheets` has the names of all.
-#[must_use]
 pub fn import_no_sheet(span: Span, name: &str, sheets: &[String]) -> Diagnostic {
     let sheets: Vec<String> = sheets.iter().map(|sheet| format!("`{sheet}`")).collect();
     let there = if sheets.is_empty() {

@@ -1,13 +1,10 @@
 //! E0807: a source is too large to be imported.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0807",
-    severity: Severity::Error,
     title: "a source is too large to be imported",
     explanation: r#"A workbook is a compressed archive: a small file can hold gigabytes, and one cell can say that it is repeated
 a million times. What is inside is counted while it is read, and reading stops at the limits of
@@ -15,15 +12,10 @@ a million times. What is inside is counted while it is read, and reading stops a
 `hwdef.dat`, the messages and signals of a DBC file.
 
 Way out: copy the pins to a new workbook, or export the sheet as CSV. Of another source, keep what concerns the
-board: of a DBC file the messages that its node sends or receives.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+board: of a DBC file the messages that its node sends or receives."#,
+});
 
 /// `what` is what the source has too much of, `most` the greatest number allowed.
-#[must_use]
 pub fn import_too_large(span: Span, name: &str, what: &str, most: usize) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{name} has more than {most} {what}"))
         .help("keep what concerns the board: the sheet with the pins as CSV, the messages of its node")

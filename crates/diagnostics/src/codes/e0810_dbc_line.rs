@@ -1,26 +1,18 @@
 //! E0810: a line of a DBC file cannot be read.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "E0810",
-    severity: Severity::Error,
     title: "a line of a DBC file cannot be read",
     explanation: r#"The line begins like one of a DBC file and does not go on like one: something is missing, is not a number, or cannot be
 on a CAN bus. Nothing is imported, so that no value is taken from a place that is not its own.
 
-Way out: correct the line, or export the file again from the program that wrote it.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: correct the line, or export the file again from the program that wrote it."#,
+});
 
 /// `why` says what is wrong with the line.
-#[must_use]
 pub fn dbc_line(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, why).here("this line").help("correct the line, or export the file again")
 }

@@ -1,27 +1,19 @@
 //! H0701: an 8-bit I2C address was understood.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "H0701",
-    severity: Severity::Hint,
     title: "an 8-bit I2C address was understood",
     explanation: r#"Data sheets of some makers give I2C addresses with the read/write bit: 0xE6 for writing, 0xE7 for
 reading. Operating systems take the 7-bit address, 0x73. From 0x80 on the language takes the 8-bit form
 and shifts it.
 
-Way out: nothing to do; write the 7-bit form if you prefer it.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: nothing to do; write the 7-bit form if you prefer it."#,
+});
 
 /// `eight_bit` is the address as written.
-#[must_use]
 pub fn eight_bit_address(span: Span, eight_bit: u8) -> Diagnostic {
     let seven_bit = eight_bit >> 1;
     Diagnostic::new(CODE, span, format!("0x{eight_bit:02X} is the 8-bit form, on the bus it is 0x{seven_bit:02X}"))

@@ -1,27 +1,19 @@
 //! H0703: a protocol was taken from the address.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "H0703",
-    severity: Severity::Hint,
     title: "a protocol was taken from the address",
     explanation: r#"An i2c device without `driver` and without a protocol of its own, at an address from 0xE0 to 0xFE, is
 taken to be a Devantech SRF08 ultrasonic ranger, as in the paper's example.
 
 Way out: nothing to do if it is one; write `driver = srf08;` to say so, or give the device's own `register`,
-`length` and `trigger`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+`length` and `trigger`."#,
+});
 
 /// `device` is the device's name.
-#[must_use]
 pub fn default_protocol(span: Span, device: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{device} has no protocol; its address says that it is a `{driver}`"))
         .help(format!("write `driver = {driver};` to say so, or give `register` and `length`"))

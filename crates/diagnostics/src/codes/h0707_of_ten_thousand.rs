@@ -1,28 +1,20 @@
 //! H0707: a small value of a pwm output.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "H0707",
-    severity: Severity::Hint,
     title: "a value of a pwm output is of 10000",
     explanation: r#"A pwm output without `quantity` goes from 0 to 10000, whatever its pulses are. A bare number up to 100 is
 thus at most a hundredth of its range, which is seldom meant: people think of percent, or of degrees
 of a servo.
 
 Way out: write the unit: `50 %` is half of the range, and `1500 us` is the pulse. Where the small
-number is meant, write it as a code: `raw 50`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+number is meant, write it as a code: `raw 50`."#,
+});
 
 /// `percent` is the percentage that `number` stands for.
-#[must_use]
 pub fn of_ten_thousand(span: Span, number: &str, percent: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{number} of 10000 is {percent} % of the range"))
         .here("0 to 10000")

@@ -2,14 +2,16 @@
 //!
 //! A code is never used for something else, even after its diagnostic has been removed.
 
-use crate::diagnostic::Severity;
 use std::fmt;
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
 
 macro_rules! codes {
     ($($module:ident,)*) => {
         $(pub mod $module;)*
         /// All codes in order.
-        pub const ALL: &[Code] = &[$(Code(&$module::INFO)),*];
+        pub const ALL: &[Code] = &[$($module::CODE),*];
     };
 }
 
@@ -187,11 +189,9 @@ codes! {
 pub struct CodeInfo {
     /// A letter for the severity and four digits.
     pub code: &'static str,
-    /// The severity of its diagnostics.
-    pub severity: Severity,
     /// A line without a full stop.
     pub title: &'static str,
-    /// The long text of `sensedsl explain`.
+    /// The long text of `sensedsl explain`, without its last line break.
     pub explanation: &'static str,
 }
 
@@ -210,6 +210,16 @@ impl Code {
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.0.code
+    }
+
+    /// The severity of its diagnostics, which is the name's letter.
+    #[must_use]
+    pub fn severity(self) -> Severity {
+        match self.name().as_bytes().first() {
+            Some(b'W') => Severity::Warning,
+            Some(b'H') => Severity::Hint,
+            _ => Severity::Error,
+        }
     }
 
     /// The code with this name, in upper or lower case.
@@ -245,13 +255,8 @@ mod tests {
         for code in ALL {
             let info = code.info();
             assert!(info.explanation.contains("Way out:"), "{code} gives no way out");
-            assert!(!info.title.ends_with('.'), "{code}");
-            let letter = match info.severity {
-                Severity::Error => 'E',
-                Severity::Warning => 'W',
-                Severity::Hint => 'H',
-            };
-            assert!(info.code.starts_with(letter), "{code}");
+            assert!(!info.title.ends_with('.') && !info.explanation.ends_with('\n'), "{code}");
+            assert!(info.code.starts_with(['E', 'W', 'H']), "{code}");
         }
     }
 }

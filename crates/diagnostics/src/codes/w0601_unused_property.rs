@@ -1,27 +1,19 @@
 //! W0601: a property has no effect.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0601",
-    severity: Severity::Warning,
     title: "a property has no effect",
     explanation: r#"The hardware triggers icu and encoder inputs itself: every edge is seen when it happens, so neither a
 cycle time nor a priority is used for reading. Such a device is reported at the pace of its `delay`
 only where the language reference says so. The `order` of the bytes says nothing of a value of one byte.
 
-Way out: remove the line, or say that you know: `allow W0601 "reason";`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: remove the line, or say that you know: `allow W0601 "reason";`."#,
+});
 
 /// `why` is the reason why the property of the kind is not used.
-#[must_use]
 pub fn unused_property(span: Span, name: &str, kind: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` has no effect for {kind}: {why}"))
         .help("remove the line, or `allow W0601 \"…\";` if it is meant as a note")

@@ -1,26 +1,18 @@
 //! W0603: the value type is narrower than the measurement.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0603",
-    severity: Severity::Warning,
     title: "the value type is narrower than the measurement",
     explanation: r#"The measurement can be larger than the type can hold. Generated code then reports the largest value of
 the type, never a wrapped one.
 
-Way out: use the type that the message names, or scale the value down.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+Way out: use the type that the message names, or scale the value down."#,
+});
 
 /// `found` is what is measured, `range` its range, `wider` the type that holds it.
-#[must_use]
 pub fn narrow_type(span: Span, found: &str, range: &str, wider: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{found} cannot hold every measurement ({range})"))
         .here("larger values are reported as the largest of the type")

@@ -1,28 +1,20 @@
 //! W0608: a table without usages gets none from its MCU.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0608",
-    severity: Severity::Warning,
     title: "what a pin can be used for is not known",
     explanation: r#"A board table without a column of usages takes them from its MCU: the part that a line `# mcu = ...` above
 its head names. Either no known part is named there, so that all its pins are good for `digital` devices
 alone, or the part does not have this pin.
 
 Way out: name the part, as `sensedsl parts --list` spells it; correct the pin's name; or write the usages into the
-table, in columns of any name.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+table, in columns of any name."#,
+});
 
 /// The table's MCU is not a known part.
-#[must_use]
 pub fn no_part(span: Span, mcu: Option<&str>) -> Diagnostic {
     let why = match mcu {
         Some(mcu) => format!("{mcu} is not a known part"),
@@ -33,7 +25,6 @@ pub fn no_part(span: Span, mcu: Option<&str>) -> Diagnostic {
 }
 
 /// The MCU does not have the pin.
-#[must_use]
 pub fn no_pin(span: Span, pin: &str, mcu: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{mcu} has no pin {pin}"))
         .help("what the pin can be used for is not known: it serves `digital` devices alone")

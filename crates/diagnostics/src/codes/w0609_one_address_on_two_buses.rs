@@ -1,27 +1,19 @@
 //! W0609: two devices with one address are on two buses.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0609",
-    severity: Severity::Warning,
     title: "one address on two buses",
     explanation: r#"Two i2c devices of a board have the same address, so they are wired to two buses, as two chips must be. Where
 both mean one chip, the second bus leads nowhere.
 
 Way out: if it is one chip, write a `chip` with both devices in it. If they are two
-chips, give one of them another address where it has an address pin, or fix `unit` or the pins of both, which also ends the warning.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+chips, give one of them another address where it has an address pin, or fix `unit` or the pins of both, which also ends the warning."#,
+});
 
 /// The second device and its unit come first, then the first one and its unit; `address` is the address on the wire.
-#[must_use]
 pub fn one_address_on_two_buses(
     (span, device, unit): (Span, &str, &str),
     (first_span, first, first_unit): (Span, &str, &str),

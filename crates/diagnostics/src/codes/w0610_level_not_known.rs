@@ -1,26 +1,18 @@
 //! W0610: it is not known whether a pin tolerates a voltage.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0610",
-    severity: Severity::Warning,
     title: "it is not known whether a pin tolerates a voltage",
     explanation: r#"The device puts more than the MCU's supply on its wire, and the tool does not know what the pin tolerates.
 
 Way out: look the pin up in the MCU's data sheet (FT: it tolerates 5 V; TT, TTa, TC: it does not). Then write what you found
-into the column `Voltage` of the board's table, put a `divider` in between, or say that you know: `allow W0610 "reason";`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+into the column `Voltage` of the board's table, put a `divider` in between, or say that you know: `allow W0610 "reason";`."#,
+});
 
 /// `level` is the level of the device at the pin.
-#[must_use]
 pub fn level_not_known(span: Span, device: &str, level: &str, pin: &str) -> Diagnostic {
     let text = format!("{device} puts {level} on {pin}, and the tool does not know whether that pin tolerates it");
     Diagnostic::new(CODE, span, text)

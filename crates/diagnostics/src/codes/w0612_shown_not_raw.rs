@@ -1,13 +1,10 @@
 //! W0612: bare numbers that were codes in older files.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0612",
-    severity: Severity::Warning,
     title: "a bare number is the shown value, and was a code before",
     explanation: r#"A bare number that is given for a device with `scale`, `offset` or `curve` is the value that is shown. Up to
 version 0.1 it was the code that goes over the wire, so that a file from before now means something
@@ -15,16 +12,11 @@ else. This is said once for a file, at the first such number.
 
 Way out: `sensedsl fmt --migrate FILE` writes what the file meant before (`raw 307`). Where the shown
 value is meant, write its unit (`1500 us`), which says so; where the unit is none of the language's,
-`allow W0612 "the shown value is meant";`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+`allow W0612 "the shown value is meant";`."#,
+});
 
 /// `shown` is the number as shown, `code` the code that it is, `more` how many more there are in the file, `write` what
 /// to write if the shown value is meant.
-#[must_use]
 pub fn shown_not_raw(span: Span, shown: &str, code: &str, more: usize, write: &str) -> Diagnostic {
     let others = match more {
         0 => String::new(),

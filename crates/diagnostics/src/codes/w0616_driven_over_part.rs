@@ -1,29 +1,21 @@
 //! W0616: a board drives a part over its supply.
 
-use crate::codes::{Code, CodeInfo};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::Span;
+use super::{Code, CodeInfo, Diagnostic, Span};
 
-/// The registry entry.
-pub const INFO: CodeInfo = CodeInfo {
+/// The code.
+pub const CODE: Code = Code(&CodeInfo {
     code: "W0616",
-    severity: Severity::Warning,
     title: "a board drives a part over its supply",
     explanation: r#"The board puts the voltage of its MCU's supply on a wire to the part, 5 V on an Arduino Uno, and the driver says
 that the part's supply is lower. An input that is over the part's own supply feeds it through its protection,
 which damages it sooner or later. The lines of I2C are not meant: whoever pulls them up decides their voltage.
 
 Way out: put a level shifter, or two resistors, between board and part, or take a board of the part's voltage. Where
-the module has level shifters, say so: `allow W0616 "the module shifts levels";`.
-"#,
-};
-
-/// The code.
-pub const CODE: Code = Code(&INFO);
+the module has level shifters, say so: `allow W0616 "the module shifts levels";`."#,
+});
 
 /// `name` is the part's name in the file, `wires` lists the wires that the board drives, `level` is the board's
 /// voltage, `most` the greatest supply of the driver's part.
-#[must_use]
 pub fn driven_over_part(
     span: Span,
     (name, wires, level): (&str, &str, &str),

@@ -40,8 +40,8 @@ fn rule(code: Code) -> Value {
     json!({
         "id": info.code,
         "shortDescription": { "text": info.title },
-        "fullDescription": { "text": info.explanation },
-        "defaultConfiguration": { "level": level(info.severity) },
+        "fullDescription": { "text": format!("{}\n", info.explanation) },
+        "defaultConfiguration": { "level": level(code.severity()) },
     })
 }
 

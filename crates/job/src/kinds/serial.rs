@@ -30,7 +30,6 @@ pub fn waiting_bytes(uart: &Uart) -> u32 {
 }
 
 /// The diagnostic for a device with inverted wires on an MCU whose ports cannot invert.
-#[must_use]
 pub fn not_inverted(part: &Part, profile: &TargetProfile) -> Diagnostic {
     let name = &part.name;
     let message = format!("the serial ports of {} cannot invert their wires", profile.family);

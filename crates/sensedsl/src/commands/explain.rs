@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
-use sensedsl_diagnostics::{Code, nearest, render};
+use sensedsl_diagnostics::{Code, CodeInfo, nearest, render};
 use sensedsl_model::design::{ConnectionIndex, Design};
 use sensedsl_session::Ask;
 use sensedsl_wiring::{Alternative, Cancel, Wiring};
@@ -35,8 +35,8 @@ fn code(name: &str, terminal: &Terminal) -> Result<Status> {
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("there is no diagnostic {name}{meant} (`sensedsl explain` lists them)");
     };
-    let info = code.info();
-    terminal.result(&format!("{}: {}\n\n{}", info.code, info.title, info.explanation))?;
+    let CodeInfo { code, title, explanation } = code.info();
+    terminal.result(&format!("{code}: {title}\n\n{explanation}\n"))?;
     Ok(Status::Done)
 }
 
