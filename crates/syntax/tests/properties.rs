@@ -10,81 +10,21 @@ use sensedsl_syntax::{SyntaxErrorKind, parse, parse_within};
 
 /// Pieces of the language, and some that are not.
 fn piece() -> impl Strategy<Value = &'static str> {
-    prop::sample::select(vec![
-        "board",
-        "sensor",
-        "actuator",
-        "driver",
-        "chip",
-        "connection",
-        "reading",
-        "command",
-        "const",
-        "link",
-        "use",
-        "spare",
-        "on",
-        "returns",
-        "accepts",
-        "for",
-        "prefer",
-        "avoid",
-        "reserve",
-        "release",
-        "allow",
-        "id",
-        "A",
-        "PA0",
-        "uint8",
-        "{",
-        "}",
-        "[",
-        "]",
-        "=",
-        ";",
-        ",",
-        "+",
-        "-",
-        "*",
-        "/",
-        "(",
-        ")",
-        "..",
-        "...",
-        "17",
-        "0xE6",
-        "0b12",
-        "1.5e3",
-        "1.",
-        "ms",
-        "\"a\"",
-        "\"b",
-        "\"\\q\"",
-        "// c\n",
-        "/* d */",
-        "/* e\n f */",
-        "/*",
-        "\n",
-        "\n\n\n",
-        "\r\n",
-        "\r",
-        " ",
-        "\t",
-        "@",
-        ":",
-        "#",
-        "é",
-        "\u{feff}",
-        "sensr",
-        "brd",
-        "=",
-        ";",
-        "{",
-        "}",
-        " ",
-        " ",
-        " ",
-    ])
+    let names = words(
+        "board sensor actuator driver chip connection reading command const link use spare on returns accepts for \
+         prefer avoid reserve release allow id A PA0 uint8",
+    );
+    let marks = words(r#"{ } [ ] = ; , + - * / ( ) .. ... 17 0xE6 0b12 1.5e3 1. ms "a" "b "\q""#);
+    let comments = ["// c\n", "/* d */", "/* e\n f */", "/*"];
+    let spaces = ["\n", "\n\n\n", "\r\n", "\r", " ", "\t"];
+    let others = words("@ : # é \u{feff} sensr brd = ; { }");
+    let pieces = [&names, &marks, &comments[..], &spaces, &others, &[" "; 3]];
+    prop::sample::select(pieces.concat())
+}
+
+/// The words of a text, with a space between any two.
+fn words(text: &'static str) -> Vec<&'static str> {
+    text.split(' ').collect()
 }
 
 /// White space and comments, which are allowed anywhere.
@@ -111,66 +51,56 @@ fn trivia() -> impl Strategy<Value = &'static str> {
 fn value() -> impl Strategy<Value = Vec<&'static str>> + Clone {
     prop::sample::select(vec![
         vec!["17"],
-        vec!["+", "2"],
-        vec!["-", "1.051e-3"],
-        vec!["60", "ms"],
-        vec!["0x10", "us"],
+        words("+ 2"),
+        words("- 1.051e-3"),
+        words("60 ms"),
+        words("0x10 us"),
         vec!["analog"],
         vec!["\"a \\\" // b\""],
-        vec!["[", "]"],
-        vec!["[", "0x00", ",", "0x51", "]"],
-        vec!["[", "a", ",", "[", "-", "1", "]", ",", "\"s\"", "]"],
-        vec!["5", "..", "N"],
-        vec!["-", "3", "V", "..", "5", "V"],
-        vec!["N", "*", "2", "..", "(", "N", "-", "1", ")"],
-        vec!["-", "(", "1", "+", "N", ")", "/", "4", "ms", "-", "-", "2"],
-        vec!["[", "[", "1", "..", "2", "]", ",", "100", "ms", ",", "+", "-", "N", "]"],
+        words("[ ]"),
+        words("[ 0x00 , 0x51 ]"),
+        words("[ a , [ - 1 ] , \"s\" ]"),
+        words("5 .. N"),
+        words("- 3 V .. 5 V"),
+        words("N * 2 .. ( N - 1 )"),
+        words("- ( 1 + N ) / 4 ms - - 2"),
+        words("[ [ 1 .. 2 ] , 100 ms , + - N ]"),
     ])
 }
 
 /// The tokens of one correct item.
 fn item() -> impl Strategy<Value = Vec<&'static str>> {
-    let name = prop::sample::select(vec![
-        "id",
-        "driver",
-        "on",
-        "sensor",
-        "reserve",
-        "link",
-        "const",
-        "chip",
-        "reading",
-        "command",
-        "connection",
-    ]);
+    let name = prop::sample::select(words(
+        "id driver on sensor reserve link const chip reading command connection",
+    ));
     let property =
         (name, value()).prop_map(|(name, value)| [vec![name, "="], value, vec![";"]].concat());
-    let rule = (prop::sample::select(vec!["prefer", "avoid"]), property.clone())
+    let rule = (prop::sample::select(words("prefer avoid")), property.clone())
         .prop_map(|(keyword, property)| [vec![keyword], property].concat());
     let other_rule = prop::sample::select(vec![
-        vec!["reserve", "PA0", ",", "PA1", ";"],
-        vec!["release", "PA0", ";"],
-        vec!["allow", "W0301", "\"known\"", ";"],
+        words("reserve PA0 , PA1 ;"),
+        words("release PA0 ;"),
+        words("allow W0301 \"known\" ;"),
     ]);
     let content = prop_oneof![4 => property.clone(), 1 => rule, 1 => other_rule];
     let head = prop::sample::select(vec![
-        vec!["sensor", "X", "returns", "uint8", "{"],
-        vec!["actuator", "board", "accepts", "float32", "[", "4", "]", "{"],
-        vec!["sensor", "chip", "returns", "uint8", "[", "const", "]", "{"],
+        words("sensor X returns uint8 {"),
+        words("actuator board accepts float32 [ 4 ] {"),
+        words("sensor chip returns uint8 [ const ] {"),
     ]);
     let device = (head, prop::collection::vec(content.clone(), 0..4))
         .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
     let link = prop::collection::vec(property.clone(), 0..2)
-        .prop_map(|content| [vec!["link", "{"], content.concat(), vec!["}"]].concat());
+        .prop_map(|content| [words("link {"), content.concat(), vec!["}"]].concat());
     let board_head = prop::sample::select(vec![
-        vec!["board", "A", "{"],
-        vec!["spare", "board", "on", "on", "\"t.csv\"", "{"],
-        vec!["board", "B", "on", "STM32F407VGT6", "{"],
+        words("board A {"),
+        words("spare board on on \"t.csv\" {"),
+        words("board B on STM32F407VGT6 {"),
     ]);
     let connection_head = prop::sample::select(vec![
-        vec!["connection", "bus", "for", "i2c", "{"],
-        vec!["connection", "for", "for", "digital", "{"],
-        vec!["connection", "connection", "{"],
+        words("connection bus for i2c {"),
+        words("connection for for digital {"),
+        words("connection connection {"),
     ]);
     let block = |head, content| [head, content, vec!["}"]].concat();
     let properties = || prop::collection::vec(property.clone(), 0..3).prop_map(|all| all.concat());
@@ -178,10 +108,10 @@ fn item() -> impl Strategy<Value = Vec<&'static str>> {
     let chip_content =
         prop_oneof![2 => device.clone(), 1 => content.clone(), 1 => connection.clone()];
     let chip = prop::collection::vec(chip_content, 0..4)
-        .prop_map(move |content| block(vec!["chip", "chip", "{"], content.concat()));
+        .prop_map(move |content| block(words("chip chip {"), content.concat()));
     let value_head = prop::sample::select(vec![
-        vec!["reading", "reading", "returns", "int16", "[", "3", "]", "{"],
-        vec!["command", "c", "accepts", "bool", "{"],
+        words("reading reading returns int16 [ 3 ] {"),
+        words("command c accepts bool {"),
     ]);
     let reading = (value_head, properties()).prop_map(move |(h, c)| block(h, c));
     let constant = (Just(vec!["const"]), property.clone()).prop_map(|(h, c)| [h, c].concat());
@@ -189,14 +119,12 @@ fn item() -> impl Strategy<Value = Vec<&'static str>> {
         prop_oneof![2 => device.clone(), 1 => content, 1 => link, 1 => chip.clone()];
     let board = (board_head, prop::collection::vec(board_content, 0..4))
         .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
-    let driver_head = prop::sample::select(vec![
-        vec!["driver", "for", "for", "i2c", "{"],
-        vec!["driver", "d", "{"],
-    ]);
+    let driver_head =
+        prop::sample::select(vec![words("driver for for i2c {"), words("driver d {")]);
     let driver_content = prop_oneof![2 => property, 1 => connection, 2 => reading];
     let driver = (driver_head, prop::collection::vec(driver_content, 0..4))
         .prop_map(move |(head, content)| block(head, content.concat()));
-    prop_oneof![board, device, driver, chip, constant, Just(vec!["use", "\"lib.sense\"", ";"])]
+    prop_oneof![board, device, driver, chip, constant, Just(words("use \"lib.sense\" ;"))]
 }
 
 proptest! {
@@ -252,74 +180,30 @@ proptest! {
 }
 
 /// Pieces that take long where something is quadratic, and much stack where something recurses.
-const HOSTILE: &[&str] = &[
-    "[",
-    "]",
-    "{",
-    "}",
-    "a=[",
-    "a=[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
-    "board a{",
-    "sensor ",
-    "sensor a returns b{",
-    "a-",
-    "x=1 a-a-a-a-a-a-a-a-",
-    "a ",
-    "a=",
-    "a;",
-    "1 ",
-    "\"",
-    "\"\n",
-    "/*",
-    "/**/",
-    "@ ",
-    "=",
-    "reserve a,",
-    "reserve ",
-    "prefer ",
-    "link{",
-    "\u{feff}",
-    "\\",
-    "\"\\u{",
-    "é",
-    "a=1\n",
-    "for ",
-    "use ",
-    "+",
-    "a=1 b ",
-    "(",
-    ")",
-    "a=(",
-    "a=((((((((((((((((((((((((((((((((((",
-    "a=(1,",
-    "a=1+",
-    "1+",
-    "a=1",
-    "*",
-    "-",
-    "a=-",
-    "..",
-    "a=1..",
-    "chip c{",
-    "driver d{reading r returns b{",
-    "connection c for i",
-    "const a=",
-    "const a ",
-    "const ",
-    "a b=",
-    "chip c=",
-    "sensor a returns b c ",
-    "sensor a returns b[1+",
-    "'",
-    "' a",
-    "\u{201c}",
-    "...",
-    "a=N ms ",
+const HOSTILE: [&[&str]; 2] = [
+    &[
+        "[", "]", "{", "}", "a=[", "board a{", "sensor ", "a-", "a ", "a=", "a;", "1 ", "\"",
+        "\"\n", "/*", "/**/", "@ ", "=", "reserve ", "prefer ", "link{", "\u{feff}", "\\",
+        "\"\\u{", "é", "a=1\n", "for ", "use ", "+", "a=1 b ", "(", ")", "a=(", "a=(1,", "a=1+",
+        "1+", "a=1", "*", "-", "a=-", "..", "a=1..", "chip c{", "const a=", "const a ", "const ",
+        "a b=", "chip c=", "'", "' a", "\u{201c}", "...", "a=N ms ",
+    ],
+    &[
+        "a=[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
+        "sensor a returns b{",
+        "x=1 a-a-a-a-a-a-a-a-",
+        "reserve a,",
+        "a=((((((((((((((((((((((((((((((((((",
+        "driver d{reading r returns b{",
+        "connection c for i",
+        "sensor a returns b c ",
+        "sensor a returns b[1+",
+    ],
 ];
 
 #[test]
 fn hostile_texts_take_linear_time_and_little_stack() {
-    for piece in HOSTILE {
+    for piece in HOSTILE.concat() {
         let text = piece.repeat(1_000_000 / piece.len());
         // Linear time is about 100 ms here; quadratic time would be minutes. Other load on the
         // machine may cost seconds once, but not three times.

@@ -34,7 +34,7 @@ fn samples_are_read_and_laid_out() {
 }
 
 /// Pieces that mean something in some place.
-const PIECES: &[&str] = &[
+const HEADS: &[&str] = &[
     "chip C {",
     "connection c for i2c {",
     "reading r returns int16[3] {",
@@ -45,50 +45,11 @@ const PIECES: &[&str] = &[
     "board B {",
     "prefer a = 1;",
     "id = 1;",
-    "..",
-    "...",
-    ".",
-    "*",
-    "/",
-    "(",
-    ")",
-    "+",
-    "-",
-    "[",
-    "]",
-    "{",
-    "}",
-    "=",
-    ";",
-    ",",
-    "//",
-    "/*",
-    "*/",
-    "\"",
-    "'",
-    "#",
-    ":",
-    "\n",
-    " ",
-    "1..5",
-    "3 V..5 V",
-    "1.",
-    ".5",
-    "A-5",
-    "-N",
-    "(1 + 2)",
-    "0x",
-    "8N1",
-    "ms",
-    " kOhm",
-    "\u{b5}",
-    "\u{2026}",
-    "\u{201c}",
-    "é",
-    "**",
-    "->",
-    "+=",
-    "for",
+];
+const MARKS: &[&str] = &[
+    "..", "...", ".", "*", "/", "(", ")", "+", "-", "[", "]", "{", "}", "=", ";", ",", "//", "/*",
+    "*/", "\"", "'", "#", ":", "\n", " ", "1..5", "3 V..5 V", "1.", ".5", "A-5", "-N", "(1 + 2)",
+    "0x", "8N1", "ms", " kOhm", "\u{b5}", "\u{2026}", "\u{201c}", "é", "**", "->", "+=", "for",
     "returns",
 ];
 
@@ -128,6 +89,7 @@ fn mutation(number: u64, items: &[&str]) -> String {
     let mut random = Random(number.wrapping_mul(0xD134_2543_DE82_EF95));
     let mut text: Vec<char> = items[random.below(items.len())].chars().collect();
     let gentle = random.below(2) == 0;
+    let pieces = [HEADS, MARKS].concat();
     for _ in 0..=random.below(4) {
         let at = random.below(text.len() + 1);
         let end = (at + random.below(16)).min(text.len());
@@ -153,8 +115,8 @@ fn mutation(number: u64, items: &[&str]) -> String {
                 let to = random.below(text.len() + 1);
                 drop(text.splice(to..to, copy));
             }
-            2 | 3 => drop(text.splice(at..at, PIECES[random.below(PIECES.len())].chars())),
-            _ => drop(text.splice(at..end, PIECES[random.below(PIECES.len())].chars())),
+            2 | 3 => drop(text.splice(at..at, pieces[random.below(pieces.len())].chars())),
+            _ => drop(text.splice(at..end, pieces[random.below(pieces.len())].chars())),
         }
     }
     text.into_iter().collect()
