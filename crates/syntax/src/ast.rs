@@ -30,9 +30,10 @@ pub trait AstNode: Sized {
     }
 }
 
-/// Declares one view over one kind of node.
-macro_rules! node {
-    ($(#[$doc:meta])* $name:ident = $kind:ident) => {
+/// Declares views, each over one kind of node, and the methods that list all children of a kind.
+macro_rules! nodes {
+    ($($(#[$doc:meta])* $name:ident = $kind:ident
+        $({ $($(#[$all_doc:meta])* $all:ident: $child:ty,)+ })?;)+) => { $(
         $(#[$doc])*
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $name(SyntaxNode);
@@ -45,10 +46,43 @@ macro_rules! node {
                 &self.0
             }
         }
-    };
+
+        $(impl $name {
+            $($(#[$all_doc])*
+            pub fn $all(&self) -> impl Iterator<Item = $child> + use<> {
+                children(&self.0)
+            })+
+        })?
+    )+ };
 }
 
-use node;
+use nodes;
+
+/// Gives views the name that stands in their head.
+macro_rules! named {
+    ($($view:ident),+) => { $(
+        impl $view {
+            /// The name.
+            #[must_use]
+            pub fn name(&self) -> Option<Name> {
+                name(self.syntax())
+            }
+        }
+    )+ };
+}
+
+/// Gives views the data type that stands in their head.
+macro_rules! typed {
+    ($($view:ident),+) => { $(
+        impl $view {
+            /// The data type.
+            #[must_use]
+            pub fn ty(&self) -> Option<Type> {
+                children(self.syntax()).next()
+            }
+        }
+    )+ };
+}
 
 /// Declares a view that is one of several views.
 macro_rules! choice {
@@ -77,38 +111,66 @@ macro_rules! choice {
 
 use choice;
 
-node!(
+nodes! {
     /// A whole file.
-    SourceFile = SourceFile
-);
-node!(
+    SourceFile = SourceFile {
+        /// All items in order.
+        items: FileItem,
+        /// The files used.
+        uses: Use,
+        /// The boards.
+        boards: Board,
+        /// The devices outside any board.
+        devices: Device,
+        /// The chips outside any board.
+        chips: Chip,
+        /// The devices and chips outside any board, in file order.
+        parts: Item,
+        /// The constants.
+        constants: Constant,
+        /// The drivers.
+        drivers: Driver,
+    };
     /// `use "FILE";`
-    Use = Use
-);
-node!(
+    Use = Use;
     /// `const NAME = VALUE;`
-    Constant = Const
-);
-node!(
+    Constant = Const;
     /// `[spare] board NAME [on SOURCE] { ... }`
-    Board = Board
-);
-node!(
+    Board = Board {
+        /// All items in order.
+        items: BoardItem,
+        /// The devices.
+        devices: Device,
+        /// The chips.
+        chips: Chip,
+        /// The devices and chips in order.
+        parts: Item,
+        /// The rules.
+        rules: Rule,
+        /// The properties.
+        properties: Property,
+        /// The links; the grammar allows several.
+        links: Link,
+    };
     /// `link { ... }`
-    Link = Link
-);
-node!(
+    Link = Link {
+        /// The properties.
+        properties: Property,
+    };
     /// `sensor NAME returns TYPE { ... }` or `actuator NAME accepts TYPE { ... }`
-    Device = Device
-);
-node!(
+    Device = Device {
+        /// All items in order.
+        items: DeviceItem,
+        /// The properties.
+        properties: Property,
+        /// The rules.
+        rules: Rule,
+    };
     /// The data type of a device.
-    Type = Type
-);
-node!(
+    Type = Type;
     /// `NAME = VALUE;`
-    Property = Property
-);
+    Property = Property;
+}
 choice!(
     /// An item of a file.
     FileItem {
@@ -159,6 +221,10 @@ choice!(
         Rule(Rule),
     }
 );
+
+named!(Constant, Board, Device, Property, Chip, Driver, Connection, Reading, Command, NameValue);
+typed!(Device, Reading, Command);
+
 /// The source of a board's pins.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum BoardSource {
@@ -188,41 +254,6 @@ pub enum Direction {
     Actuator,
 }
 
-impl SourceFile {
-    /// All items in order.
-    pub fn items(&self) -> impl Iterator<Item = FileItem> + use<> {
-        children(&self.0)
-    }
-    /// The files used.
-    pub fn uses(&self) -> impl Iterator<Item = Use> + use<> {
-        children(&self.0)
-    }
-    /// The boards.
-    pub fn boards(&self) -> impl Iterator<Item = Board> + use<> {
-        children(&self.0)
-    }
-    /// The devices outside any board.
-    pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
-        children(&self.0)
-    }
-    /// The chips outside any board.
-    pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
-        children(&self.0)
-    }
-    /// The devices and chips outside any board, in file order.
-    pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
-        children(&self.0)
-    }
-    /// The constants.
-    pub fn constants(&self) -> impl Iterator<Item = Constant> + use<> {
-        children(&self.0)
-    }
-    /// The drivers.
-    pub fn drivers(&self) -> impl Iterator<Item = Driver> + use<> {
-        children(&self.0)
-    }
-}
-
 impl Use {
     /// The path of the file.
     #[must_use]
@@ -232,11 +263,6 @@ impl Use {
 }
 
 impl Constant {
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
     /// The value.
     #[must_use]
     pub fn value(&self) -> Option<Value> {
@@ -255,44 +281,11 @@ impl Board {
     pub fn is_spare(&self) -> bool {
         self.spare_token().is_some()
     }
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
     /// The source after `on`.
     #[must_use]
     pub fn on(&self) -> Option<BoardSource> {
         let clause = self.0.children().find(|node| node.kind() == SyntaxKind::OnClause)?;
         name(&clause).map(BoardSource::Name).or_else(|| string(&clause).map(BoardSource::File))
-    }
-    /// All items in order.
-    pub fn items(&self) -> impl Iterator<Item = BoardItem> + use<> {
-        children(&self.0)
-    }
-    /// The devices.
-    pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
-        children(&self.0)
-    }
-    /// The chips.
-    pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
-        children(&self.0)
-    }
-    /// The devices and chips in order.
-    pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
-        children(&self.0)
-    }
-    /// The rules.
-    pub fn rules(&self) -> impl Iterator<Item = Rule> + use<> {
-        children(&self.0)
-    }
-    /// The properties.
-    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
-        children(&self.0)
-    }
-    /// The links; the grammar allows several.
-    pub fn links(&self) -> impl Iterator<Item = Link> + use<> {
-        children(&self.0)
     }
 }
 
@@ -302,10 +295,6 @@ impl Link {
     pub fn keyword(&self) -> Option<SyntaxToken> {
         token(&self.0, SyntaxKind::LinkKw)
     }
-    /// The properties.
-    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
-        children(&self.0)
-    }
 }
 
 impl Device {
@@ -314,28 +303,6 @@ impl Device {
     pub fn direction(&self) -> Option<Direction> {
         let sensor = token(&self.0, SyntaxKind::SensorKw).map(|_| Direction::Sensor);
         sensor.or_else(|| token(&self.0, SyntaxKind::ActuatorKw).map(|_| Direction::Actuator))
-    }
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
-    /// The data type.
-    #[must_use]
-    pub fn ty(&self) -> Option<Type> {
-        children(&self.0).next()
-    }
-    /// All items in order.
-    pub fn items(&self) -> impl Iterator<Item = DeviceItem> + use<> {
-        children(&self.0)
-    }
-    /// The properties.
-    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
-        children(&self.0)
-    }
-    /// The rules.
-    pub fn rules(&self) -> impl Iterator<Item = Rule> + use<> {
-        children(&self.0)
     }
 }
 
@@ -364,11 +331,6 @@ impl Type {
 }
 
 impl Property {
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
     /// The value.
     #[must_use]
     pub fn value(&self) -> Option<Value> {

@@ -241,40 +241,67 @@ pub enum Found {
     EndOfFile,
 }
 
-/// An item of a file or of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each is named after the grammar")]
-pub enum Item {
-    Use,
-    Const,
-    Board,
-    Driver,
-    Chip,
-    Connection,
-    Reading,
-    Command,
-    Sensor,
-    Actuator,
-    Link,
-    Rule,
-    Property,
+/// Makes a type whose values are words of the grammar.
+macro_rules! words {
+    ($(#[$doc:meta])* $name:ident { $($value:ident = $word:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[expect(missing_docs, reason = "each is named after the grammar")]
+        pub enum $name {
+            $($value,)+
+        }
+
+        impl $name {
+            /// The word with its article.
+            #[must_use]
+            pub fn with_article(self) -> String {
+                format!("{} {self}", if self == Self::Actuator { "an" } else { "a" })
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self {
+                    $(Self::$value => $word,)+
+                })
+            }
+        }
+    };
 }
 
-/// A file or a block, which holds items.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each is named after the grammar")]
-pub enum Block {
-    File,
-    Board,
-    Sensor,
-    Actuator,
-    Chip,
-    Connection,
-    Driver,
-    Reading,
-    Command,
-    Link,
-}
+words!(
+    /// An item of a file or of a block.
+    Item {
+        Use = "use",
+        Const = "constant",
+        Board = "board",
+        Driver = "driver",
+        Chip = "chip",
+        Connection = "connection",
+        Reading = "reading",
+        Command = "command",
+        Sensor = "sensor",
+        Actuator = "actuator",
+        Link = "link",
+        Rule = "rule",
+        Property = "property",
+    }
+);
+words!(
+    /// A file or a block, which holds items.
+    Block {
+        File = "file",
+        Board = "board",
+        Sensor = "sensor",
+        Actuator = "actuator",
+        Chip = "chip",
+        Connection = "connection",
+        Driver = "driver",
+        Reading = "reading",
+        Command = "command",
+        Link = "link",
+    }
+);
 
 impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -306,58 +333,5 @@ impl fmt::Display for Found {
             Self::Token(text) => write!(f, "`{text}`"),
             Self::EndOfFile => f.write_str("the end of the file"),
         }
-    }
-}
-
-impl fmt::Display for Item {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Use => "use",
-            Self::Const => "constant",
-            Self::Chip => "chip",
-            Self::Connection => "connection",
-            Self::Reading => "reading",
-            Self::Command => "command",
-            Self::Board => "board",
-            Self::Driver => "driver",
-            Self::Sensor => "sensor",
-            Self::Actuator => "actuator",
-            Self::Link => "link",
-            Self::Rule => "rule",
-            Self::Property => "property",
-        })
-    }
-}
-
-impl fmt::Display for Block {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::File => "file",
-            Self::Chip => "chip",
-            Self::Connection => "connection",
-            Self::Reading => "reading",
-            Self::Command => "command",
-            Self::Board => "board",
-            Self::Sensor => "sensor",
-            Self::Actuator => "actuator",
-            Self::Driver => "driver",
-            Self::Link => "link",
-        })
-    }
-}
-
-impl Item {
-    /// The word with its article.
-    #[must_use]
-    pub fn with_article(self) -> String {
-        format!("{} {self}", if self == Self::Actuator { "an" } else { "a" })
-    }
-}
-
-impl Block {
-    /// The word with its article.
-    #[must_use]
-    pub fn with_article(self) -> String {
-        format!("{} {self}", if self == Self::Actuator { "an" } else { "a" })
     }
 }

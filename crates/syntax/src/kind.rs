@@ -121,12 +121,6 @@ impl SyntaxKind {
     pub fn is_comment(self) -> bool {
         matches!(self, Self::LineComment | Self::BlockComment)
     }
-
-    /// Whether this is a keyword, as recognised by the parser.
-    #[must_use]
-    pub fn is_keyword(self) -> bool {
-        Self::UseKw <= self && self <= Self::RawKw
-    }
 }
 
 /// The type that binds [`SyntaxKind`] to the tree library; it has no values.

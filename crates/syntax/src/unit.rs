@@ -4,123 +4,59 @@ use std::fmt;
 
 use sensedsl_diagnostics::nearest;
 
-/// The unit of a time, a frequency, a voltage or a resistance, or of a value that a device shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Unit {
-    /// `us`
-    Microseconds,
-    /// `ms`
-    Milliseconds,
-    /// `s`
-    Seconds,
-    /// `Hz`
-    Hertz,
-    /// `kHz`
-    Kilohertz,
-    /// `MHz`
-    Megahertz,
-    /// `mV`
-    Millivolts,
-    /// `V`
-    Volts,
-    /// `Ohm`
-    Ohms,
-    /// `kOhm`
-    Kiloohms,
-    /// `%`
-    Percent,
-    /// `mm`
-    Millimetres,
-    /// `cm`
-    Centimetres,
-    /// `m`
-    Metres,
-    /// `deg`
-    Degrees,
-    /// `degC`
-    Celsius,
-    /// `mA`
-    Milliamperes,
-    /// `A`
-    Amperes,
-    /// `W`
-    Watts,
-    /// `rpm`
-    TurnsPerMinute,
-    /// `deg/s`
-    DegreesPerSecond,
-    /// `mm/s`
-    MillimetresPerSecond,
-    /// `cm/s`
-    CentimetresPerSecond,
-    /// `m/s`
-    MetresPerSecond,
-    /// `m/s^2`
-    MetresPerSecondSquared,
+/// Makes the type of a table of units, each as it is written.
+macro_rules! units {
+    ($($name:literal $unit:ident,)+) => {
+        /// The unit of a time, a frequency, a voltage or a resistance, or of a value that a device shows.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Unit {
+            $(#[doc = concat!("`", $name, "`")] $unit,)+
+        }
+
+        impl Unit {
+            /// All units.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$unit),+];
+
+            /// The unit as written.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$unit => $name,)+
+                }
+            }
+        }
+    };
+}
+
+units! {
+    "us" Microseconds,
+    "ms" Milliseconds,
+    "s" Seconds,
+    "Hz" Hertz,
+    "kHz" Kilohertz,
+    "MHz" Megahertz,
+    "mV" Millivolts,
+    "V" Volts,
+    "Ohm" Ohms,
+    "kOhm" Kiloohms,
+    "%" Percent,
+    "mm" Millimetres,
+    "cm" Centimetres,
+    "m" Metres,
+    "deg" Degrees,
+    "degC" Celsius,
+    "mA" Milliamperes,
+    "A" Amperes,
+    "W" Watts,
+    "rpm" TurnsPerMinute,
+    "deg/s" DegreesPerSecond,
+    "mm/s" MillimetresPerSecond,
+    "cm/s" CentimetresPerSecond,
+    "m/s" MetresPerSecond,
+    "m/s^2" MetresPerSecondSquared,
 }
 
 impl Unit {
-    /// All units.
-    pub const ALL: [Self; 25] = [
-        Self::Microseconds,
-        Self::Milliseconds,
-        Self::Seconds,
-        Self::Hertz,
-        Self::Kilohertz,
-        Self::Megahertz,
-        Self::Millivolts,
-        Self::Volts,
-        Self::Ohms,
-        Self::Kiloohms,
-        Self::Percent,
-        Self::Millimetres,
-        Self::Centimetres,
-        Self::Metres,
-        Self::Degrees,
-        Self::Celsius,
-        Self::Milliamperes,
-        Self::Amperes,
-        Self::Watts,
-        Self::TurnsPerMinute,
-        Self::DegreesPerSecond,
-        Self::MillimetresPerSecond,
-        Self::CentimetresPerSecond,
-        Self::MetresPerSecond,
-        Self::MetresPerSecondSquared,
-    ];
-
-    /// The unit as written.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Microseconds => "us",
-            Self::Milliseconds => "ms",
-            Self::Seconds => "s",
-            Self::Hertz => "Hz",
-            Self::Kilohertz => "kHz",
-            Self::Megahertz => "MHz",
-            Self::Millivolts => "mV",
-            Self::Volts => "V",
-            Self::Ohms => "Ohm",
-            Self::Kiloohms => "kOhm",
-            Self::Percent => "%",
-            Self::Millimetres => "mm",
-            Self::Centimetres => "cm",
-            Self::Metres => "m",
-            Self::Degrees => "deg",
-            Self::Celsius => "degC",
-            Self::Milliamperes => "mA",
-            Self::Amperes => "A",
-            Self::Watts => "W",
-            Self::TurnsPerMinute => "rpm",
-            Self::DegreesPerSecond => "deg/s",
-            Self::MillimetresPerSecond => "mm/s",
-            Self::CentimetresPerSecond => "cm/s",
-            Self::MetresPerSecond => "m/s",
-            Self::MetresPerSecondSquared => "m/s^2",
-        }
-    }
-
     /// The unit that is written like this, if it exists.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {

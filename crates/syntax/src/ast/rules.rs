@@ -1,28 +1,20 @@
 //! Views over rules.
 
-use super::{AstNode, Name, Property, StringLiteral, children, choice, name, names, node, string};
+use super::{AstNode, Name, Property, StringLiteral, children, choice, name, names, nodes, string};
 use crate::kind::{SyntaxKind, SyntaxNode};
 
-node!(
+nodes! {
     /// `prefer NAME = VALUE;`
-    Prefer = Prefer
-);
-node!(
+    Prefer = Prefer;
     /// `avoid NAME = VALUE;`
-    Avoid = Avoid
-);
-node!(
+    Avoid = Avoid;
     /// `reserve NAME, ...;`
-    Reserve = Reserve
-);
-node!(
+    Reserve = Reserve;
     /// `release NAME, ...;`
-    Release = Release
-);
-node!(
+    Release = Release;
     /// `allow CODE "REASON";`
-    Allow = Allow
-);
+    Allow = Allow;
+}
 choice!(
     /// A rule for the wiring or the checks.
     Rule {

@@ -1,42 +1,31 @@
 //! Views over names, strings, numbers, lists and expressions.
 
-use super::{AstNode, children, choice, name, node, string, token};
+use super::{AstNode, children, choice, nodes, string, token};
 use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::{literal, unit::Unit};
 use rowan::TextRange;
 
-node!(
+nodes! {
     /// A number with its sign and its unit.
-    Number = Number
-);
-node!(
+    Number = Number;
     /// A name as a value.
-    NameValue = NameValue
-);
-node!(
+    NameValue = NameValue;
     /// A string as a value.
-    StringValue = StringValue
-);
-node!(
+    StringValue = StringValue;
     /// `[VALUE, ...]`
-    List = List
-);
-node!(
+    List = List {
+        /// The values.
+        values: Value,
+    };
     /// A sign before anything but the digits of a number: `-N`, `-(1 + N)`.
-    Signed = Signed
-);
-node!(
+    Signed = Signed;
     /// `(EXPRESSION)`
-    Paren = Paren
-);
-node!(
+    Paren = Paren;
     /// Two operands with an operator between them.
-    Binary = Binary
-);
-node!(
+    Binary = Binary;
     /// `FIRST..LAST`
-    Range = Range
-);
+    Range = Range;
+}
 
 choice!(
     /// The value of a property.
@@ -171,26 +160,11 @@ impl Number {
     }
 }
 
-impl NameValue {
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
-}
-
 impl StringValue {
     /// The string.
     #[must_use]
     pub fn literal(&self) -> Option<StringLiteral> {
         string(&self.0)
-    }
-}
-
-impl List {
-    /// The values.
-    pub fn values(&self) -> impl Iterator<Item = Value> + use<> {
-        children(&self.0)
     }
 }
 
