@@ -26,9 +26,9 @@ pub struct Entry {
     /// A one-line description.
     pub description: &'static str,
     /// The text of `board.toml`.
-    facts: &'static str,
+    pub(crate) facts: &'static str,
     /// The text of `pins.csv`.
-    pins: &'static str,
+    pub(crate) pins: &'static str,
 }
 
 /// All built-in boards, in natural order of their names.
@@ -78,16 +78,6 @@ fn fold(name: &str) -> String {
 }
 
 impl Entry {
-    pub(crate) const fn new(
-        names: (&'static str, &'static [&'static str]),
-        mcu: &'static str,
-        description: &'static str,
-        (facts, pins): (&'static str, &'static str),
-    ) -> Self {
-        let (name, aliases) = names;
-        Self { name, aliases, mcu, description, facts, pins }
-    }
-
     /// The table as stored. It may leave the usages to the MCU.
     #[must_use]
     pub fn csv(&self) -> &'static str {

@@ -306,23 +306,23 @@ impl<'a> Loader<'a> {
                 Role::Usages => self.usages(cell, column, &mut pin, &mut known),
                 Role::Onboard => pin.onboard = self.onboard(cell, column),
                 Role::Alternate => alternates = Some((cell, column)),
-                Role::Position => pin.position = self.text_of(cell),
-                Role::Side => pin.side = self.text_of(cell),
-                Role::Header => pin.header = self.text_of(cell),
-                Role::Label => pin.label = self.text_of(cell),
-                Role::Voltage => pin.voltage = self.text_of(cell),
-                Role::Note => pin.note = self.text_of(cell),
-                Role::Pin => {}
+                Role::Position
+                | Role::Side
+                | Role::Header
+                | Role::Label
+                | Role::Voltage
+                | Role::Note
+                | Role::Pin => {
+                    if let Some(place) = pin.text_mut(column.role) {
+                        *place = self.value(cell).map(|word| word.text);
+                    }
+                }
             }
         }
         if let Some((cell, column)) = alternates {
             self.alternates(cell, column, &mut pin, &known);
         }
         Some(pin)
-    }
-
-    fn text_of(&self, cell: &Cell) -> Option<String> {
-        self.value(cell).map(|word| word.text)
     }
 
     /// Reads the pin cell of a row.
@@ -338,20 +338,7 @@ impl<'a> Loader<'a> {
             self.report(FindingKind::BadPinName { spelled: text }, &range, Some("Pin"));
             return None;
         };
-        Some(Pin {
-            name,
-            spelled: text,
-            usages: Vec::new(),
-            position: None,
-            side: None,
-            header: None,
-            label: None,
-            voltage: None,
-            note: None,
-            onboard: None,
-            row: self.line_of(range.start),
-            range,
-        })
+        Some(Pin { row: self.line_of(range.start), range, ..Pin::new(name, text) })
     }
 }
 

@@ -64,23 +64,32 @@ fn port_and_number(upper: &str) -> Option<String> {
     known.then(|| format!("P{port}{number}{}", if analog.is_some() { "_C" } else { "" }))
 }
 
-impl fmt::Display for PinName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
+/// Shows a type as its name, and puts its values in natural order.
+macro_rules! named {
+    ($($type:ty: $name:ident),+) => { $(
+        impl fmt::Display for $type {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(self.$name())
+            }
+        }
+
+        impl Ord for $type {
+            fn cmp(&self, other: &Self) -> Ordering {
+                natural(self.$name(), other.$name())
+            }
+        }
+
+        impl PartialOrd for $type {
+            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+                Some(self.cmp(other))
+            }
+        }
+    )+ };
 }
 
-impl Ord for PinName {
-    fn cmp(&self, other: &Self) -> Ordering {
-        natural(&self.0, &other.0)
-    }
-}
+pub(crate) use named;
 
-impl PartialOrd for PinName {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
+named!(PinName: as_str);
 
 /// Natural order: runs of digits compare as numbers, everything else byte by byte. Texts that
 /// differ never compare as equal.

@@ -12,7 +12,7 @@ mod types;
 use sensedsl_diagnostics::nearest;
 
 use crate::mcu;
-use crate::registry::TARGETS;
+use crate::registry::{TARGETS, Target as Entry};
 use file::{File, starts};
 pub use rates::{Costs, Cycles, Dividers, I2cTiming};
 pub use types::{
@@ -109,6 +109,12 @@ pub fn usual(mcu: &str) -> &'static str {
     if is_second { SECOND } else { DEFAULT }
 }
 
+/// The file with the profile of an MCU under a target, both by their full names.
+fn entry(target: &str, name: &str) -> Option<&'static Entry> {
+    let covers = |entry: &&Entry| entry.parts.iter().any(|part| starts(name, part));
+    TARGETS.iter().filter(|entry| entry.target == target).find(covers)
+}
+
 /// Finds the profile of an MCU under a target.
 ///
 /// # Errors
@@ -124,9 +130,8 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
         return Ok(Target::None);
     }
     let name = mcu::normalise(mcu);
-    let entries = || TARGETS.iter().filter(|entry| entry.target == target);
-    let covers = |parts: &[&str]| parts.iter().any(|part| starts(&name, part));
-    let Some(entry) = entries().find(|entry| covers(entry.parts)) else {
+    let Some(entry) = entry(target, &name) else {
+        let entries = || TARGETS.iter().filter(|entry| entry.target == target);
         let family = entries().filter(|entry| name.starts_with(entry.family));
         let mut covered: Vec<String> =
             family.flat_map(|entry| entry.parts).map(|part| (*part).to_owned()).collect();
@@ -142,11 +147,7 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
 /// The text of the file with the profile of an MCU under a target.
 #[must_use]
 pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
-    let target = full_name(target)?;
-    let name = mcu::normalise(mcu);
-    let covers = |parts: &[&str]| parts.iter().any(|part| starts(&name, part));
-    let mut entries = TARGETS.iter().filter(|entry| entry.target == target);
-    entries.find(|entry| covers(entry.parts)).map(|entry| entry.text)
+    entry(full_name(target)?, &mcu::normalise(mcu)).map(|entry| entry.text)
 }
 
 /// A line of a profile file.

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use self::spelling::{Reading, canonical, mend, normalise, read};
-use crate::pin::natural;
+use crate::pin::{named, natural};
 
 /// A signal, identified by its canonical name: `I2C1-SCL`, `i2c1_scl` and `I²C1-SCL` are equal.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -76,14 +76,43 @@ pub enum Function {
     Other,
 }
 
-/// A wire of an I²C bus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum I2cLine {
-    /// The clock wire.
-    Scl,
-    /// The data wire.
-    Sda,
+/// Makes a type of the wires of a peripheral, each as signals name it.
+macro_rules! lines {
+    ($(#[$doc:meta])* $name:ident { $($(#[$line_doc:meta])* $line:ident = $word:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $name {
+            $($(#[$line_doc])* $line,)+
+        }
+
+        impl $name {
+            /// The name in signals.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$line => $word,)+
+                }
+            }
+
+            fn from_name(name: &str) -> Option<Self> {
+                match name {
+                    $($word => Some(Self::$line),)+
+                    _ => None,
+                }
+            }
+        }
+    };
 }
+
+lines!(
+    /// A wire of an I²C bus.
+    I2cLine {
+        /// The clock wire.
+        Scl = "SCL",
+        /// The data wire.
+        Sda = "SDA",
+    }
+);
 
 /// The role of a pin for a timer's channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -112,36 +141,39 @@ impl TimerLine {
     }
 }
 
-/// A wire of a serial port, seen from the MCU.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum UartLine {
-    /// The transmit wire.
-    Tx,
-    /// The receive wire.
-    Rx,
-}
+lines!(
+    /// A wire of a serial port, seen from the MCU.
+    UartLine {
+        /// The transmit wire.
+        Tx = "TX",
+        /// The receive wire.
+        Rx = "RX",
+    }
+);
 
-/// A wire of an SPI bus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum SpiLine {
-    /// The clock wire.
-    Sck,
-    /// The wire to the controller.
-    Miso,
-    /// The wire from the controller.
-    Mosi,
-    /// The unit's own select line.
-    Nss,
-}
+lines!(
+    /// A wire of an SPI bus.
+    SpiLine {
+        /// The clock wire.
+        Sck = "SCK",
+        /// The wire to the controller.
+        Miso = "MISO",
+        /// The wire from the controller.
+        Mosi = "MOSI",
+        /// The unit's own select line.
+        Nss = "NSS",
+    }
+);
 
-/// A wire of a CAN controller, seen from the MCU.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum CanLine {
-    /// The transmit wire.
-    Tx,
-    /// The receive wire.
-    Rx,
-}
+lines!(
+    /// A wire of a CAN controller, seen from the MCU.
+    CanLine {
+        /// The transmit wire.
+        Tx = "TX",
+        /// The receive wire.
+        Rx = "RX",
+    }
+);
 
 /// The name of a peripheral instance: `ADC1`, `TIM3`, `LPUART1`. The order is natural.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -161,23 +193,7 @@ impl UnitName {
     }
 }
 
-impl fmt::Display for UnitName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl Ord for UnitName {
-    fn cmp(&self, other: &Self) -> Ordering {
-        natural(&self.0, &other.0)
-    }
-}
-
-impl PartialOrd for UnitName {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
+named!(UnitName: as_str, Signal: name);
 
 /// A spelling that looks like a signal of a known peripheral, but is not one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -215,24 +231,6 @@ impl Signal {
     #[must_use]
     pub fn function(&self) -> &Function {
         &self.function
-    }
-}
-
-impl fmt::Display for Signal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.name)
-    }
-}
-
-impl Ord for Signal {
-    fn cmp(&self, other: &Self) -> Ordering {
-        natural(&self.name, &other.name)
-    }
-}
-
-impl PartialOrd for Signal {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }
 

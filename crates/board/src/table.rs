@@ -141,6 +141,38 @@ pub struct Pin {
 }
 
 impl Pin {
+    /// A pin of which only the name is known.
+    #[must_use]
+    pub fn new(name: PinName, spelled: String) -> Self {
+        Self {
+            name,
+            spelled,
+            usages: Vec::new(),
+            position: None,
+            side: None,
+            header: None,
+            label: None,
+            voltage: None,
+            note: None,
+            onboard: None,
+            row: 0,
+            range: 0..0,
+        }
+    }
+
+    /// The text of a column that describes the pin; none for other columns.
+    pub fn text_mut(&mut self, role: Role) -> Option<&mut Option<String>> {
+        match role {
+            Role::Position => Some(&mut self.position),
+            Role::Side => Some(&mut self.side),
+            Role::Header => Some(&mut self.header),
+            Role::Label => Some(&mut self.label),
+            Role::Voltage => Some(&mut self.voltage),
+            Role::Note => Some(&mut self.note),
+            Role::Pin | Role::Onboard | Role::Alternate | Role::Usages => None,
+        }
+    }
+
     /// The opportunity cost of taking the pin, which is its number of usages over all columns.
     #[must_use]
     pub fn cost(&self) -> u32 {

@@ -61,24 +61,11 @@ fn parts(text: &str) -> Vec<String> {
     parts.map(|part| part.as_str().unwrap().to_owned()).collect()
 }
 
-fn generate() -> String {
-    let mut text = String::from(
-        "// Generated from boards/ and targets/ by tests/registry.rs; do not edit.\n\
-         //! The data that is part of the binary.\n\n\
-         use crate::catalog::Entry;\n\n\
-         /// A file of `targets/`.\n\
-         pub(crate) struct Target {\n    pub(crate) target: &'static str,\n    \
-         pub(crate) family: &'static str,\n    pub(crate) parts: &'static [&'static str],\n    pub(crate) text: &'static str,\n}\n\n\
-         /// The files of a folder of `boards/`.\n\
-         macro_rules! board {\n    \
-         ($name:literal, $aliases:expr, $mcu:literal, $description:literal) => {\n        \
-         Entry::new(\n            ($name, $aliases),\n            $mcu,\n            \
-         $description,\n            (\n                \
-         include_str!(concat!(\"../boards/\", $name, \"/board.toml\")),\n                \
-         include_str!(concat!(\"../boards/\", $name, \"/pins.csv\")),\n            \
-         ),\n        )\n    };\n}\n\n\
-         #[rustfmt::skip]\npub(crate) const BOARDS: &[Entry] = &[\n",
-    );
+/// The module with its lists made anew.
+fn generate(module: &str) -> String {
+    let lists = "#[rustfmt::skip]\npub(crate) const BOARDS: &[Entry] = &[\n";
+    let (head, _) = module.split_once(lists).unwrap();
+    let mut text = format!("{head}{lists}");
     for (folder, path) in boards() {
         let board = Board::parse(&read(&path.join("board.toml"))).unwrap();
         assert_eq!(board.name, folder, "a board's folder has its name");
@@ -91,15 +78,8 @@ fn generate() -> String {
     }
     text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const TARGETS: &[Target] = &[\n");
     for (target, file, path) in targets() {
-        write!(
-            text,
-            "    Target {{\n        target: {target:?},\n        family: {:?},\n        \
-             parts: &{:?},\n        text: include_str!(\"../targets/{target}/{file}\"),\n    \
-             }},\n",
-            family(&read(&path)),
-            parts(&read(&path)),
-        )
-        .unwrap();
+        let (family, parts) = (family(&read(&path)), parts(&read(&path)));
+        writeln!(text, "    target!({target:?}, {file:?}, {family:?}, &{parts:?}),").unwrap();
     }
     text.push_str("];\n");
     text
@@ -108,7 +88,7 @@ fn generate() -> String {
 #[test]
 fn the_registry_is_fresh() {
     let path = root().join("crates/board/src/registry.rs");
-    let text = generate();
+    let text = generate(&read(&path));
     if std::env::var("SENSEDSL_BLESS").is_ok() {
         std::fs::write(&path, &text).unwrap();
     }

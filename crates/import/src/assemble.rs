@@ -6,53 +6,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
-use sensedsl_board::table::{Column, Onboard, Pin, Property, Role, Table, Usage};
+use sensedsl_board::table::{Column, Pin, Property, Role, Table, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_limits::{PIN_USAGES_MAX, PINS_MAX};
 
 use crate::log::Log;
 
-/// A future row of a table: one pin.
+/// A future row of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    pub(crate) name: PinName,
-    pub(crate) position: Option<String>,
-    pub(crate) side: Option<String>,
-    pub(crate) header: Option<String>,
-    pub(crate) label: Option<String>,
-    pub(crate) voltage: Option<String>,
-    pub(crate) note: Option<String>,
-    pub(crate) onboard: Option<Onboard>,
+    /// The pin, without its usages.
+    pub(crate) pin: Pin,
     /// Signals and their alternate functions.
     pub(crate) usages: Vec<(String, Option<u8>)>,
 }
 
 impl Row {
     pub(crate) fn new(name: PinName) -> Self {
-        Self {
-            name,
-            position: None,
-            side: None,
-            header: None,
-            label: None,
-            voltage: None,
-            note: None,
-            onboard: None,
-            usages: Vec::new(),
-        }
-    }
-
-    /// The text of a column that describes the pin; none for other columns.
-    pub(crate) fn text(&mut self, role: Role) -> Option<&mut Option<String>> {
-        match role {
-            Role::Position => Some(&mut self.position),
-            Role::Side => Some(&mut self.side),
-            Role::Header => Some(&mut self.header),
-            Role::Label => Some(&mut self.label),
-            Role::Voltage => Some(&mut self.voltage),
-            Role::Note => Some(&mut self.note),
-            Role::Pin | Role::Onboard | Role::Alternate | Role::Usages => None,
-        }
+        let spelled = name.to_string();
+        Self { pin: Pin::new(name, spelled), usages: Vec::new() }
     }
 }
 
@@ -93,9 +65,9 @@ pub(crate) fn table(
     let mut pins: BTreeMap<PinName, Pin> = BTreeMap::new();
     let mut known: BTreeSet<(PinName, String)> = BTreeSet::new();
     for row in rows {
-        let mut usages = usages(row.usages);
-        usages.retain(|usage| known.insert((row.name.clone(), usage.signal.name().to_owned())));
-        if let Some(pin) = pins.get_mut(&row.name) {
+        let (name, mut usages) = (row.pin.name.clone(), usages(row.usages));
+        usages.retain(|usage| known.insert((name.clone(), usage.signal.name().to_owned())));
+        if let Some(pin) = pins.get_mut(&name) {
             pin.usages.extend(usages);
             if pin.usages.len() > PIN_USAGES_MAX {
                 log.table_too_large(whole, "usages of one pin", PIN_USAGES_MAX);
@@ -103,25 +75,12 @@ pub(crate) fn table(
             }
             continue;
         }
-        let pin = Pin {
-            spelled: row.name.to_string(),
-            name: row.name.clone(),
-            usages,
-            position: row.position,
-            side: row.side,
-            header: row.header,
-            label: row.label,
-            voltage: row.voltage,
-            note: row.note,
-            onboard: row.onboard,
-            row: 0,
-            range: 0..0,
-        };
+        let pin = Pin { usages, ..row.pin };
         let (what, most) = match (pin.usages.len() > PIN_USAGES_MAX, pins.len() == PINS_MAX) {
             (true, _) => ("usages of one pin", PIN_USAGES_MAX),
             (_, true) => ("pins", PINS_MAX),
             _ => {
-                pins.insert(row.name, pin);
+                pins.insert(name, pin);
                 continue;
             }
         };

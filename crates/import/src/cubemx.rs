@@ -234,10 +234,10 @@ impl Reader<'_> {
                 continue;
             };
             let row = self.pin(&node, name);
-            match indices.get(&row.name).and_then(|at| rows.get_mut(*at)) {
+            match indices.get(&row.pin.name).and_then(|at| rows.get_mut(*at)) {
                 Some(first) => self.again(&node, first, row, log),
                 None => {
-                    indices.insert(row.name.clone(), rows.len());
+                    indices.insert(row.pin.name.clone(), rows.len());
                     rows.push(row);
                 }
             }
@@ -263,9 +263,9 @@ impl Reader<'_> {
     fn again(&self, node: &Node<'_, '_>, first: &mut Row, row: Row, log: &mut Log) {
         let what = format!(
             "{} is on position {} too, by remapping; the table has it on {}",
-            row.name,
-            row.position.as_deref().unwrap_or("?"),
-            first.position.as_deref().unwrap_or("?"),
+            row.pin.name,
+            row.pin.position.as_deref().unwrap_or("?"),
+            first.pin.position.as_deref().unwrap_or("?"),
         );
         log.doubtful(self.span(node), "", &what);
         for usage in row.usages {
@@ -278,7 +278,7 @@ impl Reader<'_> {
     fn pin(&self, node: &Node<'_, '_>, name: PinName) -> Row {
         let routes = self.functions.get(&name);
         let mut row = Row::new(name);
-        row.position = node.attribute("Position").map(str::to_owned);
+        row.pin.position = node.attribute("Position").map(str::to_owned);
         for signal in node.children().filter(|child| is(child, "Signal")) {
             let signal = signal.attribute("Name").unwrap_or_default();
             if signal == "GPIO" || signal.is_empty() || is_trigger(signal) {

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
-use sensedsl_board::signal::{CanLine, Function, I2cLine, Signal, SpiLine, UartLine};
+use sensedsl_board::signal::{CanLine, Function, I2cLine, Signal, SpiLine, UartLine, UnitName};
 
 use crate::log::Log;
 use crate::project::{Project, TimerMode, Using, Wire, identifier, one_line};
@@ -130,8 +130,8 @@ impl<'a> Maker<'a, '_> {
 
     fn signal(&mut self, wire: &'a Wire, spelled: &str) {
         let (signal, _) = Signal::parse(spelled);
-        let mut of_unit = |unit: String, role: &'static str| {
-            self.units.entry(unit).or_default().insert(role, wire);
+        let mut of_unit = |unit: &UnitName, role: &'static str| {
+            self.units.entry(unit.to_string()).or_default().insert(role, wire);
         };
         match signal.function() {
             Function::Adc { .. } => {
@@ -140,36 +140,16 @@ impl<'a> Maker<'a, '_> {
             Function::Dac { .. } => {
                 self.single(wire, "Dac", ("actuator", "uint16"), vec!["type = dac;".into()]);
             }
-            Function::I2c { unit, line } => of_unit(
-                unit.to_string(),
-                match line {
-                    I2cLine::Scl => "scl",
-                    I2cLine::Sda => "sda",
-                },
-            ),
-            Function::Uart { unit, line } => of_unit(
-                unit.to_string(),
-                match line {
-                    UartLine::Tx => "tx",
-                    UartLine::Rx => "rx",
-                },
-            ),
-            Function::Can { unit, line } => of_unit(
-                unit.to_string(),
-                match line {
-                    CanLine::Tx => "tx",
-                    CanLine::Rx => "rx",
-                },
-            ),
-            Function::Spi { unit, line } => of_unit(
-                unit.to_string(),
-                match line {
-                    SpiLine::Sck => "sck",
-                    SpiLine::Miso => "miso",
-                    SpiLine::Mosi => "mosi",
-                    SpiLine::Nss => "cs",
-                },
-            ),
+            Function::I2c { unit, line: I2cLine::Scl } => of_unit(unit, "scl"),
+            Function::I2c { unit, line: I2cLine::Sda } => of_unit(unit, "sda"),
+            Function::Uart { unit, line: UartLine::Tx } => of_unit(unit, "tx"),
+            Function::Uart { unit, line: UartLine::Rx } => of_unit(unit, "rx"),
+            Function::Can { unit, line: CanLine::Tx } => of_unit(unit, "tx"),
+            Function::Can { unit, line: CanLine::Rx } => of_unit(unit, "rx"),
+            Function::Spi { unit, line: SpiLine::Sck } => of_unit(unit, "sck"),
+            Function::Spi { unit, line: SpiLine::Miso } => of_unit(unit, "miso"),
+            Function::Spi { unit, line: SpiLine::Mosi } => of_unit(unit, "mosi"),
+            Function::Spi { unit, line: SpiLine::Nss } => of_unit(unit, "cs"),
             // Everything else is in the table, as an on-board part.
             Function::Timer { .. } | Function::Other => {}
         }

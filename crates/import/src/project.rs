@@ -87,14 +87,14 @@ pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mu
     let mut rows = Vec::new();
     for wire in &project.wires {
         let mut row = Row::new(wire.pin.clone());
-        row.label.clone_from(&wire.label);
+        row.pin.label.clone_from(&wire.label);
         let signal = wire.using.signal();
         if used.contains(&wire.pin) {
             row.usages.extend(signal.map(|signal| (signal.to_owned(), None)));
         } else {
             let part = wire.label.as_deref().or(signal).unwrap_or("in use").replace(':', " ");
-            row.onboard = Some(Onboard { part, how: Occupation::Taken });
-            row.note = signal.map(str::to_owned);
+            row.pin.onboard = Some(Onboard { part, how: Occupation::Taken });
+            row.pin.note = signal.map(str::to_owned);
         }
         rows.push(row);
     }

@@ -316,8 +316,8 @@ impl Reader<'_> {
                     continue;
                 }
                 if role == Role::Onboard {
-                    row.onboard = Some(onboard(&value));
-                } else if let Some(text) = row.text(role) {
+                    row.pin.onboard = Some(onboard(&value));
+                } else if let Some(text) = row.pin.text_mut(role) {
                     *text = Some(value);
                 } else if !ignored.contains(&at) {
                     ignored.push(at);
@@ -367,10 +367,10 @@ impl Reader<'_> {
                 }
                 let role = Role::of(header);
                 if role == Role::Onboard {
-                    row.onboard = Some(onboard(&value));
+                    row.pin.onboard = Some(onboard(&value));
                     continue;
                 }
-                if let Some(text) = row.text(role) {
+                if let Some(text) = row.pin.text_mut(role) {
                     *text = Some(value);
                     continue;
                 }

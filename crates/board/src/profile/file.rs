@@ -146,8 +146,12 @@ impl File {
         };
         let adcs = of_line(self.adcs.units, line).map(|unit| unit.adc(&adc_rules, &streams));
         let i2cs = of_line(self.i2cs.units, line).map(|unit| unit.unit(&i2c_rules, &streams));
-        let serials = self.serials.rules;
-        let (spi_dividers, serial_dividers) = (self.spis.dividers.clone(), self.serials.dividers);
+        let (spi_dividers, serial_dividers) =
+            (self.spis.dividers.clone(), self.serials.dividers.clone());
+        let (dac, dacs) = self.dacs.map(|group| (group.facts, group.units)).unzip();
+        let (source, usbs) = self.usbs.map(|group| (group.source, group.units)).unzip();
+        let (dacs, usbs) = (dacs.unwrap_or_default(), usbs.unwrap_or_default());
+        let source: String = source.unwrap_or_default();
         TargetProfile {
             name: self.target,
             family: self.family,
@@ -167,24 +171,11 @@ impl File {
             spi_dividers,
             serial_dividers,
             can_dividers: self.cans.as_ref().and_then(|group| group.dividers.clone()),
-            serials: of_line(self.serials.units, line)
-                .map(|unit| unit.unit(&serials, &streams))
-                .collect(),
+            serials: buses(self.serials),
             cans: self.cans.map(buses).unwrap_or_default(),
-            dac: self.dacs.as_ref().map(|group| group.facts.clone()),
-            dacs: self
-                .dacs
-                .into_iter()
-                .flat_map(|group| of_line(group.units, line).map(DacEntry::dac))
-                .collect(),
-            usbs: self
-                .usbs
-                .into_iter()
-                .flat_map(|group| {
-                    let source = group.source;
-                    of_line(group.units, line).map(move |unit| unit.usb(&source))
-                })
-                .collect(),
+            dac,
+            dacs: of_line(dacs, line).map(DacEntry::dac).collect(),
+            usbs: of_line(usbs, line).map(|unit| unit.usb(&source)).collect(),
             clocks_hz: line.clocks_hz.clone(),
             own: Own { file: self.system, line: line.system.clone() },
         }

@@ -29,15 +29,7 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
             let inverted = if *line == TimerLine::Inverted { "N" } else { "" };
             Some(format!("{unit}_CH{channel}{inverted}"))
         }
-        Function::Spi { unit, line } => {
-            let line = match line {
-                SpiLine::Sck => "SCK",
-                SpiLine::Miso => "MISO",
-                SpiLine::Mosi => "MOSI",
-                SpiLine::Nss => "NSS",
-            };
-            Some(format!("{unit}_{line}"))
-        }
+        Function::Spi { unit, line } => Some(format!("{unit}_{}", line.name())),
         Function::Dac { unit, channel } => Some(format!("DAC{unit}_OUT{channel}")),
         Function::I2c { .. }
         | Function::Timer { .. }
@@ -139,49 +131,17 @@ fn function(family: &str, number: &str, line: &str) -> Option<Function> {
             let channel = line.strip_prefix("INP").or_else(|| line.strip_prefix("IN"))?;
             Some(Function::Adc { units: adc_units(number)?, channel: small(channel)? })
         }
-        "I2C" => unit().and(Some(Function::I2c { unit: name(), line: i2c_line(line)? })),
-        "TWI" => only().and(Some(Function::I2c { unit: name(), line: i2c_line(line)? })),
+        "I2C" => unit().and(Some(Function::I2c { unit: name(), line: I2cLine::from_name(line)? })),
+        "TWI" => only().and(Some(Function::I2c { unit: name(), line: I2cLine::from_name(line)? })),
         "TIM" => unit().and(timer(name(), line)),
-        "SPI" => only().and(Some(Function::Spi { unit: name(), line: spi_line(line)? })),
+        "SPI" => only().and(Some(Function::Spi { unit: name(), line: SpiLine::from_name(line)? })),
         "DAC" => Some(Function::Dac { unit: only()?, channel: small(line.strip_prefix("OUT")?)? }),
         "USART" | "UART" | "LPUART" => {
-            unit()?;
-            let unit = name();
-            let line = match line {
-                "TX" => UartLine::Tx,
-                "RX" => UartLine::Rx,
-                _ => return None,
-            };
-            Some(Function::Uart { unit, line })
+            unit().and(Some(Function::Uart { unit: name(), line: UartLine::from_name(line)? }))
         }
         "CAN" | "FDCAN" => {
-            only()?;
-            let unit = name();
-            let line = match line {
-                "TX" => CanLine::Tx,
-                "RX" => CanLine::Rx,
-                _ => return None,
-            };
-            Some(Function::Can { unit, line })
+            only().and(Some(Function::Can { unit: name(), line: CanLine::from_name(line)? }))
         }
-        _ => None,
-    }
-}
-
-fn i2c_line(line: &str) -> Option<I2cLine> {
-    match line {
-        "SCL" => Some(I2cLine::Scl),
-        "SDA" => Some(I2cLine::Sda),
-        _ => None,
-    }
-}
-
-fn spi_line(line: &str) -> Option<SpiLine> {
-    match line {
-        "SCK" => Some(SpiLine::Sck),
-        "MISO" => Some(SpiLine::Miso),
-        "MOSI" => Some(SpiLine::Mosi),
-        "NSS" => Some(SpiLine::Nss),
         _ => None,
     }
 }
