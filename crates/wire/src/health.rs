@@ -15,107 +15,76 @@ pub const UNKNOWN_LOAD: u8 = u8::MAX;
 /// The rest of a stack, if it is unknown.
 pub const UNKNOWN_STACK: u16 = u16::MAX;
 
-/// Why the board started.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ResetCause {
-    /// There is no information.
-    Unknown,
-    /// Power on or brown-out.
-    Power,
-    /// The reset pin.
-    Pin,
-    /// A request by the firmware.
-    Software,
-    /// The watchdog.
-    Watchdog,
-    /// The window watchdog.
-    WindowWatchdog,
-    /// Incorrect entry into or exit from a low-power mode.
-    LowPower,
-    /// A halt of the kernel.
-    Halt,
-    /// A cause that is unknown here, from newer firmware.
-    Other(u8),
+/// Makes a type of numbers on the wire, each with its meaning; newer firmware may send others.
+macro_rules! codes {
+    ($(#[$doc:meta])* $name:ident { $($(#[$code_doc:meta])* $code:literal = $meaning:ident,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name {
+            $($(#[$code_doc])* $meaning,)+
+            /// A number that is unknown here, from newer firmware.
+            Other(u8),
+        }
+
+        impl $name {
+            /// The meaning of a number.
+            #[must_use]
+            pub const fn from_code(code: u8) -> Self {
+                match code {
+                    $($code => Self::$meaning,)+
+                    other => Self::Other(other),
+                }
+            }
+
+            /// Its number on the wire.
+            #[must_use]
+            pub const fn code(self) -> u8 {
+                match self {
+                    $(Self::$meaning => $code,)+
+                    Self::Other(code) => code,
+                }
+            }
+        }
+    };
 }
 
-impl ResetCause {
-    /// The cause with that number.
-    #[must_use]
-    pub const fn from_code(code: u8) -> Self {
-        match code {
-            0 => Self::Unknown,
-            1 => Self::Power,
-            2 => Self::Pin,
-            3 => Self::Software,
-            4 => Self::Watchdog,
-            5 => Self::WindowWatchdog,
-            6 => Self::LowPower,
-            7 => Self::Halt,
-            other => Self::Other(other),
-        }
+codes!(
+    /// Why the board started.
+    ResetCause {
+        /// There is no information.
+        0 = Unknown,
+        /// Power on or brown-out.
+        1 = Power,
+        /// The reset pin.
+        2 = Pin,
+        /// A request by the firmware.
+        3 = Software,
+        /// The watchdog.
+        4 = Watchdog,
+        /// The window watchdog.
+        5 = WindowWatchdog,
+        /// Incorrect entry into or exit from a low-power mode.
+        6 = LowPower,
+        /// A halt of the kernel.
+        7 = Halt,
     }
+);
 
-    /// Its number on the wire.
-    #[must_use]
-    pub const fn code(self) -> u8 {
-        match self {
-            Self::Unknown => 0,
-            Self::Power => 1,
-            Self::Pin => 2,
-            Self::Software => 3,
-            Self::Watchdog => 4,
-            Self::WindowWatchdog => 5,
-            Self::LowPower => 6,
-            Self::Halt => 7,
-            Self::Other(code) => code,
-        }
+codes!(
+    /// The state of a device.
+    Status {
+        /// It was never read.
+        0 = NeverRead,
+        /// The last reading was good.
+        1 = Good,
+        /// There was no value for three cycles.
+        2 = Stale,
+        /// The last reading failed.
+        3 = Failed,
+        /// The last answer was not a measurement.
+        4 = Invalid,
     }
-}
-
-/// The state of a device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// It was never read.
-    NeverRead,
-    /// The last reading was good.
-    Good,
-    /// There was no value for three cycles.
-    Stale,
-    /// The last reading failed.
-    Failed,
-    /// The last answer was not a measurement.
-    Invalid,
-    /// A status that is unknown here, from newer firmware.
-    Other(u8),
-}
-
-impl Status {
-    /// The status with that number.
-    #[must_use]
-    pub const fn from_code(code: u8) -> Self {
-        match code {
-            0 => Self::NeverRead,
-            1 => Self::Good,
-            2 => Self::Stale,
-            3 => Self::Failed,
-            4 => Self::Invalid,
-            other => Self::Other(other),
-        }
-    }
-
-    /// Its number on the wire.
-    #[must_use]
-    pub const fn code(self) -> u8 {
-        match self {
-            Self::NeverRead => 0,
-            Self::Good => 1,
-            Self::Stale => 2,
-            Self::Failed => 3,
-            Self::Invalid => 4,
-            Self::Other(code) => code,
-        }
-    }
-}
+);
 
 /// How often a device did not give a value, by cause; each counter stops at 65535.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,67 +3,56 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-/// A scalar type of the language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ScalarType {
+/// Makes the type of a table of scalars, each with its name in the language.
+macro_rules! scalars {
+    ($($(#[$doc:meta])* $scalar:ident = $name:literal,)+) => {
+        /// A scalar type of the language.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum ScalarType {
+            $($(#[$doc])* $scalar,)+
+        }
+
+        impl ScalarType {
+            /// All types, in the order of the language reference.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$scalar),+];
+
+            /// The name in the language.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$scalar => $name,)+
+                }
+            }
+        }
+    };
+}
+
+scalars! {
     /// One byte, 0 or 1.
-    Bool,
+    Bool = "bool",
     /// 8 bits, unsigned.
-    Uint8,
+    Uint8 = "uint8",
     /// 8 bits, two's complement.
-    Int8,
+    Int8 = "int8",
     /// 16 bits, unsigned.
-    Uint16,
+    Uint16 = "uint16",
     /// 16 bits, two's complement.
-    Int16,
+    Int16 = "int16",
     /// 32 bits, unsigned.
-    Uint32,
+    Uint32 = "uint32",
     /// 32 bits, two's complement.
-    Int32,
+    Int32 = "int32",
     /// 64 bits, unsigned.
-    Uint64,
+    Uint64 = "uint64",
     /// 64 bits, two's complement.
-    Int64,
+    Int64 = "int64",
     /// IEEE-754 binary32.
-    Float32,
+    Float32 = "float32",
     /// IEEE-754 binary64.
-    Float64,
+    Float64 = "float64",
 }
 
 impl ScalarType {
-    /// All types, in the order of the language reference.
-    pub const ALL: [Self; 11] = [
-        Self::Bool,
-        Self::Uint8,
-        Self::Int8,
-        Self::Uint16,
-        Self::Int16,
-        Self::Uint32,
-        Self::Int32,
-        Self::Uint64,
-        Self::Int64,
-        Self::Float32,
-        Self::Float64,
-    ];
-
-    /// The name in the language.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Bool => "bool",
-            Self::Uint8 => "uint8",
-            Self::Int8 => "int8",
-            Self::Uint16 => "uint16",
-            Self::Int16 => "int16",
-            Self::Uint32 => "uint32",
-            Self::Int32 => "int32",
-            Self::Uint64 => "uint64",
-            Self::Int64 => "int64",
-            Self::Float32 => "float32",
-            Self::Float64 => "float64",
-        }
-    }
-
     /// The type with that name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
