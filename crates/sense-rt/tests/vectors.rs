@@ -16,20 +16,12 @@ fn hex(text: &str) -> Vec<u8> {
 }
 
 fn scalar(name: &str) -> Scalar {
-    match name {
-        "bool" => Scalar::Bool,
-        "uint8" => Scalar::Uint8,
-        "int8" => Scalar::Int8,
-        "uint16" => Scalar::Uint16,
-        "int16" => Scalar::Int16,
-        "uint32" => Scalar::Uint32,
-        "int32" => Scalar::Int32,
-        "uint64" => Scalar::Uint64,
-        "int64" => Scalar::Int64,
-        "float32" => Scalar::Float32,
-        "float64" => Scalar::Float64,
-        other => panic!("what is {other}?"),
-    }
+    use Scalar::{
+        Bool, Float32, Float64, Int8, Int16, Int32, Int64, Uint8, Uint16, Uint32, Uint64,
+    };
+    let all = [Bool, Uint8, Int8, Uint16, Int16, Uint32, Int32, Uint64, Int64, Float32, Float64];
+    let found = all.into_iter().find(|one| format!("{one:?}").eq_ignore_ascii_case(name));
+    found.unwrap_or_else(|| panic!("what is {name}?"))
 }
 
 /// Elements in network byte order, made only with the standard library.
@@ -99,16 +91,8 @@ fn stamp(time_us: &str, counter: &str) -> Stamp {
 }
 
 fn board(words: &[&str]) -> BoardHealth {
-    let causes = [
-        Cause::Unknown,
-        Cause::Power,
-        Cause::Pin,
-        Cause::Software,
-        Cause::Watchdog,
-        Cause::WindowWatchdog,
-        Cause::LowPower,
-        Cause::Halt,
-    ];
+    use Cause::{Halt, LowPower, Pin, Power, Software, Unknown, Watchdog, WindowWatchdog};
+    let causes = [Unknown, Power, Pin, Software, Watchdog, WindowWatchdog, LowPower, Halt];
     BoardHealth {
         uptime_ms: words[0].parse().unwrap(),
         reset_cause: causes[words[1].parse::<usize>().unwrap()],

@@ -42,77 +42,29 @@ enum Boards {
     Same(usize, u64),
 }
 
+/// A family with a bit of everything.
+const fn family(name: &'static str, boards: Boards, sizes: &'static [u64]) -> Family {
+    Family { name, boards, sizes, mix: Mix::General, dma: false }
+}
+
 const FAMILIES: &[Family] = &[
+    family("table 1", Boards::Table1, &[2, 4, 6, 8, 10, 12]),
+    family("one small board", Boards::Different(&[37]), &[4, 8, 12, 16]),
+    family("one board", Boards::Different(&[82]), &[8, 16, 24, 32]),
+    family("one full board", Boards::Different(&[114]), &[40, 50, 60]),
     Family {
-        name: "table 1",
-        boards: Boards::Table1,
-        sizes: &[2, 4, 6, 8, 10, 12],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "one small board",
-        boards: Boards::Different(&[37]),
-        sizes: &[4, 8, 12, 16],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "one board",
-        boards: Boards::Different(&[82]),
-        sizes: &[8, 16, 24, 32],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "one full board",
-        boards: Boards::Different(&[114]),
-        sizes: &[40, 50, 60],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "one board, DMA-tight",
-        boards: Boards::Different(&[82]),
-        sizes: &[8, 12, 16, 20],
         mix: Mix::Dma,
         dma: true,
+        ..family("one board, DMA-tight", Boards::Different(&[82]), &[8, 12, 16, 20])
     },
     Family {
-        name: "one board, timer-tight",
-        boards: Boards::Different(&[82]),
-        sizes: &[8, 12, 16, 20],
         mix: Mix::Timers,
-        dma: false,
+        ..family("one board, timer-tight", Boards::Different(&[82]), &[8, 12, 16, 20])
     },
-    Family {
-        name: "two boards",
-        boards: Boards::Different(&[51, 82]),
-        sizes: &[16, 32, 48],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "two equal boards",
-        boards: Boards::Same(2, 82),
-        sizes: &[16, 32, 48],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "four equal boards",
-        boards: Boards::Same(4, 51),
-        sizes: &[24, 48],
-        mix: Mix::General,
-        dma: false,
-    },
-    Family {
-        name: "eight boards",
-        boards: Boards::Different(&[37, 37, 51, 51, 51, 82, 82, 82]),
-        sizes: &[40, 80, 100],
-        mix: Mix::General,
-        dma: false,
-    },
+    family("two boards", Boards::Different(&[51, 82]), &[16, 32, 48]),
+    family("two equal boards", Boards::Same(2, 82), &[16, 32, 48]),
+    family("four equal boards", Boards::Same(4, 51), &[24, 48]),
+    family("eight boards", Boards::Different(&[37, 37, 51, 51, 51, 82, 82, 82]), &[40, 80, 100]),
 ];
 
 fn main() {

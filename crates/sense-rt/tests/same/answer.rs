@@ -14,19 +14,12 @@ use sense_rt::{
 use super::link::Link;
 
 /// The scalars, in the order of the C code.
-pub(crate) const SCALARS: [Scalar; 11] = [
-    Scalar::Bool,
-    Scalar::Uint8,
-    Scalar::Int8,
-    Scalar::Uint16,
-    Scalar::Int16,
-    Scalar::Uint32,
-    Scalar::Int32,
-    Scalar::Uint64,
-    Scalar::Int64,
-    Scalar::Float32,
-    Scalar::Float64,
-];
+pub(crate) const SCALARS: [Scalar; 11] = {
+    use Scalar::{
+        Bool, Float32, Float64, Int8, Int16, Int32, Int64, Uint8, Uint16, Uint32, Uint64,
+    };
+    [Bool, Uint8, Int8, Uint16, Int16, Uint32, Int32, Uint64, Int64, Float32, Float64]
+};
 
 /// The words of a question.
 pub(crate) struct Words<'a>(SplitWhitespace<'a>);
@@ -122,15 +115,12 @@ pub(crate) struct Desk {
 impl Default for Desk {
     fn default() -> Self {
         let capture = CaptureConfig { mode: CaptureMode::Count, tick_hz: 1, silent_ms: 1 };
+        let contact = ContactConfig { lasting: 0, edge: Edge::Both };
         Self {
             item: Item::sensor(1, Scalar::Bool, 1),
             filter: Box::new(Filter::new(&FilterTable::NEW)),
             capture: (capture, Captured::NEW, Capture::NEW),
-            contact: (
-                ContactConfig { lasting: 0, edge: Edge::Both },
-                Contact::NEW,
-                ContactTold::NEW,
-            ),
+            contact: (contact, Contact::NEW, ContactTold::NEW),
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
             elements: Elements::NEW,
@@ -224,14 +214,8 @@ impl Desk {
     }
 
     fn begin_capture(&mut self, words: &mut Words<'_>) {
-        let modes = [
-            CaptureMode::Count,
-            CaptureMode::Width,
-            CaptureMode::Period,
-            CaptureMode::Frequency,
-            CaptureMode::Duty,
-        ];
-        let mode = modes[words.number() as usize];
+        use CaptureMode::{Count, Duty, Frequency, Period, Width};
+        let mode = [Count, Width, Period, Frequency, Duty][words.number() as usize];
         let config = CaptureConfig { mode, tick_hz: words.small(), silent_ms: words.small() };
         self.capture = (config, Captured::NEW, Capture::NEW);
     }
@@ -318,14 +302,8 @@ fn encode(words: &mut Words<'_>, out: &mut String) {
 fn compose(words: &mut Words<'_>, out: &mut String) {
     let (item, value) = (words.item(), words.coding());
     let (start, end) = (words.bytes().leak(), words.bytes().leak());
-    let all = [
-        MessageChecksum::None,
-        MessageChecksum::Sum8,
-        MessageChecksum::Xor8,
-        MessageChecksum::Ibus,
-        MessageChecksum::Crc8DvbS2,
-        MessageChecksum::Nmea,
-    ];
+    use MessageChecksum::{Crc8DvbS2, Ibus, Nmea, Sum8, Xor8};
+    let all = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
     let checksum = all[words.number() as usize];
     let compose = Compose { start, end, value, checksum, checksum_from: words.byte() };
     let value = words.value(&item);

@@ -78,7 +78,7 @@ fn rust_answers_as_c_does() {
         panic!("{difference}");
     }
     // A wrong answer of each kind is reported.
-    for word in questions::WORDS {
+    for word in questions::WORDS.split(' ') {
         let mut wrong = of_c.clone();
         let starts = |line: &&mut String| line.split(' ').next() == Some(word);
         let told = wrong.iter_mut().find(|line| starts(line) && line.contains(' '));

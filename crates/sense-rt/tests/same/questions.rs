@@ -6,24 +6,8 @@ use sensedsl_tests::Random;
 use super::answer::SCALARS;
 
 /// The first words of the answers that carry a result.
-pub(crate) const WORDS: [&str; 16] = [
-    "ratio",
-    "store",
-    "magnitude",
-    "decode",
-    "encode",
-    "compose",
-    "parse",
-    "formula",
-    "decay",
-    "apply",
-    "captured",
-    "see",
-    "drive",
-    "count",
-    "element",
-    "cycle",
-];
+pub(crate) const WORDS: &str = "ratio store magnitude decode encode compose parse formula \
+    decay apply captured see drive count element cycle";
 
 /// A random number: unrestricted, small, near a power of two, or near the end of the range.
 fn number(random: &mut Random) -> u64 {
