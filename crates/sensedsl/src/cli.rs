@@ -75,7 +75,7 @@ pub(crate) struct NewArgs {
     /// The folder to make
     pub(crate) dir: PathBuf,
     /// A built-in board
-    #[arg(long, default_value = "STM32F407G-DISC1", value_parser = BoardName, hide_possible_values = true)]
+    #[arg(long, default_value = "STM32F407G-DISC1", value_parser = BOARD, hide_possible_values = true)]
     pub(crate) board: String,
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]
@@ -91,7 +91,7 @@ pub(crate) struct Reach {
 }
 
 /// Which board and target to solve for.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub(crate) struct On {
     /// A board table or built-in board that wins over what the file says
     #[arg(long, value_name = "TABLE")]
@@ -200,7 +200,7 @@ pub(crate) enum SolveFormat {
     Alloy,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct GenerateArgs {
     /// The file; - is the standard input
     pub(crate) file: PathBuf,
@@ -299,7 +299,7 @@ pub(crate) struct DiffArgs {
 #[derive(Debug, Args)]
 pub(crate) struct BoardsArgs {
     /// A board: prints its table as CSV
-    #[arg(value_parser = BoardName, hide_possible_values = true)]
+    #[arg(value_parser = BOARD, hide_possible_values = true)]
     pub(crate) name: Option<String>,
     /// Only boards with this text in their name, MCU or description
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
@@ -309,7 +309,7 @@ pub(crate) struct BoardsArgs {
 #[derive(Debug, Args)]
 pub(crate) struct DriversArgs {
     /// A driver, or what else its part is called: mpu6050, GY-521
-    #[arg(value_parser = DriverName, hide_possible_values = true)]
+    #[arg(value_parser = DRIVER, hide_possible_values = true)]
     pub(crate) name: Option<String>,
     /// Only drivers of this kind: i2c, uart, pwm
     #[arg(long, value_parser = kind(), conflicts_with = "name", hide_possible_values = true)]
@@ -404,12 +404,15 @@ pub(crate) struct ManArgs {
     pub(crate) dir: Option<PathBuf>,
 }
 
-/// The name of a board: any text; shells complete the built-in ones. The code that looks the board up reports a name
-/// that does not exist, with the nearest one.
+/// A name: any text; shells complete the known ones. The code that looks a name up reports one that does not exist, with
+/// the nearest one.
 #[derive(Clone)]
-struct BoardName;
+struct Name(fn() -> Vec<&'static str>);
 
-impl TypedValueParser for BoardName {
+const BOARD: Name = Name(|| sensedsl_board::catalog::all().iter().map(|one| one.name).collect());
+const DRIVER: Name = Name(|| sensedsl_model::facts::names().collect());
+
+impl TypedValueParser for Name {
     type Value = String;
 
     fn parse_ref(
@@ -422,30 +425,7 @@ impl TypedValueParser for BoardName {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(
-            sensedsl_board::catalog::all().iter().map(|entry| PossibleValue::new(entry.name)),
-        ))
-    }
-}
-
-/// The name of a driver: any text; shells complete those of the library.
-#[derive(Clone)]
-struct DriverName;
-
-impl TypedValueParser for DriverName {
-    type Value = String;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<String, clap::Error> {
-        StringValueParser::new().parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(sensedsl_model::facts::names().map(PossibleValue::new)))
+        Some(Box::new((self.0)().into_iter().map(PossibleValue::new)))
     }
 }
 

@@ -38,16 +38,7 @@ fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     let rows = catalog::all().iter().map(|board| (board, row(board)));
     let rows: Vec<[String; 8]> =
         rows.filter(|(board, row)| found(board, row)).map(|(_, row)| row).collect();
-    let heads = [
-        ("Board", false),
-        ("Family", false),
-        ("MCU", false),
-        ("Package", false),
-        ("Pins", true),
-        ("Free", true),
-        ("Link", false),
-        ("Firmware", false),
-    ];
+    let heads = ["Board", "Family", "MCU", "Package", ">Pins", ">Free", "Link", "Firmware"];
     let listing = table(heads, &rows);
     let mut lines = listing.lines().map(|line| line.strip_prefix(INDENT).unwrap_or(line));
     terminal.aside(lines.next().unwrap_or_default())?;

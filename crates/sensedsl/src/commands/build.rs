@@ -48,7 +48,12 @@ pub(super) struct Job<'a> {
     pub(super) sources: &'a SourceMap,
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    fn new(programs: Vec<Program>, place: &Place, at: Span, sources: &'a SourceMap) -> Self {
+        let production = place.production;
+        Self { programs, production, after: Vec::new(), makes_raw: false, at, sources }
+    }
+
     /// The ELF file that the build makes.
     pub(super) fn elf(&self, program: &Program) -> PathBuf {
         match &program.build {
@@ -100,14 +105,7 @@ pub(super) fn built(
     let mut sources = SourceMap::default();
     let at = Span::new(sources.add(shown(&path), ""), 0..0);
     let programs = firmware::in_folder(&path)?;
-    let mut job = Job {
-        programs,
-        production: place.production,
-        after: Vec::new(),
-        makes_raw: false,
-        at,
-        sources: &sources,
-    };
+    let mut job = Job::new(programs, place, at, &sources);
     let builders = match look(place, &mut job, ground) {
         Ok(ready) => ready,
         Err(why) => return job.refuse(*why, Status::Misused, terminal),
@@ -128,12 +126,8 @@ fn of_file(
     let args = GenerateArgs {
         file: file.to_path_buf(),
         output: place.output.clone().unwrap_or_else(beside),
-        on: On { board: None, target: None, reach: place.reach.clone() },
-        host: Vec::new(),
-        without: Vec::new(),
-        check: false,
-        adopt: false,
-        keep: None,
+        on: On { reach: place.reach.clone(), ..On::default() },
+        ..GenerateArgs::default()
     };
     generate::made(&args, terminal, &mut |made| {
         let boards = made.assignment.used(made.design);
@@ -148,14 +142,7 @@ fn of_file(
         };
         let programs = boards.filter_map(|(_, on)| program(&on.name.value, on.mcu.as_deref()));
         let at = input::place(made.design);
-        let mut job = Job {
-            programs: programs.collect(),
-            production: place.production,
-            after: Vec::new(),
-            makes_raw: false,
-            at,
-            sources: made.sources,
-        };
+        let mut job = Job::new(programs.collect(), place, at, made.sources);
         let builders = match look(place, &mut job, ground) {
             Ok(ready) => ready,
             Err(why) => return job.refuse(*why, Status::Misused, terminal),

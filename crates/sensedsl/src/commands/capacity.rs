@@ -73,5 +73,5 @@ fn human(design: &Design, capacities: &[Capacity]) -> String {
             ]
         })
         .collect();
-    table([("Board", false), ("Kind", false), ("More", true), ("Next one lacks", false)], &rows)
+    table(["Board", "Kind", ">More", "Next one lacks"], &rows)
 }

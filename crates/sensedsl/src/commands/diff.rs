@@ -67,8 +67,7 @@ fn human(changes: &[Change], wires: usize) -> String {
             [change.name().to_owned(), device, role, place(from), place(to)]
         })
         .collect();
-    let heads =
-        [("Change", false), ("Device", false), ("Role", false), ("From", false), ("To", false)];
+    let heads = ["Change", "Device", "Role", "From", "To"];
     let text = table(heads, &rows);
     format!("{text}\n{} of {wires} wires change\n", changes.len())
 }

@@ -11,7 +11,7 @@ use sensedsl_session::Snapshot;
 
 use super::input;
 use crate::Status;
-use crate::cli::{FmtArgs, On};
+use crate::cli::{FmtArgs, On, Reach};
 use crate::files::{read_text, shown, write_whole};
 use crate::terminal::Terminal;
 
@@ -104,9 +104,7 @@ fn numbered(
     args: &FmtArgs,
     terminal: &Terminal,
 ) -> Result<Option<String>> {
-    // The abilities of a system do not matter for identifiers.
-    let on = On { board: None, target: Some("none".to_owned()), reach: args.reach.clone() };
-    let before = input::of_text(path, text.to_owned(), &on);
+    let before = snapshot(path, text, &args.reach);
     let Some(design) = before.design() else {
         terminal.diagnostics(before.diagnostics(), before.sources())?;
         let name = shown(path);
@@ -117,7 +115,7 @@ fn numbered(
     let with = tree.and_then(|(_, tree)| with_ids(design, &tree.ast(), text));
     let Some(with) = with else { return Ok(Some(formatted.to_owned())) };
     let Some(numbered) = laid_out(path, &with, terminal)? else { return Ok(None) };
-    let moved = moved(&before, &input::of_text(path, numbered.clone(), &on));
+    let moved = moved(&before, &snapshot(path, &numbered, &args.reach));
     if !moved.is_empty() {
         terminal.aside(&format!(
             "{}: write an `id` into the devices of used files, too, which have other numbers now: {}",
@@ -126,6 +124,12 @@ fn numbered(
         ))?;
     }
     Ok(Some(numbered))
+}
+
+/// The file with this text, without the abilities of a system, which matter neither for identifiers nor for values.
+fn snapshot(path: &Path, text: &str, reach: &Reach) -> Snapshot {
+    let on = On { board: None, target: Some("none".to_owned()), reach: reach.clone() };
+    input::of_text(path, text.to_owned(), &on)
 }
 
 /// The devices whose identifiers have changed.

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::facts::{Facts, Filter, units};
 use super::sweep::sweep;
-use super::table::{Head, table};
+use super::table::table;
 use crate::Status;
 use crate::cli::{PartsArgs, PartsOrder, TableFormat};
 use crate::terminal::Terminal;
@@ -96,14 +96,7 @@ fn listing(args: &PartsArgs, search: &str) -> Result<String> {
     ))
 }
 
-const HEADS: [Head; 6] = [
-    ("Part", false),
-    ("Package", false),
-    ("Core", false),
-    ("Flash", true),
-    ("RAM", true),
-    ("Also", false),
-];
+const HEADS: [&str; 6] = ["Part", "Package", "Core", ">Flash", ">RAM", "Also"];
 
 /// A line of JSON.
 fn value(part: Part, facts: &Facts) -> String {

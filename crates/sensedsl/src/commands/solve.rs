@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, ensure};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
-use sensedsl_diagnostics::{SourceMap, render, visible_json};
+use sensedsl_diagnostics::{Diagnostic, SourceMap, render, visible_json};
 use sensedsl_model::What;
 use sensedsl_model::design::Design;
 use sensedsl_report::{csv, human, json, markdown, svg};
@@ -88,10 +88,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     match (answer.certificate, file) {
         (Some(Ok(text)), Some(path)) => write_whole(path, text.as_bytes())?,
         (Some(Ok(text)), None) => terminal.result(&text)?,
-        (Some(Err(report)), _) => {
-            terminal.diagnostics(&[*report], sources)?;
-            return Ok(Status::Wrong);
-        }
+        (Some(Err(report)), _) => return wrong(*report, terminal, sources),
         (None, _) => {}
     }
     Ok(status)
@@ -101,6 +98,12 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
 fn status(answer: &Answer<'_>, on: &On) -> Status {
     let least = if answer.wired().is_some() { Status::Done } else { Status::Wrong };
     input::status(&answer.diagnostics, on).max(least)
+}
+
+/// Reports why there is no answer.
+fn wrong(why: Diagnostic, terminal: &Terminal, sources: &SourceMap) -> Result<Status> {
+    terminal.diagnostics(&[why], sources)?;
+    Ok(Status::Wrong)
 }
 
 /// Prints the problem for another program.
@@ -119,10 +122,7 @@ fn problem(
             terminal.result(&model)?;
             Ok(Status::Done)
         }
-        Err(failure) => {
-            terminal.diagnostics(&[*failure], sources)?;
-            Ok(Status::Wrong)
-        }
+        Err(failure) => wrong(*failure, terminal, sources),
     }
 }
 
@@ -211,10 +211,7 @@ fn count(
             terminal.result(&format!("{count}\n"))?;
             Ok(Status::Done)
         }
-        Err(failure) => {
-            terminal.diagnostics(&[*failure], sources)?;
-            Ok(Status::Wrong)
-        }
+        Err(failure) => wrong(*failure, terminal, sources),
     }
 }
 
@@ -240,13 +237,9 @@ fn several(
                 terminal.result(&text)?;
             }
             Solved::Infeasible(conflict) => {
-                terminal.diagnostics(&[conflict.diagnostic(design)], sources)?;
-                return Ok(Status::Wrong);
+                return wrong(conflict.diagnostic(design), terminal, sources);
             }
-            Solved::Failed(failure) => {
-                terminal.diagnostics(&[*failure], sources)?;
-                return Ok(Status::Wrong);
-            }
+            Solved::Failed(failure) => return wrong(*failure, terminal, sources),
         }
     }
     Ok(Status::Done)

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
@@ -14,8 +13,8 @@ use sensedsl_parts::{Part, Sheet};
 use sensedsl_session::{Fit, On, Quality, Workspace};
 use sensedsl_wiring::Cancel;
 use serde_json::json;
-use signal_hook::consts::SIGINT;
 
+use super::deadline::{Deadline, interruption};
 use super::facts::{Facts, Filter, units};
 use super::parts::{parts, rank};
 use super::table::table;
@@ -23,9 +22,6 @@ use crate::Status;
 use crate::cli::{PartsArgs, TableFormat};
 use crate::files::{Disk, read_text, shown};
 use crate::terminal::Terminal;
-
-/// The status that a shell gives a program that the user interrupted.
-const INTERRUPTED: i32 = 130;
 
 /// A part or a board that may carry the devices.
 struct Carrier {
@@ -40,7 +36,7 @@ struct Carrier {
 
 /// Solves the devices of a file on all carriers that pass the filters, and prints those that fit.
 pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
-    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let deadline = Deadline::after(args.timeout);
     let interrupted = interruption()?;
     let text = read_text(file, What::Sense)?;
     let disk = Disk::of(file, &args.reach.allow_outside);
@@ -62,10 +58,8 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
             return Ok(Status::Wrong);
         }
     }
-    let over = || {
-        interrupted.load(Ordering::Relaxed)
-            || deadline.is_some_and(|deadline| Instant::now() >= deadline)
-    };
+    // Ctrl-C prints the results so far.
+    let over = || interrupted.load(Ordering::Relaxed) || deadline.is_over();
     let question = Question {
         workspace: &workspace,
         path: &path,
@@ -103,14 +97,6 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
         bail!("the solver failed its own check on {failed} parts");
     }
     Ok(if found.is_empty() { Status::Wrong } else { Status::Done })
-}
-
-/// A flag that the first Ctrl-C sets, after which the results so far are printed; the second one ends the program.
-fn interruption() -> Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
-    signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&flag))?;
-    signal_hook::flag::register(SIGINT, Arc::clone(&flag))?;
-    Ok(flag)
 }
 
 /// The carriers that can carry the devices, in the requested order.
@@ -314,15 +300,7 @@ fn human(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize) -> String 
         [worth.cost.to_string(), part, place, core, flash, ram, known]
     };
     let rows: Vec<[String; 7]> = shown.iter().map(row).collect();
-    let heads = [
-        ("Cost", true),
-        ("Part", false),
-        ("Package or board", false),
-        ("Core", false),
-        ("Flash", true),
-        ("RAM", true),
-        ("Known", false),
-    ];
+    let heads = [">Cost", "Part", "Package or board", "Core", ">Flash", ">RAM", "Known"];
     let cut = match shown.len() {
         all if all == fitting => String::new(),
         some => format!("; the first {some} are shown"),

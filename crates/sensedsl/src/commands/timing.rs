@@ -107,16 +107,7 @@ fn human(design: &Design, timing: &Timing) -> String {
         }
         out.push_str(&format!("{}\n", board_name(design, board)));
         let rows: Vec<[String; 8]> = board.rows.iter().map(cells).collect();
-        let heads = [
-            ("Part", false),
-            ("Name", false),
-            ("Clock", true),
-            ("Cycle", true),
-            ("Takes", true),
-            ("A second", true),
-            ("Busy", true),
-            ("Least", true),
-        ];
+        let heads = ["Part", "Name", ">Clock", ">Cycle", ">Takes", ">A second", ">Busy", ">Least"];
         out.push_str(&table(heads, &rows));
         if !board.turns.is_empty() {
             out.push('\n');
@@ -145,14 +136,7 @@ fn turns(design: &Design, board: &BoardTiming) -> String {
             ]
         })
         .collect();
-    let heads = [
-        ("Group", false),
-        ("Device", false),
-        ("Starts", true),
-        ("Then every", true),
-        ("Measures", true),
-        ("", false),
-    ];
+    let heads = ["Group", "Device", ">Starts", ">Then every", ">Measures", ""];
     table(heads, &rows)
 }
 

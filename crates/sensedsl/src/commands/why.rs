@@ -114,8 +114,7 @@ pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternat
         [one.wire.clone(), pin(design, one), one.signal.clone(), one.usages.to_string(), why]
     };
     let rows: Vec<[String; 5]> = alternatives.iter().map(row).collect();
-    let heads =
-        [("Role", false), ("Pin", false), ("Signal", false), ("Usages", true), ("Why", false)];
+    let heads = ["Role", "Pin", "Signal", ">Usages", "Why"];
     table(heads, &rows)
 }
 
@@ -135,7 +134,7 @@ pub(super) fn summary(
         }
     }
     let chosen: Vec<[String; 4]> = wires.iter().filter_map(|wire| row(design, wire)).collect();
-    let heads = [("Role", false), ("Pin", false), ("Signal", false), ("Why", false)];
+    let heads = ["Role", "Pin", "Signal", "Why"];
     let mut out = table(heads, &chosen);
     out.push_str(&others(design, &wires));
     out

@@ -9,8 +9,8 @@ use std::path::Path;
 use sensedsl_diagnostics::codes::e0234_value_does_not_fit;
 use sensedsl_session::Snapshot;
 
-use super::input;
-use crate::cli::{FmtArgs, On, Reach};
+use super::snapshot;
+use crate::cli::FmtArgs;
 
 /// More than the passes that a file needs: one for codes that are not shown values, one for all others.
 const PASSES: usize = 4;
@@ -32,12 +32,6 @@ pub(super) fn migrated(path: &Path, text: &str, args: &FmtArgs) -> Result<String
         return Ok(with_raw(&text, codes.collect()));
     }
     Ok(text)
-}
-
-fn snapshot(path: &Path, text: &str, reach: &Reach) -> Snapshot {
-    // The abilities of a system do not matter for values.
-    let on = On { board: None, target: Some("none".to_owned()), reach: reach.clone() };
-    input::of_text(path, text.to_owned(), &on)
 }
 
 /// The numbers without a unit that are not valid as shown values: they can only be codes.

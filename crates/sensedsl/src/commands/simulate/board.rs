@@ -17,26 +17,40 @@ pub(super) trait Board {
     /// The bytes that have arrived at the host since the last call.
     fn link_read(&mut self) -> Vec<u8>;
     /// The values that the host has set since the last call: the device's place in the schema, and the value's bytes.
-    fn received(&mut self) -> Vec<(usize, Vec<u8>)>;
+    fn received(&mut self) -> Vec<(usize, Vec<u8>)> {
+        Vec::new()
+    }
     /// The outputs of the board.
     fn outputs(&self) -> Outputs;
     /// The address at which the firmware is stuck, and the reason.
-    fn halted(&self) -> Option<(u64, String)>;
+    fn halted(&self) -> Option<(u64, String)> {
+        None
+    }
     /// The firmware's errors since the last call, reported at a place in the file.
-    fn wrongs(&mut self, at: Span) -> Vec<Diagnostic>;
+    fn wrongs(&mut self, _: Span) -> Vec<Diagnostic> {
+        Vec::new()
+    }
     /// The events since the last call that matter to a user.
-    fn news(&mut self) -> Vec<String>;
+    fn news(&mut self) -> Vec<String> {
+        Vec::new()
+    }
     /// The parts on buses that the board has read without asking for their identity.
     fn unasked(&self) -> Vec<Unasked>;
     /// The parts on buses that the board has treated in a way that their drivers do not describe, each with what
     /// happened.
     fn odd_transfers(&self) -> Vec<(String, String)>;
     /// The time that its processor has worked so far, if it is known.
-    fn worked_ns(&self) -> Option<u64>;
+    fn worked_ns(&self) -> Option<u64> {
+        None
+    }
     /// The number of instructions that the firmware has executed, if they are counted.
-    fn instructions(&self) -> Option<u64>;
+    fn instructions(&self) -> Option<u64> {
+        None
+    }
     /// The log of everything that has left the MCU, if one is kept.
-    fn log(&self) -> Option<String>;
+    fn log(&self) -> Option<String> {
+        None
+    }
 }
 
 impl Board for SoftBoard {
@@ -65,36 +79,12 @@ impl Board for SoftBoard {
         self.bench().outputs().clone()
     }
 
-    fn halted(&self) -> Option<(u64, String)> {
-        None
-    }
-
-    fn wrongs(&mut self, _: Span) -> Vec<Diagnostic> {
-        Vec::new()
-    }
-
-    fn news(&mut self) -> Vec<String> {
-        Vec::new()
-    }
-
     fn unasked(&self) -> Vec<Unasked> {
         self.bench().unasked()
     }
 
     fn odd_transfers(&self) -> Vec<(String, String)> {
         self.bench().odd_transfers()
-    }
-
-    fn worked_ns(&self) -> Option<u64> {
-        None
-    }
-
-    fn instructions(&self) -> Option<u64> {
-        None
-    }
-
-    fn log(&self) -> Option<String> {
-        None
     }
 }
 

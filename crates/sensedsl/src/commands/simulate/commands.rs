@@ -14,8 +14,7 @@ pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool>
         return Ok(true);
     }
     let rows: Vec<[String; 5]> = tried.iter().map(cells).collect();
-    let heads =
-        [("Output", false), ("Set", true), ("Looked at", true), ("Excused", true), ("Wrong", true)];
+    let heads = ["Output", ">Set", ">Looked at", ">Excused", ">Wrong"];
     let mut text = format!("\n{}", table(heads, &rows));
     let mut amiss = Vec::new();
     for one in tried {

@@ -27,10 +27,6 @@ impl Board for EmulatedBoard {
         EmulatedBoard::link_read(self)
     }
 
-    fn received(&mut self) -> Vec<(usize, Vec<u8>)> {
-        Vec::new()
-    }
-
     fn outputs(&self) -> Outputs {
         EmulatedBoard::outputs(self)
     }

@@ -1,7 +1,7 @@
 //! The simulation loop: at the pace of the clock on a pseudo-terminal, or as fast as possible for a judge.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+#[cfg(unix)]
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
@@ -28,6 +28,8 @@ use super::commands;
 use super::pty::Pty;
 use super::screen::Screen;
 use crate::Status;
+#[cfg(unix)]
+use crate::commands::deadline::interruption;
 use crate::commands::table::table;
 use crate::files::write_whole;
 
@@ -394,7 +396,7 @@ impl<'a> Session<'a> {
                 [name, status(one.status).to_owned(), age, faults.to_string()]
             })
             .collect();
-        let heads = [("Device", false), ("Status", false), ("Age ms", true), ("Faults", true)];
+        let heads = ["Device", "Status", ">Age ms", ">Faults"];
         Ok(self.scenery.terminal.result(&format!("{text}{}", table(heads, &rows)))?)
     }
 
@@ -404,14 +406,7 @@ impl<'a> Session<'a> {
         judge.transfers(now_ns, &board.odd_transfers());
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
-        let heads = [
-            ("Device", false),
-            ("Reports", true),
-            ("Excused", true),
-            ("Wrong", true),
-            ("Every", true),
-            ("May be old", true),
-        ];
+        let heads = ["Device", ">Reports", ">Excused", ">Wrong", ">Every", ">May be old"];
         let mut text = table(heads, &rows);
         for one in judged.iter().filter(|one| one.wrong > 0) {
             text.push_str(&format!("  {}: {}\n", one.name, one.words()));
@@ -485,15 +480,4 @@ fn cells(one: &Judged) -> [String; 6] {
     let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());
     let [reports, excused, wrong] = counts;
     [one.name.clone(), reports, excused, wrong, every, age]
-}
-
-/// A flag that the first Ctrl-C sets; the second one ends the program.
-#[cfg(unix)]
-fn interruption() -> Result<Arc<AtomicBool>> {
-    use signal_hook::consts::SIGINT;
-    const INTERRUPTED: i32 = 130;
-    let flag = Arc::new(AtomicBool::new(false));
-    signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&flag))?;
-    signal_hook::flag::register(SIGINT, Arc::clone(&flag))?;
-    Ok(flag)
 }

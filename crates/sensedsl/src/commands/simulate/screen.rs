@@ -58,8 +58,7 @@ impl Screen {
     /// The table of the latest values.
     pub(super) fn table(&self, now_ns: u64) -> String {
         let rows: Vec<[String; 5]> = self.rows.iter().map(|row| row.cells(now_ns)).collect();
-        let heads =
-            [("Device", false), ("Value", true), ("", false), ("Age", true), ("Reports", true)];
+        let heads = ["Device", ">Value", "", ">Age", ">Reports"];
         let head = format!("{:.1} s\n", sensedsl_twin::bench::seconds(now_ns));
         format!("{head}{}", table(heads, &rows))
     }

@@ -74,14 +74,23 @@ const NEW: &[(&str, &str)] =
     &[("a", "new a"), ("fw/A/Makefile", "same"), ("fw/A/gen/x.c", "new x"), ("fw/B/m", "m")];
 const NEW_ONCE: &str = "fw/B/user/user.c";
 
-/// A list without digests.
-fn list(paths: &BTreeSet<String>) -> String {
-    layout::list(&paths.iter().map(|path| (path.clone(), None)).collect())
+/// A list without digests of files.
+fn list(files: &[(&str, &str)]) -> String {
+    layout::list(&files.iter().map(|(path, _)| ((*path).to_owned(), None)).collect())
 }
 
-/// The files that a list names and that are no longer needed.
-fn stale(out: &Path, generated: &BTreeSet<String>) -> Vec<String> {
-    listed(&out.join(LIST)).unwrap().difference(generated).cloned().collect()
+/// The tree that a run writes into a folder.
+fn new_tree<'a>(root: &Path, files: &'a [(&'a str, &'a str)], once: &'a [&'a str]) -> NewTree<'a> {
+    let generated: BTreeSet<_> = files.iter().map(|(path, _)| (*path).to_owned()).collect();
+    let stale = listed(&root.join(LIST)).unwrap().difference(&generated).cloned().collect();
+    let wanted = files.iter().map(|(path, text)| (*path, *text, false));
+    let once = once.iter().map(|path| (*path, "template", true));
+    let new = wanted.chain(once).map(|(path, text, once)| {
+        let there = fs::read_to_string(root.join(path)).ok();
+        let changes = there.is_none_or(|found| !once && found != text);
+        NewFile { path, bytes: text.as_bytes(), once, changes }
+    });
+    NewTree { files: new.collect(), list: list(files), stale }
 }
 
 /// Writes a tree as `generate` does.
@@ -93,22 +102,7 @@ fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bo
         Err(other) => panic!("{other:?}"),
     };
     let root = output.root().to_path_buf();
-    let generated: BTreeSet<_> = files.iter().map(|(path, _)| (*path).to_owned()).collect();
-    let there = |path: &str| fs::read_to_string(root.join(path)).ok();
-    let files = files.iter().map(|(path, text)| NewFile {
-        path,
-        bytes: text.as_bytes(),
-        once: false,
-        changes: there(path).as_deref() != Some(*text),
-    });
-    let once = once.iter().map(|path| NewFile {
-        path,
-        bytes: b"template",
-        once: true,
-        changes: there(path).is_none(),
-    });
-    let stale = stale(&root, &generated);
-    let new = NewTree { files: files.chain(once).collect(), list: list(&generated), stale };
+    let new = new_tree(&root, files, once);
     let done = output.write(&new).is_ok();
     (done, output.ops.fault.has_struck())
 }
@@ -135,8 +129,7 @@ fn after(old: &Tree) -> Tree {
     tree.retain(|name, _| !OLD.iter().any(|(path, _)| name == path));
     tree.extend(NEW.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())));
     tree.insert(NEW_ONCE.into(), "template".into());
-    let generated = NEW.iter().map(|(path, _)| (*path).to_owned()).collect();
-    tree.insert(LIST.into(), list(&generated));
+    tree.insert(LIST.into(), list(NEW));
     tree
 }
 
@@ -298,18 +291,7 @@ fn a_journal_is_completed_by_the_next_run() {
         let journal = |fault| {
             let ops = Ops { fault };
             let _lock = Lock::take(&work, Duration::ZERO, &mut || {}).unwrap();
-            let there = |path: &str| fs::read_to_string(out.join(path)).ok();
-            let once = [OLD_ONCE, NEW_ONCE].map(|path| (path, "template", true));
-            let files = NEW.iter().map(|(path, text)| (*path, *text, false)).chain(once);
-            let files = files.map(|(path, text, once)| NewFile {
-                path,
-                bytes: text.as_bytes(),
-                once,
-                changes: there(path).is_none_or(|found| !once && found != text),
-            });
-            let generated: BTreeSet<_> = NEW.iter().map(|(path, _)| (*path).to_owned()).collect();
-            let stale = stale(&out, &generated);
-            let new = NewTree { files: files.collect(), list: list(&generated), stale };
+            let new = new_tree(&out, NEW, &[OLD_ONCE, NEW_ONCE]);
             let done = journal::recover(&ops, &out, &work)
                 .and_then(|()| seal::set(&ops, &work))
                 .map_err(Failure::Before)
