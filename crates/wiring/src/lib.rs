@@ -21,7 +21,6 @@
 //! assert_eq!(wiring.cost, 1);
 //! ```
 
-mod alloy;
 mod alternatives;
 pub mod assignment;
 mod blame;
@@ -36,7 +35,6 @@ mod labels;
 mod levels;
 mod names;
 mod offer;
-mod prolog;
 mod read_back;
 mod repairs;
 mod streams;
@@ -44,7 +42,7 @@ mod ties;
 mod why;
 mod wishes;
 
-use sensedsl_certify::Subject;
+use sensedsl_certify::{Labels, Subject};
 use sensedsl_diagnostics::codes::{
     e0402_solver_disagrees, e0404_out_of_time, e0506_hardware_limit,
 };
@@ -54,7 +52,6 @@ use std::collections::BTreeSet;
 use sensedsl_model::design::{ConnectionIndex, Design, Wish, WishFor};
 use sensedsl_solve::{Answers, Conflict, Count, Experience, Fault, Objective, Options, Outcome};
 
-use alloy::Known;
 use assignment::{Assignment, Bound};
 use formulate::{Asked, Converters, Formulation, formulate};
 
@@ -120,6 +117,17 @@ pub struct Proved {
     /// The text of its certificate, or the report that none was found; `None` if there is no answer
     /// to prove.
     pub certificate: Option<Result<String, Box<Diagnostic>>>,
+}
+
+/// The problem that was put to the solver last, and its outcome.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Posed {
+    /// The problem.
+    pub problem: solver::Problem,
+    /// The names of everything in it.
+    pub labels: Labels,
+    /// What the solver found.
+    pub outcome: Outcome,
 }
 
 impl<'a> Wiring<'a> {
@@ -330,35 +338,26 @@ impl<'a> Wiring<'a> {
                 || arrays.any(|one| one.wishes.iter().any(is_of_array)))
     }
 
-    /// The pin problem as a program for SWI-Prolog that prints the best cost.
+    /// The names of everything in the problem.
     #[must_use]
-    pub fn prolog(&self) -> String {
-        prolog::program(self.design, &self.formulation)
+    pub fn labels(&self) -> Labels {
+        labels::labels(self.design, &self.formulation)
     }
 
-    /// The problem as a model for the Alloy Analyzer, which confirms the solver's result: that
-    /// there is a wiring, and that none is better.
+    /// The problem with its names and the solver's outcome, for other solvers to confirm.
     ///
     /// # Errors
     /// The diagnostic of a fault in the solver.
-    pub fn alloy(&self) -> Result<String, Box<Diagnostic>> {
-        let known = match self.search(&Search { any: false }) {
-            Ok(Outcome::Solved(answer)) => {
-                if let (Meant::NoStreams, Some(wiring)) =
-                    (self.read(&answer, None), self.with_converters())
-                {
-                    return wiring.alloy();
-                }
-                Known::Best(answer.objective)
-            }
-            Ok(Outcome::Infeasible(_)) => Known::Infeasible,
-            Ok(Outcome::Stopped { answer, .. }) => {
-                answer.map_or(Known::Nothing, |answer| Known::Found(answer.objective))
-            }
-            Err(fault) => return Err(Box::new(self.fault(&fault))),
-        };
-        let labels = labels::labels(self.design, &self.formulation);
-        Ok(alloy::model(&self.formulation.problem, &labels, known))
+    pub fn posed(&self) -> Result<Posed, Box<Diagnostic>> {
+        let outcome = self.search(&Search { any: false });
+        let outcome = outcome.map_err(|fault| Box::new(self.fault(&fault)))?;
+        if let Outcome::Solved(answer) = &outcome
+            && let (Meant::NoStreams, Some(wiring)) =
+                (self.read(answer, None), self.with_converters())
+        {
+            return wiring.posed();
+        }
+        Ok(Posed { problem: self.problem().clone(), labels: self.labels(), outcome })
     }
 
     /// The answer in names; `bound` is that of a search that was stopped.

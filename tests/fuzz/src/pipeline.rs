@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use sensedsl_certify::Subject;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_export::{alloy, prolog};
 use sensedsl_files::FileSet;
 use sensedsl_generate::Selection;
 use sensedsl_model::design::Design;
@@ -104,7 +105,7 @@ fn pipeline(input: &Input, ask: Ask) {
             }
             Solved::Failed(failure) => diagnostics.push(*failure),
         }
-        let program = wiring.prolog();
+        let program = prolog(wiring.problem(), &wiring.labels());
         assert!(program.ends_with('\n') && !program.contains('\0'));
         if ask.proof {
             modelled(&wiring);
@@ -156,7 +157,8 @@ fn stop_after(steps: &AtomicU32, most: u32) -> bool {
 
 /// Nothing stands outside of the comments of an Alloy model but what it is written with.
 fn modelled(wiring: &Wiring<'_>) {
-    let Ok(model) = wiring.alloy() else { return };
+    let Ok(posed) = wiring.posed() else { return };
+    let model = alloy(&posed.problem, &posed.labels, &posed.outcome);
     let code = model.lines().map(|line| line.split("//").next().unwrap_or_default());
     let plain = |c: char| c.is_ascii_alphanumeric() || "_ +#&,{}()[]:=<".contains(c);
     assert!(code.flat_map(str::chars).all(plain), "{model}");

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, render, visible_json};
+use sensedsl_export::{alloy, prolog};
 use sensedsl_model::What;
 use sensedsl_model::design::Design;
 use sensedsl_report::{csv, human, json, markdown, svg};
@@ -114,12 +115,12 @@ fn problem(
     sources: &SourceMap,
 ) -> Result<Status> {
     if args.format == SolveFormat::Prolog {
-        terminal.result(&wiring.prolog())?;
+        terminal.result(&prolog(wiring.problem(), &wiring.labels()))?;
         return Ok(Status::Done);
     }
-    match wiring.alloy() {
-        Ok(model) => {
-            terminal.result(&model)?;
+    match wiring.posed() {
+        Ok(posed) => {
+            terminal.result(&alloy(&posed.problem, &posed.labels, &posed.outcome))?;
             Ok(Status::Done)
         }
         Err(failure) => wrong(*failure, terminal, sources),

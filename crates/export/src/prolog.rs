@@ -3,47 +3,46 @@
 
 use std::fmt::Write as _;
 
+use sensedsl_certify::Labels;
 use sensedsl_diagnostics::is_hidden;
+use sensedsl_solve::Problem;
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder};
-
-use crate::formulate::{Asker, Formulation};
-use sensedsl_model::design::Design;
 
 /// The search: generate and test with the best cost so far as a bound.
 const SEARCH: &str = include_str!("prolog_search.pl");
 
 /// The program.
-pub(crate) fn program(design: &Design, formulation: &Formulation<'_>) -> String {
+pub(crate) fn program(problem: &Problem, labels: &Labels) -> String {
     let mut out = String::from(
         "% The best wiring as a constraint problem, for SWI-Prolog:\n\
          %   swipl -q -g main -t halt wiring.pl\n\
          % prints the least opportunity cost and one wiring that has it.\n\n",
     );
     out.push_str("% pin(Pin, Usages, Shared): 1 where something else is on it.\n");
-    for (number, pin) in formulation.problem.pins.iter().enumerate() {
+    for (name, pin) in labels.pins.iter().zip(&problem.pins) {
         // Writing to a String cannot fail.
-        let (name, shared) = (pin_name(formulation, number), u32::from(pin.shared));
+        let (name, shared) = (atom(name), u32::from(pin.shared));
         let _ = writeln!(out, "pin({name}, {}, {shared}).", pin.cost);
     }
     out.push_str("\n% device(Name), in file order.\n");
-    for asker in &formulation.askers {
-        let _ = writeln!(out, "device({}).", device_name(design, *asker));
+    for name in &labels.devices {
+        let _ = writeln!(out, "device({}).", atom(name));
     }
     out.push_str(
         "\n% alternative(Device, Number, Spares, Rules, Claims, DmaUsers, Roles).\n\
          % A role is a list of wire(Pin, Signal, Holder, Claims, Rules).\n",
     );
-    for (asker, device) in formulation.askers.iter().zip(&formulation.problem.devices) {
-        let name = device_name(design, *asker);
+    for (name, device) in labels.devices.iter().zip(&problem.devices) {
+        let name = atom(name);
         for (number, alternative) in device.alternatives.iter().enumerate() {
             let _ = writeln!(out, "alternative({name}, {number},");
-            let _ = writeln!(out, "    {}).", alternative_terms(formulation, alternative));
+            let _ = writeln!(out, "    {}).", alternative_terms(problem, labels, alternative));
         }
     }
     out.push_str(
         "\n% dma(User, Requests): each request is a list of streams.\n:- discontiguous dma/2.\n",
     );
-    for (user, dma) in formulation.problem.dma.iter().enumerate() {
+    for (user, dma) in problem.dma.iter().enumerate() {
         let requests: Vec<String> = dma
             .requests
             .iter()
@@ -51,7 +50,7 @@ pub(crate) fn program(design: &Design, formulation: &Formulation<'_>) -> String 
             .collect();
         let _ = writeln!(out, "dma({user}, {}).", list(requests.into_iter()));
     }
-    if formulation.problem.dma.is_empty() {
+    if problem.dma.is_empty() {
         out.push_str("dma(none, []).\n");
     }
     out.push('\n');
@@ -59,12 +58,12 @@ pub(crate) fn program(design: &Design, formulation: &Formulation<'_>) -> String 
     out
 }
 
-fn alternative_terms(formulation: &Formulation<'_>, alternative: &Alternative) -> String {
+fn alternative_terms(problem: &Problem, labels: &Labels, alternative: &Alternative) -> String {
     let board = alternative.board.0 as usize;
-    let spare = formulation.problem.boards.get(board).is_some_and(|board| board.spare);
+    let spare = problem.boards.get(board).is_some_and(|board| board.spare);
     let spares = if spare { format!("[{board}]") } else { "[]".into() };
     let roles = alternative.roles.iter().map(|role| {
-        let wires = role.candidates.iter().map(|candidate| wire(formulation, candidate));
+        let wires = role.candidates.iter().map(|candidate| wire(labels, candidate));
         format!("\n     {}", list(wires))
     });
     format!(
@@ -76,10 +75,11 @@ fn alternative_terms(formulation: &Formulation<'_>, alternative: &Alternative) -
     )
 }
 
-fn wire(formulation: &Formulation<'_>, candidate: &Candidate) -> String {
+fn wire(labels: &Labels, candidate: &Candidate) -> String {
+    let pin = labels.pins.get(candidate.pin.0 as usize).map_or("", String::as_str);
     format!(
         "wire({}, {}, {}, {}, {})",
-        pin_name(formulation, candidate.pin.0 as usize),
+        atom(pin),
         candidate.signal.0,
         holder(candidate.holder),
         claims(&candidate.claims),
@@ -100,33 +100,6 @@ fn holder(holder: Holder) -> String {
 
 fn list(terms: impl Iterator<Item = String>) -> String {
     format!("[{}]", terms.collect::<Vec<_>>().join(", "))
-}
-
-fn pin_name(formulation: &Formulation<'_>, number: usize) -> String {
-    let found = formulation.pins.get(number).and_then(|(board, pin)| {
-        let offer = formulation.offers.get(board.0)?;
-        Some((offer, offer.board.table.pins.get(*pin)?))
-    });
-    match found {
-        Some((offer, pin)) if formulation.offers.len() > 1 => {
-            atom(&format!("{}.{}", offer.board.name.value, pin.name))
-        }
-        Some((_, pin)) => atom(pin.name.as_str()),
-        None => atom(&number.to_string()),
-    }
-}
-
-fn device_name(design: &Design, asker: Asker) -> String {
-    match asker {
-        Asker::Connection(connection) => {
-            let connection = design.connection(connection);
-            atom(&connection.map_or(String::new(), |one| design.connection_name(one)))
-        }
-        Asker::Link(board) => {
-            let name = design.board(board).map_or("", |board| &board.name.value);
-            atom(&format!("link of {name}"))
-        }
-    }
 }
 
 /// Text as a quoted atom; invisible characters become escapes of Prolog (`\x202e\`).

@@ -9,11 +9,10 @@ mod objective;
 
 use std::fmt::Write as _;
 
-use sensedsl_diagnostics::visible;
-use sensedsl_solve::Objective;
-use sensedsl_solve::problem::{Candidate, Problem};
-
 use sensedsl_certify::Labels;
+use sensedsl_diagnostics::visible;
+use sensedsl_solve::problem::{Alternative, Candidate, Problem};
+use sensedsl_solve::{Objective, Outcome};
 
 /// The solver's result for the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +25,17 @@ pub(crate) enum Known {
     Infeasible,
     /// Time ran out before anything was known.
     Nothing,
+}
+
+impl From<&Outcome> for Known {
+    fn from(outcome: &Outcome) -> Self {
+        match outcome {
+            Outcome::Solved(best) => Self::Best(best.objective),
+            Outcome::Stopped { answer: Some(found), .. } => Self::Found(found.objective),
+            Outcome::Stopped { answer: None, .. } => Self::Nothing,
+            Outcome::Infeasible(_) => Self::Infeasible,
+        }
+    }
 }
 
 /// A choice: the number of its atom, and its place, by which it excludes others.
@@ -55,7 +65,7 @@ struct Choices<'a> {
 
 struct Way<'a> {
     choice: Choice,
-    of: &'a sensedsl_solve::problem::Alternative,
+    of: &'a Alternative,
     roles: Vec<Vec<(Choice, &'a Candidate)>>,
 }
 
