@@ -34,7 +34,7 @@ impl Log {
         while is_error && self.diagnostics.len() + 2 > DIAGNOSTICS_MAX {
             let less = self.diagnostics.iter().rposition(|one| one.severity != Severity::Error);
             let Some(less) = less else { break };
-            self.diagnostics.remove(less);
+            drop(self.diagnostics.remove(less));
             self.more += 1;
         }
         if is_error || self.diagnostics.len() < DIAGNOSTICS_MAX {

@@ -53,7 +53,6 @@ impl Snapshot {
 
     /// The diagnostics from reading the file, in the order of their places. [`Self::solve`] adds
     /// those of the wiring.
-    #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.resolved.diagnostics
     }
