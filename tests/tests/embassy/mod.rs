@@ -413,16 +413,19 @@ fn controllers_of_all_sorts_are_started() {
     }
 }
 
-/// The HAL turns the interrupt of STM32F1's converters on, and no type asks for its handler.
+/// The HAL turns the interrupt of STM32F1's converters on, and no type asks for its handler. It does not make the pin
+/// analog.
 #[test]
-fn converters_that_interrupt_have_a_handler() {
+fn converters_that_interrupt_have_a_handler_and_analog_pins() {
     let text =
-        "board BLUEPILL_F103C8 { sensor Light returns uint16 { type = analog; unit = ADC1; } }";
+        "board BLUEPILL_F103C8 { sensor Light returns uint16 { type = analog; pin = PA5; } }";
     with_job(text, Some("embassy"), |job| {
         let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
         let wiring = &files.get("src/wiring.rs").unwrap().bytes;
         let wiring = String::from_utf8_lossy(wiring);
         assert!(wiring.contains("ADC1_2 => hal::adc::InterruptHandler<ADC1>;"), "{wiring}");
+        let makes = "let mut pin = p.PA5; drop(hal::gpio::Flex::new(pin.reborrow())); pin";
+        assert!(wiring.contains(makes), "{wiring}");
     });
 }
 

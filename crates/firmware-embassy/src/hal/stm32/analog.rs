@@ -34,11 +34,14 @@ impl Analog for Settings {
     }
 
     fn input(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made {
-        match self.room() {
-            SampleRoom::Task => {
-                Made { type_: format!("Peri<'static, {pin}>"), make: format!("p.{pin}") }
-            }
-            SampleRoom::Interrupt => Made {
+        let plain = |make| Made { type_: format!("Peri<'static, {pin}>"), make };
+        match self.file.adc.read {
+            AdcRead::Blocking => plain(format!("p.{pin}")),
+            // The HAL leaves the pin as it was after the reset; a `Flex` leaves it analog.
+            AdcRead::Async => plain(format!(
+                "{{ let mut pin = p.{pin}; drop(hal::gpio::Flex::new(pin.reborrow())); pin }}"
+            )),
+            AdcRead::Sampler => Made {
                 type_: format!("hal::adc::AnyAdcChannel<'static, {}>", context.peripheral(unit)),
                 make: format!("hal::adc::AdcChannel::degrade_adc(p.{pin})"),
             },
