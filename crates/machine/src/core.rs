@@ -494,9 +494,7 @@ fn map_memory(space: &AddressSpace, memory: &Memory, mcu: &Mcu) {
     let system = RamStore::new(SYSTEM_BYTES);
     let kibibytes = u16::try_from(mcu.flash_bytes >> 10).unwrap_or(u16::MAX);
     let at = |address: u32| u64::from(address) % SYSTEM_BYTES;
+    let _ = system.write_at(at(mcu.number_at()), b"SenseDSL twi");
     let _ = system.write_at(at(mcu.size_at), &kibibytes.to_le_bytes());
-    if let Some(number_at) = mcu.number_at() {
-        let _ = system.write_at(at(number_at), b"SenseDSL twi");
-    }
     map(space, Region::ram("system", Arc::new(system)), u64::from(mcu.size_at) - at(mcu.size_at));
 }

@@ -168,9 +168,9 @@ impl Mcu {
         self.units.get(unit)?.remap
     }
 
-    /// The address of the unique number.
-    pub(crate) fn number_at(&self) -> Option<u32> {
-        Some(self.units.get("UID")?.base)
+    /// The address of the unique number, which every MCU has.
+    pub(crate) fn number_at(&self) -> u32 {
+        self.units.get("UID").map_or(0, |unit| unit.base)
     }
 
     /// The highest number among the units of these kinds: 4 with TIM1 and TIM4. A unit without a number has number 1.
@@ -333,7 +333,7 @@ mod tests {
             assert!(sensedsl_parts::find(mcu.largest()).is_some(), "{}", mcu.largest());
             let overlaps = mcu.rows.windows(2).any(|two| two[1].base - two[0].base < two[0].bytes);
             assert!(!overlaps && mcu.rows.len() > 30, "{}", mcu.name());
-            assert!(mcu.number_at().is_some() && mcu.ports() > 4, "{}", mcu.name());
+            assert!(mcu.number_at() > 0 && mcu.ports() > 4, "{}", mcu.name());
         }
     }
 
@@ -370,7 +370,7 @@ mod tests {
         assert_eq!((f103.unit("CAN", 1), f103.last(&["CAN"])), ("CAN".to_owned(), 1));
         assert_eq!((f103.shape("TIM2"), f103.remap("TIM2")), ("TIM_GP16", Some((4, 8, 2))));
         assert!(!f103.numbers_functions());
-        assert_eq!((f103.ports(), f103.number_at()), (5, Some(0x1FFF_F7E8)));
+        assert_eq!((f103.ports(), f103.number_at()), (5, 0x1FFF_F7E8));
         // Other densities have other units.
         assert!(Mcu::find("STM32F103ZE").is_none() && Mcu::find("STM32F103C6").is_none());
     }
