@@ -13,16 +13,19 @@
     reason = "helpers of tests: a panic is a failed test, and tests touch the machine"
 )]
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+mod mistakes;
 mod random;
 
+pub use mistakes::{Mistake, Place, mistakes};
 pub use random::Random;
 
 /// Whether the cases that quick runs leave out are requested as well: `SENSEDSL_THOROUGH=1`, as in
@@ -57,23 +60,73 @@ pub fn text(path: &str) -> String {
     read(&root().join(path))
 }
 
-/// Compares a section of a page, from the line after its heading to the next heading of the same
-/// level, with the wanted text; with `SENSEDSL_BLESS=1`, writes that text.
+/// Compares the tables of a page's section, from its first row to the next heading of the same level, with the wanted
+/// text; with `SENSEDSL_BLESS=1`, writes that text. What is above the first row belongs to the page alone.
 #[track_caller]
 pub fn assert_section(page: &str, heading: &str, wanted: &str) {
     let whole = text(page);
-    let start = whole.find(&format!("\n## {heading}\n\n"));
-    let start = start.unwrap_or_else(|| panic!("{page} has no section {heading}"));
-    let begin = start + heading.len() + "\n## \n\n".len();
-    // The search starts at the empty line before, because the next heading may follow at once.
-    let rest = whole.get(begin - 1..).unwrap_or_default();
-    let end = rest.find("\n## ").map_or(whole.len(), |at| begin + at.max(1) - 1);
+    let of =
+        |at: usize, mark: &str| whole.get(at..).and_then(|rest| rest.find(mark)).map(|to| at + to);
+    let start = of(0, &format!("\n## {heading}\n\n")).and_then(|at| of(at, "\n|"));
+    let start = start.unwrap_or_else(|| panic!("{page} has no table in {heading}")) + 1;
+    assert_part(page, start, of(start, "\n## ").unwrap_or(whole.len()), wanted);
+}
+
+/// The same from the first line that begins with `mark` to the end of a page.
+#[track_caller]
+pub fn assert_page(page: &str, mark: &str, wanted: &str) {
+    let whole = text(page);
+    let start = whole.find(&format!("\n{mark}")).unwrap_or_else(|| panic!("{page} has no {mark}"));
+    assert_part(page, start + 1, whole.len(), wanted);
+}
+
+/// Compares all files of a folder with the wanted ones; with `SENSEDSL_BLESS=1`, writes them.
+#[track_caller]
+pub fn assert_tree(folder: &str, wanted: &BTreeMap<String, Vec<u8>>) {
+    let place = root().join(folder);
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        let _ = fs::remove_dir_all(&place);
+        write_all(&place, wanted);
+    }
+    let agreed = tree(&place);
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(wanted), names(&agreed), "{folder}: SENSEDSL_BLESS=1");
+    for ((path, found), agreed) in wanted.iter().zip(agreed.values()) {
+        let [one, other] = [found, agreed].map(|bytes| String::from_utf8_lossy(bytes));
+        let mut lines = (1..).zip(one.lines().zip(other.lines()));
+        if let Some((number, (one, other))) = lines.find(|(_, (one, other))| one != other) {
+            panic!("{folder}/{path}:{number}: SENSEDSL_BLESS=1\n- {other}\n+ {one}\n");
+        }
+        assert_eq!(found, agreed, "{folder}/{path}: another end");
+    }
+}
+
+#[track_caller]
+fn assert_part(page: &str, begin: usize, end: usize, wanted: &str) {
+    let whole = text(page);
     let found = whole.get(begin..end).unwrap_or_default();
     if std::env::var_os("SENSEDSL_BLESS").is_some() {
         let [before, after] = [whole.get(..begin), whole.get(end..)].map(Option::unwrap_or_default);
         fs::write(root().join(page), [before, wanted, after].concat()).unwrap();
     } else {
-        assert!(found == wanted, "{page}, {heading}: SENSEDSL_BLESS=1\n{found}\n---\n{wanted}");
+        assert!(found == wanted, "{page}: SENSEDSL_BLESS=1\n{found}\n---\n{wanted}");
+    }
+}
+
+/// Writes a file, and creates the folders that it needs.
+pub fn write_file(path: &Path, bytes: impl AsRef<[u8]>) {
+    let folder = path.parent().unwrap_or(path);
+    fs::create_dir_all(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    fs::write(path, bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+}
+
+/// Writes the files of a tree into a folder.
+pub fn write_all<B: AsRef<[u8]>, P: AsRef<Path>>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (P, B)>,
+) {
+    for (path, bytes) in files {
+        write_file(&folder.join(path), bytes);
     }
 }
 
@@ -201,17 +254,10 @@ impl Call {
     /// Runs the program to its end.
     #[must_use]
     pub fn run(mut self) -> Ran {
-        let stdin = if self.stdin.is_some() { Stdio::piped() } else { Stdio::null() };
-        self.command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = self.command.spawn().unwrap();
-        let pipe = child.stdin.take();
-        let bytes = self.stdin.take().unwrap_or_default();
-        let writer = std::thread::spawn(move || {
-            // The program may stop reading when it has seen enough.
-            let _ = pipe.map(|mut pipe| pipe.write_all(&bytes));
-        });
-        let output = child.wait_with_output().unwrap();
-        writer.join().unwrap();
+        let output = match self.stdin.take() {
+            Some(bytes) => fed(&mut self.command, bytes),
+            None => self.command.stdin(Stdio::null()).output().unwrap(),
+        };
         Ran {
             status: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
@@ -269,8 +315,7 @@ impl Scratch {
     /// Writes a file in the folder, and creates the parent folders that it needs.
     pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
-        fs::create_dir_all(path.parent().unwrap_or(&self.0)).unwrap();
-        fs::write(&path, bytes).unwrap();
+        write_file(&path, bytes);
         path
     }
 }
@@ -284,8 +329,8 @@ impl Drop for Scratch {
 
 /// All files below a folder with their bytes, by path relative to it.
 #[must_use]
-pub fn tree(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
-    let mut files = std::collections::BTreeMap::new();
+pub fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(current) = folders.pop() {
         for entry in fs::read_dir(&current).unwrap() {
@@ -312,6 +357,48 @@ pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
         .collect();
     paths.sort();
     paths
+}
+
+/// Runs a command that must succeed; returns its output.
+#[track_caller]
+pub fn run(command: &mut Command) -> Output {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    assert_success(command, &output);
+    output
+}
+
+/// What a command that must succeed prints.
+#[track_caller]
+pub fn printed(command: &mut Command) -> String {
+    String::from_utf8_lossy(&run(command).stdout).into_owned()
+}
+
+/// What a command that must succeed answers to this input.
+#[track_caller]
+pub fn answered(command: &mut Command, input: impl Into<Vec<u8>>) -> String {
+    let output = fed(command, input);
+    assert_success(command, &output);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs a command with this input; a command that stops reading is not a failure by itself.
+pub fn fed(command: &mut Command, input: impl Into<Vec<u8>>) -> Output {
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let (pipe, input) = (child.stdin.take(), input.into());
+    let writer = std::thread::spawn(move || {
+        let _ = pipe.map(|mut pipe| pipe.write_all(&input));
+    });
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    output
+}
+
+/// Fails with all that a command has printed unless it has succeeded.
+#[track_caller]
+pub fn assert_success(command: &Command, output: &Output) {
+    let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success(), "{command:?}: {}\n{out}\n{err}", output.status);
 }
 
 /// Whether the program answers `--version`; if not, reports it on stderr.

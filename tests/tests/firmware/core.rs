@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use sensedsl_tests::is_exhaustive;
+use sensedsl_tests::{files, has, is_exhaustive, mistakes, printed, read, root, run};
 
-use super::tools::{files, has, root, run, scratch};
+use super::tools::scratch;
 
 const STRICT: &[&str] =
     &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-O2"];
@@ -57,8 +57,7 @@ fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
 }
 
 /// The number of checks of a run whose summary says that none failed.
-fn checks(stdout: &[u8], vector_files: usize) -> u32 {
-    let text = String::from_utf8_lossy(stdout);
+fn checks(text: &str, vector_files: usize) -> u32 {
     let summary = text.lines().last().unwrap_or_default();
     let rest = summary.strip_prefix(&format!("{vector_files} vector files, "));
     let number = rest.and_then(|rest| rest.strip_suffix(" checks, 0 failures"));
@@ -84,8 +83,7 @@ fn compiles_for_every_cortex_m() {
 fn undefined(source: &Path, object: &Path) -> Vec<String> {
     let flags = ["-mcpu=cortex-m0", "-mthumb", "-ffreestanding", "-c"];
     compile("arm-none-eabi-gcc", &flags, &[source.to_owned()], object);
-    let output = run(Command::new("arm-none-eabi-nm").arg("-u").arg(object));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let text = printed(Command::new("arm-none-eabi-nm").arg("-u").arg(object));
     text.split_whitespace().filter(|word| *word != "U").map(str::to_owned).collect()
 }
 
@@ -127,8 +125,8 @@ fn runs_on_the_host(compiler: &str) {
     let program = scratch(compiler).join("core");
     let flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
     compile(compiler, &flags, &[sources(), tests_with_codecs()].concat(), &program);
-    let output = run(Command::new(&program).args(vectors()));
-    assert!(checks(&output.stdout, vectors().len()) > 10_000);
+    let said = printed(Command::new(&program).args(vectors()));
+    assert!(checks(&said, vectors().len()) > 10_000);
 }
 
 #[test]
@@ -170,8 +168,8 @@ fn runs_on_an_emulated_cortex_m4() {
     emulator.current_dir(root().join("tests/vectors"));
     emulator.args(["-M", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"]);
     emulator.arg("-semihosting-config").arg(format!("enable=on,target=native,{arguments}"));
-    let output = run(emulator.arg("-kernel").arg(&program));
-    assert!(checks(&output.stdout, vectors().len()) > 10_000);
+    let said = printed(emulator.arg("-kernel").arg(&program));
+    assert!(checks(&said, vectors().len()) > 10_000);
 }
 
 /// A test that cannot fail proves nothing: it must notice a broken core.
@@ -181,102 +179,6 @@ fn notices_a_broken_core() {
         return;
     }
     let folder = scratch("broken");
-    let breakages = [
-        ("up_encode.c", "(high << 5)", "(high << 6)"),
-        ("up_wire.c", "(i ^ (element_bytes - 1U))", "i"),
-        ("up_encode.c", "if (head != frame)", "if (false)"),
-        ("up_encode.c", "stamp->counter", "0U"),
-        ("up_decode.c", "!= UP_HEALTH_REQUEST", "== 0U"),
-        ("up_decode.c", "values_bytes <= STAMP_BYTES", "values_bytes < STAMP_BYTES"),
-        ("up_decode.c", "values_bytes == decoder->wire->health_bytes", "true"),
-        ("up_decode.c", "while (at < limit && !is_digit(bytes[at]))", "while (at < limit)"),
-        ("up_decode.c", "length > decoder->payload_bytes_max", "false"),
-        ("up_decode.c", "|| (*seen & bit) != 0U", ""),
-        ("up_convert.c", "(raw > ranges[type].max) ? ranges[type].max : raw", "raw"),
-        ("up_capture.c", "(first_edge_seen ? 1U : 0U)", "0U"),
-        ("up_report.c", "memset(store->due, 0, sizeof store->due);", ""),
-        ("up_convert.c", "rest > half", "rest >= half"),
-        (
-            "up_convert.c",
-            "remainder >= denominator - remainder",
-            "remainder > denominator - remainder",
-        ),
-        ("up_checksum.c", "is_carried ? polynomial : 0U", "polynomial"),
-        ("up_value.c", "at + at / 2U", "at"),
-        ("up_value.c", "(how->elements != NULL) ? how->elements[element]", "false ? element"),
-        ("up_value.c", "digit > 9U", "false"),
-        ("up_value.c", "gathered >> (first % 8U)", "gathered >> (first % 4U)"),
-        ("up_value.c", "? greatest + 1U", "? greatest"),
-        ("up_formula.c", "gross * 3125", "gross * 3126"),
-        ("up_formula.c", "* 131072", "* 65536"),
-        ("up_formula.c", "adc != SKIPPED && ", ""),
-        ("up_formula.c", "(calibration[29] & 0xF)", "(calibration[29] >> 4)"),
-        ("up_formula_ntc.c", "level >= FULL", "level > FULL"),
-        ("up_formula_tsl2561.c", "0x02D1U", "0x02C1U"),
-        ("up_chip.c", "now_ms - when_ms", "now_ms > when_ms ? 0U : 0x80000000U"),
-        ("up_chip.c", "    restart(state);\n    return false;", "    return false;"),
-        (
-            "up_chip.c",
-            "state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;",
-            "",
-        ),
-        ("up_chip.c", "% LOOKS != 0U", "!= 0U"),
-        ("up_message.c", "(uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U", "false"),
-        ("up_formula_tsl2561.c", "? parameters[0] : NOMINAL_MS", "? parameters[0] : 101"),
-        ("up_chip.c", "step->clock() + ((wait_ms", "step->now_ms + ((wait_ms"),
-        ("up_chip.c", "& mask) != 0U", ") != 0U"),
-        ("up_chip.c", "state->due_ms += cycle_ms;", "state->due_ms = step->now_ms + cycle_ms;"),
-        ("up_chip.c", "now_ms + early_ms(step)", "now_ms"),
-        ("up_chip.c", "/ cycle_ms + 1U)", "/ cycle_ms)"),
-        ("up_chip.c", "state->in_flight = 0U;\n      if", "if"),
-        ("up_chip.c", "state->counts.causes[cause]++;", ""),
-        ("up_chip.c", "(up_result_t)step->state->fault", "UP_BUS_ERROR"),
-        ("up_value.c", "return UP_WRONG_CRC;", "return UP_INVALID;"),
-        ("up_message.c", "state->wrong_checksum++;\n      say_damaged", "say_damaged"),
-        ("up_message.c", "UP_WRONG_CRC, NULL", "UP_INVALID, NULL"),
-        ("up_filter.c", "(count - 1U) / 2U", "count / 2U"),
-        ("up_filter.c", "now.whole + (now.fraction >> 31)", "now.whole"),
-        ("up_filter.c", "(low >> 32) + (fraction >> 32)", "(low >> 32)"),
-        ("up_filter.c", "interval_ms - interval_ms / 4U", "0U"),
-        ("up_filter.c", "state->has_seen ? up_filter_decay", "true ? up_filter_decay"),
-        ("up_filter.c", "step - (sum - old)", "0.0F"),
-        ("up_filter_double.c", "step - (sum - old)", "0.0"),
-        ("up_parse.c", "times(decimal.digits,", "decimal.digits * ("),
-        ("up_parse.c", "whole % 100U >= 60U", "false"),
-        ("up_parse.c", "angle > (uint64_t)degrees_max * 60U * NANO", "false"),
-        (
-            "up_message.c",
-            "count = (next != NULL) ? (size_t)(next - state->buffer) : state->size",
-            "count = state->size",
-        ),
-        ("up_message.c", "message->checksum_from < at", "false"),
-        ("up_message.c", "IBUS_START - ", "0U - "),
-        ("up_message.c", "size >= 2U * (size_t)message->start_count", "false"),
-        ("up_message.c", "state->is_aligned || ", ""),
-        ("up_reporter.c", "channel->room(channel->context) >= channel->room_max", "true"),
-        ("up_reporter.c", "drop_old(reporter);", ""),
-        ("up_reporter.c", "up_report_restore(reporter->config->store, reporter->taken);", ""),
-        ("up_reporter.c", "!reporter->has_answered && answer(reporter)", "answer(reporter)"),
-        ("up_reporter.c", "up_silence_heard(&reporter->silence, now_ms(reporter));", ""),
-        ("up_reporter.c", "reporter->counter++;", ""),
-        ("up_health.c", "(device->counts[fault] < UINT16_MAX)", "1"),
-        ("up_health.c", "age / UP_STALE_CYCLES >= cycle_ms", "age >= cycle_ms"),
-        ("up_health.c", "if (device->is_ancient)", "if (false)"),
-        ("up_silence.c", "silence->is_silent || ", ""),
-        (
-            "up_silence.c",
-            "(uint32_t)(now_ms - silence->heard_ms) <",
-            "now_ms < silence->heard_ms +",
-        ),
-        ("up_ppm.c", "interval_ticks < config->min_ticks", "false"),
-        ("up_ppm.c", "raw->is_inside && raw->building_count > 0U", "raw->building_count > 0U"),
-        ("up_drive.c", "put(writes, &count, 0U, 0U);\n    put", "put"),
-        (
-            "up_drive.c",
-            "put(writes, &count, low, 0U);\n    put(writes, &count, other, (direction == 0) ? 0U : 1U);",
-            "put(writes, &count, other, (direction == 0) ? 0U : 1U);\n    put(writes, &count, low, 0U);",
-        ),
-    ];
     let compile = |source: &Path, object: &Path| {
         let mut command = Command::new("gcc");
         command.args(["-std=c99", "-O1", "-w", "-fsanitize=address,undefined"]);
@@ -292,17 +194,17 @@ fn notices_a_broken_core() {
     whole.iter().for_each(|source| compile(source, &object(source)));
     let mut files = BTreeSet::new();
     let mut unnoticed = Vec::new();
-    for (file, original, broken) in breakages {
+    let breakages = mistakes("core.txt");
+    assert!(breakages.len() > 70, "{}", breakages.len());
+    for place in breakages.iter().flat_map(|breakage| &breakage.places) {
         // One breakage of each file in ordinary runs, all of them in exhaustive runs.
-        if !files.insert(file) && !is_exhaustive() {
+        if !files.insert(&place.name) && !is_exhaustive() {
             continue;
         }
-        let source = whole.iter().find(|source| source.ends_with(file)).unwrap();
-        let text = std::fs::read_to_string(source).unwrap();
-        assert!(text.contains(original), "{file} has no `{original}` any more");
-        let copy = folder.join(file);
+        let source = whole.iter().find(|source| source.ends_with(&place.name)).unwrap();
+        let copy = folder.join(&place.name);
         // Only the first occurrence is meant; a buffer overrun must be noticed as well.
-        std::fs::write(&copy, text.replacen(original, broken, 1)).unwrap();
+        std::fs::write(&copy, place.once(&read(source))).unwrap();
         let damaged = folder.join("broken.o");
         compile(&copy, &damaged);
         let objects =
@@ -313,7 +215,7 @@ fn notices_a_broken_core() {
         run(command.arg("-lm"));
         let output = Command::new(&program).args(vectors()).output().unwrap();
         if output.status.success() {
-            unnoticed.push(format!("{file}: `{broken}` for `{original}`"));
+            unnoticed.push(place);
         }
     }
     assert!(unnoticed.is_empty(), "went unnoticed: {unnoticed:#?}");

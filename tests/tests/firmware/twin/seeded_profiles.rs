@@ -14,7 +14,7 @@ use sensedsl_model::NoFiles;
 use sensedsl_model::design::Design;
 use sensedsl_report::json;
 use sensedsl_session::{On, Workspace};
-use sensedsl_tests::assert_section;
+use sensedsl_tests::{Place, assert_section, mistakes, write_all};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -39,152 +39,7 @@ enum Case {
 
 use Case::{Chibios, Embassy, Paper};
 
-/// A mistake: its name, its case, and the texts whose occurrences are all replaced, with the
-/// replacements.
-type Seed = (&'static str, Case, &'static [(&'static str, &'static str)]);
-
-const SEEDS: &[Seed] = &[
-    (
-        "DMA stream of a converter",
-        Chibios,
-        &[(r#""ADC1", dma = ["2,4", "2,0"]"#, r#""ADC1", dma = ["2,1"]"#)],
-    ),
-    (
-        "DMA streams of I2C",
-        Chibios,
-        &[(r#"rx = ["1,0", "1,5"], tx = ["1,6", "1,7"] }"#, r#"rx = ["1,1"], tx = ["1,5"] }"#)],
-    ),
-    (
-        "DMA streams of SPI swapped",
-        Chibios,
-        &[(r#"rx = ["1,3"], tx = ["1,4"] }"#, r#"rx = ["1,4"], tx = ["1,3"] }"#)],
-    ),
-    (
-        "alternate function of a timer",
-        Paper,
-        &[(
-            r#""TIM3", bits = 16, clock = "STM32_TIMCLK1", alternate = 2"#,
-            r#""TIM3", bits = 16, clock = "STM32_TIMCLK1", alternate = 3"#,
-        )],
-    ),
-    (
-        "alternate function of I2C",
-        Paper,
-        &[(
-            r#"alternate = 4, rx = ["1,2"], tx = ["1,4"]"#,
-            r#"alternate = 9, rx = ["1,2"], tx = ["1,4"]"#,
-        )],
-    ),
-    ("alternate function of USB", Paper, &[("alternate = 10", "alternate = 12")]),
-    (
-        "clock of a timer",
-        Chibios,
-        &[(
-            r#""TIM3", bits = 16, clock = "STM32_TIMCLK1""#,
-            r#""TIM3", bits = 16, clock = "STM32_TIMCLK2""#,
-        )],
-    ),
-    (
-        "clock of SPI",
-        Chibios,
-        &[(r#"clock = "STM32_PCLK1", rx = ["1,3"]"#, r#"clock = "STM32_PCLK2", rx = ["1,3"]"#)],
-    ),
-    (
-        "clock of CAN",
-        Chibios,
-        &[(
-            "rules.clock = \"STM32_PCLK1\"\ndividers = { range = [1, 1024]",
-            "rules.clock = \"STM32_PCLK2\"\ndividers = { range = [1, 1024]",
-        )],
-    ),
-    (
-        "clock of I2C",
-        Chibios,
-        &[("[i2cs]\nrules.clock = \"STM32_PCLK1\"", "[i2cs]\nrules.clock = \"STM32_PCLK2\"")],
-    ),
-    (
-        "periods of the clock of fast I2C",
-        Chibios,
-        &[("[100_001, 400_000], clocks = 3", "[100_001, 400_000], clocks = 2")],
-    ),
-    ("divider of the converters", Chibios, &[("ADC_CCR_ADCPRE_DIV4", "ADC_CCR_ADCPRE_DIV2")]),
-    (
-        "name of a driver",
-        Chibios,
-        &[(r#"serials = { driver = "SD{n}""#, r#"serials = { driver = "UARTD{n}""#)],
-    ),
-    ("version of a driver", Chibios, &[(r#"i2c = "I2Cv1""#, r#"i2c = "I2Cv2""#)]),
-    (
-        "DMA streams of I2C",
-        Embassy,
-        &[(r#"rx = ["1,0", "1,5"], tx = ["1,6", "1,7"] }"#, r#"rx = ["1,1"], tx = ["1,5"] }"#)],
-    ),
-    (
-        "DMA streams of SPI swapped",
-        Embassy,
-        &[(r#"rx = ["1,3"], tx = ["1,4"] }"#, r#"rx = ["1,4"], tx = ["1,3"] }"#)],
-    ),
-    (
-        "vectors of interrupt lines",
-        Embassy,
-        &[
-            (r#"GLOBAL = "EXTI"#, r#"GLOBAL = "ETI"#),
-            ("ETI0", "EXTI1"),
-            ("ETI1\"", "EXTI2\""),
-            ("ETI2", "EXTI3"),
-            ("ETI3", "EXTI4"),
-            ("ETI4", "EXTI9_5"),
-            ("ETI9_5", "EXTI15_10"),
-            ("ETI15_10", "EXTI9_5"),
-        ],
-    ),
-    (
-        "vectors of I2C swapped",
-        Embassy,
-        &[(r#"EV = "I2C1_EV", ER = "I2C1_ER""#, r#"EV = "I2C1_ER", ER = "I2C1_EV""#)],
-    ),
-    ("vector of a timer", Embassy, &[(r#""TIM3", CC = "TIM3""#, r#""TIM3", CC = "TIM4""#)]),
-    (
-        "divider of a bus clock",
-        Embassy,
-        &[("apb1_pre = APBPrescaler::DIV4", "apb1_pre = APBPrescaler::DIV8")],
-    ),
-    (
-        "a bus clock that is too fast",
-        Embassy,
-        &[("apb1_pre = APBPrescaler::DIV4", "apb1_pre = APBPrescaler::DIV2")],
-    ),
-    (
-        "divider of the core's clock",
-        Embassy,
-        &[("divp: Some(PllPDiv::DIV2)", "divp: Some(PllPDiv::DIV4)")],
-    ),
-    ("how converters repeat", Embassy, &[(r#"read = "again""#, r#"read = "each""#)]),
-    ("registers of serial ports", Embassy, &[(r#"usart = "v2""#, r#"usart = "v3""#)]),
-];
-
-/// Mistakes that nothing notices here, and why.
-const UNSEEN: &[(&str, &str)] = &[
-    (
-        "ChibiOS: clock of a timer",
-        "the driver has its clock from the tree; ours is in a guard, which holds for either.",
-    ),
-    ("ChibiOS: clock of I2C", "the same, and 400 kHz divide both clocks."),
-    (
-        "ChibiOS: periods of the clock of fast I2C",
-        "the driver divides by itself: our 396 kHz become 400.",
-    ),
-];
-
 const HEADING: &str = "In profiles";
-
-const INTRO: &str = "\
-The rover with a contact whose edges are counted, and the paper's Fig. 2, are wired, generated and built from a changed
-file of `crates/board/targets/`, as if we did not know the system; only what has to moves from the right wiring. The
-twin knows the STM32F407 from its reference manual and not from these files. Written by
-`tests/tests/firmware/twin/seeded_profiles.rs`.
-
-";
 
 impl Case {
     fn system(self) -> System {
@@ -229,14 +84,15 @@ impl Case {
         design
     }
 
-    /// The profile of the case, with those changes.
-    fn profile(self, changes: &[(&str, &str)]) -> String {
-        let mut text = profile::text(self.target(), MCU).unwrap().to_owned();
-        for (find, with) in changes {
-            assert!(text.contains(find), "the profile of {} has no `{find}`", self.target());
-            text = text.replace(find, with);
-        }
-        text
+    /// The case that a mistake names.
+    fn of(place: &Place) -> Self {
+        let named = |case: &Self| format!("{case:?}") == place.name;
+        [Chibios, Embassy, Paper].into_iter().find(named).unwrap()
+    }
+
+    /// The right profile of the case.
+    fn profile(self) -> &'static str {
+        profile::text(self.target(), MCU).unwrap()
     }
 
     /// The firmware from that profile, with its design and wiring; or the check that noticed the
@@ -246,7 +102,7 @@ impl Case {
         if !problems.is_empty() {
             return Err("the profile's own check".to_owned());
         }
-        let right = self.design(&self.profile(&[]));
+        let right = self.design(self.profile());
         let keep = match Wiring::new(&right, None).solve(&Search { any: false }) {
             Solved::Wired(wiring) => json::keep(&json::wired(&right, &wiring)).unwrap(),
             other => panic!("{other:?}"),
@@ -289,11 +145,7 @@ impl Generated {
     /// Writes the files, and returns the folder of the only board.
     fn written(&self, system: System) -> PathBuf {
         let folder = scratch(&format!("seeded_profiles_{system:?}"));
-        for (path, entry) in self.files.iter() {
-            let path = folder.join(path);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, &entry.bytes).unwrap();
-        }
+        write_all(&folder, self.files.iter().map(|(path, entry)| (path, &entry.bytes)));
         folder.join(&self.design.boards[0].name.value)
     }
 
@@ -329,32 +181,29 @@ fn mistakes_in_profiles_are_noticed() {
         return;
     }
     for case in [Chibios, Embassy, Paper] {
-        assert_eq!(case.noticed(&case.profile(&[])), Ok(String::new()), "{case:?}");
+        assert_eq!(case.noticed(case.profile()), Ok(String::new()), "{case:?}");
     }
-    let name = |what: &str, case: Case| match case.system() {
-        System::Chibios => format!("ChibiOS: {what}"),
-        System::Embassy => format!("Embassy: {what}"),
-    };
-    let mut rows = Vec::new();
-    for (what, case, changes) in SEEDS {
-        let by = case.noticed(&case.profile(changes)).unwrap_or_else(|by| by);
-        let what = name(what, *case);
-        eprintln!("{what}: {by}");
-        rows.push((what, by));
+    let (all, mut rows) = (mistakes("profiles.txt"), Vec::new());
+    for mistake in &all {
+        let place = &mistake.places[0];
+        let case = Case::of(place);
+        let by = case.noticed(&place.everywhere(case.profile())).unwrap_or_else(|by| by);
+        eprintln!("{}: {by}", mistake.what);
+        rows.push((mistake, by));
     }
-    let rows: Vec<(&str, String)> =
-        rows.iter().map(|(what, by)| (what.as_str(), by.clone())).collect();
-    let table = table(&rows, UNSEEN);
-    assert_section("docs/seeded-mistakes.md", HEADING, &format!("{INTRO}{table}"));
+    let table = table(&rows);
+    assert_section("docs/seeded-mistakes.md", HEADING, &table);
 }
 
 /// The text that each mistake replaces must exist, and the output must change or be refused.
 #[test]
 fn mistakes_in_profiles_make_a_difference() {
     let mut same = Vec::new();
-    for (what, case, changes) in SEEDS {
-        let right = case.generated(&case.profile(&[])).unwrap_or_else(|by| panic!("{by}"));
-        let is_same = match case.generated(&case.profile(changes)) {
+    for mistake in mistakes("profiles.txt") {
+        let (what, place) = (&mistake.what, &mistake.places[0]);
+        let case = Case::of(place);
+        let right = case.generated(case.profile()).unwrap_or_else(|by| panic!("{by}"));
+        let is_same = match case.generated(&place.everywhere(case.profile())) {
             Ok(wrong) => wrong.texts() == right.texts(),
             Err(by) => {
                 eprintln!("{case:?}, {what}: {by}");
