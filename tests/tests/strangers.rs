@@ -8,7 +8,7 @@ use std::os::unix::fs::{MetadataExt as _, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Ran, Random, Scratch, design, few, read, sensedsl, tree};
+use sensedsl_tests::{Ran, Random, Scratch, design, few, read, sensedsl, text, tree};
 
 const USER: &str = "build/firmware/Robot/user";
 const SHEET: &str = "build/wiring.md";
@@ -16,7 +16,7 @@ const SHEET: &str = "build/wiring.md";
 /// A home with files in it, and beside it a project of unknown origin.
 struct Clone {
     scratch: Scratch,
-    output: &'static str,
+    output: String,
 }
 
 /// Everything that `stat` reports about files that must not change, with their content.
@@ -30,7 +30,7 @@ impl Clone {
             scratch.write(&format!("home/{name}"), format!("the user's {name}"));
         }
         fs::create_dir_all(scratch.join("home/empty")).unwrap();
-        let clone = Self { scratch, output: "build" };
+        let clone = Self { scratch, output: "build".to_owned() };
         clone.file("robot.sense", design("Robot on STM32F4DiscoveryBoard", &["analog"]));
         for (path, bytes) in made {
             clone.file(&format!("build/{path}"), bytes);
@@ -49,32 +49,48 @@ impl Clone {
         self.scratch.write(&format!("clone/{path}"), bytes);
     }
 
-    /// Puts a link to something of the user's, or to anything else, in the place of what is there.
-    fn link(&self, path: &str, target: &str) {
+    /// A place in the project where there is nothing now.
+    fn cleared(&self, path: &str) -> PathBuf {
         let path = self.path(path);
         let _ = fs::remove_file(&path);
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
+        path
+    }
+
+    /// Puts a link to something of the user's, or to anything else, in the place of what is there.
+    fn link(&self, path: &str, target: &str) {
+        let path = self.cleared(path);
         symlink(target.replace('~', &self.scratch.join("home").display().to_string()), path)
             .unwrap();
     }
 
     fn pipe(&self, path: &str) {
-        let path = self.path(path);
-        let _ = fs::remove_file(&path);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let path = self.cleared(path);
         assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
     }
 
     fn hard(&self, path: &str, of: &str) {
-        let path = self.path(path);
-        let _ = fs::remove_file(&path);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::hard_link(self.scratch.join("home").join(of), path).unwrap();
+        fs::hard_link(self.scratch.join("home").join(of), self.cleared(path)).unwrap();
     }
 
-    fn remove(&self, path: &str) {
-        fs::remove_dir_all(self.path(path)).unwrap();
+    /// Does what a line of a trap says.
+    fn set_up(&mut self, line: &str) {
+        let home = self.scratch.join("home").display().to_string();
+        let (word, rest) = line.split_once(' ').unwrap();
+        let (path, other) = rest.split_once(' ').unwrap_or((rest, ""));
+        match word {
+            "link" => self.link(path, other),
+            "journal" => self.journal(path, other),
+            "file" => self.file(path, other.replace("\\n", "\n")),
+            "listed" => self.listed(&path.replace('~', &home)),
+            "pipe" => self.pipe(path),
+            "hard" => self.hard(path, other),
+            "output" => self.output = path.to_owned(),
+            "remove" if self.path(path).is_dir() => fs::remove_dir_all(self.path(path)).unwrap(),
+            "remove" => fs::remove_file(self.path(path)).unwrap(),
+            _ => panic!("{line}"),
+        }
     }
 
     /// Adds a line to the list, with the right SHA-256 if the file exists.
@@ -98,7 +114,7 @@ impl Clone {
     }
 
     fn generate(&self, more: &[&str]) -> Ran {
-        let call = sensedsl(["generate", "-q", "robot.sense", "-o", self.output]).args(more);
+        let call = sensedsl(["generate", "-q", "robot.sense", "-o", &self.output]).args(more);
         let state = self.scratch.join("state").display().to_string();
         call.within(&self.path("")).env("XDG_STATE_HOME", &state).run()
     }
@@ -143,174 +159,16 @@ impl Clone {
     }
 }
 
-/// A trap in a project: its description, and how to set it up.
-type Case = (&'static str, fn(&mut Clone));
-
-const CASES: &[Case] = &[
-    ("a journal in the folder, through a link", |clone| {
-        clone.link("build/x", "../../home");
-        clone.journal("build/.sensedsl-work", "x/.bashrc");
-    }),
-    ("the same with an absolute link", |clone| {
-        clone.link("build/x", "~");
-        clone.journal("build/.sensedsl-work", "x/.bashrc");
-    }),
-    ("a journal beside, through a link", |clone| {
-        clone.link("build/x", "../../home");
-        clone.journal(".build.sensedsl-work", "x/.bashrc");
-        clone.file(".build.sensedsl-unfinished/x/.bashrc", "evil");
-    }),
-    ("a folder that says it was switched", |clone| {
-        clone.journal(".build.sensedsl-work", ".bashrc");
-        clone.link("build/.sensedsl-files", "../.build.sensedsl-work/list");
-        clone.link(".build.sensedsl-unfinished", "~");
-    }),
-    ("the same with a tree beside", |clone| {
-        clone.journal(".build.sensedsl-work", "x/.bashrc");
-        clone.link("build/.sensedsl-files", "../.build.sensedsl-work/list");
-        clone.link(".build.sensedsl-unfinished/x", "~");
-    }),
-    ("an unfinished tree with files to rescue through a link", |clone| {
-        clone.link("build/x", "~");
-        clone.file(".build.sensedsl-unfinished/x/new", "evil");
-    }),
-    ("an unfinished tree that is a link", |clone| {
-        clone.link(".build.sensedsl-unfinished", "~");
-    }),
-    ("an unfinished tree that was the folder", |clone| {
-        clone.remove("build");
-        clone.file(".build.sensedsl-unfinished/.sensedsl-files", "wiring.md\n");
-        clone.link(".build.sensedsl-unfinished/firmware", "~/empty");
-    }),
-    ("a working folder that is a link", |clone| {
-        clone.link("build/.sensedsl-work", "~/empty");
-    }),
-    ("a working folder beside that is a link", |clone| {
-        clone.link(".build.sensedsl-work", "~/empty");
-    }),
-    ("a lock that leads to a new file", |clone| {
-        clone.link("build/.sensedsl-work/lock", "~/new");
-    }),
-    ("a lock beside that leads to a new file", |clone| {
-        clone.link(".build.sensedsl-work/lock", "~/new");
-    }),
-    ("a lock that is a pipe", |clone| clone.pipe(".build.sensedsl-work/lock")),
-    ("a lock that is a second name", |clone| {
-        clone.hard(".build.sensedsl-work/lock", ".bashrc");
-    }),
-    ("a seal that is a link", |clone| {
-        clone.link(".build.sensedsl-work/seal", "~/.bashrc");
-        clone.journal("build/.sensedsl-work", "x/.bashrc");
-        clone.link("build/.sensedsl-work/seal", "~/.bashrc");
-        clone.link("build/x", "~");
-    }),
-    ("a seal of nobody's", |clone| {
-        clone.file("build/.sensedsl-work/seal", "0".repeat(64));
-        clone.journal("build/.sensedsl-work", "x/.bashrc");
-        clone.link("build/x", "~");
-    }),
-    ("a list through a linked user folder", |clone| {
-        clone.link(USER, "~");
-        clone.listed("firmware/Robot/user/.bashrc");
-    }),
-    ("a list that names a user's file", |clone| {
-        clone.listed("firmware/Robot/user/user.c");
-        clone.listed("firmware/Robot/user/own.c");
-    }),
-    ("a list that names git's files", |clone| clone.listed(".git/config")),
-    ("a list with absolute paths", |clone| {
-        let path = clone.scratch.join("home/.bashrc").display().to_string();
-        clone.listed(&path);
-        clone.listed(&format!("/{path}"));
-    }),
-    ("a list with dots", |clone| {
-        clone.listed("../../home/.bashrc");
-        clone.listed("firmware/../../../home/.bashrc");
-        clone.listed("./../../home/notes.txt");
-        clone.listed("..");
-    }),
-    ("a list through a link", |clone| {
-        clone.link("build/x", "~");
-        clone.listed("x/.bashrc");
-    }),
-    ("a list that names the link as well", |clone| {
-        clone.link("build/x", "~");
-        clone.listed("x/.bashrc");
-        clone.listed("x");
-    }),
-    ("names in other cases", |clone| {
-        clone.file("build/.GIT/config", "[core]\n");
-        clone.listed(".GIT/config");
-        clone.listed("firmware/Robot/USER/own.c");
-        clone.listed("FIRMWARE/Robot/user/own.c");
-    }),
-    ("an output folder that is a link to a home", |clone| clone.link("build", "../home")),
-    ("an output folder that is a link to an empty folder", |clone| {
-        clone.link("build", "../home/empty");
-    }),
-    ("an output folder below a link", |clone| {
-        clone.link("out", "../home/empty");
-        clone.output = "out/build";
-    }),
-    ("an output folder below a link, by a detour", |clone| {
-        clone.link("a/out", "../../home/empty");
-        clone.output = "a/../a/./out/build";
-    }),
-    ("a generated folder that is a link", |clone| clone.link("build/firmware", "~/empty")),
-    ("a generated folder that is a listed link", |clone| {
-        clone.link("build/firmware", "~/empty");
-        clone.listed("firmware");
-    }),
-    ("a generated folder that is a listed file", |clone| {
-        clone.remove("build/host");
-        clone.file("build/host", "a file");
-        clone.listed("host");
-    }),
-    ("a generated file that is a link", |clone| clone.link(SHEET, "~/.bashrc")),
-    ("a generated file that is a link to nothing", |clone| clone.link(SHEET, "~/new")),
-    ("a generated file that is a link to a device", |clone| clone.link(SHEET, "/dev/zero")),
-    ("a generated file that is a second name", |clone| clone.hard(SHEET, ".bashrc")),
-    ("a generated file that is a pipe", |clone| clone.pipe(SHEET)),
-    ("a generated file that is a folder", |clone| {
-        fs::remove_file(clone.path(SHEET)).unwrap();
-        clone.link(&format!("{SHEET}/x"), "~");
-    }),
-    ("a user folder that is a link to an empty one", |clone| clone.link(USER, "~/empty")),
-    ("a user's file that is a link to nothing", |clone| {
-        clone.link(&format!("{USER}/user.c"), "~/new");
-    }),
-    ("parts of a user's file", |clone| {
-        fs::remove_file(clone.path(USER).join("user.c")).unwrap();
-        clone.link(&format!("{USER}/.user.c.sensedsl-part-1-1"), "~/.bashrc");
-        clone.pipe(&format!("{USER}/.user.c.sensedsl-part-1-2"));
-        clone.link("build/.wiring.md.part", "~/.bashrc");
-        fs::remove_file(clone.path("build/.wiring.md.part")).unwrap();
-    }),
-    ("parts of earlier versions", |clone| {
-        clone.link("build/.wiring.md.part", "~/.bashrc");
-    }),
-    ("a list that is a pipe", |clone| clone.pipe("build/.sensedsl-files")),
-    ("a list that is a folder", |clone| {
-        clone.link("build/.sensedsl-files", "x");
-        fs::remove_file(clone.path("build/.sensedsl-files")).unwrap();
-        clone.file("build/.sensedsl-files/x", "x");
-    }),
-    ("a list that is a link", |clone| clone.link("build/.sensedsl-files", "~/.bashrc")),
-    ("a list that is a link to itself", |clone| {
-        clone.link("build/.sensedsl-files", ".sensedsl-files");
-    }),
-    ("a list without end", |clone| clone.link("build/.sensedsl-files", "/dev/zero")),
-    ("a list that names folders", |clone| {
-        for folder in ["firmware", "firmware/Robot", "firmware/Robot/user", "host/", ".git"] {
-            clone.listed(folder);
-        }
-    }),
-    ("a file called as git's folder", |clone| {
-        clone.remove("build/.git");
-        clone.file("build/.git", "gitdir: ../.git/modules/build\n");
-        clone.listed(".git");
-    }),
-];
+/// The traps of `tests/strangers.txt`: what each is called, and what sets it up.
+fn traps() -> Vec<(String, Vec<String>)> {
+    let text = text("tests/strangers.txt");
+    let cases = text.split("\n\n").skip(1).map(|case| {
+        let mut lines = case.lines();
+        let name = lines.next().unwrap().to_owned();
+        (name, lines.map(|line| line.trim().to_owned()).collect())
+    });
+    cases.collect()
+}
 
 /// The output generated on another machine.
 fn made() -> BTreeMap<String, Vec<u8>> {
@@ -360,9 +218,10 @@ fn harmless(name: &str, made: &BTreeMap<String, Vec<u8>>, prepare: &dyn Fn(&mut 
 #[test]
 fn hostile_folders_change_nothing_that_is_not_theirs() {
     let made = made();
-    assert!(CASES.len() >= 40, "{}", CASES.len());
-    for (name, prepare) in CASES {
-        harmless(name, &made, &|clone| prepare(clone));
+    let traps = traps();
+    assert!(traps.len() >= 40, "{}", traps.len());
+    for (name, lines) in traps {
+        harmless(&name, &made, &|clone| lines.iter().for_each(|line| clone.set_up(line)));
     }
 }
 
@@ -409,7 +268,7 @@ fn a_clone_of_another_machine_is_taken_over_where_nothing_was_changed() {
     // A file that this machine wrote may be overwritten, whatever its content is now and wherever
     // it was moved.
     fs::rename(clone.path("build"), clone.path("moved")).unwrap();
-    let clone = Clone { output: "moved", ..clone };
+    let clone = Clone { output: "moved".to_owned(), ..clone };
     clone.file("moved/wiring.md", "changed");
     let _ = clone.generate(&[]).exits(0);
     assert_ne!(read(&clone.path("moved/wiring.md")), "changed");
@@ -443,11 +302,11 @@ fn what_is_refused_says_what_to_do() {
         ("a user folder that is a link to an empty one", "error[E0524]", "user/user.c"),
         ("a generated folder that is a link", "error[E0502]", "firmware"),
     ];
-    let made = made();
+    let (made, traps) = (made(), traps());
     for (name, code, what) in cases {
         let mut clone = Clone::new(&made);
-        let (_, prepare) = CASES.iter().find(|(one, _)| *one == name).unwrap();
-        prepare(&mut clone);
+        let (_, lines) = traps.iter().find(|(one, _)| *one == name).unwrap();
+        lines.iter().for_each(|line| clone.set_up(line));
         let ran = clone.generate(&[]).exits(1);
         assert!(ran.stderr.contains(code) && ran.stderr.contains(what), "{name}: {}", ran.stderr);
     }
