@@ -7,9 +7,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use sensedsl_tests::{Scratch, binary, missing, root, sensedsl};
-use sensedsl_wire::{
-    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType, encode_report,
-};
+use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, Schema, encode_report};
+
+use crate::hosts::designs;
 
 const DESIGN: &str = "tests/can/vesc.sense";
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -68,21 +68,9 @@ fn has_peer() -> bool {
 }
 
 fn schema() -> Schema {
-    let item = |name: &str, id, direction, scalar| Item {
-        id,
-        name: name.to_owned(),
-        direction,
-        value: ValueType { scalar, length: None },
-    };
-    let (sensor, actuator) = (Direction::Sensor, Direction::Actuator);
-    let items = vec![
-        item("Rpm", 1, sensor, ScalarType::Int32),
-        item("Current", 2, sensor, ScalarType::Int16),
-        item("Voltage", 3, sensor, ScalarType::Int16),
-        item("Speed", 4, actuator, ScalarType::Int32),
-        item("Throttle", 5, actuator, ScalarType::Int32),
-    ];
-    Schema { items, stamp: false, checksum: Checksum::None }
+    let sensors = ["1 sensor Rpm int32", "2 sensor Current int16", "3 sensor Voltage int16"];
+    let actuators = ["4 actuator Speed int32", "5 actuator Throttle int32"];
+    designs::schema(Checksum::None, &[&sensors[..], &actuators].concat())
 }
 
 /// Reads the host's end until each sensor has reported the values that the peer sends.
@@ -195,15 +183,5 @@ fn values_of_an_imported_file_are_those_of_cantools() {
             let is_right = found.is_some_and(|(_, shown, slack)| (shown - value).abs() <= *slack);
             assert!(is_right, "seed {seed}: {name} is {value}, and shown as {found:?}");
         }
-    }
-}
-
-/// A bus has one peer: either the world, which the judge compares with, or the program that opens
-/// it.
-#[test]
-fn a_judge_has_no_other_peer() {
-    for other in ["--judge", "--stdout"] {
-        let ran = sensedsl(["simulate", DESIGN, "--can", other]).run().exits(2);
-        assert!(ran.stderr.contains("--can"), "{}", ran.stderr);
     }
 }

@@ -12,45 +12,21 @@ use std::process::Command;
 use sensedsl_firmware_embassy::{TypeCheck, profile_of, type_check};
 use sensedsl_generate::target;
 use sensedsl_job::{BoardJob, JobConnection, jobs};
+use sensedsl_model::NoFiles;
 use sensedsl_model::kind::KindName;
-use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
-    Scratch, has, is_exhaustive, is_thorough, missing, root, sensedsl, text, tree,
+    Scratch, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
 };
 
 /// A board with wires of all kinds.
-const KINDS: &str = r#"
-board Bench on STM32F407VGT6 {
-    link { transport = uart; unit = USART2; }
-    sensor Light returns uint16 { id = 1; type = analog; pin = PC1; }
-    sensor Range returns uint16 { id = 2; type = i2c; address = 0x70; register = 2; length = 2; scl = PB6; sda = PB7; }
-    sensor Wheel returns uint32 { id = 3; type = icu; pin = PC6; }
-    sensor Turns returns int32 { id = 4; type = encoder; a = PB4; b = PB5; }
-    sensor Touch returns bool { id = 5; type = digital; pin = PD6; edge = rising; }
-    sensor Bump returns bool { id = 6; type = digital; pin = PD7; edge = rising; }
-    sensor Gyro returns uint16 { id = 7; type = spi; sck = PB13; miso = PB14; mosi = PB15; cs = PD9; read = [0]; length = 2; }
-    sensor Place returns uint16 { id = 8; type = uart; unit = USART3; rx = PC11; tx = PC10; length = 2; }
-    sensor Frame returns uint16 { id = 9; type = can; rx = PD0; tx = PD1; frame = 1; }
-    actuator Servo accepts uint16 { id = 10; type = pwm; pin = PE9; frequency = 50 Hz; }
-    actuator Level accepts uint16 { id = 11; type = dac; pin = PA4; }
-}
-"#;
-
-/// No design names another file.
-struct Alone;
-
-impl Files for Alone {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
+const KINDS: &str = include_str!("../../firmware/designs/bench.sense");
 
 /// Hands on the job of a text's first board.
 fn with_job<T>(text: &str, target: Option<&str>, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("x.sense", text.to_owned());
-    let snapshot = workspace.snapshot("x.sense", On { board: None, target }, &Alone);
+    let snapshot = workspace.snapshot("x.sense", On { board: None, target }, &NoFiles);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = answer.wired().unwrap_or_else(|| panic!("{:?}", answer.diagnostics));
     then(&jobs(design, wiring).next().unwrap())
@@ -231,8 +207,7 @@ fn fig2_builds() {
     let file = root().join("examples/fig2.sense").display().to_string();
     let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
     let elf = linked(&scratch.join("out/firmware/STM32F4DiscoveryBoard"), "thumbv7em-none-eabihf");
-    let size = Command::new("arm-none-eabi-size").arg(elf).output().unwrap();
-    let size = String::from_utf8_lossy(&size.stdout).into_owned();
+    let size = printed(Command::new("arm-none-eabi-size").arg(elf));
     let bytes: u32 =
         size.lines().nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
     assert!((8_000..39_000).contains(&bytes), "{size}");
@@ -430,13 +405,7 @@ fn converters_that_interrupt_have_a_handler_and_analog_pins() {
 }
 
 /// What else there is of several wires.
-const MORE: &str = "
-board NUCLEO_F429ZI {
-    sensor Near returns uint32 { id = 1; driver = hcsr04; }
-    sensor Light returns uint16[2] { id = 2; type = analog; pin = [PF3, PA6]; }
-    actuator Pair accepts uint16[2] { id = 3; driver = servo; }
-}
-";
+const MORE: &str = include_str!("../../firmware/designs/more.sense");
 
 /// Generates the firmware without the interrupts of its profile.
 fn no_interrupt(job: &BoardJob<'_>, names: &[&str]) {

@@ -4,11 +4,10 @@
 //! what is around it.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use sensedsl_tests::{Scratch, has, is_exhaustive, missing, root};
+use sensedsl_tests::{Scratch, answered, has, is_exhaustive, missing, root};
 use sensedsl_wire::{
     Causes, Decoder, Direction, Event, Health, ResetCause, Scalar, Schema, encode_health_request,
     encode_hello_request, encode_report,
@@ -124,13 +123,8 @@ fn hex(bytes: &[u8]) -> String {
 
 fn run(made: &Made, world: &Value) -> Run {
     let mut node = Command::new("node");
-    let piped = || Stdio::piped();
-    let mut child =
-        node.arg(folder().join("board.mjs")).stdin(piped()).stdout(piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(world.to_string().as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success());
-    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let answer = answered(node.arg(folder().join("board.mjs")), world.to_string());
+    let answer: Value = serde_json::from_str(&answer).unwrap();
     let mut run = Run {
         hellos: Vec::new(),
         values: BTreeMap::new(),

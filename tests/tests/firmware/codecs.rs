@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use sensedsl_firmware_c::{self as c, Role};
-use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
+use sensedsl_wire::{Checksum, Schema};
+
+use crate::hosts::designs::item;
 
 /// Schemas of tests that are not vectors, written in the same words.
 const OWN: &str = "\
@@ -24,26 +26,6 @@ item 4 sensor Level uint8
 item 5 actuator Motor int16
 item 6 actuator Lamp bool
 ";
-
-fn value_type(word: &str) -> ValueType {
-    let (name, length) = match word.strip_suffix(']').and_then(|word| word.split_once('[')) {
-        Some((name, length)) => (name, Some(length.parse().unwrap())),
-        None => (word, None),
-    };
-    let scalar = ScalarType::ALL.into_iter().find(|scalar| scalar.name() == name);
-    ValueType { scalar: scalar.unwrap(), length }
-}
-
-fn item(line: &str) -> Item {
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let [id, direction, name, value] = words[..] else { panic!("{line}") };
-    Item {
-        id: id.parse().unwrap(),
-        name: name.to_owned(),
-        direction: if direction == "actuator" { Direction::Actuator } else { Direction::Sensor },
-        value: value_type(value),
-    }
-}
 
 /// All schemas in a text with lines of vector files.
 fn schemas(text: &str) -> Vec<(String, Schema)> {

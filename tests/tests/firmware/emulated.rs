@@ -11,57 +11,22 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_wire::{
-    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
-};
+use sensedsl_tests::{has, root};
+use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, Schema};
 
 use super::chibios::{build, tree, write};
-use super::tools::{has, root};
+use crate::hosts::designs;
 
-const EMULATED: &str = "
-board Emulated on \"emulated.csv\" {
-    link { transport = uart; unit = USART1; checksum = crc16; }
-    sensor IR returns uint16 { id = 1; type = analog; delay = 100; }
-    sensor Ranger returns uint8 { id = 2; type = i2c; driver = srf08; address = 0xE6; delay = 100; }
-    sensor Wheel returns uint32 { id = 3; type = icu; }
-    actuator Lamp accepts uint8 { id = 4; type = i2c; address = 0x20; register = 1; delay = 50; failsafe = 9; }
-    sensor Echo returns uint8[1] { id = 5; type = i2c; address = 0x21; delay = 100; }
-}
-";
+const EMULATED: &str = include_str!("../../firmware/designs/emulated.sense");
 
 /// The pins of [`EMULATED`].
-pub(crate) const TABLE: &str = "\
-# mcu = STM32F407VGT6
-Pin,ADC,I2C,ICU,UART
-PB0,ADC12_IN8,-,-,-
-PB6,-,I2C1_SCL,-,-
-PB7,-,I2C1_SDA,-,-
-PB10,-,I2C2_SCL,-,-
-PB11,-,I2C2_SDA,-,-
-PB4,-,-,TIM3_CH1,-
-PA9,-,-,-,USART1_TX
-PA10,-,-,-,USART1_RX
-";
+pub(crate) const TABLE: &str = include_str!("../../firmware/designs/emulated.csv");
 
 fn schema() -> Schema {
-    let item = |id, direction, name: &str, scalar| Item {
-        id,
-        name: name.to_owned(),
-        direction,
-        value: ValueType::scalar(scalar),
-    };
-    let items = vec![
-        item(1, Direction::Sensor, "IR", ScalarType::Uint16),
-        item(2, Direction::Sensor, "Ranger", ScalarType::Uint8),
-        item(3, Direction::Sensor, "Wheel", ScalarType::Uint32),
-        item(4, Direction::Actuator, "Lamp", ScalarType::Uint8),
-        // An array with one element is not a scalar: the text of the schema shows the difference.
-        Item {
-            value: ValueType { scalar: ScalarType::Uint8, length: Some(1) },
-            ..item(5, Direction::Sensor, "Echo", ScalarType::Uint8)
-        },
-    ];
-    Schema { checksum: Checksum::Crc16, stamp: false, items }
+    // An array with one element is not a scalar: the text of the schema shows the difference.
+    let echo = "5 sensor Echo uint8[1]";
+    let items = ["1 sensor IR uint16", "2 sensor Ranger uint8", "3 sensor Wheel uint32"];
+    designs::schema(Checksum::Crc16, &[&items[..], &["4 actuator Lamp uint8", echo]].concat())
 }
 
 /// Changes the application as the emulator needs, and adds a user's file.
@@ -197,17 +162,10 @@ impl Drop for Board {
 }
 
 /// Two buses: the first hangs, the second has a register of one byte.
-const BUSES: &str = "
-board Buses on \"emulated.csv\" {
-    link { transport = uart; unit = USART1; baud = 460800; }
-    sensor Stuck returns uint8 { id = 1; type = i2c; unit = I2C1; address = 0x21; delay = 10; }
-    sensor Byte returns uint8 { id = 2; type = i2c; unit = I2C2; address = 0x22; register = 7; delay = 10; }
-    sensor Wheel returns uint32 { id = 3; type = icu; }
-}
-";
+const BUSES: &str = include_str!("../../firmware/designs/buses.sense");
 
 /// A frame from the host, with its checksum.
-fn frame(values: &[u8]) -> Vec<u8> {
+pub(crate) fn frame(values: &[u8]) -> Vec<u8> {
     let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
         (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
             (crc << 1) ^ if crc & 0x8000 == 0 { 0 } else { 0x1021 }
@@ -294,18 +252,8 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
     // The board's time is counted in instructions, so that a busy machine changes nothing.
     let program = folder.join("build/production/sense.elf");
     let mut board = Board::start(&program, &["-icount", "shift=5,sleep=off"]);
-    let item = |id, name: &str, scalar| Item {
-        id,
-        name: name.to_owned(),
-        direction: Direction::Sensor,
-        value: ValueType::scalar(scalar),
-    };
-    let items = vec![
-        item(1, "Stuck", ScalarType::Uint8),
-        item(2, "Byte", ScalarType::Uint8),
-        item(3, "Wheel", ScalarType::Uint32),
-    ];
-    let schema = Schema { checksum: Checksum::Crc16, stamp: false, items };
+    let items = ["1 sensor Stuck uint8", "2 sensor Byte uint8", "3 sensor Wheel uint32"];
+    let schema = designs::schema(Checksum::Crc16, &items);
     let reports = board.reports(&schema, 200);
     let values = |wanted: u8| {
         let of_report = move |report: &Vec<(u8, Vec<Scalar>)>| {

@@ -21,6 +21,6 @@ mod facts;
 mod mutants;
 mod pins_and_clocks;
 mod stubs;
-mod tools;
+pub(crate) mod tools;
 #[cfg(feature = "machine")]
 mod twin;

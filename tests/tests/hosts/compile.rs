@@ -5,9 +5,9 @@ use std::process::Command;
 
 use sensedsl_generate::host::{self, HOSTS};
 use sensedsl_job::host::{Compile, HostPlan};
-use sensedsl_tests::few;
+use sensedsl_tests::{few, has, run};
 
-use super::{designs, files, tools};
+use super::{designs, files};
 
 /// Compiles all sources of a generated host with the options that the host states.
 pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Path]) {
@@ -20,7 +20,7 @@ pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Pat
         for include in system_includes {
             command.arg("-isystem").arg(include);
         }
-        tools::run(command.arg(source));
+        run(command.arg(source));
     }
 }
 
@@ -29,7 +29,7 @@ pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Pat
 fn every_host_is_of_its_language() {
     for host in HOSTS {
         let compiler = host.compile();
-        if compiler.tree.is_some() || !tools::have(compiler.program) {
+        if compiler.tree.is_some() || !has(compiler.program) {
             continue;
         }
         for (name, boards) in designs::all() {
@@ -44,7 +44,7 @@ fn cpp_is_of_other_compilers_and_standards() {
     let host = host::find("cpp").unwrap().compile();
     let others = [("clang++", "-std=c++17"), ("clang++", "-std=c++20"), ("g++", "-std=c++20")];
     for (program, standard) in few(&others, 0) {
-        if !tools::have(program) {
+        if !has(program) {
             continue;
         }
         for (name, boards) in designs::all() {
@@ -56,13 +56,13 @@ fn cpp_is_of_other_compilers_and_standards() {
 
 #[test]
 fn cmake_builds_cpp() {
-    if !tools::have("cmake") || !tools::have("g++") {
+    if !has("cmake") || !has("g++") {
         return;
     }
     let folder = files::generate("cpp", "cmake", &designs::several_boards());
     let build = folder.join("build");
-    tools::run(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&build));
-    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    run(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&build));
+    run(Command::new("cmake").arg("--build").arg(&build));
     assert!(build.join("monitor_Front").exists() && build.join("monitor_Spare").exists());
 }
 

@@ -6,12 +6,17 @@ use sensedsl_job::host::HostBoard;
 use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 
+/// A schema of items such as `17 sensor IRFront uint16`.
+pub(crate) fn schema(checksum: Checksum, items: &[&str]) -> Schema {
+    Schema { checksum, stamp: false, items: items.iter().map(|line| item(line)).collect() }
+}
+
 /// A board from lines such as `17 sensor IRFront uint16`.
 pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
-    let items = items.lines().map(str::trim).filter(|line| !line.is_empty()).map(item).collect();
+    let items: Vec<&str> = items.lines().filter(|line| !line.trim().is_empty()).collect();
     HostBoard {
         name: name.into(),
-        schema: Schema { checksum, stamp: false, items },
+        schema: schema(checksum, &items),
         baud: 115_200,
         silence_ms: None,
         presentations: BTreeMap::new(),

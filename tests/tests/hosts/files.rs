@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_generate::host;
 use sensedsl_job::host::{HostBoard, HostPlan};
+use sensedsl_tests::write_all;
+
+use crate::firmware::tools::empty;
 
 /// An empty folder for this test run.
 pub(crate) fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
+    empty(&format!("hosts/{name}"))
 }
 
 /// Writes one host of a design, called `robot`, into a folder of its own.
@@ -23,11 +23,7 @@ pub(crate) fn generate_as(name: &str, host: &str, test: &str, boards: &[HostBoar
     let path = folder(&format!("{test}-{host}"));
     let files = host::find(host).unwrap().render(&HostPlan::new(name, boards));
     assert!(!files.is_empty());
-    for (name, entry) in files.iter() {
-        let file = path.join(name);
-        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
-        std::fs::write(file, &entry.bytes).unwrap();
-    }
+    write_all(&path, files.iter().map(|(name, entry)| (name, &entry.bytes)));
     path
 }
 

@@ -5,15 +5,16 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
+use sensedsl_tests::printed;
 use sensedsl_wire::{
     Causes, Checksum, Decoder, DeviceHealth, Direction, Event, Health, NEVER_MS, ResetCause,
     Scalar, Schema, Stamp, Status, UNKNOWN_LOAD, UNKNOWN_STACK, encode_health, encode_hello,
     encode_stamped_report,
 };
 
+use super::designs;
 use super::terminal::{Line, build};
 use super::tools::Background;
-use super::{designs, tools};
 
 const LONG: Duration = Duration::from_secs(10);
 
@@ -233,7 +234,7 @@ fn wrong_periods_are_told() {
         assert_eq!(output.status.code(), Some(2));
         assert_eq!(String::from_utf8_lossy(&output.stderr).trim(), problem);
     }
-    let help = tools::run(Command::new(&program).arg("--help"));
+    let help = printed(Command::new(&program).arg("--help"));
     assert!(help.contains("  --health[=SECONDS]    ask the board for its health"), "{help}");
     assert!(help.lines().skip(1).all(|line| line.len() <= 86), "{help}");
 }

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use sensedsl_generate::host;
 use sensedsl_job::host::{Compile, HostBoard};
+use sensedsl_tests::{has, missing, run};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, ScalarType, encode_hello, encode_hello_request,
     encode_report,
@@ -32,7 +33,7 @@ fn have_pycluon() -> bool {
     let imported = Command::new("python3").args(["-c", "import pycluon.importer"]).status();
     let found = imported.is_ok_and(|status| status.success());
     if !found {
-        tools::missing("pycluon");
+        missing("pycluon");
     }
     found
 }
@@ -97,12 +98,10 @@ fn message_files_are_taken_by_cluon_msc() {
         for host in ["libcluon", "opendavinci"] {
             let folder = files::generate(host, &format!("{name}-odvd"), &boards);
             let out = folder.join("sense.hpp");
-            tools::run(
-                Command::new("cluon-msc")
-                    .arg("--cpp")
-                    .arg(format!("--out={}", out.display()))
-                    .arg(folder.join("sense.odvd")),
-            );
+            run(Command::new("cluon-msc")
+                .arg("--cpp")
+                .arg(format!("--out={}", out.display()))
+                .arg(folder.join("sense.odvd")));
             let text = std::fs::read_to_string(out).unwrap();
             let messages = std::fs::read_to_string(folder.join("sense.odvd")).unwrap();
             let count = messages.lines().filter(|line| line.starts_with("message ")).count();
@@ -119,12 +118,10 @@ fn libcluon_compiles() {
     }
     for (name, boards) in designs::all() {
         let folder = files::generate("libcluon", &format!("{name}-compile"), &boards);
-        tools::run(
-            Command::new("cluon-msc")
-                .arg("--cpp")
-                .arg(format!("--out={}", folder.join("sense.hpp").display()))
-                .arg(folder.join("sense.odvd")),
-        );
+        run(Command::new("cluon-msc")
+            .arg("--cpp")
+            .arg(format!("--out={}", folder.join("sense.hpp").display()))
+            .arg(folder.join("sense.odvd")));
         compile(&compiler("libcluon"), &folder, &[&tree, &folder]);
     }
 }
@@ -134,15 +131,15 @@ fn build_libcluon(tree: &Path, folder: PathBuf) -> (PathBuf, PathBuf) {
     let build = folder.join("build");
     let mut configure = Command::new("cmake");
     configure.arg("-S").arg(&folder).arg("-B").arg(&build);
-    tools::run(configure.arg(format!("-DCLUON_INCLUDE_DIR={}", tree.display())));
-    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    run(configure.arg(format!("-DCLUON_INCLUDE_DIR={}", tree.display())));
+    run(Command::new("cmake").arg("--build").arg(&build));
     (folder, build)
 }
 
 #[test]
 fn libcluon_comes_back() {
     let Some(tree) = tools::tree("LIBCLUON") else { return };
-    if !have_pycluon() || !tools::have("cmake") {
+    if !have_pycluon() || !has("cmake") {
         return;
     }
     let (folder, build) =
@@ -160,7 +157,7 @@ fn libcluon_comes_back() {
 #[test]
 fn libcluon_speaks_with_an_independent_peer() {
     let Some(tree) = tools::tree("LIBCLUON") else { return };
-    if !have_pycluon() || !tools::have("cmake") {
+    if !have_pycluon() || !has("cmake") {
         return;
     }
     let boards = designs::all_types();
@@ -208,7 +205,7 @@ fn libcluon_speaks_with_an_independent_peer() {
 #[test]
 fn libcluon_shows_values_through_curves() {
     let Some(tree) = tools::tree("LIBCLUON") else { return };
-    if !have_pycluon() || !tools::have("cmake") {
+    if !have_pycluon() || !has("cmake") {
         return;
     }
     let (folder, schema) = shown::generate("libcluon", "run");
@@ -304,20 +301,18 @@ impl OpenDavinci {
 
     fn build(&self, folder: &Path, source: &Path, name: &str) -> PathBuf {
         let program = folder.join(name);
-        tools::run(
-            Command::new("g++")
-                .arg(compiler(self.host).standard)
-                .args(self.defines)
-                .arg("-I")
-                .arg(folder.join("include"))
-                .arg("-isystem")
-                .arg(&self.include)
-                .arg(source)
-                .arg(&self.library)
-                .args(self.link)
-                .arg("-o")
-                .arg(&program),
-        );
+        run(Command::new("g++")
+            .arg(compiler(self.host).standard)
+            .args(self.defines)
+            .arg("-I")
+            .arg(folder.join("include"))
+            .arg("-isystem")
+            .arg(&self.include)
+            .arg(source)
+            .arg(&self.library)
+            .args(self.link)
+            .arg("-o")
+            .arg(&program));
         program
     }
 
@@ -339,7 +334,7 @@ impl OpenDavinci {
         let found = self.library.exists() && self.supercomponent.exists();
         if !found {
             let (library, supercomponent) = (self.library.display(), self.supercomponent.display());
-            tools::missing(&format!("{library} or {supercomponent}"));
+            missing(&format!("{library} or {supercomponent}"));
         }
         found
     }

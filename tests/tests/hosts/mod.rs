@@ -9,7 +9,7 @@
 //! running, `lib/libopendavinci.a` and `bin/supercomponent`).
 
 mod compile;
-mod designs;
+pub(crate) mod designs;
 mod files;
 mod health;
 mod link;

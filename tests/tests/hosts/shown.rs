@@ -7,12 +7,12 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
-use sensedsl_tests::{read, sensedsl};
+use sensedsl_tests::{has, printed, read, run, sensedsl};
 use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, encode_hello, encode_report};
 use serde_json::{Value, json};
 
 use super::terminal::{Line, is_command};
-use super::{designs, files, tools};
+use super::{designs, files};
 
 /// Raw values at the points of each curve, between them and beyond them, one for each report.
 const RANGER: [u64; 9] = [0, 497, 500, 621, 1000, 1614, 2500, 3900, 4095];
@@ -198,14 +198,14 @@ fn schema_json_says_how_values_are_shown() {
 
 /// The plain host, built as its README states.
 fn plain(test: &str) -> Option<(PathBuf, PathBuf, Value)> {
-    if !tools::have("g++") {
+    if !has("g++") {
         return None;
     }
     let (folder, schema) = generate("cpp", test);
     let program = folder.join("monitor_Rover");
     let mut command = Command::new("g++");
     command.current_dir(&folder).args(["-std=c++17", "-O0", "-pthread", "-Iinclude"]);
-    tools::run(command.arg("src/monitor_Rover.cpp").arg("-o").arg(&program));
+    run(command.arg("src/monitor_Rover.cpp").arg("-o").arg(&program));
     Some((folder, program, schema))
 }
 
@@ -214,7 +214,7 @@ fn cpp_shows_values_through_curves() {
     let Some((folder, program, schema)) = plain("values") else { return };
     let record = folder.join("record.bin");
     std::fs::write(&record, stream()).unwrap();
-    let output = tools::run(Command::new(program).arg(record));
+    let output = printed(Command::new(program).arg(record));
     check(&output, &schema);
     for line in BY_HAND {
         assert!(output.contains(line), "no {line}{output}");

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
+use sensedsl_tests::{has, printed, run};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_health_request, encode_hello, encode_hello_request,
     encode_report,
@@ -81,19 +82,17 @@ impl Line {
 
 /// Compiles the example as its README states, and returns the folder and the program.
 pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(PathBuf, PathBuf)> {
-    if !tools::have("g++") {
+    if !has("g++") {
         return None;
     }
     let folder = files::generate("cpp", test, boards);
     let program = folder.join(format!("monitor_{board}"));
-    tools::run(
-        Command::new("g++")
-            .current_dir(&folder)
-            .args(["-std=c++17", "-O0", "-pthread", "-Iinclude"])
-            .arg(format!("src/monitor_{board}.cpp"))
-            .arg("-o")
-            .arg(&program),
-    );
+    run(Command::new("g++")
+        .current_dir(&folder)
+        .args(["-std=c++17", "-O0", "-pthread", "-Iinclude"])
+        .arg(format!("src/monitor_{board}.cpp"))
+        .arg("-o")
+        .arg(&program));
     Some((folder, program))
 }
 
@@ -255,12 +254,12 @@ fn a_recorded_stream_is_played_with_scaled_values() {
     let stream: Vec<u8> = (0..1000).flat_map(|n| fig2_frame(n, n, n % 256, n)).collect();
     let record = folder.join("record.bin");
     std::fs::write(&record, &stream).unwrap();
-    let printed = tools::run(Command::new(&program).arg(&record));
+    let printed = printed(Command::new(&program).arg(&record));
     assert_eq!(printed.lines().count(), 4000);
     assert_eq!(printed.lines().nth(4), Some("IRFront = 1 (3.5 cm)"));
     assert_eq!(play_from_standard_input(&program, &record), printed);
 }
 
 fn play_from_standard_input(program: &Path, record: &Path) -> String {
-    tools::run(Command::new(program).arg("-").stdin(File::open(record).unwrap()))
+    printed(Command::new(program).arg("-").stdin(File::open(record).unwrap()))
 }

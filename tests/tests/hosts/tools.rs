@@ -6,27 +6,6 @@ use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
-/// Whether the program answers `--version`. If not, it is reported; the test fails if tools are
-/// required.
-pub(crate) fn have(program: &str) -> bool {
-    let status =
-        Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let found = status.is_ok_and(|status| status.success());
-    if !found {
-        missing(program);
-    }
-    found
-}
-
-/// Reports what a test had to leave out; fails if tools are required.
-pub(crate) fn missing(what: &str) {
-    assert!(
-        std::env::var("SENSEDSL_REQUIRE_TOOLS").as_deref() != Ok("1"),
-        "{what} is not here, and SENSEDSL_REQUIRE_TOOLS is set"
-    );
-    eprintln!("SKIPPED: {what} is not here");
-}
-
 /// The tree that the environment variable names; without it the test is skipped, with a notice.
 pub(crate) fn tree(variable: &str) -> Option<PathBuf> {
     let path = std::env::var(variable).ok().map(PathBuf::from);
@@ -34,15 +13,6 @@ pub(crate) fn tree(variable: &str) -> Option<PathBuf> {
         eprintln!("SKIPPED: {variable} names no tree");
     }
     path
-}
-
-/// Runs a command to its end; panics with its output if it fails.
-pub(crate) fn run(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}\n{text}\n{errors}");
-    text
 }
 
 /// A program in the background that ends with the test.

@@ -3,16 +3,16 @@
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::few;
+use sensedsl_tests::{few, has, printed, run};
 
 use super::link::{Application, design, scenes};
-use super::tools::{self, Background};
+use super::tools::Background;
 use super::{files, terminal};
 
 #[test]
 fn shared_files_do_what_they_say() {
     for (compiler, standard) in few(&[("g++", "c++98"), ("clang++", "c++17")], 1) {
-        if !tools::have(compiler) {
+        if !has(compiler) {
             continue;
         }
         let folder = files::generate("cpp", &format!("units-{compiler}"), &design());
@@ -27,9 +27,9 @@ fn shared_files_do_what_they_say() {
         ]);
         command.args(["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-pthread"]);
         command.arg("-I").arg(folder.join("include")).arg(source).arg("-o").arg(&program);
-        tools::run(&mut command);
+        run(&mut command);
         let empty = files::folder(&format!("units-{compiler}-empty"));
-        assert_eq!(tools::run(Command::new(program).arg(empty)), "ok\n");
+        assert_eq!(printed(Command::new(program).arg(empty)), "ok\n");
     }
 }
 
@@ -72,7 +72,7 @@ fn wrong_calls_are_told_apart_from_wrong_boards() {
 
 #[test]
 fn two_designs_are_installed_and_found_by_one_program() {
-    if !tools::have("cmake") || !tools::have("g++") {
+    if !has("cmake") || !has("g++") {
         return;
     }
     let prefix = files::folder("prefix");
@@ -80,14 +80,12 @@ fn two_designs_are_installed_and_found_by_one_program() {
     for name in ["car", "test"] {
         let folder = files::generate_as(name, "cpp", &format!("installed-{name}"), &design());
         let build = folder.join("build");
-        tools::run(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&build));
+        run(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&build));
         // The library consists only of headers: nothing needs to be built.
-        tools::run(
-            Command::new("cmake")
-                .arg(format!("-DCMAKE_INSTALL_PREFIX={}", prefix.display()))
-                .arg("-P")
-                .arg(build.join("cmake_install.cmake")),
-        );
+        run(Command::new("cmake")
+            .arg(format!("-DCMAKE_INSTALL_PREFIX={}", prefix.display()))
+            .arg("-P")
+            .arg(build.join("cmake_install.cmake")));
     }
     let user = files::folder("installed-user");
     let cmake = "cmake_minimum_required(VERSION 3.13)\nproject(user LANGUAGES CXX)\n\
@@ -100,17 +98,14 @@ fn two_designs_are_installed_and_found_by_one_program() {
                   std::cout << front.is_ready() << rear.is_ready() << front.devices();\n}\n";
     std::fs::write(user.join("user.cpp"), source).unwrap();
     let build = user.join("build");
-    tools::run(
-        Command::new("cmake")
-            .arg("-S")
-            .arg(&user)
-            .arg("-B")
-            .arg(&build)
-            .arg(format!("-DCMAKE_PREFIX_PATH={}", prefix.display())),
-    );
-    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    run(Command::new("cmake")
+        .arg("-S")
+        .arg(&user)
+        .arg("-B")
+        .arg(&build)
+        .arg(format!("-DCMAKE_PREFIX_PATH={}", prefix.display())));
+    run(Command::new("cmake").arg("--build").arg(&build));
     assert!(
-        tools::run(&mut Command::new(build.join("user")))
-            .starts_with("00  sensor   IRFront uint16\n")
+        printed(&mut Command::new(build.join("user"))).starts_with("00  sensor   IRFront uint16\n")
     );
 }

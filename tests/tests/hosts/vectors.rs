@@ -1,20 +1,18 @@
 //! The shared wire vectors through the decoder and encoder of the C++ hosts, and random streams
 //! compared with the reference decoder.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Health, ScalarType, Schema, Stamp, encode_health_request,
     encode_hello, encode_hello_request,
 };
 
-use sensedsl_tests::few;
+use sensedsl_tests::{answered, few, has};
 
 use super::designs::{board, item};
 use super::files;
-use super::tools;
 
 /// The requests to the C++ program, and the expected answers.
 #[derive(Default)]
@@ -105,7 +103,7 @@ fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -
     std::fs::write(folder.join("include/items.h"), items + "\n").unwrap();
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/vectors.cpp");
     let program = folder.join("vectors");
-    tools::run(
+    sensedsl_tests::run(
         Command::new(compiler[0])
             .args(&compiler[1..])
             .args(["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-g"])
@@ -114,7 +112,7 @@ fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -
             .arg("-o")
             .arg(&program),
     );
-    talk(&program, &exchange.asked)
+    answered(&mut Command::new(&program), exchange.asked.as_str())
 }
 
 /// The answer with each float32 value in a common form, because the languages print them
@@ -132,18 +130,6 @@ fn with_reals_alike(schema: &Schema, answer: &str) -> String {
         _ => word.to_owned(),
     };
     answer.split_inclusive([' ', '\n']).map(alike).collect()
-}
-
-fn talk(program: &Path, asked: &str) -> String {
-    let mut child =
-        Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let asked = asked.to_owned();
-    let writer = std::thread::spawn(move || stdin.write_all(asked.as_bytes()));
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap().unwrap();
-    assert!(output.status.success(), "{program:?} {}", output.status);
-    String::from_utf8(output.stdout).unwrap()
 }
 
 fn vector_files() -> Vec<PathBuf> {
@@ -166,7 +152,7 @@ const COMPILERS: [&[&str]; 3] = [
 #[test]
 fn shared_vectors_cut_at_every_place() {
     for compiler in few(&COMPILERS, 1) {
-        if !tools::have(compiler[0]) {
+        if !has(compiler[0]) {
             continue;
         }
         for path in vector_files() {
@@ -252,7 +238,7 @@ fn damaged(numbers: &mut Numbers, frames: &[Vec<u8>]) -> Vec<u8> {
 
 #[test]
 fn damaged_streams_are_read_as_by_the_reference() {
-    if !tools::have("g++") {
+    if !has("g++") {
         return;
     }
     for name in [

@@ -5,9 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 
 use sensedsl_machine::{LinkPort, Machine, Mcu, Settings};
 use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
-use sensedsl_wire::{
-    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
-};
+use sensedsl_wire::{Decoder, Direction, Event, Scalar, Schema};
 
 use crate::firmware::chibios::{build, write};
 
@@ -239,19 +237,6 @@ pub(super) fn folder(name: &str, text: &str) -> std::path::PathBuf {
     let folder = write(name, text);
     let mut boards = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     boards.find(|path| path.is_dir()).unwrap()
-}
-
-pub(super) fn schema(
-    checksum: Checksum,
-    items: &[(u8, Direction, &str, ScalarType, Option<u16>)],
-) -> Schema {
-    let items = items.iter().map(|(id, direction, name, scalar, length)| Item {
-        id: *id,
-        direction: *direction,
-        name: (*name).to_owned(),
-        value: ValueType { length: *length, ..ValueType::scalar(*scalar) },
-    });
-    Schema { checksum, stamp: false, items: items.collect() }
 }
 
 /// The values of one item, with the times of their reports.

@@ -2,27 +2,16 @@
 
 use sensedsl_machine::LinkPort;
 use sensedsl_surroundings::{CanFrame, TimerOutput};
-use sensedsl_wire::Direction::{Actuator, Sensor};
-use sensedsl_wire::ScalarType::{Int16, Uint16};
 
 use super::bench::{Bench, MS, unsigned, values};
-use super::kinds::{frame, items};
+use super::kinds::items;
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy;
+use crate::firmware::emulated::frame;
 
 /// CAN2 has its filters in CAN1; the fan is on the complementary output of a channel, the pump on a
 /// channel of the same timer.
-const BOTH: &str = "
-board STM32F407G_DISC1 {
-    link { transport = uart; unit = USART3; }
-    sensor Speed returns uint16 { id = 1; type = can; unit = CAN1; bitrate = 500 kHz; frame = 0x120; byte = 2; }
-    actuator Torque accepts int16 { id = 2; type = can; unit = CAN1; bitrate = 500 kHz; frame = 0x18FF1234; }
-    sensor Heat returns uint16 { id = 3; type = can; unit = CAN2; bitrate = 250 kHz; frame = 0x18FF0121; byte = 2; }
-    actuator Valve accepts int16 { id = 4; type = can; unit = CAN2; bitrate = 250 kHz; frame = 0x122; }
-    actuator Fan accepts uint16 { id = 5; type = pwm; pin = PE8; frequency = 1 kHz; failsafe = 2500; }
-    actuator Pump accepts uint16 { id = 6; type = pwm; pin = PE11; frequency = 1 kHz; failsafe = 1000; }
-}
-";
+const BOTH: &str = include_str!("../../../firmware/designs/both.sense");
 
 /// The second controller without the first, although it needs the clock of the first.
 const SECOND: &str = "
@@ -51,12 +40,12 @@ fn can(id: u32, extended: bool, value: u8) -> CanFrame {
 /// The values that a device has reported.
 fn told(bench: &Bench, id: u8) -> Vec<u64> {
     let schema = items(&[
-        (1, Sensor, "Speed", Uint16, None),
-        (2, Actuator, "Torque", Int16, None),
-        (3, Sensor, "Heat", Uint16, None),
-        (4, Actuator, "Valve", Int16, None),
-        (5, Actuator, "Fan", Uint16, None),
-        (6, Actuator, "Pump", Uint16, None),
+        "1 sensor Speed uint16",
+        "2 actuator Torque int16",
+        "3 sensor Heat uint16",
+        "4 actuator Valve int16",
+        "5 actuator Fan uint16",
+        "6 actuator Pump uint16",
     ]);
     values(&bench.reports(&schema), id).iter().map(|(_, value)| unsigned(value)).collect()
 }
@@ -112,7 +101,7 @@ fn the_second_is_served_alone(mut bench: Bench) {
     bench.world().to_can.entry(2).or_default().extend(frames);
     bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
     bench.run_until_ms(2_500);
-    let schema = items(&[(1, Sensor, "Speed", Uint16, None), (2, Actuator, "Torque", Int16, None)]);
+    let schema = items(&["1 sensor Speed uint16", "2 actuator Torque int16"]);
     let speeds = values(&bench.reports(&schema), 1);
     assert_eq!(speeds.iter().map(|(_, value)| unsigned(value)).collect::<Vec<_>>(), [0x1234]);
     assert_eq!(left(&bench, 2).first(), Some(&(0x18FF_1234, true, vec![0xFE, 0xDC])));

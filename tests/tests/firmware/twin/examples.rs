@@ -2,10 +2,10 @@
 //! `simulate --firmware IMAGE --judge` does, with the generated host program at the other end.
 
 use sensedsl_machine::Event;
+use sensedsl_tests::root;
 
 use super::hosted::Host;
 use super::trial::{System, Trial, run, run_with};
-use crate::firmware::tools::root;
 
 pub(super) const UART: &str =
     "link { transport = uart; unit = USART3; baud = 460800; checksum = crc32; }";

@@ -7,21 +7,7 @@ use sensedsl_tests::{Scratch, is_thorough, sensedsl};
 use super::silent::judged;
 use super::trial::System;
 
-const FRAMES: &str = "
-board STM32F407G_DISC1 {
-    link { transport = uart; unit = USART3; baud = 460800; checksum = crc32; }
-    sensor Speed returns uint16 { id = 1; type = can; frame = 0x120; order = little; bit = 12; bits = 10; length = 8; }
-    sensor Steer returns int16 { id = 2; type = can; frame = 0x120; bit = 35; bits = 12; length = 8; }
-    sensor Page returns uint8 { id = 3; type = can; frame = 0x18FF1234; order = little; bit = 0; bits = 3; length = 8; }
-    sensor Heat returns int16 { id = 4; type = can; frame = 0x18FF1234; order = little; bit = 12; bits = 10; mux = Page = 3; length = 8; }
-    sensor Volts returns float32 { id = 5; type = can; frame = 0x18FF1234; order = little; bit = 32; bits = 32; mux = Page = 4; length = 8; }
-    sensor Low returns bool { id = 6; type = can; frame = 0x301; bit = 7; }
-    actuator Rpm accepts int32 { id = 10; type = can; frame = 0x301; extended = true; resend = 20 ms; failsafe = 0; }
-    actuator Mode accepts uint8 { id = 11; type = can; frame = 0x200; order = little; bit = 0; bits = 3; length = 8; }
-    actuator Gain accepts int16 { id = 12; type = can; frame = 0x200; order = little; bit = 12; bits = 10; mux = Mode = 3; length = 8; }
-    actuator Both accepts uint8 { id = 13; type = can; frame = 0x200; order = little; bit = 56; bits = 8; length = 8; resend = 50 ms; }
-}
-";
+const FRAMES: &str = include_str!("../../../firmware/designs/frames.sense");
 
 /// Checks the report on an image or on the soft board, in which each output must have been checked.
 fn assert_looked_at(name: &str, said: &str) {

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{Scratch, sensedsl};
+use sensedsl_tests::{Scratch, has, run, sensedsl};
 use sensedsl_wire::Scalar;
 
 use super::trial::Trial;
 use crate::firmware::tools::scratch;
 use crate::hosts::terminal::Line;
-use crate::hosts::tools::{Background, have, run};
+use crate::hosts::tools::Background;
 
 const NOTES: &str = "notes.txt";
 /// The time at which the host's first bytes reach the board, which has started by then.
@@ -30,7 +30,7 @@ impl Host {
     /// Starts the host of a design's only board, generated and compiled as its README states;
     /// `None` without a compiler.
     pub(super) fn start(name: &str, text: &str) -> Option<Self> {
-        if !have("g++") {
+        if !has("g++") {
             return None;
         }
         let folder = generated(name, text);

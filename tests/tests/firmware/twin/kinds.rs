@@ -6,19 +6,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_machine::LinkPort;
 use sensedsl_model::kind::KindName;
 use sensedsl_surroundings::CanFrame;
-use sensedsl_wire::Direction::{Actuator, Sensor};
-use sensedsl_wire::ScalarType::{Bool, Float32, Int16, Int32, Uint8, Uint16, Uint32};
+use sensedsl_tests::{read, root};
 use sensedsl_wire::{Checksum, Scalar, Schema};
 
-use super::bench::{Bench, MS, STEERING, Square, pad, schema, unsigned, values};
+use super::bench::{Bench, MS, STEERING, Square, pad, unsigned, values};
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy;
-use crate::firmware::tools::root;
+use crate::firmware::emulated::frame;
+use crate::hosts::designs::schema;
 
 /// The design of a kind on a Discovery board, its link over a serial port.
 fn design(kind: &str) -> String {
     let path = root().join("tests/firmware/kinds").join(format!("{kind}.sense"));
-    let text = std::fs::read_to_string(path).unwrap();
+    let text = read(&path);
     let head = "board STM32F407G_DISC1 {\n    link { transport = uart; unit = USART3; }";
     let release = if kind == "dac" { "\n    release CS43L22;" } else { "" };
     text.replacen("board BOARD {", &format!("{head}{release}"), 1)
@@ -84,29 +84,15 @@ fn every_kind_is_here() {
     assert_eq!(here, all, "a test in {}", file!());
 }
 
-pub(super) fn items(
-    items: &[(u8, sensedsl_wire::Direction, &str, sensedsl_wire::ScalarType, Option<u16>)],
-) -> Schema {
+pub(super) fn items(items: &[&str]) -> Schema {
     schema(Checksum::Crc16, items)
-}
-
-/// A frame from the host, with its checksum.
-pub(super) fn frame(values: &[u8]) -> Vec<u8> {
-    let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
-        (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
-            (crc << 1) ^ if crc & 0x8000 == 0 { 0 } else { 0x1021 }
-        })
-    });
-    let payload = [values, &[255], &crc.to_be_bytes()].concat();
-    [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
 }
 
 fn analog_values_are_those_of_the_pads(mut bench: Bench) {
     bench.world().voltages =
         BTreeMap::from([(pad("PC1"), (330.0, 1.0)), (pad("PC4"), (1650.0, 0.0))]);
     bench.run_until_ms(1_500);
-    let schema =
-        items(&[(1, Sensor, "Distance", Uint16, None), (2, Sensor, "Battery", Float32, None)]);
+    let schema = items(&["1 sensor Distance uint16", "2 sensor Battery float32"]);
     let reports = bench.reports(&schema);
     let distances = values(&reports, 1);
     // One value every 20 ms.
@@ -133,7 +119,7 @@ fn frames_of_a_can_bus_come_and_go(mut bench: Bench) {
     bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
     bench.run_until_ms(2_500);
     bench.assert_wires(&[("PD0", "CAN1_RX"), ("PD1", "CAN1_TX")]);
-    let schema = items(&[(1, Sensor, "Speed", Uint16, None), (2, Actuator, "Torque", Int16, None)]);
+    let schema = items(&["1 sensor Speed uint16", "2 actuator Torque int16"]);
     let speeds = values(&bench.reports(&schema), 1);
     assert_eq!(speeds.iter().map(|(_, value)| unsigned(value)).collect::<Vec<_>>(), [0x1234]);
     let sent = bench.world().from_can.clone();
@@ -160,11 +146,7 @@ fn digital_inputs_count_and_settle_and_outputs_follow(mut bench: Bench) {
     bench.machine.link_write(&frame(&[3, 0]));
     // The contact is read once a second.
     bench.run_until_ms(2_100);
-    let schema = items(&[
-        (1, Sensor, "Bumper", Bool, None),
-        (2, Sensor, "Drops", Uint32, None),
-        (3, Actuator, "Light", Bool, None),
-    ]);
+    let schema = items(&["1 sensor Bumper bool", "2 sensor Drops uint32", "3 actuator Light bool"]);
     let reports = bench.reports(&schema);
     let bumps: Vec<Scalar> = values(&reports, 1).iter().map(|(_, value)| value[0]).collect();
     assert_eq!(bumps.first(), Some(&Scalar::Bool(false)));
@@ -190,7 +172,7 @@ fn an_encoder_counts_every_edge_of_both_tracks(mut bench: Bench) {
     }
     bench.run_until_ms(300);
     bench.assert_wires(&[("PE9", "TIM1_CH1"), ("PE11", "TIM1_CH2")]);
-    let schema = items(&[(1, Sensor, "Turns", Int32, None)]);
+    let schema = items(&["1 sensor Turns int32"]);
     let turns = values(&bench.reports(&schema), 1);
     assert!(turns.len() > 25, "{}", turns.len());
     for (at, value) in turns.iter().filter(|(at, _)| *at > 40 * MS) {
@@ -212,11 +194,8 @@ fn chips_on_an_i2c_bus_are_read_and_written(mut bench: Bench) {
     bench.machine.link_write(&frame(&[3, 0xAB, 0xCD]));
     bench.run_until_ms(600);
     bench.assert_wires(&[("PA8", "I2C3_SCL"), ("PC9", "I2C3_SDA")]);
-    let schema = items(&[
-        (1, Sensor, "Range", Uint16, None),
-        (2, Sensor, "Heading", sensedsl_wire::ScalarType::Int16, Some(3)),
-        (3, Actuator, "Lamps", Uint16, None),
-    ]);
+    let schema =
+        items(&["1 sensor Range uint16", "2 sensor Heading int16[3]", "3 actuator Lamps uint16"]);
     let reports = bench.reports(&schema);
     let ranges = values(&reports, 1);
     assert!(
@@ -237,7 +216,7 @@ fn chips_on_an_i2c_bus_are_read_and_written(mut bench: Bench) {
 fn a_frequency_is_captured(mut bench: Bench) {
     bench.world().squares.insert(pad("PE5"), Square { half_ns: 400_000, shift_ns: MS });
     bench.run_until_ms(300);
-    let schema = items(&[(1, Sensor, "Wheel", Uint32, None)]);
+    let schema = items(&["1 sensor Wheel uint32"]);
     let wheel = values(&bench.reports(&schema), 1);
     let late: Vec<u64> =
         wheel.iter().filter(|(at, _)| *at > 50 * MS).map(|(_, value)| unsigned(value)).collect();
@@ -269,7 +248,7 @@ fn chips_on_an_spi_bus_are_read_and_written(mut bench: Bench) {
     bench.run_until_ms(300);
     bench.machine.link_write(&frame(&[2, 0x77]));
     bench.run_until_ms(400);
-    let schema = items(&[(1, Sensor, "Angle", Uint16, None), (2, Actuator, "Pot", Uint8, None)]);
+    let schema = items(&["1 sensor Angle uint16", "2 actuator Pot uint8"]);
     let angles = values(&bench.reports(&schema), 1);
     assert!(
         angles.len() > 30 && angles.iter().all(|(_, value)| unsigned(value) == 0x5A5A),
@@ -294,7 +273,7 @@ fn messages_of_a_serial_port_are_taken(mut bench: Bench) {
     bench.run_until_ms(1_200);
     bench.world().to_uart.extend(message(0x78, 0x56));
     bench.run_until_ms(2_500);
-    let schema = items(&[(1, Sensor, "Frame", Uint16, None)]);
+    let schema = items(&["1 sensor Frame uint16"]);
     let frames = values(&bench.reports(&schema), 1);
     let frames: Vec<u64> = frames.iter().map(|(_, value)| unsigned(value)).collect();
     assert_eq!(frames, [0x1234, 0x5678]);

@@ -23,17 +23,16 @@ mod trial;
 use std::collections::BTreeMap;
 
 use sensedsl_machine::{Event, LinkPort, ResetCause};
-use sensedsl_wire::Direction::Sensor;
-use sensedsl_wire::ScalarType::{Uint8, Uint16, Uint32};
+use sensedsl_tests::text;
 use sensedsl_wire::{Checksum, Schema};
 
-use self::bench::{Bench, MS, Square, folder, pad, schema, unsigned, values};
+use self::bench::{Bench, MS, Square, folder, pad, unsigned, values};
 use super::chibios::{build, tree};
-use super::tools::root;
+use crate::hosts::designs;
 
 /// Fig. 2 of the paper on the complete Discovery board, with the given link.
 fn fig2(link: &str) -> String {
-    let text = std::fs::read_to_string(root().join("examples/fig2.sense")).unwrap();
+    let text = text("examples/fig2.sense");
     text.replacen("board STM32F4DiscoveryBoard {", &format!("board STM32F407G_DISC1 {{\n{link}"), 1)
 }
 
@@ -50,13 +49,7 @@ fn set_up(bench: &Bench) {
 }
 
 fn fig2_schema(checksum: Checksum) -> Schema {
-    let items = [
-        (17, Sensor, "IRFront", Uint16, None),
-        (18, Sensor, "IRFrontRight", Uint16, None),
-        (19, Sensor, "USRear", Uint8, None),
-        (20, Sensor, "WheelEncoder", Uint32, None),
-    ];
-    schema(checksum, &items)
+    Schema { checksum, ..designs::fig2().remove(0).schema }
 }
 
 /// Compares every report with the world, and allows for the age that the cycles and the line may

@@ -9,6 +9,7 @@ use sensedsl_job::{BoardJob, jobs};
 use sensedsl_machine::{Event as Told, Lockup};
 use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_tests::root;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::judge::{Judge, Judged};
@@ -22,7 +23,6 @@ use sensedsl_wire::{
 use super::bench::{MS, STEERING, folder};
 use crate::firmware::chibios::{build, tree};
 use crate::firmware::embassy;
-use crate::firmware::tools::root;
 
 /// The results of a run.
 pub(super) struct Trial {
