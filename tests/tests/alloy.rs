@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Random, Scratch, design, device_block, has, root, sensedsl, text};
+use sensedsl_tests::{Random, Scratch, design, device_block, has, printed, root, sensedsl, text};
 
 use crate::prolog::random_table;
 
@@ -26,9 +26,7 @@ fn analyze(models: &[PathBuf]) -> Option<Vec<Runs>> {
     }
     let mut call = Command::new("java");
     call.arg("-cp").arg(classes).arg(root().join("tests/alloy/Runs.java")).args(models);
-    let output = call.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{said}\n{}", String::from_utf8_lossy(&output.stderr));
+    let said = printed(&mut call);
     eprint!("{said}");
     let runs = |model: &PathBuf| {
         let lines = said.lines().filter_map(|line| {

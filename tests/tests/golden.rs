@@ -5,9 +5,8 @@
 //! places. After an intended change: run `cargo xtask bless`, and read the difference.
 
 use std::collections::BTreeMap;
-use std::fs;
 
-use sensedsl_tests::{Scratch, root, sensedsl, tree};
+use sensedsl_tests::{Scratch, assert_tree, sensedsl, tree};
 
 /// Whether a file is the same for all designs.
 fn is_runtime(path: &str) -> bool {
@@ -61,30 +60,7 @@ fn agrees(folder: &str, example: &str, arguments: &[&str]) {
 fn agrees_as(example: &str, file: &str, arguments: &[&str]) {
     let mut files = generated(file, arguments);
     once(&mut files);
-    let folder = root().join("tests/golden").join(example);
-    if std::env::var_os("SENSEDSL_BLESS").is_some() {
-        if folder.exists() {
-            fs::remove_dir_all(&folder).unwrap();
-        }
-        for (path, bytes) in &files {
-            let path = folder.join(path);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, bytes).unwrap();
-        }
-    }
-    let golden = tree(&folder);
-    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
-    assert_eq!(names(&files), names(&golden), "{example}: other files");
-    for (path, bytes) in &files {
-        let (found, agreed) =
-            (String::from_utf8_lossy(bytes), String::from_utf8_lossy(&golden[path]));
-        if let Some((number, (found, agreed))) =
-            found.lines().zip(agreed.lines()).enumerate().find(|(_, (one, other))| one != other)
-        {
-            panic!("{example}/{path}:{}\n- {agreed}\n+ {found}\n", number + 1);
-        }
-        assert_eq!(bytes, &golden[path], "{example}/{path}: another end");
-    }
+    assert_tree(&format!("tests/golden/{example}"), &files);
 }
 
 #[test]

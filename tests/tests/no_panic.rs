@@ -92,148 +92,22 @@ fn seeds() -> Vec<Input> {
     seeds
 }
 
-/// Words with a meaning somewhere in the language.
-const WORDS: &[&str] = &[
-    "board",
-    "spare",
-    "on",
-    "sensor",
-    "actuator",
-    "returns",
-    "accepts",
-    "driver",
-    "for",
-    "chip",
-    "connection",
-    "reading",
-    "command",
-    "const",
-    "use",
-    "link",
-    "prefer",
-    "avoid",
-    "reserve",
-    "release",
-    "allow",
-    "{",
-    "}",
-    "[",
-    "]",
-    "=",
-    ";",
-    ",",
-    "\"",
-    "/*",
-    "*/",
-    "//",
-    "-",
-    "+",
-    "*",
-    "/",
-    "(",
-    ")",
-    "..",
-    "1..5",
-    "3 V..5 V",
-    "-(1 + N)",
-    "0",
-    "1",
-    "254",
-    "255",
-    "256",
-    "-1",
-    "0x",
-    "0xE6",
-    "0b2",
-    "1e308",
-    "1e999",
-    "0.0001",
-    "NaN",
-    "18446744073709551615",
-    "18446744073709551616",
-    "us",
-    "ms",
-    "s",
-    "Hz",
-    "kHz",
-    "MHz",
-    "id",
-    "type",
-    "delay",
-    "prio",
-    "pin",
-    "unit",
-    "side",
-    "header",
-    "label",
-    "scale",
-    "min",
-    "max",
-    "address",
-    "speed",
-    "exclusive",
-    "true",
-    "trigger",
-    "wait",
-    "register",
-    "length",
-    "order",
-    "mode",
-    "edge",
-    "resolution",
-    "pulse",
-    "analog",
-    "i2c",
-    "icu",
-    "encoder",
-    "digital",
-    "uart",
-    "spi",
-    "pwm",
-    "dac",
-    "can",
-    "bool",
-    "uint8",
-    "uint16",
-    "int64",
-    "float64",
-    "[1024]",
-    "srf08",
-    "hcsr04",
-    "PA1",
-    "PB0",
-    "PZ99",
-    "ADC1",
-    "TIM3",
-    "I2C1",
-    "STM32F4DiscoveryBoard",
-    "STM32F407G_DISC1",
-    "ü",
-    "\u{feff}",
-    "\u{a0}",
-    "\r\n",
-    "\0",
-    "𝄞",
-    "W0602",
-    "E0401",
-    "# mcu = ",
-    "STM32F407VGT6",
-    "STM32F103C8T6",
-    "Pin",
-    "Position",
-    "AF",
-    "Onboard",
-    "TIM1_CH1@1",
-    "ADC123-IN9",
-    "I²C1-SCL",
-    "@",
-    "@16",
-    ":bus",
-    ":care",
-];
+/// Words with a meaning somewhere in the language, separated by `|`.
+const WORDS: &str = "\
+    board|spare|on|sensor|actuator|returns|accepts|driver|for|chip|connection|reading|command|\
+    const|use|link|prefer|avoid|reserve|release|allow|{|}|[|]|=|;|,|\"|/*|*/|//|-|+|*|/|(|)|..|\
+    1..5|3 V..5 V|-(1 + N)|0|1|254|255|256|-1|0x|0xE6|0b2|1e308|1e999|0.0001|NaN|\
+    18446744073709551615|18446744073709551616|us|ms|s|Hz|kHz|MHz|id|type|delay|prio|pin|unit|\
+    side|header|label|scale|min|max|address|speed|exclusive|true|trigger|wait|register|length|\
+    order|mode|edge|resolution|pulse|analog|i2c|icu|encoder|digital|uart|spi|pwm|dac|can|bool|\
+    uint8|uint16|int64|float64|[1024]|srf08|hcsr04|PA1|PB0|PZ99|ADC1|TIM3|I2C1|\
+    STM32F4DiscoveryBoard|STM32F407G_DISC1|ü|\u{feff}|\u{a0}|\r\n|\0|𝄞|W0602|E0401|# mcu = |\
+    STM32F407VGT6|STM32F103C8T6|Pin|Position|AF|Onboard|TIM1_CH1@1|ADC123-IN9|I²C1-SCL|@|@16|\
+    :bus|:care";
 
 /// A text with a few changes.
 fn mutate(random: &mut Random, text: &str, other: &str) -> String {
+    let words: Vec<&str> = WORDS.split('|').collect();
     let mut text: Vec<char> = text.chars().collect();
     for _ in 0..=random.below(4) {
         let at = random.below(text.len() + 1);
@@ -246,11 +120,11 @@ fn mutate(random: &mut Random, text: &str, other: &str) -> String {
                 text.splice(to..to, copy);
             }
             2 | 3 => {
-                let word = random.pick(WORDS).unwrap();
+                let word = random.pick(&words).unwrap();
                 text.splice(at..at, word.chars());
             }
             4 => {
-                let word = random.pick(WORDS).unwrap();
+                let word = random.pick(&words).unwrap();
                 text.splice(at..end, word.chars());
             }
             5 => {

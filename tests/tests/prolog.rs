@@ -1,9 +1,10 @@
 //! SWI-Prolog, given the exported problem, finds the same best cost as the tool.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::{Call, Random, Scratch, design, device_block, has, sensedsl, text};
+use sensedsl_tests::{Call, Random, Scratch, design, device_block, has, run, sensedsl, text};
 use serde_json::Value;
 
 /// A call of `solve` that may read the tables of these tests, which are in folders of their own.
@@ -12,15 +13,18 @@ fn call(format: &str) -> Call {
     call.arg(std::env::temp_dir())
 }
 
+/// What `main` of an exported program prints; it must say nothing else.
+pub(crate) fn by_swipl(file: &Path) -> String {
+    let output = run(Command::new("swipl").args(["-q", "-g", "main", "-t", "halt"]).arg(file));
+    assert!(output.stderr.is_empty(), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
 /// The first line that `main` of an exported program prints: rules violated, shared pins, cost.
 fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64, u64)> {
     let program = call("prolog").arg(design).run().exits(0).stdout;
     let file = scratch.write("wiring.pl", program);
-    let output =
-        Command::new("swipl").args(["-q", "-g", "main", "-t", "halt"]).arg(&file).output().unwrap();
-    let out = String::from_utf8_lossy(&output.stdout).into_owned();
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && err.is_empty(), "{out}\n{err}");
+    let out = by_swipl(&file);
     if out.trim() == "infeasible" {
         return None;
     }

@@ -1,24 +1,24 @@
 //! `sensedsl-verify` accepts what `solve --proof` writes, and refuses it after any change.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use sensedsl_tests::{Scratch, design, read, sensedsl, verifier};
+use sensedsl_tests::{Scratch, answered, design, read, sensedsl, verifier};
 
 const BOARD: &str = "STM32F4DiscoveryBoard";
 
 /// The exit status and the output of the verifier.
 fn verify(certificate: &Path) -> (i32, String) {
-    let output = Command::new(verifier()).arg(certificate).output().unwrap();
-    let said = [output.stdout, output.stderr].concat();
-    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
+    ran(Command::new(verifier()).arg(certificate))
 }
 
 /// Like [`verify`], against given files.
 fn verify_for(certificate: &Path, files: &[&PathBuf]) -> (i32, String) {
-    let call = &mut Command::new(verifier());
-    let output = call.arg(certificate).arg("--for").args(files).output().unwrap();
+    ran(Command::new(verifier()).arg(certificate).arg("--for").args(files))
+}
+
+fn ran(verifier: &mut Command) -> (i32, String) {
+    let output = verifier.output().unwrap();
     let said = [output.stdout, output.stderr].concat();
     (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
 }
@@ -231,9 +231,6 @@ fn a_certificate_is_the_result_where_it_goes_to_the_standard_output() {
     assert_eq!((to_file.status, ran.status), (0, 0), "{}", ran.stderr);
     assert_eq!(ran.stdout, read(&path));
     assert!(!std::path::Path::new("-").exists());
-    let mut verify = Command::new(verifier());
-    let mut child = verify.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(ran.stdout.as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success() && output.stdout.starts_with(b"verified"), "{output:?}");
+    let said = answered(Command::new(verifier()).arg("-"), ran.stdout);
+    assert!(said.starts_with("verified"), "{said}");
 }

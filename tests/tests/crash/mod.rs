@@ -17,7 +17,7 @@ use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, state, tree};
+use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, state, tree, write_all};
 
 /// The number of crashes requested; `None` for the few that always run.
 fn asked() -> Option<usize> {
@@ -80,10 +80,7 @@ impl Stage {
 
     /// Puts the user's files into a folder that contains the first tree.
     fn settle_in(&self, out: &Path) {
-        for (path, text) in MINE {
-            fs::create_dir_all(out.join(path).parent().unwrap()).unwrap();
-            fs::write(out.join(path), text).unwrap();
-        }
+        write_all(out, MINE);
         std::os::unix::fs::symlink("user.c", out.join("firmware/Robot/user/link")).unwrap();
     }
 }

@@ -5,6 +5,7 @@ use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
+use sensedsl_tests::{root, run};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Frame, HealthFrame, ID_HEALTH, ScalarType, Schema, encode_health,
 };
@@ -113,7 +114,6 @@ pub(crate) struct Program {
 impl Program {
     /// Compiles it into `folder` and starts it.
     pub(crate) fn build(folder: &Path, flags: &[&str]) -> Self {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf();
         std::fs::create_dir_all(folder).unwrap();
         let mut objects = Vec::new();
         for (compiler, standard, source) in [
@@ -128,13 +128,13 @@ impl Program {
             ("g++", "-std=c++98", "tests/decoders/cpp.cpp"),
         ] {
             let object = folder.join(Path::new(source).file_name().unwrap()).with_extension("o");
-            let include = |path: &str| format!("-I{}", root.join(path).display());
+            let include = |path: &str| format!("-I{}", root().join(path).display());
             let mut command = Command::new(compiler);
             command.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow"]);
             command.args(["-Werror", "-D_POSIX_C_SOURCE=199309L", "-c"]).args(flags);
             command
                 .args([include("crates/firmware-c/runtime"), include("crates/host-cpp/runtime")]);
-            run(command.arg(root.join(source)).arg("-o").arg(&object));
+            run(command.arg(root().join(source)).arg("-o").arg(&object));
             objects.push(object);
         }
         let program: PathBuf = folder.join("decoders");
@@ -206,10 +206,4 @@ impl Drop for Program {
         drop(self.child.stdin.take());
         let _ = self.child.wait();
     }
-}
-
-fn run(command: &mut Command) {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}\n{errors}");
 }

@@ -8,12 +8,11 @@ mod messages;
 mod numbers;
 mod values;
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::OnceLock;
 
-use sensedsl_tests::{has, root};
+use sensedsl_tests::{answered, files, has, root, run};
 
 /// The program, or `None` without a compiler.
 fn program() -> Option<&'static Path> {
@@ -26,39 +25,19 @@ fn build() -> PathBuf {
     std::fs::create_dir_all(&folder).unwrap();
     let program = folder.join("devices");
     let core = root().join("crates/firmware-c/runtime");
-    let entries = std::fs::read_dir(&core).unwrap().map(|entry| entry.unwrap().path());
-    let mut sources: Vec<_> =
-        entries.filter(|path| path.extension().is_some_and(|found| found == "c")).collect();
-    sources.sort();
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow"]);
     command.args(["-Werror", "-O1", "-g", "-fsanitize=address,undefined"]);
-    command.arg("-fno-sanitize-recover=all").arg("-I").arg(core);
-    command.arg(root().join("tests/devices/main.c")).args(sources).arg("-o").arg(&program);
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    command.arg("-fno-sanitize-recover=all").arg("-I").arg(&core);
+    command.arg(root().join("tests/devices/main.c")).args(files(&core, "c"));
+    run(command.arg("-o").arg(&program));
     program
 }
 
 /// The answer to each request, in order.
 fn ask(program: &Path, requests: &[String]) -> Vec<String> {
-    let mut child = Command::new(program)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let text = requests.join("\n") + "\n";
-    let writer = std::thread::spawn(move || {
-        // A program that a sanitizer has ended reads no more; its status is checked below.
-        let _ = stdin.write_all(text.as_bytes());
-    });
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let answers: Vec<_> =
-        String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
+    let said = answered(&mut Command::new(program), requests.join("\n") + "\n");
+    let answers: Vec<_> = said.lines().map(str::to_owned).collect();
     assert_eq!(answers.len(), requests.len());
     answers
 }

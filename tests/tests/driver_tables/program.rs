@@ -3,16 +3,15 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::OnceLock;
 
 use sensedsl_firmware_c::{self as c, Wiring};
 use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
 use sensedsl_model::words::{Code, Words};
-use sensedsl_tests::{files, has, root};
+use sensedsl_tests::{fed, files, has, root, run};
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::library::Unit;
@@ -58,8 +57,7 @@ fn build(units: &[Unit]) -> PathBuf {
     // On a board, the target decides where buffers are placed.
     command.arg("-DUP_DMA_BUFFER=").arg("-I").arg(&core).arg("-I").arg(&folder);
     command.arg(root().join("tests/drivers/main.c")).args(files(&core, "c"));
-    let output = command.arg("-o").arg(&program).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    run(command.arg("-o").arg(&program));
     program
 }
 
@@ -184,20 +182,7 @@ pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
 
 /// The answer of the program to each request.
 pub fn say(program: &Path, requests: &[String]) -> Vec<String> {
-    let mut child = Command::new(program)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let text = requests.join("\n") + "\n";
-    let writer = std::thread::spawn(move || {
-        // A program that a sanitizer has ended reads no more; its status is checked below.
-        let _ = stdin.write_all(text.as_bytes());
-    });
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap();
+    let output = fed(&mut Command::new(program), requests.join("\n") + "\n");
     let answers = String::from_utf8(output.stdout).unwrap();
     let all: Vec<String> = answers.split_inclusive("end\n").map(str::to_owned).collect();
     let said = String::from_utf8_lossy(&output.stderr);

@@ -138,8 +138,7 @@ fn a_board_for_embassy_is_built_by_cargo() {
         word(0x34 + 4 * at, value);
     }
     program[0x54..].fill(0xA5);
-    fs::create_dir_all(machine.scratch.join(elf).parent().unwrap()).unwrap();
-    fs::write(machine.scratch.join(elf), &program).unwrap();
+    machine.scratch.write(elf, &program);
     let _ = machine.run(&["flash", "build/firmware/STM32F407G_DISC1"], &settings).exits(0);
     assert_eq!(fs::read(machine.scratch.join(&format!("{elf}.bin"))).unwrap(), [0xA5; 0x20]);
     assert!(machine.calls().contains(&format!("--reset write {elf}.bin 0x08000000")));

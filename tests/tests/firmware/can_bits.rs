@@ -3,16 +3,15 @@
 //! and for FDCAN.
 
 use std::collections::BTreeSet;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::OnceLock;
 
 use sensedsl_board::catalog;
-use sensedsl_tests::text;
+use sensedsl_tests::{answered, has, root, run, text};
 
 use super::stubs;
-use super::tools::{has, root, run, scratch};
+use super::tools::scratch;
 
 /// Usual rates, the least and the greatest that a design may request, and some that no clock
 /// divides to.
@@ -52,20 +51,15 @@ fn compile(is_fdcan: bool) -> PathBuf {
     }
     cc.arg(root().join("tests/firmware/can/main.c"))
         .arg(root().join("crates/firmware-chibios/runtime/up_can.c"));
-    let _ = run(cc.arg("-o").arg(&program));
+    run(cc.arg("-o").arg(&program));
     program
 }
 
 /// The runtime's bit times for each request: prescaler, steps before and after the sample point,
 /// jump width; `None` if it halts.
 fn bit_times(is_fdcan: bool, asked: &[(u32, u32)]) -> Vec<Option<[u32; 4]>> {
-    let mut child = Command::new(program(is_fdcan));
-    let mut child = child.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let lines: String = asked.iter().map(|(clock, rate)| format!("{clock} {rate}\n")).collect();
-    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success());
-    let said = String::from_utf8(output.stdout).unwrap();
+    let said = answered(&mut Command::new(program(is_fdcan)), lines);
     let numbers = |line: &str| {
         let numbers: Vec<u32> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
         <[u32; 4]>::try_from(numbers).ok()

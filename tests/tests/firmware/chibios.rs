@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use sensedsl_tests::{has, printed, run, write_all};
+
 use super::applications::{self, CAR, FIG2, ODD, PINS, TWO};
-use super::tools::{has, run, scratch};
+use super::tools::scratch;
 
 /// The tree, if the machine has one. No registry has ChibiOS, so its absence is not a failure.
 pub(crate) fn tree() -> Option<PathBuf> {
@@ -17,11 +19,7 @@ pub(crate) fn tree() -> Option<PathBuf> {
 
 pub(crate) fn write(name: &str, text: &str) -> PathBuf {
     let folder = scratch(name);
-    for (path, text) in applications::files(text) {
-        let path = folder.join(path);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, text).unwrap();
-    }
+    write_all(&folder, applications::files(text));
     folder
 }
 
@@ -33,8 +31,7 @@ pub(crate) fn build(tree: &Path, board: &Path, mode: &str) -> String {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!said.contains("warning"), "{said}");
     let program = board.join("build").join(mode).join("sense.elf");
-    let size = run(Command::new("arm-none-eabi-size").arg(program));
-    let size = String::from_utf8_lossy(&size.stdout).into_owned();
+    let size = printed(Command::new("arm-none-eabi-size").arg(program));
     let line = size.lines().nth(1).unwrap_or_default().split_whitespace();
     line.take(3).collect::<Vec<_>>().join("/")
 }

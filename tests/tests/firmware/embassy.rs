@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
 
-use sensedsl_tests::{Scratch, has, is_thorough, missing, root, sensedsl};
+use sensedsl_tests::{Scratch, has, is_thorough, missing, printed, root, sensedsl};
 
 use super::tools::scratch;
 
@@ -92,8 +92,7 @@ fn an_image_for_each_core_links() {
              actuator Servo accepts uint16 {{ type = pwm; frequency = 50 Hz; failsafe = 1500; }}\n}}\n"
         );
         let Some(elf) = program(&format!("core_{board}"), &text) else { return };
-        let read = Command::new("arm-none-eabi-readelf").args(["-hA"]).arg(&elf).output().unwrap();
-        let read = String::from_utf8_lossy(&read.stdout).into_owned();
+        let read = printed(Command::new("arm-none-eabi-readelf").args(["-hA"]).arg(&elf));
         assert!(read.contains("EXEC (Executable file)") && read.contains(core), "{board}: {read}");
     }
 }

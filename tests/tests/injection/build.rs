@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use sensedsl_tests::{Scratch, few, has, text, tree};
+use sensedsl_tests::{Scratch, few, has, printed, text, tree};
 
 use super::corpus::{OWNED, generate, words_design};
 
@@ -48,15 +48,9 @@ fn make_takes_a_folder_of_any_name() {
     let next = generate(&source, &output);
     let board = output.join("firmware/STM32F4DiscoveryBoard");
     let chibios = empty_tree(&scratch, &sensedsl_tests::read(&board.join("Makefile")));
-    let said = |command: &mut Command| {
-        let output = command.output().unwrap();
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
-        text
-    };
     let variable = format!("CHIBIOS={}", chibios.display());
     let sources =
-        said(Command::new("make").arg("-C").arg(&board).args(["-n", "all"]).arg(&variable));
+        printed(Command::new("make").arg("-C").arg(&board).args(["-n", "all"]).arg(&variable));
     assert!(
         sources.contains("generated/sense_hw.c") && sources.contains("user/user.c"),
         "{sources}"
@@ -64,7 +58,7 @@ fn make_takes_a_folder_of_any_name() {
     // The line that `generate` suggests typing next must be valid for a shell.
     let typed = next.lines().find_map(|line| line.strip_prefix("next: sensedsl build ")).unwrap();
     let typed = format!("printf '%s\\n' {typed}");
-    let said = said(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
+    let said = printed(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
     let words: Vec<&str> = said.lines().collect();
     assert_eq!(words, [output.to_str().unwrap(), "--chibios", "/path/to/ChibiOS"]);
     assert!(!is_owned(scratch.path()));

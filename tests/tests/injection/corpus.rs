@@ -7,6 +7,8 @@ use std::sync::OnceLock;
 
 use sensedsl_tests::sensedsl;
 
+use crate::firmware::tools::empty;
+
 /// A file that a command in a text would create if it were run.
 pub(crate) const OWNED: &str = "owned-by-injection";
 
@@ -70,162 +72,20 @@ pub(crate) const TEXTS: &[&str] = &[
 ];
 
 /// Words of the languages of generated files, of their libraries, and of SenseDSL itself.
-pub(crate) const WORDS: &[&str] = &[
-    "auto",
-    "break",
-    "case",
-    "char",
-    "const",
-    "default",
-    "do",
-    "double",
-    "else",
-    "enum",
-    "extern",
-    "float",
-    "goto",
-    "inline",
-    "int",
-    "long",
-    "register",
-    "restrict",
-    "return",
-    "short",
-    "signed",
-    "sizeof",
-    "static",
-    "struct",
-    "switch",
-    "typedef",
-    "union",
-    "unsigned",
-    "void",
-    "volatile",
-    "while",
-    "alignas",
-    "and",
-    "bitand",
-    "catch",
-    "class",
-    "compl",
-    "concept",
-    "consteval",
-    "constexpr",
-    "co_await",
-    "decltype",
-    "delete",
-    "explicit",
-    "export",
-    "friend",
-    "mutable",
-    "namespace",
-    "new",
-    "noexcept",
-    "not_eq",
-    "nullptr",
-    "operator",
-    "private",
-    "requires",
-    "template",
-    "this",
-    "thread_local",
-    "throw",
-    "try",
-    "typeid",
-    "typename",
-    "using",
-    "virtual",
-    "xor_eq",
-    "asm",
-    "typeof",
-    "linux",
-    "unix",
-    "NULL",
-    "EOF",
-    "errno",
-    "assert",
-    "stdin",
-    "main",
-    "std",
-    "uint8_t",
-    "size_t",
-    "INFINITY",
-    "M_PI",
-    "bool_",
-    "TRUE_",
-    "printf",
-    "exit",
-    "fn",
-    "impl",
-    "match",
-    "mod",
-    "self",
-    "Self_",
-    "crate",
-    "dyn",
-    "async",
-    "yield",
-    "macro_rules",
-    "dynamic",
-    "discontiguous",
-    "halt",
-    "is",
-    "rem",
-    "once",
-    "call",
-    "fail",
-    "module",
-    "initialization",
-    "shell",
-    "wildcard",
-    "foreach",
-    "define",
-    "endef",
-    "ifeq",
-    "MAKEFLAGS",
-    "all",
-    "clean",
-    "flash",
-    "project",
-    "set",
-    "install",
-    "test",
-    "PUBLIC",
-    "ENV",
-    "CACHE",
-    "ON",
-    "OFF",
-    "IGNORE",
-    "sense",
-    "sensedsl",
-    "schema",
-    "Decoder",
-    "Commands",
-    "hello_request",
-    "id",
-    "name",
-    "quantity",
-    "raw",
-    "value",
-    "values",
-    "link",
-    "board",
-    "Board",
-    "pads",
-    "tasks",
-    "ports",
-    "icus",
-    "adcs",
-    "up_config",
-    "sense_values",
-    "stop",
-    "run",
-    "Handler",
-    "message",
-    "con",
-    "nul",
-    "COM1_",
-];
+const WORDS: &str = "
+    auto break case char const default do double else enum extern float goto inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void
+    volatile while alignas and bitand catch class compl concept consteval constexpr co_await
+    decltype delete explicit export friend mutable namespace new noexcept not_eq nullptr operator
+    private requires template this thread_local throw try typeid typename using virtual xor_eq
+    asm typeof linux unix NULL EOF errno assert stdin main std uint8_t size_t INFINITY M_PI bool_
+    TRUE_ printf exit fn impl match mod self Self_ crate dyn async yield macro_rules dynamic
+    discontiguous halt is rem once call fail module initialization shell wildcard foreach define
+    endef ifeq MAKEFLAGS all clean flash project set install test PUBLIC ENV CACHE ON OFF IGNORE
+    sense sensedsl schema Decoder Commands hello_request id name quantity raw value values link
+    board Board pads tasks ports icus adcs up_config sense_values stop run Handler message con
+    nul COM1_
+";
 
 /// The pins with an ADC whose rows contain the texts.
 const PINS: [&str; 16] = [
@@ -293,7 +153,7 @@ fn design(texts: &[&str]) -> String {
 pub(crate) fn projects() -> &'static [Project] {
     static PROJECTS: OnceLock<Vec<Project>> = OnceLock::new();
     PROJECTS.get_or_init(|| {
-        let folder = shared("texts");
+        let folder = empty("injection/texts");
         let make = |(at, texts): (usize, &'static [&'static str])| {
             let folder = folder.join(at.to_string());
             std::fs::create_dir(&folder).unwrap();
@@ -307,19 +167,11 @@ pub(crate) fn projects() -> &'static [Project] {
     })
 }
 
-/// A folder that several tests of a run use, empty at first.
-fn shared(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("injection").join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
 /// A project whose boards and devices are named by [`WORDS`], generated once.
 pub(crate) fn words() -> &'static Path {
     static WORDS_PROJECT: OnceLock<PathBuf> = OnceLock::new();
     WORDS_PROJECT.get_or_init(|| {
-        let folder = shared("words");
+        let folder = empty("injection/words");
         let (source, output) = (folder.join("words.sense"), folder.join("out"));
         std::fs::write(&source, words_design()).unwrap();
         let _ = generate(&source, &output);
@@ -332,7 +184,8 @@ pub(crate) fn words_design() -> String {
     let mut design = String::from("board default on STM32F407G_DISC1 {\n");
     let mut seen = std::collections::BTreeSet::new();
     let folded = |word: &str| word.replace('_', "").to_lowercase();
-    for (at, word) in WORDS.iter().filter(|word| seen.insert(folded(word))).enumerate() {
+    for (at, word) in WORDS.split_whitespace().filter(|word| seen.insert(folded(word))).enumerate()
+    {
         let (id, unit, address) = (at + 1, at / 100 + 1, at % 100 + 8);
         writeln!(
             design,

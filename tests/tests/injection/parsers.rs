@@ -4,16 +4,10 @@ use std::path::Path;
 use std::process::Command;
 
 use sensedsl_diagnostics::is_hidden;
-use sensedsl_tests::{Ran, has, read, sensedsl};
+use sensedsl_tests::{Ran, has, printed, read, run, sensedsl};
 use serde_json::Value;
 
 use super::corpus::{Project, projects};
-
-fn output(command: &mut Command) -> String {
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{command:?}\n{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
 
 /// The wiring in CSV, as Python's reader parses it.
 fn rows(project: &Project) -> Vec<Vec<String>> {
@@ -23,7 +17,7 @@ json.dump(list(csv.reader(open(sys.argv[1], newline='', encoding='utf-8'), stric
     let csv = call(project, &["solve", "--format", "csv"]).exits(0).stdout;
     let file = project.source.with_extension("wiring.csv");
     std::fs::write(&file, &csv).unwrap();
-    let rows = output(Command::new("python3").args(["-c", script]).arg(file));
+    let rows = printed(Command::new("python3").args(["-c", script]).arg(file));
     serde_json::from_str(&rows).unwrap()
 }
 
@@ -88,7 +82,7 @@ fn markdown_shows_text_in_cells() {
             "-e",
             "footnotes",
         ]);
-        let html = output(command.arg(project.output.join("wiring.md")));
+        let html = printed(command.arg(project.output.join("wiring.md")));
         let html = without_mail(&html);
         for element in ["<script", "<a", "<img", "<em", "<del", "<code", "<b>", "<!", "<li"] {
             assert!(!html.contains(element), "{element} in\n{html}");
@@ -134,7 +128,7 @@ for element in root.iter():
     for project in projects() {
         let mut command = Command::new("python3");
         command.env("PYTHONIOENCODING", "utf-8").args(["-c", script]);
-        let texts = output(command.arg(project.output.join("pinout.svg")));
+        let texts = printed(command.arg(project.output.join("pinout.svg")));
         assert!(!texts.contains(|c| is_hidden(c) && c != '\n'), "{texts}");
         assert!(
             texts.lines().filter(|line| line.contains("(ADC12_IN")).count() >= project.texts.len()
@@ -154,7 +148,7 @@ fn json_says_the_very_text() {
         }
         if has("python3") {
             let mut tool = Command::new("python3");
-            output(tool.args(["-m", "json.tool"]).arg(project.output.join("schema.json")));
+            run(tool.args(["-m", "json.tool"]).arg(project.output.join("schema.json")));
         }
     }
 }

@@ -4,20 +4,11 @@
 //! `SENSEDSL_WASM` is the path of the module, which `cargo xtask web` builds.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::{fs, io::Write as _};
+use std::process::Command;
 
-use sensedsl_tests::{has, missing, read, root};
-
-/// All `.sense` files below a folder.
-fn texts(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut found: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|end| end == "sense")).collect();
-    found.sort();
-    found
-}
+use sensedsl_tests::{answered, files, has, missing, read, root};
 
 /// A request for a file, together with the text files beside it.
 fn request(file: &Path) -> String {
@@ -46,21 +37,15 @@ fn the_module_says_what_the_program_says() {
         return;
     }
     let folders = ["examples", "tests/corpus/ok", "tests/corpus/err"];
-    let files: Vec<PathBuf> =
-        folders.iter().flat_map(|folder| texts(&root().join(folder))).collect();
-    let requests: Vec<String> = files.iter().map(|file| request(file)).collect();
+    let paths: Vec<PathBuf> =
+        folders.iter().flat_map(|folder| files(&root().join(folder), "sense")).collect();
+    let requests: Vec<String> = paths.iter().map(|file| request(file)).collect();
     let mut node = Command::new("node");
     node.arg(root().join("tests/tests/web/answers.mjs")).arg(&module);
-    let mut node = node.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    let mut stdin = node.stdin.take().unwrap();
     let all = serde_json::to_vec(&requests).unwrap();
-    let writer = std::thread::spawn(move || stdin.write_all(&all).unwrap());
-    let output = node.wait_with_output().unwrap();
-    writer.join().unwrap();
-    assert!(output.status.success());
-    let answers: Vec<String> = serde_json::from_slice(&output.stdout).unwrap();
+    let answers: Vec<String> = serde_json::from_str(&answered(&mut node, all)).unwrap();
     assert_eq!(answers.len(), requests.len());
-    for ((file, request), answer) in files.iter().zip(&requests).zip(answers) {
+    for ((file, request), answer) in paths.iter().zip(&requests).zip(answers) {
         assert_eq!(answer, sensedsl_web::ask(request), "{}", file.display());
     }
 }
@@ -68,7 +53,7 @@ fn the_module_says_what_the_program_says() {
 /// The page's function returns what the commands print.
 #[test]
 fn the_answer_is_that_of_the_commands() {
-    for file in texts(&root().join("examples")) {
+    for file in files(&root().join("examples"), "sense") {
         let asked: serde_json::Value =
             serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
         let solved = sensedsl_tests::sensedsl(["solve", "-q", "--format"]);
@@ -83,7 +68,7 @@ fn the_answer_is_that_of_the_commands() {
 #[test]
 fn the_diagnostics_are_those_of_check() {
     let folders = ["examples", "tests/corpus/ok", "tests/firmware/kinds"];
-    for file in folders.iter().flat_map(|folder| texts(&root().join(folder))) {
+    for file in folders.iter().flat_map(|folder| files(&root().join(folder), "sense")) {
         let asked: serde_json::Value =
             serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
         let check = sensedsl_tests::sensedsl(["check", "-q", "--format", "json"]);

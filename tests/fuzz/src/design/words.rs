@@ -20,6 +20,19 @@ pub(super) struct Kind {
     pub(super) drivers: &'static [&'static str],
 }
 
+const fn both(name: &'static str, types: &'static [&'static str]) -> Kind {
+    let (is_sensor, is_actuator) = (true, true);
+    Kind { name, is_sensor, is_actuator, types, needs: &[], may: &[], roles: &[], drivers: &[] }
+}
+
+const fn sensor(name: &'static str, types: &'static [&'static str]) -> Kind {
+    Kind { is_actuator: false, ..both(name, types) }
+}
+
+const fn actuator(name: &'static str, types: &'static [&'static str]) -> Kind {
+    Kind { is_sensor: false, ..both(name, types) }
+}
+
 /// Values of constants, and what else may stand where a value may.
 pub(super) const CONSTANTS: &[&str] =
     &["5", "60 ms", "3 V..5 V", "N0 * 2", "-(1 + 2) / 3", "[1..2, [3, 4 us]]", "N9", "1 / 0"];
@@ -62,24 +75,14 @@ const BAD_BYTES: &[&str] = &["[256]", "[1, -1]", "[\"x\"]", "[[1]]", "1.5"];
 /// The kinds for which there is firmware come first.
 pub(super) const KINDS: &[Kind] = &[
     Kind {
-        name: "analog",
-        is_sensor: true,
-        is_actuator: false,
-        types: NUMBERS,
-        needs: &[],
         may: &[
             ("samples", &["32", "1", "1024", "7"], &["0", "1025", "1.5"]),
             ("sampling", &["84", "3", "480", "1000"], &["0", "2 s"]),
         ],
         roles: &["pin"],
-        drivers: &[],
+        ..sensor("analog", NUMBERS)
     },
     Kind {
-        name: "icu",
-        is_sensor: true,
-        is_actuator: false,
-        types: NUMBERS,
-        needs: &[],
         may: &[
             ("mode", &["count", "width", "period", "frequency", "duty"], &["area", "1"]),
             ("edge", &["rising", "falling", "both"], &["up"]),
@@ -88,12 +91,9 @@ pub(super) const KINDS: &[Kind] = &[
         ],
         roles: &["pin", "trigger"],
         drivers: &["driver = hcsr04;", "driver = rc_channel;"],
+        ..sensor("icu", NUMBERS)
     },
     Kind {
-        name: "i2c",
-        is_sensor: true,
-        is_actuator: true,
-        types: ANY,
         needs: &[(
             "address",
             &["0x70", "0x71", "0xE2", "0xE4", "0x1E", "0x68", "0x48"],
@@ -119,13 +119,9 @@ pub(super) const KINDS: &[Kind] = &[
             "driver = lm75; address = 0x48;",
             "driver = tmp102; address = 0x4A;",
         ],
+        ..both("i2c", ANY)
     },
     Kind {
-        name: "digital",
-        is_sensor: true,
-        is_actuator: true,
-        types: LEVELS,
-        needs: &[],
         may: &[
             ("pull", &["none", "up", "down"], &["left"]),
             ("active", &["high", "low"], &["1"]),
@@ -134,24 +130,14 @@ pub(super) const KINDS: &[Kind] = &[
             ("initial", &["false", "true"], &["2"]),
         ],
         roles: &["pin"],
-        drivers: &[],
+        ..both("digital", LEVELS)
     },
     Kind {
-        name: "encoder",
-        is_sensor: true,
-        is_actuator: false,
-        types: NUMBERS,
-        needs: &[],
         may: &[("counts", &["2000", "1", "10000000"], &["0", "1e9"])],
         roles: &["a", "b"],
-        drivers: &[],
+        ..sensor("encoder", NUMBERS)
     },
     Kind {
-        name: "uart",
-        is_sensor: true,
-        is_actuator: true,
-        types: ANY,
-        needs: &[],
         may: &[
             ("baud", &["9600", "115200", "300", "10000000"], &["1", "9600 Hz"]),
             ("frame", &["\"8N1\"", "\"7E1\"", "\"8O1\""], &["\"9N1\"", "8"]),
@@ -161,14 +147,9 @@ pub(super) const KINDS: &[Kind] = &[
             ("tx", &["none"], &["5"]),
         ],
         roles: &["tx", "rx"],
-        drivers: &[],
+        ..both("uart", ANY)
     },
     Kind {
-        name: "spi",
-        is_sensor: true,
-        is_actuator: true,
-        types: ANY,
-        needs: &[],
         may: &[
             ("clock", &["1 MHz", "1 kHz", "100 MHz"], &["1 s", "0"]),
             ("mode", &["0", "3"], &["4"]),
@@ -176,14 +157,9 @@ pub(super) const KINDS: &[Kind] = &[
             ("length", &["6", "1024"], &["0"]),
         ],
         roles: &["sck", "miso", "mosi", "cs"],
-        drivers: &[],
+        ..both("spi", ANY)
     },
     Kind {
-        name: "pwm",
-        is_sensor: false,
-        is_actuator: true,
-        types: NUMBERS,
-        needs: &[],
         may: &[
             ("frequency", &["50 Hz", "20 kHz", "1 MHz", "1 Hz"], &["0", "20 ms"]),
             ("min", &["1 ms", "0"], &["-1 ms"]),
@@ -192,29 +168,21 @@ pub(super) const KINDS: &[Kind] = &[
         ],
         roles: &["pin"],
         drivers: &["driver = servo;"],
+        ..actuator("pwm", NUMBERS)
     },
     Kind {
-        name: "dac",
-        is_sensor: false,
-        is_actuator: true,
-        types: NUMBERS,
-        needs: &[],
         may: &[("failsafe", &["0", "4095"], &["off"])],
         roles: &["pin"],
-        drivers: &[],
+        ..actuator("dac", NUMBERS)
     },
     Kind {
-        name: "can",
-        is_sensor: true,
-        is_actuator: true,
-        types: ANY,
         needs: &[("frame", &["0x120", "0", "0x1FFFFFFF"], &["0x20000000", "-1"])],
         may: &[
             ("bitrate", &["500 kHz", "1 MHz", "10 kHz"], &["1 kHz"]),
             ("byte", &["0", "2", "63"], &["64"]),
         ],
         roles: &["tx", "rx"],
-        drivers: &[],
+        ..both("can", ANY)
     },
 ];
 

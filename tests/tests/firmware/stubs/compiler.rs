@@ -9,9 +9,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target, TargetProfile};
 use sensedsl_firmware_chibios::{Facts, Names};
+use sensedsl_tests::{has, root};
 
 use super::super::facts::Folder;
-use super::super::tools::{has, root, scratch};
+use super::super::tools::scratch;
 use super::same::key;
 
 /// The firmware of one board, and the macros for its MCU.

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::catalog;
-use sensedsl_tests::{files, is_exhaustive, read};
+use sensedsl_tests::{files, is_exhaustive, read, root};
 
-use super::super::tools::root;
 use super::compiler::{Firmware, compile_all, is_here, macros_of, profile_of};
 use super::designs::{Made, make};
 

@@ -3,13 +3,10 @@
 use std::collections::BTreeSet;
 
 use sensedsl_model::facts;
-use sensedsl_tests::{files, is_thorough, read};
+use sensedsl_tests::{files, is_thorough, read, root};
 
 use super::super::facts::Folder;
-use super::super::{
-    chibios,
-    tools::{root, scratch},
-};
+use super::super::{chibios, tools::scratch};
 use super::compiler::{Firmware, compile_all, is_here, macros_of};
 use super::designs::{Made, make};
 
