@@ -3,23 +3,12 @@
 
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{Scratch, binary, design, files, is_thorough, read, root, sensedsl, text};
+use sensedsl_tests::{Scratch, binary, files, is_thorough, read, root, sensedsl, text};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";
 const WRONG: &str =
     "board STM32F4DiscoveryBoard { sensor A returns uint16 { id = 0; type = analog; } }";
-
-/// Checks the exit status of a call with this standard input.
-#[track_caller]
-fn exits(arguments: &[&str], stdin: &str, status: i32) {
-    let ran = sensedsl(arguments).stdin(stdin).run();
-    let (out, err) = (&ran.stdout, &ran.stderr);
-    assert_eq!(ran.status, status, "{arguments:?}\nstdout: {out}\nstderr: {err}");
-    if status == 2 {
-        assert!(!err.is_empty(), "{arguments:?} fails without a word");
-    }
-}
 
 /// The commands that `--help` lists.
 fn commands(help: &str) -> impl Iterator<Item = &str> {
@@ -31,160 +20,16 @@ fn commands(help: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn exit_status_of_every_command() {
-    let scratch = Scratch::new("status");
-    let path = |name: &str| scratch.join(name).display().to_string();
-    let ten = design("STM32F4DiscoveryBoard", &["analog"; 10]);
-    let (new, out) = (path("new"), path("out"));
-    let full = path("full");
-    scratch.write("full/mine.txt", "mine");
-    let folder = scratch.path().display().to_string();
-    let cases: &[(&[&str], &str, i32)] = &[
-        (&["check", FIG2], "", 0),
-        (&["check", "-"], WRONG, 1),
-        (&["check", "-"], &ten, 1),
-        (&["check", FIG2, "examples/miniature_car.sense"], "", 0),
-        (&["check"], "", 2),
-        (&["check", "no such file"], "", 2),
-        (&["check", &folder], "", 2),
-        (&["check", FIG2, "--format", "yaml"], "", 2),
-        (&["solve", FIG2], "", 0),
-        (&["solve", "-"], WRONG, 1),
-        (&["solve", "-"], &ten, 1),
-        (&["solve", "-", "--any"], &ten, 1),
-        (&["solve", "-", "--count"], &ten, 1),
-        (&["solve", "-", "--all"], &ten, 1),
-        (&["solve", "no such file"], "", 2),
-        (&["solve", FIG2, "--keep", "no such file"], "", 2),
-        (&["solve", FIG2, "--keep", FIG2], "", 2),
-        (&["solve", FIG2, "--board", "no/such.csv"], "", 2),
-        (&["solve", FIG2, "--board", "nosuch"], "", 2),
-        (&["solve", FIG2, "--target", "nosuch"], "", 2),
-        (&["solve", FIG2, "--all", "--count"], "", 2),
-        (&["solve", FIG2, "--limit", "many"], "", 2),
-        (&["generate", FIG2, "-o", &out], "", 0),
-        (&["generate", FIG2, "-o", &out, "--check"], "", 0),
-        (&["generate", "examples/miniature_car.sense", "-o", &out, "--check"], "", 1),
-        (&["generate", "-", "-o", &out], WRONG, 1),
-        (&["generate", "-", "-o", &out], &ten, 1),
-        (&["generate", FIG2, "-o", &full], "", 1),
-        (&["generate", FIG2, "-o", &out, "--host", "nosuch"], "", 2),
-        (&["generate", FIG2, "-o", FIG2], "", 2),
-        (&["generate", FIG2], "", 2),
-        (&["explain"], "", 0),
-        (&["explain", "E0203"], "", 0),
-        (&["explain", "e0203"], "", 0),
-        (&["explain", "E9999"], "", 2),
-        (&["boards"], "", 0),
-        (&["boards", "STM32F407G-DISC1"], "", 0),
-        (&["boards", "nosuch"], "", 2),
-        (&["fmt", "-"], WRONG, 0),
-        (&["fmt", "-"], "board {", 1),
-        (&["fmt", "-", "--check"], WRONG, 1),
-        (&["fmt", FIG2, "--check"], "", 0),
-        (&["fmt", "no such file"], "", 2),
-        (&["new", &new], "", 0),
-        (&["new", &new], "", 0),
-        (&["new", &full], "", 2),
-        (&["new", &path("car.sense")], "", 2),
-        (&["new", &path("other"), "--board", "nosuch"], "", 2),
-        (&["build", "no such file"], "", 2),
-        (&["flash", "no such file"], "", 2),
-        (&["simulate", "-"], WRONG, 1),
-        (&["capacity", "-"], WRONG, 1),
-        (&["diff", "no such file", "no such file"], "", 2),
-        (&["parts", "-"], WRONG, 1),
-        (&["drivers"], "", 0),
-        (&["drivers", "nosuch"], "", 2),
-        (&["import", "no such file"], "", 2),
-        (&["completions", "bash"], "", 0),
-        (&["completions", "cobol"], "", 2),
-        (&["man"], "", 0),
-        (&["nosuch"], "", 2),
-        (&["--version"], "", 0),
-        (&["--help"], "", 0),
-        (&[], "", 2),
-    ];
+fn every_command_has_a_call_whose_exit_status_is_checked() {
+    let script = text("tests/scripts/command_line.txt");
+    let rows: Vec<&str> =
+        script.lines().filter_map(|line| Some(line.split_once(" | ")?.1)).collect();
     let help = sensedsl(["--help"]).run().exits(0).stdout;
+    assert!(commands(&help).count() > 10, "{help}");
     for command in commands(&help) {
-        assert!(cases.iter().any(|case| case.0.first() == Some(&command)), "no case of {command}");
+        let is_called = |row: &&str| row.split_whitespace().next() == Some(command);
+        assert!(rows.iter().any(|row| is_called(row)), "no row of {command}");
     }
-    for (arguments, stdin, status) in cases {
-        exits(arguments, stdin, *status);
-    }
-}
-
-/// Shells complete built-in boards where only a board can come, and any name of a board is
-/// accepted.
-#[test]
-fn names_of_boards_are_completed() {
-    let script = sensedsl(["completions", "bash"]).run().exits(0).stdout;
-    let lists = script.lines().filter(|line| line.contains("ARDUINO-UNO-R3")).count();
-    assert_eq!(lists, 2, "`boards NAME` and `new --board`");
-    let help = sensedsl(["new", "--help"]).run().exits(0).stdout;
-    assert!(!help.contains("ARDUINO-UNO-R3"), "{help}");
-    let of_alias = sensedsl(["boards", "uno_r3"]).run().exits(0).stdout;
-    assert_eq!(of_alias, sensedsl(["boards", "ARDUINO-UNO-R3"]).run().exits(0).stdout);
-}
-
-#[test]
-fn result_and_messages_go_to_their_own_streams() {
-    let ran = sensedsl(["solve", FIG2, "--format", "json"]).run().exits(0);
-    assert!(ran.json().is_object());
-    assert!(ran.stderr.contains("W0602"), "{}", ran.stderr);
-    let quiet = sensedsl(["solve", FIG2, "--format", "json", "-q"]).run().exits(0);
-    assert_eq!(quiet.stdout, ran.stdout);
-    assert_eq!(quiet.stderr, "");
-    let check = sensedsl(["check", FIG2, "--format", "json"]).run().exits(0);
-    assert_eq!(check.stderr, "");
-    let quiet = sensedsl(["-q", "check", FIG2]).run().exits(0);
-    assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
-    let quiet = sensedsl(["check", "-", "-q"]).stdin(WRONG).run().exits(1);
-    assert!(quiet.stderr.contains("error[E0211]"), "errors are said even so: {}", quiet.stderr);
-}
-
-#[test]
-fn diagnostics_as_json_have_the_fixed_form() {
-    let ran = sensedsl(["check", "-", "--format", "json"]).stdin(WRONG).run().exits(1);
-    let value = ran.json();
-    let one = &value["diagnostics"][0];
-    let keys: Vec<&str> = one.as_object().unwrap().keys().map(String::as_str).collect();
-    assert_eq!(keys[..7], ["code", "severity", "message", "file", "start", "end", "help"]);
-    assert_eq!(one["code"], "E0211");
-    assert_eq!(one["severity"], "error");
-    assert_eq!(one["file"], "<stdin>");
-    assert_eq!(one["start"], serde_json::json!({ "line": 1, "column": 62 }));
-    assert_eq!(one["end"], serde_json::json!({ "line": 1, "column": 63 }));
-    let clean = design("STM32F4DiscoveryBoard", &["analog"]);
-    let ran = sensedsl(["check", "-", "--format", "json"]).stdin(clean).run().exits(0);
-    assert_eq!(ran.json(), serde_json::json!({ "diagnostics": [] }));
-}
-
-#[test]
-fn sarif_and_github_say_the_same_places() {
-    let sarif = sensedsl(["check", "-", "--format", "sarif"]).stdin(WRONG).run().exits(1).json();
-    assert_eq!(sarif["version"], "2.1.0");
-    let result = &sarif["runs"][0]["results"][0];
-    assert_eq!(result["ruleId"], "E0211");
-    let region = &result["locations"][0]["physicalLocation"]["region"];
-    assert_eq!((region["startLine"].as_u64(), region["startColumn"].as_u64()), (Some(1), Some(62)));
-    let github = sensedsl(["check", "-", "--format", "github"]).stdin(WRONG).run().exits(1).stdout;
-    assert!(github.starts_with("::error file=<stdin>,line=1,endLine=1,col=62"), "{github}");
-    let two = sensedsl(["check", FIG2, FIG2, "--format", "sarif"]).run().exits(0).json();
-    assert_eq!(two["runs"].as_array().map(Vec::len), Some(2));
-}
-
-#[test]
-fn the_standard_input_is_a_file_like_any_other() {
-    let from_file = sensedsl(["solve", FIG2, "-q"]).run().exits(0).stdout;
-    let from_stdin = sensedsl(["solve", "-", "-q"]).stdin(text(FIG2)).run().exits(0).stdout;
-    assert_eq!(from_file, from_stdin);
-    let table = text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
-    let ran = sensedsl(["solve", FIG2, "-q", "--board", "-"]).stdin(table).run().exits(0);
-    assert_eq!(ran.stdout, from_file);
-    let kept = sensedsl(["solve", FIG2, "-q", "--format", "json"]).run().exits(0).stdout;
-    let ran = sensedsl(["solve", FIG2, "-q", "--keep", "-"]).stdin(kept).run().exits(0);
-    assert_eq!(ran.stdout, from_file);
 }
 
 #[test]
@@ -323,8 +168,11 @@ fn files_that_are_none_are_refused_in_words() {
     let table = scratch.write("latin1.csv", b"Pin,ADC\nPA1,K\xfchler\n").display().to_string();
     let ran = sensedsl(["solve", FIG2, "--board", &table]).run().exits(2);
     assert!(ran.stderr.contains("E0302") && ran.stderr.contains("UTF-8"), "{}", ran.stderr);
-    let endless = sensedsl(["check", "/dev/zero"]).run().exits(2);
-    assert!(endless.stderr.contains("it is a device"), "{}", endless.stderr);
+    // The importer guesses.
+    let latin1 = sensedsl(["import", "-"]).stdin(*b"Pin;I\xb2C\nPB6;I2C1-SCL\n").run().exits(0);
+    assert!(latin1.stdout.contains("I²C") && latin1.stderr.contains("B1: byte 5 (0xB2)"));
+    let binary = sensedsl(["import", "-"]).stdin(*b"\x7fELF\x00\x01").run().exits(1);
+    assert!(binary.stdout.is_empty() && binary.stderr.contains("E0801"));
 }
 
 #[test]
@@ -381,28 +229,4 @@ fn a_chip_is_explained() {
     }
     let unknown = sensedsl(["explain", "wiring", &file, "Lef"]).run().exits(2).stderr;
     assert!(unknown.contains("no device or chip Lef; did you mean Left?"), "{unknown}");
-}
-
-/// Without a system, a timer's channel is a signal by itself, and rules about units apply to the
-/// timer that it names.
-#[test]
-fn a_wish_for_a_timer_decides_between_the_signals_of_a_pin() {
-    let of = |wish: &str| {
-        let text = format!(
-            "board STM32F407G_DISC1 {{ target = none; actuator P accepts uint16 {{ type = pwm; pin = PA1; {wish} }} }}"
-        );
-        let ran = sensedsl(["solve", "-", "-q", "--format", "json"]).stdin(text).run().exits(0);
-        let answer = ran.json();
-        let wire = answer["boards"][0]["devices"][0]["wires"][0]["signal"].clone();
-        (wire.as_str().unwrap_or_default().to_owned(), answer["violated"].clone())
-    };
-    for (wish, signal) in [
-        ("", "TIM2_CH2"),
-        ("prefer unit = TIM5;", "TIM5_CH2"),
-        ("avoid unit = TIM2;", "TIM5_CH2"),
-        ("avoid unit = TIM5;", "TIM2_CH2"),
-    ] {
-        let (found, violated) = of(wish);
-        assert_eq!(found, signal, "{wish}: {violated}");
-    }
 }

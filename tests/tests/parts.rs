@@ -53,8 +53,6 @@ fn filters_leave_what_they_say() {
         assert!(word(line, "part").starts_with("STM32G0"), "{line}");
         assert!(["LQFP32", "LQFP48"].contains(&word(line, "package")), "{line}");
     }
-    let none = sensedsl(["parts", "examples/fig2.sense", "--family", "Z80"]).run().exits(2);
-    assert!(none.stderr.contains("no part and no board fits the filters"), "{}", none.stderr);
 }
 
 #[test]
@@ -66,11 +64,6 @@ fn parts_that_cannot_carry_the_devices_are_left_out() {
     assert!(lines.iter().any(|line| word(line, "part").starts_with("STM32F103C8")));
     // The 36-pin packages have CAN only on PA11 and PA12.
     assert!(!lines.iter().any(|line| word(line, "part").starts_with("STM32F103T")));
-    let many = design("X", &["dac"; 3]);
-    let file = scratch.write("many.sense", many);
-    let none =
-        sensedsl(["parts", "--family", "STM32F103", "--target", "none"]).arg(file).run().exits(1);
-    assert!(none.stdout.contains("\n0 of "), "{}", none.stdout);
 }
 
 /// The reader of a pipe need not wait for the last part. The rows are those of the sorted list, in
@@ -109,18 +102,6 @@ fn a_mistake_in_the_file_is_told() {
     let wrong = "board X {\n    sensor A returns uint16 { id = 1; type = analgo; }\n}\n";
     let ran = sensedsl(["parts", "-"]).stdin(wrong).run().exits(1);
     assert!(ran.stdout.is_empty() && ran.stderr.matches("analgo").count() <= 3, "{}", ran.stderr);
-}
-
-#[test]
-fn lists_can_be_searched() {
-    let list = sensedsl(["parts", "--list", "g031j6 so8n"]).run().exits(0).stdout;
-    assert!(list.contains("STM32G031J6M6") && list.contains("\n1 part;"), "{list}");
-    let all = sensedsl(["parts", "--list"]).run().exits(0).stdout;
-    assert!(all.lines().count() > 2_000);
-    let table = sensedsl(["parts", "--table", "stm32g031j6m6"]).run().exits(0).stdout;
-    assert!(table.starts_with("# mcu = STM32G031J6M6\n# package = SO8N\nPin,"), "{table}");
-    let slip = sensedsl(["parts", "--table", "STM32F407VGT66"]).run().exits(2);
-    assert!(slip.stderr.contains("did you mean STM32F407VGT6?"), "{}", slip.stderr);
 }
 
 #[test]
@@ -176,8 +157,6 @@ fn cores_and_memory_narrow_and_sort() {
     let both = list(&["--list", "stm32h745zit6"]);
     assert_eq!(both[0]["cores"], serde_json::json!(["Cortex-M7", "Cortex-M4"]));
     assert_eq!(both[0]["numbers"][0], "STM32H745ZIT6");
-    let none = sensedsl(["parts", "--list", "--sort", "cost"]).run().exits(2);
-    assert!(none.stderr.contains("sort by pins, flash or ram"), "{}", none.stderr);
 }
 
 fn has_core(part: &Value, name: &str) -> bool {
@@ -190,6 +169,7 @@ fn tables_are_as_wide_as_a_terminal() {
     let list = sensedsl(["parts", "--list"]).run().exits(0).stdout;
     let found = sensedsl(["parts", "examples/fig2.sense", "--package", "64", "--target", "none"]);
     let found = found.run().exits(0).stdout;
+    assert!(list.lines().count() > 2_000);
     for line in list.lines().chain(found.lines()) {
         assert!(line.chars().count() <= 80, "{line}");
     }
@@ -198,15 +178,6 @@ fn tables_are_as_wide_as_a_terminal() {
     let f446 = words(row("NUCLEO-F446RE "));
     assert_eq!(f446[1..], ["STM32F446RET6", "NUCLEO-F446RE", "M4", "512", "128", "pins", "only"]);
     assert_eq!(words(row("STM32F105RBT6 "))[2..6], ["LQFP64", "M3", "128", "64"]);
-    let pico = sensedsl(["parts", "examples/fig2.sense", "--family", "RP2040"]).run().exits(0);
-    assert!(pico.stdout.contains("ext: the flash is a chip beside the part"), "{}", pico.stdout);
-}
-
-#[test]
-fn what_was_found_is_printed_when_time_is_over() {
-    let ran = sensedsl(["parts", "examples/fig2.sense", "--timeout", "0"]).run().exits(1);
-    assert!(ran.stdout.contains("0 of 0 parts and boards"), "{}", ran.stdout);
-    assert!(ran.stderr.contains("stopped: ") && ran.stderr.contains(" were not looked at"));
 }
 
 #[cfg(unix)]

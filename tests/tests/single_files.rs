@@ -1,9 +1,7 @@
-//! Promises about the single files that commands write: a file is written completely or not at all,
-//! no file of the user's is replaced without `--force`, and links, modes, devices and pipes are
-//! respected.
+//! Promises about the single files that commands write: links, modes, devices and pipes are
+//! respected. The others are in `scripts/single_files.txt`.
 
 use std::fs;
-use std::path::Path;
 
 use sensedsl_tests::{Scratch, read, sensedsl};
 
@@ -19,85 +17,6 @@ fn names(scratch: &Scratch) -> Vec<String> {
         entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     names
-}
-
-#[test]
-fn import_replaces_nothing_unasked() {
-    let scratch = Scratch::new("import-over");
-    let project = scratch.write("rover.ioc", PROJECT);
-    let out = scratch.join("out.sense");
-    let import = || sensedsl(["import", "-q"]).arg(&project).arg("-o").arg(&out);
-    // The table beside the result is not replaced either, and then no file is written at all.
-    let table = scratch.write("out.csv", "years of work");
-    let ran = import().run().exits(2);
-    assert!(
-        ran.stderr.contains("error[E0508]") && ran.stderr.contains("out.csv"),
-        "{}",
-        ran.stderr
-    );
-    assert!(ran.stderr.contains("--force"), "{}", ran.stderr);
-    assert_eq!((read(&table).as_str(), out.exists()), ("years of work", false));
-    let _ = import().arg("--force").run().exits(0);
-    assert!(read(&table).starts_with("# mcu") && out.exists(), "{}", read(&table));
-    // Importing the same again is no conflict; nor is a missing file of the two, nor an empty one.
-    let _ = import().run().exits(0);
-    fs::remove_file(&out).unwrap();
-    let _ = import().run().exits(0);
-    fs::write(&table, "").unwrap();
-    let _ = import().run().exits(0);
-    fs::write(&out, "mine").unwrap();
-    let ran = import().run().exits(2);
-    assert!(ran.stderr.contains("out.sense"), "{}", ran.stderr);
-    assert_eq!(read(&out), "mine");
-    assert_eq!(names(&scratch), ["out.csv", "out.sense", "rover.ioc"]);
-    // A result that cannot be written leaves the table unwritten.
-    let folder = scratch.join("folder.sense");
-    fs::create_dir(&folder).unwrap();
-    let ran = sensedsl(["import", "-q", "--force"]).arg(&project).arg("-o").arg(&folder).run();
-    assert_eq!((ran.status, scratch.join("folder.csv").exists()), (2, false), "{}", ran.stderr);
-    let printed = sensedsl(["import", "-q"]).arg(&project).args(["-o", "-"]).run().exits(0).stdout;
-    assert_eq!(printed, sensedsl(["import", "-q"]).arg(&project).run().exits(0).stdout);
-}
-
-#[test]
-fn new_replaces_nothing_unasked() {
-    let scratch = Scratch::new("new-over");
-    let dir = scratch.join("robot");
-    let new = || sensedsl(["new", "-q"]).arg(&dir);
-    let _ = new().run().exits(0);
-    let first = read(&dir.join("robot.sense"));
-    let _ = new().run().exits(0);
-    scratch.write("robot/robot.sense", "mine");
-    let ran = new().run().exits(2);
-    assert!(ran.stderr.contains("error[E0508]"), "{}", ran.stderr);
-    assert_eq!(read(&dir.join("robot.sense")), "mine");
-    scratch.write("robot/robot.sense", &first);
-    scratch.write("robot/notes.txt", "notes");
-    let ran = new().run().exits(2);
-    assert!(ran.stderr.contains("notes.txt") && ran.stderr.contains("--force"), "{}", ran.stderr);
-    scratch.write("robot/robot.sense", "mine");
-    let _ = new().arg("--force").run().exits(0);
-    assert_eq!(read(&dir.join("robot.sense")), first);
-    assert_eq!(read(&dir.join("notes.txt")), "notes");
-}
-
-#[test]
-fn a_certificate_replaces_a_certificate_and_nothing_else() {
-    let scratch = Scratch::new("proof-over");
-    let proof = scratch.join("proof.json");
-    let solve = || sensedsl(["solve", "-q", FIG2, "--proof"]).arg(&proof);
-    let _ = solve().run().exits(0);
-    let _ = solve().arg("--keep").arg(scratch.write("a.json", answer())).run().exits(0);
-    fs::write(&proof, "{ \"mine\": true }").unwrap();
-    let ran = solve().run().exits(2);
-    assert!(ran.stderr.contains("error[E0508]") && ran.stdout.is_empty(), "{}", ran.stderr);
-    assert_eq!(read(&proof), "{ \"mine\": true }");
-    let _ = solve().arg("--force").run().exits(0);
-    assert!(read(&proof).contains("SenseDSL certificate"));
-}
-
-fn answer() -> String {
-    sensedsl(["solve", "-q", FIG2, "--format", "json"]).run().exits(0).stdout
 }
 
 #[cfg(unix)]
@@ -156,17 +75,6 @@ fn devices_and_pipes_are_written_to() {
     assert_eq!(reader.join().unwrap(), printed);
     assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
     assert_eq!(names(&scratch), ["pipe", "rover.ioc"]);
-}
-
-#[test]
-fn what_was_left_behind_is_removed_by_the_next_who_writes_the_file() {
-    let scratch = Scratch::new("leftovers");
-    let file = scratch.write("robot.sense", UNTIDY);
-    scratch.write(".robot.sense.sensedsl-part-1-0", "half of i");
-    scratch.write(".other.sense.sensedsl-part-1-0", "somebody else's");
-    let _ = sensedsl(["fmt", "-q"]).arg(&file).run().exits(0);
-    assert_eq!(names(&scratch), [".other.sense.sensedsl-part-1-0", "robot.sense"]);
-    assert!(Path::new(&file).is_file());
 }
 
 #[test]

@@ -33,95 +33,6 @@ fn said(diagnostics: &[Diagnostic]) -> Vec<(&'static str, &str)> {
     diagnostics.iter().map(|one| (said(one), one.help.as_deref().unwrap_or_default())).collect()
 }
 
-/// The shortest delay that the message proposes, after a check that it is sufficient: with this
-/// delay there is no error.
-fn shortest(properties: &str, ty: &str, delay_ms: u32) -> u32 {
-    let device = |delay_ms: u32| sensor(1, ty, &format!("{properties} delay = {delay_ms} ms;"));
-    let fast = |devices: &str| {
-        on("STM32F407G_DISC1", &format!("link {{ transport = uart; baud = 2625000; }} {devices}"))
-    };
-    let (_, diagnostics) = fast(&device(delay_ms));
-    let [("E0621", help)] = said(&diagnostics)[..] else { panic!("{diagnostics:#?}") };
-    let least = help.split("`delay = ").nth(1).unwrap().split(' ').next().unwrap();
-    let least_ms: u32 = least.parse().unwrap();
-    let errors = |delay_ms| {
-        let (_, diagnostics) = fast(&device(delay_ms));
-        diagnostics.iter().any(|one| one.severity == Severity::Error)
-    };
-    assert!(!errors(least_ms) && errors(least_ms - 1), "{least_ms} is not the shortest");
-    least_ms
-}
-
-#[test]
-fn a_delay_that_cannot_be_kept_is_refused_with_the_shortest_that_can() {
-    // 2048 conversions of 492 clocks at 21 MHz take 23.99 ms for a sensor.
-    assert_eq!(shortest("analog; samples = 1024; sampling = 480;", "uint16", 1), 25);
-    // 1027 bytes of 9 clocks and three conditions at 100 kHz take 92.5 ms, and their values take
-    // 0.6 ms of processor time.
-    assert_eq!(
-        shortest("i2c; address = 0x20; register = 0; length = 1024;", "uint8[1024]", 10),
-        94
-    );
-}
-
-#[test]
-fn what_shares_a_unit_is_added_up() {
-    let two = |delay_ms| {
-        sensor(1, "uint8[512]", &format!("i2c; address = 0x20; unit = I2C1; delay = {delay_ms};"))
-            + &sensor(2, "uint8[512]", "i2c; address = 0x21; unit = I2C1; delay = 100;")
-    };
-    let link = |devices: &str| {
-        on("STM32F407G_DISC1", &format!("link {{ transport = uart; baud = 921600; }} {devices}")).1
-    };
-    assert_eq!(
-        said(&link(&two(150))),
-        [(
-            "W0623",
-            "give it longer cycle times; `sensedsl explain timing` says what takes how long"
-        )]
-    );
-    let refused = link(&two(60));
-    assert_eq!(refused[0].code.info().code, "E0621");
-    assert!(refused[0].message.contains("I2C1 is asked to be busy 123 %"), "{refused:#?}");
-    assert!(refused[0].help.as_ref().unwrap().contains("`delay = 86 ms;`"), "{refused:#?}");
-}
-
-#[test]
-fn clocks_that_cannot_be_made_are_refused_with_one_that_can() {
-    let i2c = |speed: &str| sensor(1, "uint8", &format!("i2c; address = 0x20; speed = {speed};"));
-    let icu = |tick: &str| sensor(1, "uint32", &format!("icu; unit = TIM4; resolution = {tick};"));
-    let refused = [
-        (i2c("1 kHz"), "`speed = 5250 Hz;`"),
-        (icu("13 kHz"), "`resolution = 13125 Hz;`"),
-        (icu("1 Hz"), "`resolution = 1344 Hz;`"),
-        (sensor(1, "uint16", "analog; sampling = 481;"), "`sampling = 480;`"),
-        (sensor(1, "uint8", "spi; clock = 1 kHz;"), "`clock = "),
-        (sensor(1, "uint8", "uart; baud = 10000000;"), "within 2 %"),
-        (sensor(1, "uint8", "can; frame = 1; bitrate = 800 kHz;"), "807692 Hz"),
-    ];
-    for (device, way_out) in refused {
-        let (_, diagnostics) = discovery(&device);
-        let [("E0620", help)] = said(&diagnostics)[..] else { panic!("{device}{diagnostics:#?}") };
-        assert!(help.contains(way_out), "{help}");
-    }
-    for device in [i2c("300 kHz"), i2c("5250 Hz"), i2c("1 MHz"), icu("84 MHz")] {
-        assert_eq!(said(&discovery(&device).1), [], "{device}");
-    }
-    // 79.96 MHz has no divisor for exactly one microsecond; 999,500 ticks per second are near
-    // enough.
-    for (tick, codes) in [("1 us", &[][..]), ("900 kHz", &["E0620"])] {
-        let wheel = sensor(1, "uint32", &format!("icu; mode = width; resolution = {tick};"));
-        let (_, diagnostics) = on("NUCLEO_L432KC", &wheel);
-        let found: Vec<&str> = diagnostics.iter().map(|one| one.code.info().code).collect();
-        assert_eq!(found, codes, "{tick}");
-    }
-    for baud in ["10000000", "3000000"] {
-        let link = format!("link {{ transport = uart; unit = USART2; baud = {baud}; }}");
-        let (_, diagnostics) = on("STM32F407G_DISC1", &(link + &sensor(1, "uint16", "analog;")));
-        assert_eq!(said(&diagnostics)[0].0, "E0620", "{baud}");
-    }
-}
-
 #[test]
 fn the_exact_clock_is_in_the_table() {
     let hz = |asked: &str| {
@@ -132,17 +43,6 @@ fn the_exact_clock_is_in_the_table() {
     };
     assert_eq!(hz("300 kHz"), Some(280_000));
     assert_eq!(hz("400 kHz"), Some(400_000));
-}
-
-#[test]
-fn a_link_that_is_too_slow_is_refused() {
-    let block = sensor(1, "uint8[512]", "i2c; address = 0x20; speed = 400 kHz; delay = 20;");
-    let link = |baud| format!("link {{ transport = uart; unit = USART2; baud = {baud}; }}{block}");
-    assert_eq!(said(&on("STM32F407G_DISC1", &link(115_200)).1)[0].0, "E0622");
-    assert_eq!(said(&on("STM32F407G_DISC1", &link(921_600)).1), []);
-    // With a rate, values are left out instead.
-    let rated = link(115_200).replace("}s", "rate = 10 Hz; }s");
-    assert_eq!(said(&on("STM32F407G_DISC1", &rated).1), []);
 }
 
 /// Memory that the linker would refuse.
