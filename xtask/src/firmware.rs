@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     if options.scratch.is_none() {
         std::fs::remove_dir_all(&scratch).with_context(|| scratch.display().to_string())?;
     }
-    let page = table::page(&done);
+    let page = table::page(&done)?;
     if options.write {
         std::fs::write(PAGE, &page).context(PAGE)?;
     } else {

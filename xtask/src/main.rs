@@ -22,7 +22,7 @@ mod web;
 use std::io::Write as _;
 use std::process::{Command, ExitCode};
 
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
 
 fn main() -> ExitCode {
     match run() {
@@ -79,6 +79,13 @@ fn bless() -> Result<()> {
         }
     }
     say("blessed; now read the difference\n")
+}
+
+/// A page up to this mark, with its line end: what is above a table belongs to the page alone.
+fn head(page: &str, mark: &str) -> Result<String> {
+    let text = std::fs::read_to_string(page).with_context(|| page.to_owned())?;
+    let (head, _) = text.split_once(mark).with_context(|| format!("{page} has no table"))?;
+    Ok(format!("{head}\n"))
 }
 
 /// Prints a task's output.

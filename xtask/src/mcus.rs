@@ -99,9 +99,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         let printed = file(mcu, &chips).with_context(|| mcu.largest)?;
         let name = mcu.parts.first().context("no parts")?.to_lowercase();
         let path = folder.join(format!("{name}.toml"));
-        if !is_check {
-            sources::write(&path, printed.as_bytes())?;
-        } else if std::fs::read_to_string(&path).ok().as_deref() != Some(&printed) {
+        if !sources::is_fresh(&path, &printed, is_check)? {
             stale.push(name);
         }
     }

@@ -13,57 +13,19 @@ use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::catalog;
 use sensedsl_board::profile;
 use sensedsl_firmware_embassy::profile_of;
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 
-use crate::say;
+use crate::parts::metapac::between;
+use crate::{head, say};
 
 const USAGE: &str = "cargo xtask typecheck [--boards A,B] [--write]";
 
 /// The page that a run writes; the rows of other boards stay.
 const PAGE: &str = "docs/typecheck.md";
 
-/// The devices that are required of every board, as far as it has them: the kind and the device.
-const DEMAND: [(&str, &str); 13] = [
-    ("analog", "sensor Light returns uint16 { id = 1; type = analog; }"),
-    ("analog", "sensor Battery returns uint16 { id = 2; type = analog; }"),
-    (
-        "i2c",
-        "sensor Range returns uint16 { id = 3; type = i2c; address = 0x70; register = 2; length = 2; }",
-    ),
-    ("icu", "sensor Wheel returns uint32 { id = 4; type = icu; }"),
-    ("encoder", "sensor Turns returns int32 { id = 5; type = encoder; }"),
-    ("uart", "sensor Place returns uint16 { id = 6; type = uart; length = 2; }"),
-    (
-        "spi",
-        "sensor Gyro returns uint16 { id = 7; type = spi; clock = 2 MHz; read = [0]; length = 2; }",
-    ),
-    ("pwm", "actuator Servo accepts uint16 { id = 8; type = pwm; frequency = 50 Hz; }"),
-    ("pwm", "actuator Motor accepts uint16 { id = 9; type = pwm; frequency = 50 Hz; }"),
-    ("digital", "sensor Touch returns bool { id = 10; type = digital; edge = both; }"),
-    ("digital", "sensor Door returns bool { id = 11; type = digital; }"),
-    ("can", "sensor Speed returns uint16 { id = 12; type = can; frame = 1; }"),
-    ("dac", "actuator Level accepts uint16 { id = 13; type = dac; }"),
-];
-
-const HEAD: &str = "# Wirings judged by types
-
-One demand on every built-in board with an MCU that Embassy knows: two `analog`, one `i2c`, `icu`, `encoder`, `uart`,
-`spi`, `can` and `dac`, two `pwm`, and two `digital`, one of them with an edge, and the board's link. It is wired for
-ChibiOS where that covers the board and for Embassy elsewhere. [`sensedsl check
---typecheck`](firmware.md#in-rust-on-embassy) puts the wiring into types, and the Rust compiler takes or refuses it: the
-types are made from ST's data by other people. [seeded-mistakes.md](seeded-mistakes.md) says which mistakes they notice.
-
-`cargo xtask typecheck --write` writes this page, with `--boards A,B` the rows of these boards. A chip takes some ten
-seconds of a processor the first time, and a second or two after that. *Lines* is how many lines of wiring the compiler
-takes. *Left out* is what the board has no free unit or pin for beside the rest, or its system no driver. *Not judged*
-is what the HAL has no types for.
-";
-
-const COLUMNS: &str = "
-| board | MCU | wired for | lines | left out | not judged |
-| --- | --- | --- | ---: | --- | --- |
-";
+/// The devices that are required of every board, as far as it has them.
+const DEMAND: &str = include_str!("typecheck.txt");
 
 /// A board and its result.
 struct Done {
@@ -109,8 +71,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         }
     }
     ensure!(!done.is_empty(), "there is no such board with an MCU that Embassy knows");
-    let earlier = boards.is_some().then(|| std::fs::read_to_string(PAGE)).transpose();
-    let page = page(&done, &earlier.context(PAGE)?.unwrap_or_default());
+    let page = page(&done, boards.is_some())?;
     if is_written {
         std::fs::write(PAGE, &page).context(PAGE)?;
     } else {
@@ -124,11 +85,11 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
 fn judge(tool: &Path, board: &'static str, mcu: &'static str) -> Result<Done> {
     let target = profile::usual(mcu);
     let (mut taken, mut left_out) = (Vec::new(), Vec::new());
-    for (name, device) in DEMAND {
+    for device in DEMAND.lines() {
         taken.push(device);
         if !has_wiring(&design(board, &taken), target) {
             let _ = taken.pop();
-            left_out.push(name);
+            left_out.extend(between(device, "type = ", ";"));
         }
     }
     let outcome = check(tool, &design(board, &taken), target)?;
@@ -140,21 +101,12 @@ fn design(board: &str, devices: &[&str]) -> String {
     format!("board {board} {{\n    {}\n}}\n", devices.join("\n    "))
 }
 
-/// The files of a design, which names no others.
-struct Alone;
-
-impl Files for Alone {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
-
 fn has_wiring(text: &str, target: &str) -> bool {
     const NAME: &str = "demand.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);
     let on = On { board: None, target: Some(target) };
-    let snapshot = workspace.snapshot(NAME, on, &Alone);
+    let snapshot = workspace.snapshot(NAME, on, &NoFiles);
     snapshot.solve(&Ask::default()).wired().is_some()
 }
 
@@ -193,11 +145,12 @@ fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
 }
 
 /// The page: a row for each board, from this run or from the page as it was.
-fn page(done: &[Done], earlier: &str) -> String {
+fn page(done: &[Done], is_part: bool) -> Result<String> {
+    let earlier = std::fs::read_to_string(PAGE).context(PAGE)?;
     let board_of = |row: &str| row.split(" | ").next().unwrap_or_default().to_owned();
-    let rows = earlier.lines().filter(|line| line.starts_with("| ") && !COLUMNS.contains(line));
+    let rows = earlier.lines().filter(|line| line.starts_with("| ")).skip(2);
     let mut rows: BTreeMap<String, String> =
-        rows.map(|row| (board_of(row), row.to_owned())).collect();
+        rows.filter(|_| is_part).map(|row| (board_of(row), row.to_owned())).collect();
     for one in done {
         let (lines, unjudged) = match &one.outcome {
             Outcome::Taken(lines, unjudged) => (lines.to_string(), unjudged.join(", ")),
@@ -213,5 +166,9 @@ fn page(done: &[Done], earlier: &str) -> String {
     let refused = rows.values().filter(|row| row.contains("**refused**")).count();
     let table: String = rows.values().map(|row| format!("{row}\n")).collect();
     let count = rows.len();
-    format!("{HEAD}{COLUMNS}{table}\n{} of {count} boards are taken.\n", count - refused)
+    let head = head(PAGE, "\n| board | ")?;
+    let columns = "| board | MCU | wired for | lines | left out | not judged |";
+    let line = "| --- | --- | --- | ---: | --- | --- |";
+    let taken = count - refused;
+    Ok(format!("{head}{columns}\n{line}\n{table}\n{taken} of {count} boards are taken.\n"))
 }

@@ -43,9 +43,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     for (family, chips) in &families {
         let text = print::file(&facts, family, chips, &folder)?;
         let path = target.join(format!("{}.toml", family.to_lowercase()));
-        if !is_check {
-            sources::write(&path, text.as_bytes())?;
-        } else if std::fs::read_to_string(&path).ok().as_deref() != Some(&text) {
+        if !sources::is_fresh(&path, &text, is_check)? {
             stale.push(family.as_str());
         }
     }

@@ -10,8 +10,8 @@ use sensedsl_board::table::release_name;
 use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_files::FileSet;
 use sensedsl_generate::target;
+use sensedsl_model::NoFiles;
 use sensedsl_model::design::Transport;
-use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wiring::{Repair, Solved};
 
@@ -221,21 +221,12 @@ fn read(path: &str) -> Result<String> {
     std::fs::read_to_string(root.join(path)).with_context(|| path.to_owned())
 }
 
-/// The files of a design, which names no others.
-struct Alone;
-
-impl Files for Alone {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
-
 /// Solves a design and generates its firmware.
 fn firmware(text: &str, on: On<'_>) -> Made {
     const NAME: &str = "cell.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);
-    let snapshot = workspace.snapshot(NAME, on, &Alone);
+    let snapshot = workspace.snapshot(NAME, on, &NoFiles);
     let answer = snapshot.solve(&Ask::default());
     let Some((design, wiring)) = answer.wired() else {
         return Made::NoWiring(first(&answer.diagnostics), helps(answer.solved.as_ref()));

@@ -15,21 +15,12 @@ use sensedsl_files::FileSet;
 
 use super::cells::{self, Made, Notes};
 use super::table::wrapped;
-use crate::say;
+use crate::{head, say};
 
 const USAGE: &str = "cargo xtask firmware --embassy [--boards A,B] [--scratch FOLDER] [--write]";
 const TARGET: &str = "embassy";
 /// The page that a complete run writes.
 const PAGE: &str = "docs/embassy-boards.md";
-
-const HEAD: &str = "# Firmware for Embassy, board by board
-
-Each line is the whole firmware of a board with a device of each kind that the board's MCU has, as far as they fit on
-its pins together ([designs](../tests/firmware/kinds)), generated, and judged by the Rust compiler on a PC: types, pins,
-units, DMA channels and interrupts, but neither instructions nor linking. `*`: over a serial port, because nothing makes
-the clock of USB. `cargo xtask firmware --embassy --write` writes this page. What lacks is told by the tool before
-anything is written.
-";
 
 /// The options of a call.
 #[derive(Default)]
@@ -87,7 +78,7 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
     }
     ensure!(!done.is_empty(), "{TARGET} covers no such board");
     if options.write {
-        std::fs::write(PAGE, page(&done)).context(PAGE)?;
+        std::fs::write(PAGE, page(&done)?).context(PAGE)?;
     }
     let refused = done.iter().filter(|one| one.refused.is_some()).count();
     ensure!(refused == 0, "{refused} of {} boards are refused", done.len());
@@ -166,9 +157,9 @@ fn find(project: &Path) -> Option<PathBuf> {
     manifest.filter(|path| path.is_file())
 }
 
-fn page(done: &[Done]) -> String {
-    let mut page = HEAD.to_owned();
-    page.push_str("\n| board | MCU | kinds | no room for | |\n| --- | --- | --- | --- | --- |\n");
+fn page(done: &[Done]) -> Result<String> {
+    let mut page = head(PAGE, "\n| board | ")?;
+    page.push_str("| board | MCU | kinds | no room for | |\n| --- | --- | --- | --- | --- |\n");
     for one in done {
         let state = if one.refused.is_some() { "**refused**" } else { "taken" };
         let (board, mcu, notes) = (one.board, one.mcu, &one.notes);
@@ -195,5 +186,5 @@ fn page(done: &[Done]) -> String {
     for (gap, boards) in gaps {
         page.push_str(&wrapped(&format!("- {gap}: {}", boards.join(", "))));
     }
-    page
+    Ok(page)
 }

@@ -3,31 +3,22 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use anyhow::Result;
+
 use super::cells::{ALL, KINDS};
-use super::{Done, Outcome};
-
-const HEAD: &str = "# Firmware, board by board
-
-Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
-by `cargo xtask firmware --matrix`. A cell says text, data and bss of the development build in bytes, with shell and
-link. The heap, which is whatever is left, is not counted; link-time optimisation, which saves another tenth, is off.
-`all` is a design with all kinds that the board's MCU has, as far as they fit on its pins together; `fig2` and `car` are
-the paper's examples. `P`: the development build is larger than the MCU's memory, the production build is not. `*`: the
-units are there, but something on the board has their pins, so the design says that they may be used; which rules it
-takes is listed below. `·`: the MCU has no such unit, or ChibiOS no driver for it. `-`: the pins do not suffice. `2 W`
-are two warnings of our own files.
-";
+use super::{Done, Outcome, PAGE};
+use crate::head;
 
 /// The whole page.
-pub(super) fn page(done: &[Done]) -> String {
-    let mut page = HEAD.to_owned();
+pub(super) fn page(done: &[Done]) -> Result<String> {
+    let mut page = head(PAGE, "\n| board | ")?;
     let columns: Vec<&str> = KINDS
         .into_iter()
         .chain([ALL, "fig2", "car"])
         .filter(|kind| done.iter().any(|one| one.cell.kind == *kind))
         .collect();
     // Writing to a string cannot fail.
-    let _ = writeln!(page, "\n| board | {} |", columns.join(" | "));
+    let _ = writeln!(page, "| board | {} |", columns.join(" | "));
     let _ = writeln!(page, "|{}", " --- |".repeat(columns.len() + 1));
     let boards: Vec<&Done> = {
         let mut seen = BTreeSet::new();
@@ -52,7 +43,7 @@ pub(super) fn page(done: &[Done]) -> String {
         let _ = writeln!(page, "| {} | {} |", first.cell.board, cells.join(" | "));
     }
     page.push_str(&summary(done, &boards));
-    page
+    Ok(page)
 }
 
 fn mark(outcome: &Outcome) -> &'static str {

@@ -80,6 +80,14 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     std::fs::write(path, bytes).with_context(|| path.display().to_string())
 }
 
+/// Writes a file, or compares it; returns whether it is as it would be written.
+pub(crate) fn is_fresh(path: &Path, text: &str, is_check: bool) -> Result<bool> {
+    if !is_check {
+        write(path, text.as_bytes())?;
+    }
+    Ok(std::fs::read_to_string(path).is_ok_and(|there| there == text))
+}
+
 /// The entries of a folder, by name.
 pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let read = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
