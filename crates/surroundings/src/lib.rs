@@ -193,7 +193,7 @@ pub trait Surroundings: Send {
         let _ = (output, period_ns, width_ns, now_ns);
     }
 
-    /// An output of the DAC has a new voltage.
+    /// An output of a DAC has a new voltage. Channels count on from unit to unit, each of which has two.
     fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
         let _ = (channel, millivolts, now_ns);
     }

@@ -1,16 +1,18 @@
 //! The numbers of a board's peripheral instances.
 //!
 //! Emulated MCUs know their units by number; the only unit of a kind may have none in its name (`CAN`) and is the first.
-//! Boards that cannot be emulated may have two of a kind that end in the same number (`USART1`, `LPUART1`). The second
-//! one gets a number that no other unit has.
+//! Low-power serial ports have numbers behind all others. Boards that cannot be emulated may have two of a kind that end
+//! in the same number. The second one gets a number that no other unit has.
 
 use std::collections::BTreeMap;
 
 use sensedsl_job::BoardJob;
 use sensedsl_model::kind::KindName;
 
+/// The number before that of the first low-power serial port: `LPUART1` is not `USART1`.
+const LOW_POWER: u8 = 127;
 /// The first number for units whose own is taken.
-const OTHERS_FROM: u8 = 128;
+const OTHERS_FROM: u8 = 144;
 
 /// The numbers of all units that devices are wired to.
 #[derive(Clone, Debug, Default)]
@@ -43,11 +45,12 @@ impl Units {
     }
 }
 
-/// The number of a peripheral instance: 2 of `USART2`.
+/// The number of a peripheral instance: 2 of `USART2`, 128 of `LPUART1`.
 #[must_use]
 pub fn number_of(unit: &str) -> Option<u8> {
     let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
     // `I2C3`: the number is after the last letter.
     let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
-    last.parse().ok()
+    let number: u8 = last.parse().ok()?;
+    if unit.starts_with("LP") { number.checked_add(LOW_POWER) } else { Some(number) }
 }

@@ -96,8 +96,9 @@ impl Recorder {
                 let output = TimerOutput { timer, channel: *channel, is_complement };
                 self.channels.insert(output, one.index);
             }
-            Some(Function::Dac { channel, .. }) => {
-                self.converters.insert(*channel, one.index);
+            Some(Function::Dac { unit, channel }) => {
+                let before = 2 * unit.saturating_sub(1);
+                self.converters.insert(before + channel, one.index);
             }
             Some(_) | None => {}
         }
