@@ -2,7 +2,8 @@
 //!
 //! In: the metadata of the crate `stm32-metapac`, and [`MCUS`], which has the facts that they lack. Out: a file for
 //! each MCU in `crates/machine/mcus/`. It gives the core and the memories; block, version, address, clock and interrupts
-//! of each unit, and the field that moves its signals to other pads; and the units that use each channel of the DMA.
+//! of each unit, the field that selects its kernel clock, and the field that moves its signals to other pads; and the
+//! units that use each channel of the DMA, or each request of its multiplexer.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -26,6 +27,8 @@ struct Mcu {
     idcode: u32,
     /// The address of the half-word that has the size of the flash in kibibytes.
     size_at: u32,
+    /// Whether pads are analog after a reset, and not inputs.
+    starts_analog: bool,
     /// The units for which the machine's model of their version is not correct.
     without: &'static [&'static str],
 }
@@ -37,10 +40,11 @@ const F4: Mcu = Mcu {
     core: "cortex-m4f",
     idcode: 0,
     size_at: 0x1FFF_7A22,
+    starts_analog: false,
     without: &[],
 };
 
-const MCUS: [Mcu; 6] = [
+const MCUS: [Mcu; 7] = [
     // Medium density.
     Mcu {
         parts: &[
@@ -57,6 +61,7 @@ const MCUS: [Mcu; 6] = [
         core: "cortex-m3",
         idcode: 0x2003_6410,
         size_at: 0x1FFF_F7E0,
+        starts_analog: false,
         without: &[],
     },
     Mcu { parts: &["STM32F401"], largest: "STM32F401VE", idcode: 0x1000_6433, ..F4 },
@@ -81,7 +86,20 @@ const MCUS: [Mcu; 6] = [
         without: &["USB_OTG_FS"],
         ..F4
     },
+    // Category 3.
+    Mcu {
+        parts: &["STM32G473", "STM32G474", "STM32G483", "STM32G484"],
+        largest: "STM32G474QE",
+        core: "cortex-m4f",
+        idcode: 0x2003_6469,
+        size_at: 0x1FFF_75E0,
+        starts_analog: true,
+        without: &[],
+    },
 ];
+
+/// The kinds of units whose model takes the clock that the program selects for them.
+const SELECTING: [&str; 4] = ["adc", "can", "i2c", "usart"];
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
@@ -110,12 +128,13 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
 /// The fields of a block's registers, by register and field: `apb1enr`, `tim2en`.
 type Fields = BTreeMap<(String, String), Field>;
 
-#[derive(Clone, Copy)]
 struct Field {
     /// The offset of its register.
     register: u32,
     bit: u32,
     bits: u32,
+    /// The names of its values, in order; empty where they have none.
+    values: Vec<String>,
 }
 
 /// The fields in a file of registers.
@@ -128,6 +147,7 @@ fn fields(registers: &str) -> Fields {
             offsets.extend(u32::from_str_radix(offset, 16).map(|offset| (name.to_owned(), offset)));
         }
     }
+    let values = values(registers);
     let mut fields = Fields::new();
     for set in registers.split("        FieldSet {").skip(1) {
         let Some(register) = between(set, "name: \"", "\"").map(str::to_lowercase) else {
@@ -140,12 +160,32 @@ fn fields(registers: &str) -> Fields {
             let bits = place.and_then(|rest| number_after(rest, "bit_size: "));
             let name = between(field, "name: \"", "\"");
             if let (Some(name), Some(bit), Some(bits)) = (name, bit, bits) {
-                let own = Field { register: *offset, bit, bits };
+                let named =
+                    between(field, "enumm: Some(\"", "\"").and_then(|name| values.get(name));
+                let values = named.cloned().unwrap_or_default();
+                let own = Field { register: *offset, bit, bits, values };
                 fields.insert((register.clone(), name.to_lowercase()), own);
             }
         }
     }
     fields
+}
+
+/// The names of the values of each enumeration, in order.
+fn values(registers: &str) -> BTreeMap<&str, Vec<String>> {
+    let one = |source: &'_ str| -> Option<Vec<String>> {
+        let mut values = Vec::new();
+        for variant in source.split("EnumVariant {").skip(1) {
+            let at = usize::try_from(number_after(variant, "value: ")?).ok()?;
+            values.resize_with(values.len().max(at + 1), String::new);
+            between(variant, "name: \"", "\"")?.clone_into(values.get_mut(at)?);
+        }
+        Some(values)
+    };
+    let enumerations = registers.split("        Enum {").skip(1);
+    enumerations
+        .filter_map(|source| Some((between(source, "name: \"", "\"")?, one(source)?)))
+        .collect()
 }
 
 fn number_after(text: &str, start: &str) -> Option<u32> {
@@ -191,6 +231,12 @@ fn file(mcu: &Mcu, chips: &Path) -> Result<String> {
     for (name, is_own) in memories() {
         let _ = writeln!(printed, "{name}_bytes = {}", bytes(&head, is_own));
     }
+    if head.contains(CCM_IN_SRAM) {
+        printed.push_str("ccm_in_sram = true\n");
+    }
+    if mcu.starts_analog {
+        printed.push_str("starts_analog = true\n");
+    }
     printed.push_str("\n[units]\n");
     let mut requests: BTreeMap<&str, Vec<Vec<String>>> = BTreeMap::new();
     for peripheral in body.split("\n    Peripheral {").skip(1) {
@@ -203,40 +249,68 @@ fn file(mcu: &Mcu, chips: &Path) -> Result<String> {
         }
         for request in peripheral.split("PeripheralDmaChannel {").skip(1) {
             let channel = between(request, "channel: Some(\"", "\"");
+            let multiplexer = between(request, "dmamux: Some(\"", "\"");
             let signal = between(request, "signal: \"", "\"");
-            let (Some(channel), Some(signal)) = (channel, signal) else { continue };
+            let (Some(place), Some(signal)) = (channel.or(multiplexer), signal) else { continue };
             // A channel without numbers serves all its requests, as if they had one.
             let number = between(request, "request: Some(", ")");
             let number: usize = number.map_or(Ok(0), str::parse)?;
-            let rows = requests.entry(channel).or_default();
-            let length = if between(request, "request: ", ",") == Some("None") { 1 } else { 8 };
+            let rows = requests.entry(place).or_default();
+            let length = match between(request, "request: ", ",") {
+                _ if channel.is_none() => number + 1,
+                Some("None") => 1,
+                _ => 8,
+            };
             ensure!(number < length, "a request beyond {length}");
             rows.resize_with(rows.len().max(length), Vec::new);
             rows.get_mut(number).context("a missing row")?.push(format!("{name}_{signal}"));
         }
     }
     printed.push_str("\n# By number of the request.\n[requests]\n");
-    for (channel, row) in requests {
-        let _ = writeln!(printed, "{channel} = {row:?}");
+    for (place, row) in requests {
+        let _ = writeln!(printed, "{place} = {row:?}");
+    }
+    let multiplexed = multiplexed(&body);
+    if !multiplexed.is_empty() {
+        printed.push_str("\n# The multiplexer's channel for each stream.\n[multiplexed]\n");
+    }
+    for (stream, channel) in multiplexed {
+        let _ = writeln!(printed, "{stream} = {channel}");
     }
     Ok(printed)
+}
+
+/// The streams whose requests a multiplexer selects, with its channel for each of them.
+fn multiplexed(body: &str) -> Vec<(&str, u32)> {
+    let streams = body.split_once("DMA_CHANNELS: ").map_or("", |(_, rest)| rest);
+    let one = |stream| {
+        let channel = number_after(stream, "dmamux_channel: Some(")?;
+        Some((between(stream, "name: \"", "\"")?, channel))
+    };
+    streams.split("    DmaChannel {").skip(1).filter_map(one).collect()
 }
 
 /// Whether a region, by name and kind, belongs to a memory.
 type IsOwn = fn(&str, &str) -> bool;
 
+/// The region where the core-coupled memory is a second time, behind the memories that the DMA reaches.
+const CCM_IN_SRAM: &str = "CCMRAM_DCODE";
+
 /// The memories: flash, those that the DMA reaches, and core-coupled memory.
 fn memories() -> [(&'static str, IsOwn); 3] {
     [
         ("flash", |name, kind| kind == "Flash" && name != "OTP"),
-        ("sram", |name, kind| kind == "Ram" && !name.starts_with("CCM")),
-        ("ccm", |name, _| name.starts_with("CCM")),
+        ("sram", |name, kind| kind == "Ram" && (!name.starts_with("CCM") || name == CCM_IN_SRAM)),
+        ("ccm", |name, _| name.starts_with("CCM") && name != CCM_IN_SRAM),
     ]
 }
 
-/// The size of all regions of a memory in bytes.
+/// The size of all regions of a memory in bytes. A chip whose flash is one bank or two has a list of regions for each
+/// case.
 fn bytes(head: &str, is_own: IsOwn) -> u64 {
-    let regions = head.split("MemoryRegion {").skip(1).filter_map(|region| {
+    let lists = head.split_once("memory: &[").map_or("", |(_, rest)| rest);
+    let list = lists.split("&[").nth(1).unwrap_or(lists);
+    let regions = list.split("MemoryRegion {").skip(1).filter_map(|region| {
         let name = between(region, "name: \"", "\"")?;
         let kind = between(region, "MemoryRegionKind::", ",")?;
         let size: u64 = between(region, "size: ", ",")?.parse().ok()?;
@@ -269,7 +343,7 @@ fn unit(name: &str, source: &str, chip: &Chip) -> Option<String> {
     let field = |fields: &Fields, place: &str| {
         let register = between(place, "register: \"", "\"")?.to_lowercase();
         let field = between(place, "field: \"", "\"")?.to_lowercase();
-        fields.get(&(register, field)).copied()
+        fields.get(&(register, field))
     };
     let enable = source.split_once("enable: Some(").map(|(_, rest)| rest);
     // RTC: the other MCUs of the family have no such bit.
@@ -277,8 +351,16 @@ fn unit(name: &str, source: &str, chip: &Chip) -> Option<String> {
         let Field { register, bit, .. } = field(&chip.rcc, enable)?;
         let _ = write!(text, ", clock = [{register:#04x}, {bit}]");
     }
+    let selected = source.split_once("kernel_clock: Mux(").map(|(_, rest)| rest);
+    if let Some(selected) = selected.filter(|_| SELECTING.contains(&kind)) {
+        let Field { register, bit, bits, values } = field(&chip.rcc, selected)?;
+        let _ = write!(
+            text,
+            ", kernel = {{ field = [{register:#04x}, {bit}, {bits}], clocks = {values:?} }}"
+        );
+    }
     if let Some((_, moved)) = source.split_once("afio: Some(") {
-        let Field { register, bit, bits } = field(&chip.afio, moved)?;
+        let Field { register, bit, bits, .. } = field(&chip.afio, moved)?;
         let _ = write!(text, ", remap = [{register:#04x}, {bit}, {bits}]");
     }
     let mut irqs: BTreeMap<&str, u16> = BTreeMap::new();

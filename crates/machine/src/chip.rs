@@ -1,18 +1,23 @@
 //! All peripherals together: the one that answers at an address, the next deadline, and the transfers of the DMA.
 
-use super::adc::{self, Adc};
+mod resets;
+
+use std::collections::BTreeMap;
+
+use super::adc::{self, Adc, Common};
 use super::can::{Can, Filters};
 use super::dac::Dac;
 use super::dma::{self, Dma, STREAMS};
 use super::exti::Exti;
-use super::i2c::I2c;
+use super::fdcan::Fdcan;
+use super::i2c::{self, I2c};
 use super::iwdg::Iwdg;
 use super::map::{Device, Row};
 use super::mcu::Mcu;
 use super::plain::{Plain, next_random};
 use super::ports::PortState;
 use super::rcc::Rcc;
-use super::spi::Spi;
+use super::spi::{self, Spi};
 use super::timer::Timer;
 use super::transfer::{Memory, left_of};
 use super::usart::Usart;
@@ -28,16 +33,20 @@ pub(super) struct Chip {
     // Units stand at their numbers, counted from 0, up to the last one that the MCU has.
     pub(super) timers: Vec<Timer>,
     pub(super) usarts: Vec<Usart>,
-    pub(super) spis: Vec<Spi>,
-    pub(super) i2cs: Vec<I2c>,
+    pub(super) spis: Vec<Box<dyn Spi>>,
+    pub(super) i2cs: Vec<Box<dyn I2c>>,
     pub(super) adcs: Vec<Box<dyn Adc>>,
-    adc_common: u32,
+    adc_irqs: Vec<u16>,
+    /// What converters share, by the first of these.
+    adc_commons: BTreeMap<usize, Common>,
     cans: Vec<Can>,
+    fdcans: Vec<Fdcan>,
     filters: Filters,
     pub(super) dmas: Vec<Box<dyn Dma>>,
     pub(super) dma_irqs: Vec<[u16; STREAMS]>,
-    adc_irq: u16,
-    dac: Dac,
+    /// The number of the request that the multiplexer has selected for each stream.
+    selected: Vec<u32>,
+    dacs: Vec<Dac>,
     exti: Exti,
     iwdg: Iwdg,
     usb: Box<dyn Usb>,
@@ -45,6 +54,7 @@ pub(super) struct Chip {
     flash: Plain,
     rtc: Plain,
     backup: Plain,
+    recovery: Plain,
     crc: u32,
     random: (Plain, u32),
     debug: [u32; 4],
@@ -64,37 +74,50 @@ impl Chip {
         let numbers = |kinds: &[&str]| (1_u8..).take(mcu.last(kinds));
         let dmas = mcu.last(&["DMA"]);
         let plain = |unit: &str| Plain::new(mcu.block(unit));
-        Self {
+        let mut chip = Self {
             mcu,
             iwdg: Iwdg::new(wires.clocks.lsi),
             wires,
             rcc,
             memory,
             timers: (0..mcu.last(&["TIM"])).map(|at| Timer::new(at, mcu)).collect(),
-            usarts: numbers(&["USART", "UART"]).map(|unit| Usart::new(unit, mcu)).collect(),
-            spis: numbers(&["SPI"]).map(|unit| Spi::new(unit, mcu)).collect(),
-            i2cs: numbers(&["I2C"]).map(|unit| I2c::new(unit, mcu)).collect(),
+            usarts: (0..mcu.serials()).map(|place| Usart::new(place, mcu)).collect(),
+            spis: numbers(&["SPI"]).map(|unit| spi::new(unit, mcu)).collect(),
+            i2cs: numbers(&["I2C"]).map(|unit| i2c::new(unit, mcu)).collect(),
             adcs: numbers(&["ADC"]).map(|unit| adc::new(mcu.block("ADC1"), unit)).collect(),
-            adc_common: 0,
+            adc_irqs: numbers(&["ADC"])
+                .map(|unit| mcu.irq(&format!("ADC{unit}"), "GLOBAL"))
+                .collect(),
+            adc_commons: mcu.adc_commons(),
             cans: numbers(&["CAN"]).map(|unit| Can::new(unit, mcu)).collect(),
+            fdcans: numbers(&["FDCAN"]).map(|unit| Fdcan::new(unit, mcu)).collect(),
             filters: Filters::new(mcu.last(&["CAN"]) > 1),
             dmas: (0..dmas).map(|_| dma::new(mcu.block("DMA1"))).collect(),
             dma_irqs: (0..dmas).map(irqs).collect(),
-            adc_irq: mcu.irq("ADC1", "GLOBAL"),
-            dac: Dac::default(),
+            selected: Vec::new(),
+            dacs: numbers(&["DAC"]).map(|unit| Dac::new(unit, mcu)).collect(),
             exti: Exti::new(mcu),
             usb: usb::new(mcu),
             pwr: plain("PWR"),
             flash: plain("FLASH"),
             rtc: plain("RTC"),
             backup: plain("BKP"),
+            recovery: plain("CRS"),
             crc: u32::MAX,
             random: (plain("RNG"), 0),
             debug: [0; 4],
             told: Vec::new(),
             pc: 0,
             reset: None,
-        }
+        };
+        chip.take_clocks();
+        chip
+    }
+
+    /// Takes the frequencies after a change of the clock tree.
+    fn take_clocks(&mut self) {
+        self.wires.clocks = self.rcc.clocks();
+        self.wires.kernels = self.mcu.kernels(&*self.rcc);
     }
 
     pub(super) fn memory(&self) -> Memory {
@@ -111,37 +134,24 @@ impl Chip {
         self.is_watched().then(|| self.iwdg.period_ns())
     }
 
-    /// Puts all peripherals into their state after a reset; the backup domain keeps its contents unless power was lost.
-    pub(super) fn restart(&mut self, cause: ResetCause) {
-        self.rcc.reset(cause);
-        for register in self.rcc.enables() {
-            self.reset_behind(*register, u32::MAX);
-        }
-        if cause == ResetCause::Power {
-            self.backup = Plain::new(self.mcu.block("BKP"));
-        }
-        self.iwdg = Iwdg::new(self.wires.clocks.lsi);
-        self.exti = Exti::new(self.mcu);
-        self.wires.gpio.reset();
-        self.wires.clocks = self.rcc.clocks();
-        self.settle();
-    }
-
     /// The settings of the ports that have started.
     pub(super) fn ports(&self) -> Vec<PortState> {
         let serial = self.usarts.iter().filter_map(|one| one.state(&self.wires));
         let spi = self.spis.iter().filter_map(|one| one.state(&self.wires));
         let i2c = self.i2cs.iter().filter_map(|one| one.state(&self.wires));
         let can = self.cans.iter().filter_map(|one| one.state(&self.wires));
-        serial.chain(spi).chain(i2c).chain(can).collect()
+        let fdcan = self.fdcans.iter().filter_map(|one| one.state(&self.wires));
+        serial.chain(spi).chain(i2c).chain(can).chain(fdcan).collect()
     }
 
     pub(super) fn deadline(&self) -> u64 {
         let timers = self.timers.iter().map(Timer::deadline);
         let ports = self.usarts.iter().map(Usart::deadline);
-        let buses = self.spis.iter().map(Spi::deadline).chain(self.i2cs.iter().map(I2c::deadline));
+        let spis = self.spis.iter().map(|spi| spi.deadline());
+        let buses = spis.chain(self.i2cs.iter().map(|i2c| i2c.deadline()));
         let others =
             self.adcs.iter().map(|adc| adc.deadline()).chain(self.cans.iter().map(Can::deadline));
+        let others = others.chain(self.fdcans.iter().map(Fdcan::deadline));
         let single = [self.exti.deadline(), self.iwdg.deadline(), self.usb.deadline()];
         timers.chain(ports).chain(buses).chain(others).chain(single).min().unwrap_or(NEVER)
     }
@@ -181,6 +191,11 @@ impl Chip {
                 can.advance(wires, &self.filters);
             }
         }
+        for can in &mut self.fdcans {
+            if can.deadline() <= now {
+                can.advance(wires);
+            }
+        }
         if self.exti.deadline() <= now {
             self.exti.advance(wires);
         }
@@ -210,8 +225,9 @@ impl Chip {
         for timer in &mut self.timers {
             timer.review_edges(&self.wires);
         }
-        let is_held = self.adcs.iter().any(|adc| adc.interrupts());
-        self.wires.interrupt(self.adc_irq, 0, is_held);
+        for ((adc, irq), holder) in self.adcs.iter().zip(&self.adc_irqs).zip(0..) {
+            self.wires.interrupt(*irq, holder, adc.interrupts());
+        }
     }
 
     // --- the bus ---
@@ -223,7 +239,7 @@ impl Chip {
         if !self.has_clock(row, address, false) {
             return Some(0);
         }
-        let word = self.read(row.device, (address - row.base) & !3);
+        let word = self.read(row.device, (address - row.base) & !3, size);
         let mask = if size >= 4 { u32::MAX } else { (1 << (8 * size)) - 1 };
         Some(word >> shift & mask)
     }
@@ -260,9 +276,10 @@ impl Chip {
         let Row { base, device, clock, .. } = row;
         let is_on = match (device, clock) {
             // What converters share has the clock of any of them.
-            (Device::AdcCommon, _) => {
-                let mut rows = self.mcu.rows.iter();
-                rows.any(|row| matches!(row.device, Device::Adc(_)) && self.is_enabled(*row))
+            (Device::AdcCommon(first), _) => {
+                let members = self.adc_commons.get(&first).map_or(&[][..], |own| &own.members);
+                let is_member = |row: &Row| members.iter().any(|at| row.device == Device::Adc(*at));
+                self.mcu.rows.iter().any(|row| is_member(row) && self.is_enabled(*row))
             }
             _ => self.is_enabled(row),
         };
@@ -279,7 +296,7 @@ impl Chip {
         is_on && is_modelled
     }
 
-    fn read(&mut self, device: Device, offset: u32) -> u32 {
+    fn read(&mut self, device: Device, offset: u32, bytes: u32) -> u32 {
         let wires = &mut self.wires;
         match device {
             Device::Gpio(port) => {
@@ -290,16 +307,21 @@ impl Chip {
             }
             Device::Timer(unit) => self.timers[unit].read(offset, wires),
             Device::Usart(unit) => self.usarts[unit].read(offset, wires),
-            Device::Spi(unit) => self.spis[unit].read(offset, wires),
+            Device::Spi(unit) => self.spis[unit].read(offset, bytes, wires),
             Device::I2c(unit) => {
                 wires.i2c_left[unit] = left_of(self.mcu, &self.dmas, Request::I2cRx(unit));
                 self.i2cs[unit].read(offset, wires)
             }
             Device::Can(unit) => self.cans[unit].read(offset, &self.filters),
+            Device::Fdcan(unit) => self.fdcans[unit].read(offset),
+            Device::FdcanMemory(unit) => self.fdcans[unit].read_memory(offset),
             Device::Adc(unit) => self.adcs[unit].read(offset),
-            Device::AdcCommon => self.read_adc_common(offset),
-            Device::Dac => self.dac.read(offset),
+            Device::AdcCommon(first) => {
+                self.adc_commons.get(&first).map_or(0, |own| own.read(offset, &self.adcs))
+            }
+            Device::Dac(unit) => self.dacs[unit].read(offset),
             Device::Dma(controller) => self.dmas[controller].read(offset),
+            Device::Multiplexer => self.selected.get((offset / 4) as usize).copied().unwrap_or(0),
             Device::Exti => self.exti.read(offset),
             Device::Afio if !EXTI_PORTS.contains(&offset) => wires.gpio.read_afio(offset),
             Device::Syscfg | Device::Afio => self.exti.read_ports(offset),
@@ -311,6 +333,7 @@ impl Chip {
             Device::Flash => self.flash.read(offset),
             Device::Rtc => self.rtc.read(offset),
             Device::Backup => self.backup.read(offset),
+            Device::Recovery => self.recovery.read(offset),
             Device::Crc => self.crc,
             Device::Random => {
                 self.random.1 = next_random(self.random.1);
@@ -342,12 +365,19 @@ impl Chip {
             Device::Can(unit) => {
                 self.cans[unit].write(offset, value, mask, wires, &mut self.filters);
             }
+            Device::Fdcan(unit) => self.fdcans[unit].write(offset, value, mask, wires),
+            Device::FdcanMemory(unit) => self.fdcans[unit].write_memory(offset, value, mask),
             Device::Adc(unit) => self.adcs[unit].write(offset, value, mask, wires),
-            Device::AdcCommon => self.write_adc_common(offset, value, mask),
-            Device::Dac => self.dac.write(offset, value, mask, wires),
+            Device::AdcCommon(first) => {
+                if let Some(own) = self.adc_commons.get_mut(&first) {
+                    own.write(offset, value, mask, &mut self.adcs);
+                }
+            }
+            Device::Dac(unit) => self.dacs[unit].write(offset, value, mask, wires),
             Device::Dma(controller) => {
                 self.dmas[controller].write(offset, value, mask);
             }
+            Device::Multiplexer => self.multiplex((offset / 4) as usize, value, mask),
             Device::Exti => self.exti.write(offset, value, mask, wires),
             Device::Afio if !EXTI_PORTS.contains(&offset) => {
                 let leads_elsewhere = wires.gpio.write_afio(offset, value, mask);
@@ -358,7 +388,7 @@ impl Chip {
                 if let Some((register, bits)) = self.rcc.write(offset, value, mask) {
                     self.reset_behind(register, bits);
                 }
-                self.wires.clocks = self.rcc.clocks();
+                self.take_clocks();
             }
             Device::Iwdg => self.iwdg.write(offset, value, wires.now),
             Device::Usb => self.usb.write(offset, value, mask, wires),
@@ -367,6 +397,7 @@ impl Chip {
             Device::Flash => self.flash.write(offset, value, mask),
             Device::Rtc => self.rtc.write(offset, value, mask),
             Device::Backup => self.backup.write(offset, value, mask),
+            Device::Recovery => self.recovery.write(offset, value, mask),
             Device::Crc => self.crc = if offset == 8 { u32::MAX } else { self.crc },
             Device::Random => self.random.0.write(offset, value, mask),
             Device::Debug => {
@@ -376,66 +407,6 @@ impl Chip {
             }
             Device::Other => {}
         }
-    }
-
-    fn read_adc_common(&self, offset: u32) -> u32 {
-        match offset {
-            0x00 => self.adcs.iter().rev().fold(0, |all, adc| all << 8 | adc.status()),
-            0x04 => self.adc_common,
-            _ => 0,
-        }
-    }
-
-    fn write_adc_common(&mut self, offset: u32, value: u32, mask: u32) {
-        if offset == 0x04 {
-            self.adc_common = merge(self.adc_common, value, mask);
-            let divider = u64::from(self.adc_common >> 16 & 3) * 2 + 2;
-            for adc in &mut self.adcs {
-                adc.set_divider(divider);
-            }
-        }
-    }
-
-    /// Resets the peripherals that belong to clock bits.
-    fn reset_behind(&mut self, register: u32, bits: u32) {
-        for device in self.mcu.behind(register, bits) {
-            match device {
-                Device::Gpio(port) => self.wires.gpio.reset_port(port),
-                Device::Timer(unit) => {
-                    self.timers[unit] = Timer::new(unit, self.mcu);
-                    self.timers[unit].settle(&mut self.wires);
-                }
-                Device::Usart(unit) => self.usarts[unit].restart(&mut self.wires),
-                Device::Spi(unit) => self.spis[unit].restart(&mut self.wires),
-                Device::I2c(unit) => self.i2cs[unit].restart(&mut self.wires),
-                Device::Can(unit) => self.cans[unit].restart(&mut self.wires),
-                Device::Dac => self.dac = Dac::default(),
-                Device::Dma(controller) => {
-                    self.dmas[controller] = dma::new(self.mcu.block("DMA1"));
-                }
-                Device::Adc(unit) => self.reset_adc(unit),
-                Device::Afio => {
-                    self.wires.gpio.reset_afio();
-                    self.wires.version += 1;
-                }
-                Device::Usb => self.usb.restart(&mut self.wires),
-                _ => {}
-            }
-        }
-    }
-
-    /// Resets a converter. Those that share registers share the first one's reset.
-    fn reset_adc(&mut self, unit: usize) {
-        let block = self.mcu.block("ADC1");
-        let shares = self.mcu.rows.iter().any(|row| row.device == Device::AdcCommon);
-        let last = if shares { self.adcs.len() } else { unit + 1 };
-        if shares && unit > 0 {
-            return;
-        }
-        for (at, adc) in (1_u8..).zip(&mut self.adcs).take(last).skip(unit) {
-            *adc = adc::new(block, at);
-        }
-        self.adc_common = 0;
     }
 }
 

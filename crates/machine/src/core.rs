@@ -486,9 +486,16 @@ fn map_memory(space: &AddressSpace, memory: &Memory, mcu: &Mcu) {
     for base in [0, u64::from(FLASH_BASE)] {
         map(space, Region::ram("flash", Arc::clone(&memory.flash)), base);
     }
-    map(space, Region::ram("sram", Arc::clone(&memory.sram)), u64::from(SRAM_BASE));
-    if mcu.ccm_bytes > 0 {
-        let ccm = RamStore::new(u64::from(mcu.ccm_bytes));
+    let sram = || Region::ram("sram", Arc::clone(&memory.sram));
+    map(space, sram(), u64::from(SRAM_BASE));
+    let ccm_bytes = u64::from(mcu.ccm_bytes);
+    if mcu.ccm_in_sram {
+        let begin = u64::from(mcu.sram_bytes) - ccm_bytes;
+        if let Ok(ccm) = Region::alias("ccm", sram(), begin, ccm_bytes) {
+            map(space, ccm, u64::from(CCM_BASE));
+        }
+    } else if ccm_bytes > 0 {
+        let ccm = RamStore::new(ccm_bytes);
         map(space, Region::ram("ccm", Arc::new(ccm)), u64::from(CCM_BASE));
     }
     let system = RamStore::new(SYSTEM_BYTES);

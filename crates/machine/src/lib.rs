@@ -61,6 +61,7 @@ mod core;
 mod dac;
 mod dma;
 mod exti;
+mod fdcan;
 mod gpio;
 mod i2c;
 mod image;

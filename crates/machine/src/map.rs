@@ -10,16 +10,23 @@ pub(super) enum Device {
     Spi(usize),
     I2c(usize),
     Can(usize),
+    Fdcan(usize),
+    /// The messages and filters of such a unit.
+    FdcanMemory(usize),
     Adc(usize),
-    /// The registers that converters share.
-    AdcCommon,
-    Dac,
+    /// The registers that converters share, by the first of these.
+    AdcCommon(usize),
+    Dac(usize),
     Dma(usize),
+    /// The selection of the request that each stream serves.
+    Multiplexer,
     Exti,
     /// The ports of the lines of EXTI; AFIO also has the places of peripherals' signals.
     Syscfg,
     Afio,
     Rcc,
+    /// What keeps an oscillator at its frequency, by the frames of USB.
+    Recovery,
     Iwdg,
     Usb,
     /// The memory for packets, where it is apart from the registers.

@@ -8,16 +8,20 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
+use crate::adc::Common;
 use crate::map::{DEBUG_BASE, Device, Row};
+use crate::rcc::Rcc;
+use crate::usart;
 use crate::wires::Request;
 
-const FILES: [&str; 6] = [
+const FILES: [&str; 7] = [
     include_str!("../mcus/stm32f103c8.toml"),
     include_str!("../mcus/stm32f401.toml"),
     include_str!("../mcus/stm32f405.toml"),
     include_str!("../mcus/stm32f411.toml"),
     include_str!("../mcus/stm32f427.toml"),
     include_str!("../mcus/stm32f446.toml"),
+    include_str!("../mcus/stm32g473.toml"),
 ];
 
 static MCUS: LazyLock<Vec<Mcu>> =
@@ -35,8 +39,14 @@ struct File {
     flash_bytes: u32,
     sram_bytes: u32,
     ccm_bytes: u32,
+    #[serde(default)]
+    ccm_in_sram: bool,
+    #[serde(default)]
+    starts_analog: bool,
     units: BTreeMap<String, Unit>,
     requests: BTreeMap<String, Vec<Vec<String>>>,
+    #[serde(default)]
+    multiplexed: BTreeMap<String, usize>,
 }
 
 /// The processor.
@@ -58,10 +68,22 @@ struct Unit {
     shape: Option<String>,
     /// The offset of an enable register of the RCC, and the bit; `None` for a unit that always runs.
     clock: Option<(u32, u32)>,
+    /// The choice of its kernel clock, if it has one.
+    kernel: Option<Kernel>,
     /// The field of AFIO that moves the unit's signals to other pads: offset, lowest bit, bits.
     remap: Option<(u32, u32, u32)>,
     #[serde(default)]
     irqs: BTreeMap<String, u16>,
+}
+
+/// The choice among clocks that a unit has.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Kernel {
+    /// The field of the RCC: offset, lowest bit, bits.
+    field: (u32, u32, u32),
+    /// The names of the clocks, by the value of the field.
+    clocks: Vec<String>,
 }
 
 /// The properties of an MCU that the machine must know.
@@ -77,11 +99,18 @@ pub struct Mcu {
     pub(crate) sram_bytes: u32,
     /// The size of the core-coupled memory, which the DMA does not reach; 0 if there is none.
     pub(crate) ccm_bytes: u32,
+    /// Whether the core-coupled memory is also the end of the other memory, where the DMA does reach it.
+    pub(crate) ccm_in_sram: bool,
+    /// Whether pads are analog after a reset, and not inputs.
+    pub(crate) starts_analog: bool,
     /// The peripherals, by address.
     pub(crate) rows: Vec<Row>,
     units: BTreeMap<String, Unit>,
     /// The requests, by controller, stream and channel.
     requests: Vec<Vec<Vec<Vec<Request>>>>,
+    /// The requests that a multiplexer can give any stream, by number, and the stream of each of its channels.
+    selectable: Vec<Vec<Request>>,
+    multiplexed: Vec<(usize, usize)>,
 }
 
 /// The number of an interrupt that no core has.
@@ -107,14 +136,21 @@ impl Mcu {
             units.iter().filter_map(|(name, unit)| row(name, unit, units)).collect();
         rows.sort_by_key(|row| row.base);
         let mut requests: Vec<Vec<Vec<Vec<Request>>>> = Vec::new();
-        for (channel, row) in &file.requests {
-            let place = channel.strip_prefix("DMA").and_then(|rest| rest.split_once("_CH"));
-            let (controller, stream) = place?;
-            let controller = controller.parse::<usize>().ok()?.checked_sub(1)?;
-            let stream = at_index(at_index(&mut requests, controller)?, stream.parse().ok()?)?;
+        let mut selectable = Vec::new();
+        for (place, row) in &file.requests {
             let named =
                 |names: &Vec<String>| names.iter().filter_map(|name| request(name)).collect();
-            *stream = row.iter().map(named).collect();
+            let row = row.iter().map(named).collect();
+            if place.starts_with("DMAMUX") {
+                selectable = row;
+                continue;
+            }
+            let (controller, stream) = stream(place)?;
+            *at_index(at_index(&mut requests, controller)?, stream)? = row;
+        }
+        let mut multiplexed = Vec::new();
+        for (place, channel) in &file.multiplexed {
+            *at_index(&mut multiplexed, *channel)? = stream(place)?;
         }
         Some(Self {
             parts: file.parts,
@@ -125,9 +161,13 @@ impl Mcu {
             flash_bytes: file.flash_bytes,
             sram_bytes: file.sram_bytes,
             ccm_bytes: file.ccm_bytes,
+            ccm_in_sram: file.ccm_in_sram,
+            starts_analog: file.starts_analog,
             rows,
             units: file.units,
             requests,
+            selectable,
+            multiplexed,
         })
     }
 
@@ -187,6 +227,24 @@ impl Mcu {
         if is_only { kind.to_owned() } else { own }
     }
 
+    /// The number of places of serial ports.
+    pub(crate) fn serials(&self) -> usize {
+        let places = self.rows.iter().filter_map(|row| match row.device {
+            Device::Usart(place) => Some(place + 1),
+            _ => None,
+        });
+        places.max().unwrap_or(0)
+    }
+
+    /// The registers that converters share, by the first of these.
+    pub(crate) fn adc_commons(&self) -> BTreeMap<usize, Common> {
+        let own = |(name, unit): (&String, &Unit)| match device(name, &unit.block) {
+            Some(Device::AdcCommon(first)) => Some((first, Common::new(name, &unit.block))),
+            _ => None,
+        };
+        self.units.iter().filter_map(own).collect()
+    }
+
     /// The number of ports up to the last one.
     pub(crate) fn ports(&self) -> usize {
         let ports = self.rows.iter().filter_map(|row| match row.device {
@@ -203,9 +261,28 @@ impl Mcu {
         self.block("GPIOA") != "gpio_v1"
     }
 
-    /// The requests that a stream serves on one of its channels. Controllers count from 0, and streams as in the
-    /// manual.
+    /// The frequencies of the units that select their kernel clock.
+    pub(crate) fn kernels(&self, rcc: &dyn Rcc) -> BTreeMap<&str, u64> {
+        let selected = |unit: &Unit| {
+            let Kernel { field: (register, bit, bits), clocks } = unit.kernel.as_ref()?;
+            let code = rcc.read(*register) >> bit & ((1 << bits) - 1);
+            Some(clocks.get(code as usize).map_or(0, |clock| rcc.named_hz(clock)))
+        };
+        let units = self.units.iter();
+        units.filter_map(|(name, unit)| Some((name.as_str(), selected(unit)?))).collect()
+    }
+
+    /// The stream that a channel of the multiplexer serves.
+    pub(crate) fn multiplexed(&self, channel: usize) -> Option<(usize, usize)> {
+        self.multiplexed.get(channel).copied()
+    }
+
+    /// The requests that a stream serves on one of its channels, or with what its multiplexer selects. Controllers
+    /// count from 0, and streams as in the manual.
     pub(crate) fn requests(&self, controller: usize, stream: usize, channel: u32) -> &[Request] {
+        if !self.multiplexed.is_empty() {
+            return self.selectable.get(channel as usize).map_or(&[], Vec::as_slice);
+        }
         let streams = self.requests.get(controller).and_then(|streams| streams.get(stream));
         streams.and_then(|channels| channels.get(channel as usize)).map_or(&[], Vec::as_slice)
     }
@@ -224,6 +301,12 @@ impl Mcu {
         };
         self.rows.iter().filter(has).map(|row| row.device)
     }
+}
+
+/// The controller, counted from 0, and the number of a stream such as `DMA2_CH7`.
+fn stream(name: &str) -> Option<(usize, usize)> {
+    let (controller, stream) = name.strip_prefix("DMA")?.split_once("_CH")?;
+    Some((controller.parse::<usize>().ok()?.checked_sub(1)?, stream.parse().ok()?))
 }
 
 /// An element of a list, which becomes longer if it has to; `None` beyond what any MCU has.
@@ -248,6 +331,12 @@ fn index(name: &str) -> Option<usize> {
     }
 }
 
+/// The first converter of those that share the registers of a unit such as `ADC345_COMMON`, counted from 0.
+fn common(name: &str) -> Option<usize> {
+    let first = name.strip_prefix("ADC")?.get(..1)?;
+    first.parse::<usize>().ok()?.checked_sub(1)
+}
+
 /// The model for a unit; `None` for one whose name is not of its block.
 fn device(name: &str, block: &str) -> Option<Device> {
     Some(match block {
@@ -255,32 +344,36 @@ fn device(name: &str, block: &str) -> Option<Device> {
             let port = name.strip_prefix("GPIO")?.bytes().next()?;
             Device::Gpio(usize::from(port.checked_sub(b'A')?))
         }
-        "timer_v1" => Device::Timer(index(name)?),
-        // The two versions differ in oversampling, which no firmware of this generator uses.
-        "usart_v1" | "usart_v2" => Device::Usart(index(name)?),
-        "spi_v1" | "spi_v2_i2s" => Device::Spi(index(name)?),
+        "timer_v1" | "timer_v2" => Device::Timer(index(name)?),
+        // The first two versions differ in oversampling, which no firmware of this generator uses.
+        "usart_v1" | "usart_v2" | "usart_v4" => Device::Usart(usart::place(name)?),
+        "spi_v1" | "spi_v2_i2s" | "spi_v3_i2s" => Device::Spi(index(name)?),
         // The fast-mode I2C is a different block.
-        "i2c_v1" => Device::I2c(index(name)?),
+        "i2c_v1" | "i2c_v2" => Device::I2c(index(name)?),
         "can_bxcan" => Device::Can(index(name)?),
-        "adc_f1" | "adc_v2" => Device::Adc(index(name)?),
-        "adccommon_v2" => Device::AdcCommon,
-        "dac_v2" => Device::Dac,
+        "can_fdcan_v1" => Device::Fdcan(index(name)?),
+        "fdcanram_v1" => Device::FdcanMemory(index(name)?),
+        "adc_f1" | "adc_v2" | "adc_g4" => Device::Adc(index(name)?),
+        "adccommon_v2" | "adccommon_g4" => Device::AdcCommon(common(name)?),
+        "dac_v2" | "dac_v7" => Device::Dac(index(name)?),
         "bdma_v1" | "dma_v2" => Device::Dma(index(name)?),
+        "dmamux_v1" => Device::Multiplexer,
         "exti_v1" => Device::Exti,
-        "syscfg_f4" => Device::Syscfg,
+        "syscfg_f4" | "syscfg_g4" => Device::Syscfg,
         "afio_f1" => Device::Afio,
-        "rcc_f1" | "rcc_f4" => Device::Rcc,
-        "iwdg_v1" => Device::Iwdg,
+        "rcc_f1" | "rcc_f4" | "rcc_g4" => Device::Rcc,
+        "crs_v1" => Device::Recovery,
+        "iwdg_v1" | "iwdg_v2" => Device::Iwdg,
         "otg_v1" if name == "USB_OTG_FS" => Device::Usb,
-        "usb_v1" => Device::Usb,
-        "usbram_16x1_512" => Device::UsbMemory,
-        "pwr_f1" | "pwr_f4" => Device::Pwr,
-        "flash_f1" | "flash_f4" => Device::Flash,
-        "rtc_v1" | "rtc_v2_f4" => Device::Rtc,
-        "bkp_v1" => Device::Backup,
-        "crc_v1" => Device::Crc,
+        "usb_v1" | "usb_v3" => Device::Usb,
+        "usbram_16x1_512" | "usbram_16x2_1024" => Device::UsbMemory,
+        "pwr_f1" | "pwr_f4" | "pwr_g4" => Device::Pwr,
+        "flash_f1" | "flash_f4" | "flash_g4c3" => Device::Flash,
+        "rtc_v1" | "rtc_v2_f4" | "rtc_v3_base" => Device::Rtc,
+        "bkp_v1" | "tamp_g4" => Device::Backup,
+        "crc_v1" | "crc_v3" => Device::Crc,
         "rng_v1" => Device::Random,
-        "dbgmcu_f1" | "dbgmcu_f4" => Device::Debug,
+        "dbgmcu_f1" | "dbgmcu_f4" | "dbgmcu_g4" => Device::Debug,
         _ => Device::Other,
     })
 }
@@ -292,12 +385,21 @@ fn row(name: &str, unit: &Unit, units: &BTreeMap<String, Unit>) -> Option<Row> {
     let bytes = match unit.block.as_str() {
         "otg_v1" => 0x4_0000,
         "eth_v1b" => 0x1400,
-        "adc_v2" | "adccommon_v2" => 0x100,
+        "adc_v2" | "adccommon_v2" | "adc_g4" | "adccommon_g4" => 0x100,
+        // These are close together.
+        "syscfg_g4" => 0x30,
+        "vrefbuf_v2b" => 0x1D0,
+        "comp_v2" | "opamp_v5" => 4,
+        "fdcanram_v1" => 0x350,
         _ => 0x400,
     };
-    // The memory for packets has the clock of its unit.
-    let of_usb = || units.get("USB").filter(|_| device == Device::UsbMemory)?.clock;
-    let clock = unit.clock.or_else(of_usb);
+    // A memory for packets or messages has the clock of its unit.
+    let owner = match device {
+        Device::UsbMemory => "USB",
+        Device::FdcanMemory(_) => "FDCAN1",
+        _ => "",
+    };
+    let clock = unit.clock.or_else(|| units.get(owner)?.clock);
     Some(Row { base: unit.base, bytes, device, clock })
 }
 
@@ -311,8 +413,8 @@ fn request(name: &str) -> Option<Request> {
         ("I2C", "TX") => Request::I2cTx(at),
         ("SPI", "RX") => Request::SpiRx(at),
         ("SPI", "TX") => Request::SpiTx(at),
-        ("USART" | "UART", "RX") => Request::UsartRx(at),
-        ("USART" | "UART", "TX") => Request::UsartTx(at),
+        ("USART" | "UART" | "LPUART", "RX") => Request::UsartRx(usart::place(unit)?),
+        ("USART" | "UART" | "LPUART", "TX") => Request::UsartTx(usart::place(unit)?),
         ("DAC", _) => Request::Dac(index(signal)?),
         ("TIM", "UP") => Request::Timer(at, 0),
         ("TIM", _) => Request::Timer(at, signal.strip_prefix("CH")?.parse().ok()?),

@@ -21,7 +21,7 @@ fn ready(block: &str) -> &'static [(u32, u32)] {
         "pwr_f4" => &[(0x04, 0x0003_4008)],
         // The calendar can be set, and its registers are up to date.
         "rtc_v1" => &[(0x04, 0x28)],
-        "rtc_v2_f4" => &[(0x0C, 0x67)],
+        "rtc_v2_f4" | "rtc_v3_base" => &[(0x0C, 0x67)],
         // There is always another random number.
         "rng_v1" => &[(0x04, 1)],
         // The flash's latency can be read back, and it is never busy.

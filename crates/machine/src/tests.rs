@@ -1,5 +1,7 @@
 //! Tests of single devices through their registers, as the manual describes them.
 
+mod g4;
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
@@ -25,6 +27,10 @@ struct World {
     edges: BTreeMap<Pad, Vec<(u64, bool)>>,
     sent: Vec<(u64, u8)>,
     bus: Vec<I2cEvent>,
+    /// The bytes on SPI.
+    shifted: Vec<u8>,
+    /// The outputs of DACs.
+    volts: Vec<(u8, f64)>,
 }
 
 impl Surroundings for World {
@@ -43,6 +49,15 @@ impl Surroundings for World {
 
     fn uart_out(&mut self, _: u8, byte: u8, now_ns: u64) {
         self.sent.push((now_ns, byte));
+    }
+
+    fn spi(&mut self, _: u8, out: u8, _: u64) -> u8 {
+        self.shifted.push(out);
+        !out
+    }
+
+    fn dac(&mut self, channel: u8, millivolts: f64, _: u64) {
+        self.volts.push((channel, millivolts));
     }
 
     fn i2c(&mut self, _: u8, event: I2cEvent, _: u64) -> I2cReply {

@@ -18,8 +18,8 @@ struct Variant {
     number: u8,
     channels: u8,
     is_wide: bool,
-    /// Whether its outputs have complements, and a switch for all of them.
-    is_advanced: bool,
+    /// The number of channels that have complements. With any, there is a switch for all outputs.
+    complements: usize,
     is_on_apb2: bool,
     /// The interrupts for update, for trigger, and for capture and compare; `holder` identifies the timer among those
     /// that share them.
@@ -35,13 +35,17 @@ impl Variant {
         Self {
             number,
             channels: match shape {
-                "TIM_1CH" => 1,
-                "TIM_2CH" => 2,
+                "TIM_1CH" | "TIM_1CH_CMP" => 1,
+                "TIM_2CH" | "TIM_2CH_CMP" => 2,
                 "TIM_ADV" | "TIM_GP16" | "TIM_GP32" => 4,
                 _ => 0,
             },
             is_wide: shape == "TIM_GP32",
-            is_advanced: shape == "TIM_ADV",
+            complements: match shape {
+                "TIM_ADV" => 3,
+                "TIM_1CH_CMP" | "TIM_2CH_CMP" => 1,
+                _ => 0,
+            },
             is_on_apb2: mcu.is_on_apb2(&name),
             irqs: ["UP", "TRG", "CC"].map(|signal| mcu.irq(&name, signal)),
             // The small timers share the lines of TIM1 and TIM8.
@@ -417,8 +421,7 @@ impl Timer {
     /// Period and width, in nanoseconds, of the output of a channel or its complement. A complement that is on alone
     /// follows the channel; next to an active channel, it is inverted (RM0090, table 97).
     fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
-        let has_complement = self.variant.is_advanced && channel < 3;
-        if is_complement && !has_complement {
+        if is_complement && channel >= self.variant.complements {
             return (0, 0);
         }
         let mode = self.ccmr[channel / 2] >> (4 + 8 * (channel % 2)) & 7;
@@ -426,7 +429,7 @@ impl Timer {
         let (bits, is_against) =
             if is_complement { (own >> 2, own & 1 == 1) } else { (own, false) };
         let is_on = bits & 1 == 1 && self.cr1 & 1 != 0;
-        let main = !self.variant.is_advanced || self.bdtr >> 15 & 1 == 1;
+        let main = self.variant.complements == 0 || self.bdtr >> 15 & 1 == 1;
         if !is_on || !main || !self.compares(channel) || !matches!(mode, 6 | 7) {
             return (0, 0);
         }

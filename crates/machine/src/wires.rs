@@ -1,6 +1,6 @@
 //! The state that the devices of the chip share: time, clocks, pads, lines to the interrupt controller, the world.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::gpio::Gpio;
@@ -109,6 +109,8 @@ pub enum ResetCause {
 pub(super) struct Wires {
     pub now: u64,
     pub clocks: Clocks,
+    /// The frequencies of units that select their clock, by their names.
+    pub kernels: BTreeMap<&'static str, u64>,
     pub gpio: Gpio,
     pub link: Link,
     pub events: Vec<Event>,
@@ -125,7 +127,7 @@ pub(super) struct Wires {
 }
 
 /// The most interrupts that an MCU has.
-const IRQS: usize = 97;
+const IRQS: usize = 102;
 
 impl Wires {
     pub(super) fn new(
@@ -138,6 +140,7 @@ impl Wires {
         Self {
             now: 0,
             clocks,
+            kernels: BTreeMap::new(),
             gpio: Gpio::new(mcu),
             link,
             events: Vec::new(),
@@ -148,6 +151,11 @@ impl Wires {
             holders: [0; IRQS],
             changed: Vec::new(),
         }
+    }
+
+    /// The frequency of the clock that a unit has selected, if it has a choice.
+    pub(super) fn kernel_hz(&self, unit: &str) -> Option<u64> {
+        self.kernels.get(unit).copied()
     }
 
     /// Calls the world.

@@ -257,7 +257,7 @@ impl Adc for Unit {
         }
     }
 
-    fn set_divider(&mut self, divider: u64) {
-        self.divider = divider;
+    fn share(&mut self, ccr: u32) {
+        self.divider = u64::from(ccr >> 16 & 3) * 2 + 2;
     }
 }

@@ -48,12 +48,14 @@ pub(crate) trait Dma: Send {
     fn item(&self, stream: usize) -> Item;
     /// Counts an item that was moved.
     fn count(&mut self, stream: usize);
+    /// Sets the channel of a stream, where a multiplexer does.
+    fn select(&mut self, _stream: usize, _channel: u32) {}
     /// Stops a stream because there is nothing at an address.
     fn fail(&mut self, stream: usize);
 }
 
 /// One more than the highest number of a stream, in any version.
-pub(crate) const STREAMS: usize = 8;
+pub(crate) const STREAMS: usize = 9;
 
 /// A controller in its state after a reset.
 pub(crate) fn new(block: &str) -> Box<dyn Dma> {

@@ -1,5 +1,5 @@
-//! The first version of the block (F0, F1, F3, L0, L1, L4): seven streams, which the manual calls channels, with fixed
-//! requests.
+//! The first version of the block (F0, F1, F3, G0, G4, L0, L1, L4): up to eight streams, which the manual calls channels,
+//! with fixed requests, or with those that a multiplexer selects.
 //!
 //! All peripherals of a stream ask through one line. An item may have one size at the peripheral and another in memory.
 
@@ -36,6 +36,8 @@ struct Stream {
 #[derive(Debug, Default)]
 pub(super) struct Controller {
     streams: [Stream; STREAMS],
+    /// What the multiplexer has selected for each stream.
+    channels: [u32; STREAMS],
     isr: u32,
 }
 
@@ -55,7 +57,7 @@ impl Controller {
     /// Clears flags; clearing the first of a stream clears all of them.
     fn clear(&mut self, bits: u32) {
         self.isr &= !bits;
-        for shift in (0..28).step_by(4) {
+        for shift in (0..32).step_by(4) {
             let is_all = bits >> shift & ANY != 0;
             let has_others = self.isr >> shift & (COMPLETE | HALF | FAILED) != 0;
             if is_all || !has_others {
@@ -138,7 +140,7 @@ impl Dma for Controller {
         };
         let peripheral = end(peripheral, ccr >> 8, STEPS_PERIPHERAL);
         let memory = end(memory, ccr >> 10, STEPS_MEMORY);
-        Item { direction, peripheral, memory, left, channel: 0 }
+        Item { direction, peripheral, memory, left, channel: self.channels[stream] }
     }
 
     fn count(&mut self, stream: usize) {
@@ -156,6 +158,10 @@ impl Dma for Controller {
             }
         }
         self.raise(stream, status);
+    }
+
+    fn select(&mut self, stream: usize, channel: u32) {
+        self.channels[stream] = channel;
     }
 
     fn fail(&mut self, stream: usize) {

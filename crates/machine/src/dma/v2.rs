@@ -2,8 +2,10 @@
 //!
 //! A stream moves an item whenever the peripheral of its channel requests it.
 
-use super::{Direction, Dma, End, Item, STREAMS};
+use super::{Direction, Dma, End, Item};
 use crate::wires::merge;
+
+const STREAMS: usize = 8;
 
 /// The status bits of a stream: errors and completion.
 const HALF: u32 = 1 << 4;

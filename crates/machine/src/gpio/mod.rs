@@ -92,6 +92,8 @@ struct Lead {
 pub(crate) struct Gpio {
     /// Whether pads choose their peripherals, by number.
     is_numbered: bool,
+    /// Whether pads are analog after a reset.
+    is_later: bool,
     ports: Vec<Box<dyn Port>>,
     afio: Afio,
     /// The signals that can be on each pad.
@@ -127,10 +129,12 @@ impl Gpio {
                 }
             }
         }
-        let is_numbered = mcu.numbers_functions();
-        let ports = (0..mcu.ports()).map(|number| after_reset(is_numbered, number)).collect();
+        let (is_numbered, is_later) = (mcu.numbers_functions(), mcu.starts_analog);
+        let ports =
+            (0..mcu.ports()).map(|number| after_reset(is_numbered, is_later, number)).collect();
         let mut gpio = Self {
             is_numbered,
+            is_later,
             ports,
             afio: Afio::default(),
             leads,
@@ -157,7 +161,7 @@ impl Gpio {
 
     fn restart(&mut self, port: usize) {
         let before = self.drives_of(port);
-        self.ports[port] = after_reset(self.is_numbered, port);
+        self.ports[port] = after_reset(self.is_numbered, self.is_later, port);
         self.note_changes(port, before);
     }
 
@@ -315,8 +319,12 @@ impl Gpio {
     }
 }
 
-fn after_reset(is_numbered: bool, number: usize) -> Box<dyn Port> {
-    if is_numbered { Box::new(v2::Registers::new(number)) } else { Box::new(v1::Registers::new()) }
+fn after_reset(is_numbered: bool, is_later: bool, number: usize) -> Box<dyn Port> {
+    if is_numbered {
+        Box::new(v2::Registers::new(number, is_later))
+    } else {
+        Box::new(v1::Registers::new())
+    }
 }
 
 /// Splits `ADC12_IN8` into the units 1 and 2, and `IN8`.

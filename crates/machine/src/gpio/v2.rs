@@ -13,6 +13,8 @@ pub(super) struct Registers {
     odr: u32,
     lckr: u32,
     afr: [u32; 2],
+    /// Whether this is a later family: pads are analog after a reset, and BRR exists.
+    is_later: bool,
 }
 
 fn field(register: u32, pin: u8) -> u32 {
@@ -21,13 +23,20 @@ fn field(register: u32, pin: u8) -> u32 {
 
 impl Registers {
     /// The state after a reset: the debugger has its own pads.
-    pub(super) fn new(port: usize) -> Self {
-        let (moder, ospeedr, pupdr) = match port {
+    pub(super) fn new(port: usize, is_later: bool) -> Self {
+        let (debugger, ospeedr, pupdr) = match port {
             0 => (0xA800_0000, 0x0C00_0000, 0x6400_0000),
             1 => (0x0000_0280, 0x0000_00C0, 0x0000_0100),
             _ => (0, 0, 0),
         };
-        Self { moder, otyper: 0, ospeedr, pupdr, odr: 0, lckr: 0, afr: [0; 2] }
+        let others = match port {
+            _ if !is_later => 0,
+            0 => 0x03FF_FFFF,
+            1 => 0xFFFF_FC3F,
+            _ => u32::MAX,
+        };
+        let moder = debugger | others;
+        Self { moder, otyper: 0, ospeedr, pupdr, odr: 0, lckr: 0, afr: [0; 2], is_later }
     }
 }
 
@@ -61,6 +70,7 @@ impl Port for Registers {
                 let (set, clear) = (value & mask & 0xFFFF, (value & mask) >> 16);
                 self.odr = (self.odr & !clear) | set;
             }
+            0x28 if self.is_later => self.odr &= !(value & mask),
             0x1C => put(&mut self.lckr),
             0x20 | 0x24 => put(&mut self.afr[((offset - 0x20) / 4) as usize]),
             _ => {}

@@ -1,7 +1,7 @@
 //! The unit of STM32F1 without a connectivity line.
 
 use super::{
-    AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, index,
+    AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, SOURCES, index,
     with_causes, with_ready, with_switch,
 };
 use crate::wires::{Clocks, ResetCause, merge};
@@ -81,7 +81,7 @@ impl Rcc for Unit {
         let written = merge(old, value, mask);
         let new = match offset {
             CR => with_ready(written, &READY),
-            CFGR => with_switch(written, old, self.read(CR)),
+            CFGR => with_switch(written, old, self.read(CR), SOURCES),
             BDCR => (written & !2) | (written & 1) << 1,
             CSR => with_causes(written, old),
             _ => written,

@@ -6,6 +6,7 @@
 
 mod f1;
 mod f4;
+mod g4;
 
 use crate::mcu::Mcu;
 use crate::wires::{Clocks, ResetCause};
@@ -25,6 +26,11 @@ pub(crate) trait Rcc: Send {
     fn enables(&self) -> &'static [u32];
     fn clocks(&self) -> Clocks;
 
+    /// The frequency of a clock that units can select, by its name in the MCU's file.
+    fn named_hz(&self, _: &str) -> u64 {
+        0
+    }
+
     /// Whether the peripheral that belongs to a bit of an enable register has its clock.
     fn is_enabled(&self, offset: u32, bit: u32) -> bool {
         self.read(offset) >> bit & 1 == 1
@@ -35,6 +41,7 @@ pub(crate) trait Rcc: Send {
 pub(crate) fn new(mcu: &Mcu, crystal_hz: u64) -> Box<dyn Rcc> {
     match mcu.block("RCC") {
         "rcc_f1" => Box::new(f1::Unit::new(crystal_hz)),
+        "rcc_g4" => Box::new(g4::Unit::new(crystal_hz)),
         _ => Box::new(f4::Unit::new(crystal_hz)),
     }
 }
@@ -59,11 +66,13 @@ fn with_ready(written: u32, pairs: &[(u32, u32)]) -> u32 {
         .fold(written, |all, (on, ready)| (all & !(1 << ready)) | (written >> on & 1) << ready)
 }
 
-/// CFGR after a write: the switch follows the selection once the oscillator runs. HSI, HSE and PLL have the codes 0 to
-/// 2.
-fn with_switch(written: u32, was: u32, cr: u32) -> u32 {
-    let ready = [1, 17, 25].get((written & 3) as usize);
-    let is_ready = ready.is_some_and(|bit| cr >> bit & 1 == 1);
+/// The bits of CR that report HSI, HSE and PLL ready, by their code in CFGR.
+const SOURCES: [u32; 4] = [1, 17, 25, u32::MAX];
+
+/// CFGR after a write: the switch follows the selection once the oscillator runs.
+fn with_switch(written: u32, was: u32, cr: u32, sources: [u32; 4]) -> u32 {
+    let ready = sources[(written & 3) as usize];
+    let is_ready = cr.checked_shr(ready).is_some_and(|cr| cr & 1 == 1);
     let status = if is_ready { written & 3 } else { was >> 2 & 3 };
     (written & !0xC) | status << 2
 }

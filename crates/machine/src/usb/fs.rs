@@ -1,11 +1,12 @@
-//! The full-speed device of STM32F1 (and F0, F3, L0, L1): eight endpoints, and a memory for packets between the program
-//! and the bus.
+//! The full-speed device of STM32F1 and G4 (and F0, F3, L0, L1, L4): eight endpoints, and a memory for packets between the
+//! program and the bus.
 //!
 //! A register of an endpoint has bits that a 1 turns over and bits that only a 0 clears (RM0008, 23.5). What is told
 //! apart by them, the two kinds of data packets too, is modelled: a packet of the wrong kind is acknowledged and lost,
 //! as on the bus. Not modelled are suspension, isochronous and double-buffered endpoints.
 //!
-//! The board pulls the bus up itself. A host is taken to find the device whenever the unit is on.
+//! The unit of STM32G4 pulls the bus up when the program says so. Where the board does that itself, a host is taken to
+//! find the device whenever the unit is on.
 
 use super::host::Host;
 use super::{Function, Usb};
@@ -13,8 +14,6 @@ use crate::mcu::Mcu;
 use crate::wires::{LinkPort, Wires, merge};
 
 const ENDPOINTS: usize = 8;
-/// The words of the memory for packets; the program sees each of them in four bytes.
-const WORDS: usize = 256;
 /// The frequency that the unit needs, and how far it may be off: 0.25 %.
 const USB_HZ: u64 = 48_000_000;
 const USB_OFF_HZ: u64 = 120_000;
@@ -27,6 +26,9 @@ const ISTR: u32 = 0x44;
 const FNR: u32 = 0x48;
 const DADDR: u32 = 0x4C;
 const BTABLE: u32 = 0x50;
+const BCDR: u32 = 0x58;
+/// The bit of BCDR that pulls the bus up.
+const PULLS_UP: u32 = 1 << 15;
 /// Bits of CNTR: the unit is held in reset, or has no power.
 const FORCED_RESET: u32 = 1;
 const POWER_DOWN: u32 = 1 << 1;
@@ -77,16 +79,32 @@ fn written(old: u32, value: u32, mask: u32) -> u32 {
     (cleared ^ value & TURNED_OVER) & !WRITTEN | value & WRITTEN
 }
 
+/// What the versions of the block differ in.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    /// The words of the memory for packets.
+    words: usize,
+    /// The bytes in which the program sees each of them.
+    bytes: u32,
+    /// Whether the unit has the resistor that pulls the bus up.
+    pulls_up: bool,
+}
+
+const F1: Layout = Layout { words: 256, bytes: 4, pulls_up: false };
+const G4: Layout = Layout { words: 512, bytes: 2, pulls_up: true };
+
 /// The unit, with the host at the other end of the cable.
 #[derive(Debug)]
 pub(super) struct Device {
     irq: u16,
+    layout: Layout,
     endpoints: [u32; ENDPOINTS],
     cntr: u32,
     istr: u32,
     daddr: u32,
     btable: u32,
-    memory: [u16; WORDS],
+    bcdr: u32,
+    memory: Vec<u16>,
     /// The number of 1 ms frames since the bus was reset.
     frame: u32,
     host: Host,
@@ -97,18 +115,21 @@ pub(super) struct Device {
 
 impl Device {
     pub(super) fn new(mcu: &Mcu) -> Self {
-        Self::with(mcu.irq("USB", "LP"))
+        let layout = if mcu.block("USB") == "usb_v3" { G4 } else { F1 };
+        Self::with(mcu.irq("USB", "LP"), layout)
     }
 
-    fn with(irq: u16) -> Self {
+    fn with(irq: u16, layout: Layout) -> Self {
         Self {
             irq,
+            layout,
             endpoints: [0; ENDPOINTS],
             cntr: FORCED_RESET | POWER_DOWN,
             istr: 0,
             daddr: 0,
             btable: 0,
-            memory: [0; WORDS],
+            bcdr: 0,
+            memory: vec![0; layout.words],
             frame: 0,
             host: Host::new(),
             expects_data1: [false; ENDPOINTS],
@@ -117,7 +138,8 @@ impl Device {
     }
 
     fn is_connected(&self, wires: &Wires) -> bool {
-        let is_on = self.cntr & (FORCED_RESET | POWER_DOWN) == 0;
+        let is_pulled_up = !self.layout.pulls_up || self.bcdr & PULLS_UP != 0;
+        let is_on = self.cntr & (FORCED_RESET | POWER_DOWN) == 0 && is_pulled_up;
         let is_in_time = wires.clocks.usb.abs_diff(USB_HZ) <= USB_OFF_HZ;
         is_on && is_in_time && wires.link.port == LinkPort::Usb
     }
@@ -271,7 +293,7 @@ impl Function for Device {
 
 impl Usb for Device {
     fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::with(self.irq);
+        *self = Self::with(self.irq, self.layout);
         self.tell(wires);
     }
 
@@ -296,6 +318,7 @@ impl Usb for Device {
             FNR => PULLED_UP | if self.frame == 0 { 0 } else { LOCKED } | self.frame,
             DADDR => self.daddr,
             BTABLE => self.btable,
+            BCDR => self.bcdr,
             _ => 0,
         }
     }
@@ -313,25 +336,35 @@ impl Usb for Device {
                 if self.cntr & !was & FORCED_RESET != 0 {
                     self.reset();
                 }
-                let is_connected = self.is_connected(wires);
-                self.host.plugged(is_connected, wires.now);
             }
             ISTR => self.istr &= value | !mask,
             DADDR => self.daddr = merge(self.daddr, value, mask) & 0xFF,
             BTABLE => self.btable = merge(self.btable, value, mask) & 0xFFF8,
+            BCDR if self.layout.pulls_up => self.bcdr = merge(self.bcdr, value, mask),
             _ => {}
+        }
+        if matches!(offset, CNTR | BCDR) {
+            let is_connected = self.is_connected(wires);
+            self.host.plugged(is_connected, wires.now);
         }
         self.tell(wires);
     }
 
     fn read_memory(&self, offset: u32) -> u32 {
-        self.word(offset / 2)
+        let address = offset / (self.layout.bytes / 2);
+        let next = if self.layout.bytes == 2 { self.word(address + 2) << 16 } else { 0 };
+        self.word(address) | next
     }
 
-    /// The upper half of each four bytes is not there.
+    /// Where each word takes four bytes, the upper half of these is not there.
     fn write_memory(&mut self, offset: u32, value: u32, mask: u32) {
-        let word = merge(self.word(offset / 2), value, mask & 0xFFFF);
-        self.put_word(offset / 2, word);
+        let address = offset / (self.layout.bytes / 2);
+        let word = merge(self.word(address), value, mask & 0xFFFF);
+        self.put_word(address, word);
+        if self.layout.bytes == 2 {
+            let next = merge(self.word(address + 2), value >> 16, mask >> 16);
+            self.put_word(address + 2, next);
+        }
     }
 }
 
@@ -342,7 +375,7 @@ mod tests {
     /// A control endpoint that receives up to 64 bytes at 0x40 and sends from 0x80, and a bulk endpoint with room for
     /// two bytes behind them, both ready for the host.
     fn device() -> Device {
-        let mut usb = Device::with(20);
+        let mut usb = Device::with(20, F1);
         usb.daddr = LISTENS;
         let words = [0x80, 0, 0x40, 1 << 15 | 1 << 10, 0xC0, 0, 0xD0, 1 << 10];
         for (at, word) in (0..).zip(words) {

@@ -54,7 +54,7 @@ trait Function {
 /// The unit of an MCU in its state after a reset.
 pub(crate) fn new(mcu: &Mcu) -> Box<dyn Usb> {
     match mcu.block("USB") {
-        "usb_v1" => Box::new(fs::Device::new(mcu)),
+        "usb_v1" | "usb_v3" => Box::new(fs::Device::new(mcu)),
         _ => Box::new(otg::Otg::new(mcu)),
     }
 }

@@ -1,8 +1,9 @@
-//! I2C1 to I2C3, as masters. The block is ST's first version: F1, F2, F4, L1.
+//! The first version of the block (F1, F2, F4, L1): the program starts, addresses, acknowledges and stops.
 
-use super::mcu::Mcu;
-use super::ports::{PortState, Setting};
-use super::wires::{NEVER, Wires, merge, periods_ns};
+use super::{I2c, is_held};
+use crate::mcu::Mcu;
+use crate::ports::{PortState, Setting};
+use crate::wires::{NEVER, Wires, merge, periods_ns};
 use sensedsl_surroundings::{I2cEvent, I2cReply};
 
 /// Fast mode; this unit has no fast mode plus.
@@ -48,7 +49,7 @@ enum Phase {
 
 /// A bus.
 #[derive(Debug)]
-pub(super) struct I2c {
+pub(super) struct Unit {
     unit: u8,
     mcu: &'static Mcu,
     irqs: [u16; 2],
@@ -69,11 +70,11 @@ pub(super) struct I2c {
     has_ended: bool,
     /// The acknowledge bit as it was one byte ago; POS delays it by one byte.
     acknowledged: bool,
-    scl: String,
-    sda: String,
+    /// The names of its wires.
+    lines: [String; 2],
 }
 
-impl I2c {
+impl Unit {
     pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
         let own = format!("I2C{unit}");
         Self {
@@ -94,15 +95,8 @@ impl I2c {
             has_read_status: false,
             has_ended: false,
             acknowledged: false,
-            scl: format!("I2C{unit}_SCL"),
-            sda: format!("I2C{unit}_SDA"),
+            lines: ["SCL", "SDA"].map(|line| format!("{own}_{line}")),
         }
-    }
-
-    /// Restarts it in its state after a reset.
-    pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new(self.unit, self.mcu);
-        self.tell(wires);
     }
 
     /// The number of the unit's clock periods in one of the bus.
@@ -117,37 +111,6 @@ impl I2c {
 
     fn bit_ns(&self, wires: &Wires) -> u64 {
         periods_ns(self.divider(), wires.clocks.apb1).max(1)
-    }
-
-    /// Its settings, once it has started.
-    pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
-        let [cr, _] = self.cr;
-        let clock_hz = wires.clocks.apb1 / self.divider();
-        let setting = Setting::I2c { clock_hz, fastest_hz: FASTEST_HZ };
-        (cr & ENABLE != 0).then(|| PortState { unit: format!("I2C{}", self.unit), setting })
-    }
-
-    /// Whether a wire is low although this unit does not drive it, or is not on any pad.
-    fn is_held(&self, wires: &Wires) -> bool {
-        let is_low = |wire: &str| match wires.pad_of(wire) {
-            Some(pad) => wires.world(|world, now| world.level(pad, now)) == Some(false),
-            None => true,
-        };
-        is_low(&self.scl) || is_low(&self.sda)
-    }
-
-    pub(super) fn deadline(&self) -> u64 {
-        self.until
-    }
-
-    pub(super) fn advance(&mut self, wires: &mut Wires) {
-        while self.until <= wires.now {
-            let at = self.until;
-            self.until = NEVER;
-            self.proceed(wires);
-            self.continue_at(at, wires);
-        }
-        self.tell(wires);
     }
 
     fn ask(&self, event: I2cEvent, wires: &Wires) -> I2cReply {
@@ -249,7 +212,7 @@ impl I2c {
         } else if is_master && self.cr[0] & STOP != 0 {
             (self.phase, self.until) = (Phase::Stopping, one);
         } else if self.cr[0] & START != 0 {
-            if !is_master && self.is_held(wires) {
+            if !is_master && is_held(&self.lines, wires) {
                 self.sr2 |= BUSY;
                 return;
             }
@@ -282,30 +245,6 @@ impl I2c {
         wires.interrupt(self.irqs[1], 0, errors);
     }
 
-    pub(super) fn asks(&self, transmits: bool) -> bool {
-        let is_on = self.cr[1] & DMA != 0 && self.cr[0] & ENABLE != 0;
-        let flag = if transmits { EMPTY } else { RECEIVED };
-        is_on && self.sr1 & flag != 0 && (self.sr2 & TRANSMITS != 0) == transmits
-    }
-
-    pub(super) fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
-        let value = match offset {
-            0x00 | 0x04 => self.cr[(offset / 4) as usize],
-            0x08 | 0x0C => self.oar[((offset - 8) / 4) as usize],
-            0x10 => self.take(wires),
-            0x14 => {
-                self.has_read_status = true;
-                self.sr1
-            }
-            0x18 => self.status2(wires),
-            0x1C => self.ccr,
-            0x20 => self.trise,
-            _ => 0,
-        };
-        self.tell(wires);
-        value
-    }
-
     fn take(&mut self, wires: &Wires) -> u32 {
         let byte = self.dr;
         self.sr1 &= !(RECEIVED | FINISHED);
@@ -321,7 +260,7 @@ impl I2c {
     fn status2(&mut self, wires: &Wires) -> u32 {
         let mut value = self.sr2;
         if self.phase == Phase::Rest && self.sr2 & MASTER == 0 && self.cr[0] & ENABLE != 0 {
-            value = if self.is_held(wires) { value | BUSY } else { value & !BUSY };
+            value = if is_held(&self.lines, wires) { value | BUSY } else { value & !BUSY };
             self.sr2 = value;
         }
         if self.sr1 & ADDRESSED != 0 && self.has_read_status {
@@ -331,25 +270,6 @@ impl I2c {
         }
         self.has_read_status = false;
         value
-    }
-
-    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
-        match offset {
-            0x00 => self.control(merge(self.cr[0], value, mask), wires),
-            0x04 => self.cr[1] = merge(self.cr[1], value, mask),
-            0x08 | 0x0C => {
-                let register = &mut self.oar[((offset - 8) / 4) as usize];
-                *register = merge(*register, value, mask);
-            }
-            0x10 => self.put((value & 0xFF) as u8, wires),
-            // Only errors can be cleared by writing 0.
-            0x14 => self.sr1 &= value | !mask | !ERRORS,
-            0x1C => self.ccr = merge(self.ccr, value, mask),
-            0x20 => self.trise = merge(self.trise, value, mask),
-            _ => {}
-        }
-        self.continue_at(wires.now, wires);
-        self.tell(wires);
     }
 
     fn control(&mut self, new: u32, wires: &Wires) {
@@ -380,5 +300,76 @@ impl I2c {
         }
         self.sr1 &= !(EMPTY | FINISHED);
         self.waiting = Some(byte);
+    }
+}
+
+impl I2c for Unit {
+    fn restart(&mut self, wires: &mut Wires) {
+        *self = Self::new(self.unit, self.mcu);
+        self.tell(wires);
+    }
+
+    fn state(&self, wires: &Wires) -> Option<PortState> {
+        let [cr, _] = self.cr;
+        let clock_hz = wires.clocks.apb1 / self.divider();
+        let setting = Setting::I2c { clock_hz, fastest_hz: FASTEST_HZ };
+        (cr & ENABLE != 0).then(|| PortState { unit: format!("I2C{}", self.unit), setting })
+    }
+
+    fn deadline(&self) -> u64 {
+        self.until
+    }
+
+    fn advance(&mut self, wires: &mut Wires) {
+        while self.until <= wires.now {
+            let at = self.until;
+            self.until = NEVER;
+            self.proceed(wires);
+            self.continue_at(at, wires);
+        }
+        self.tell(wires);
+    }
+
+    fn asks(&self, transmits: bool) -> bool {
+        let is_on = self.cr[1] & DMA != 0 && self.cr[0] & ENABLE != 0;
+        let flag = if transmits { EMPTY } else { RECEIVED };
+        is_on && self.sr1 & flag != 0 && (self.sr2 & TRANSMITS != 0) == transmits
+    }
+
+    fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
+        let value = match offset {
+            0x00 | 0x04 => self.cr[(offset / 4) as usize],
+            0x08 | 0x0C => self.oar[((offset - 8) / 4) as usize],
+            0x10 => self.take(wires),
+            0x14 => {
+                self.has_read_status = true;
+                self.sr1
+            }
+            0x18 => self.status2(wires),
+            0x1C => self.ccr,
+            0x20 => self.trise,
+            _ => 0,
+        };
+        self.tell(wires);
+        value
+    }
+
+    fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
+        match offset {
+            0x00 => self.control(merge(self.cr[0], value, mask), wires),
+            0x04 => self.cr[1] = merge(self.cr[1], value, mask),
+            0x08 | 0x0C => {
+                let register = &mut self.oar[((offset - 8) / 4) as usize];
+                *register = merge(*register, value, mask);
+            }
+            0x10 => self.put((value & 0xFF) as u8, wires),
+            // Only errors can be cleared by writing 0.
+            0x14 => self.sr1 &= value | !mask | !ERRORS,
+            0x1C => self.ccr = merge(self.ccr, value, mask),
+            0x20 => self.trise = merge(self.trise, value, mask),
+            _ => {}
+        }
+        self.continue_at(wires.now, wires);
+        self.tell(wires);
     }
 }
