@@ -13,7 +13,7 @@ use crate::false_alarms::is_wired;
 use crate::firmware::chibios::{build, tree};
 
 /// Boards that each have an MCU other than the F407.
-const BOARDS: [&str; 7] = [
+const BOARDS: [&str; 8] = [
     "BLACKPILL_F401CC",
     "BLACKPILL_F411CE",
     "BLUEPILL_F103C8",
@@ -21,6 +21,7 @@ const BOARDS: [&str; 7] = [
     "NUCLEO_F401RE",
     "NUCLEO_F429ZI",
     "NUCLEO_F446RE",
+    "NUCLEO_G474RE",
 ];
 const EXAMPLES: [&str; 7] =
     ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];

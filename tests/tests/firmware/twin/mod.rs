@@ -10,6 +10,7 @@ mod buses;
 mod examples;
 mod faults;
 mod frames;
+mod g474;
 mod hosted;
 mod images;
 mod kinds;
