@@ -331,6 +331,13 @@ fn interrupts(body: &str) -> BTreeMap<String, u16> {
     list.split("Interrupt {").skip(1).filter_map(one).collect()
 }
 
+/// The field that a place of the data names.
+fn field<'a>(fields: &'a Fields, place: &str) -> Option<&'a Field> {
+    let register = between(place, "register: \"", "\"")?.to_lowercase();
+    let field = between(place, "field: \"", "\"")?.to_lowercase();
+    fields.get(&(register, field))
+}
+
 fn unit(name: &str, source: &str, chip: &Chip) -> Option<String> {
     let base = between(source, "address: ", ",")?;
     let kind = between(source, "kind: \"", "\"")?;
@@ -340,11 +347,6 @@ fn unit(name: &str, source: &str, chip: &Chip) -> Option<String> {
     if kind == "timer" {
         let _ = write!(text, ", shape = \"{}\"", between(source, "block: \"", "\"")?);
     }
-    let field = |fields: &Fields, place: &str| {
-        let register = between(place, "register: \"", "\"")?.to_lowercase();
-        let field = between(place, "field: \"", "\"")?.to_lowercase();
-        fields.get(&(register, field))
-    };
     let enable = source.split_once("enable: Some(").map(|(_, rest)| rest);
     // RTC: the other MCUs of the family have no such bit.
     if let Some(enable) = enable.filter(|_| name != "RTC") {
