@@ -57,37 +57,52 @@ fn drive_thrust(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {
     }
 }
 
+/// The samples of ADC1.
+static ADC1_SAMPLER: rt::converter::Sampler = rt::converter::Sampler::new(hal::pac::ADC1);
+
+/// The end of a conversion of ADC1.
+#[allow(non_camel_case_types, reason = "it is called as the converter")]
+pub struct ADC1_SAMPLES;
+
+impl interrupt::typelevel::Handler<interrupt::typelevel::ADC> for ADC1_SAMPLES {
+    unsafe fn on_interrupt() {
+        ADC1_SAMPLER.on_interrupt();
+    }
+}
+
 type ADC1Unit = Mutex<CriticalSectionRawMutex, hal::adc::Adc<'static, ADC1>>;
 
 static ADC1_UNIT: StaticCell<ADC1Unit> = StaticCell::new();
 
+static DISTANCE_SAMPLES: StaticCell<[u16; 32]> = StaticCell::new();
+
 /// ADC1 20 ms.
 #[embassy_executor::task]
-async fn adc1_20ms(unit: &'static ADC1Unit, mut distance: Peri<'static, PC1>) {
+async fn adc1_20ms(unit: &'static ADC1Unit, distance: hal::adc::AnyAdcChannel<'static, ADC1>) {
     let mut distance_filter: Filter<[u8; tables::DISTANCE_FILTER.bytes(&SCHEMA.items[0])]> = Filter::new(&tables::DISTANCE_FILTER);
+    let mut distance_samples: &'static mut [u16] = DISTANCE_SAMPLES.init([0; 32]);
     let mut ticker = Ticker::every(Duration::from_millis(20));
     loop {
-        let mut adc = unit.lock().await;
-        let mut samples = [0; 32];
-        let first = adc.blocking_read(&mut distance, hal::adc::SampleTime::CYCLES84);
-        rt::repeat::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
-        rt::analog::report(&BOARD, Some(&mut *distance_filter), tables::DISTANCE, Scalar::Uint16, &rt::analog::Value::Mean, &samples, 1, &mut [0; 2]);
+        let adc = unit.lock().await;
+        distance_samples = ADC1_SAMPLER.fill(distance.get_hw_channel(), hal::adc::SampleTime::CYCLES84, distance_samples, 0, 1).await;
+        rt::analog::report(&BOARD, Some(&mut *distance_filter), tables::DISTANCE, Scalar::Uint16, &rt::analog::Value::Mean, &*distance_samples, 1, &mut [0; 2]);
         drop(adc);
         WATCH.beat(tables::ADC1_20MS, now_ms());
         ticker.next().await;
     }
 }
 
+static MOTOR_SAMPLES: StaticCell<[u16; 32]> = StaticCell::new();
+
 /// ADC1 100 ms.
 #[embassy_executor::task]
-async fn adc1_100ms(unit: &'static ADC1Unit, mut motor: Peri<'static, PC4>) {
+async fn adc1_100ms(unit: &'static ADC1Unit, motor: hal::adc::AnyAdcChannel<'static, ADC1>) {
+    let mut motor_samples: &'static mut [u16] = MOTOR_SAMPLES.init([0; 32]);
     let mut ticker = Ticker::every(Duration::from_millis(100));
     loop {
-        let mut adc = unit.lock().await;
-        let mut samples = [0; 32];
-        let first = adc.blocking_read(&mut motor, hal::adc::SampleTime::CYCLES84);
-        rt::repeat::fill(hal::pac::ADC1, first, samples.iter_mut().skip(0).step_by(1));
-        rt::analog::report(&BOARD, None, tables::MOTOR, Scalar::Int16, &rt::analog::Value::Computed(&sense_rt::NTC, 0, &[3950, 10000, 10000]), &samples, 1, &mut [0; 2]);
+        let adc = unit.lock().await;
+        motor_samples = ADC1_SAMPLER.fill(motor.get_hw_channel(), hal::adc::SampleTime::CYCLES84, motor_samples, 0, 1).await;
+        rt::analog::report(&BOARD, None, tables::MOTOR, Scalar::Int16, &rt::analog::Value::Computed(&sense_rt::NTC, 0, &[3950, 10000, 10000]), &*motor_samples, 1, &mut [0; 2]);
         drop(adc);
         WATCH.beat(tables::ADC1_100MS, now_ms());
         ticker.next().await;
@@ -363,6 +378,8 @@ async fn main(spawner: Spawner) {
     outputs(|outputs| { rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable(); });
     outputs(|outputs| outputs.level.set(hal::dac::Value::Bit12Right(0)));
     outputs(|outputs| { drive_thrust(outputs, Scalar::Int32, &0_i32.to_be_bytes()); });
+    // Its handler is there.
+    unsafe { interrupt::ADC.enable() };
     rt::usart::listen(hal::pac::USART2);
     // Its handler is there.
     unsafe { interrupt::USART2.enable() };

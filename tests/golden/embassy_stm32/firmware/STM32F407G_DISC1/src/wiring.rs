@@ -8,6 +8,7 @@ use embassy_stm32::{self as hal, Peri, Peripherals, bind_interrupts};
 use static_cell::ConstStaticCell;
 
 bind_interrupts!(pub struct Irqs {
+    ADC => crate::ADC1_SAMPLES;
     CAN1_RX0 => hal::can::Rx0InterruptHandler<CAN1>;
     CAN1_RX1 => hal::can::Rx1InterruptHandler<CAN1>;
     CAN1_SCE => hal::can::SceInterruptHandler<CAN1>;
@@ -31,9 +32,9 @@ pub struct Wiring {
     /// ADC1, which converts
     pub adc1: hal::adc::Adc<'static, ADC1>,
     /// Distance at PC1 (ADC123_IN11)
-    pub distance: Peri<'static, PC1>,
+    pub distance: hal::adc::AnyAdcChannel<'static, ADC1>,
     /// Motor at PC4 (ADC12_IN14)
-    pub motor: Peri<'static, PC4>,
+    pub motor: hal::adc::AnyAdcChannel<'static, ADC1>,
     /// I2C3 at PA8 and PC9: Heading, Lamps
     pub i2c3: hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>,
     /// SPI3 at PC10 (SCK), PC12 (MOSI) and PB4 (MISO): Angle
@@ -92,8 +93,8 @@ pub fn wire(p: Peripherals) -> Wiring {
     Wiring {
         link: crate::rt::link_uart::Port::new(crate::rt::usart::port(hal::usart::BufferedUart::new(p.USART3, p.PD9, p.PD8, tx, rx, Irqs, crate::rt::usart::link(230400))), crate::TX_BYTES),
         adc1: hal::adc::Adc::new(p.ADC1),
-        distance: p.PC1,
-        motor: p.PC4,
+        distance: hal::adc::AdcChannel::degrade_adc(p.PC1),
+        motor: hal::adc::AdcChannel::degrade_adc(p.PC4),
         i2c3: hal::i2c::I2c::new(p.I2C3, p.PA8, p.PC9, p.DMA1_CH4, p.DMA1_CH2, Irqs, crate::rt::i2c::config(100000)),
         spi3: hal::spi::Spi::new(p.SPI3, p.PC10, p.PC12, p.PB4, p.DMA1_CH5, p.DMA1_CH0, Irqs, Default::default()),
         angle_select: Output::new(p.PC5, Level::High, Speed::Medium),
