@@ -13,7 +13,7 @@ unsafe extern "C" {
     fn atexit(last: extern "C" fn()) -> i32;
 }
 
-extern "C" fn tell() {
+extern "C" fn record() {
     if let Some(report) = reached::report() {
         eprintln!("stages: {report}");
     }
@@ -22,8 +22,8 @@ extern "C" fn tell() {
 fn chosen() -> Target {
     static CHOSEN: OnceLock<Target> = OnceLock::new();
     *CHOSEN.get_or_init(|| {
-        // SAFETY: `tell` takes nothing, gives nothing and does not unwind.
-        unsafe { atexit(tell) };
+        // SAFETY: `record` takes nothing, gives nothing and does not unwind.
+        unsafe { atexit(record) };
         #[expect(clippy::disallowed_methods, reason = "the runner names the target")]
         let name = std::env::var("SENSEDSL_FUZZ_TARGET").unwrap_or_default();
         target(&name).unwrap_or_else(|| panic!("SENSEDSL_FUZZ_TARGET={name} is not a target"))

@@ -191,7 +191,7 @@ pub struct Call {
 
 /// The result of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Ran {
+pub struct RunOutput {
     /// The exit status; -1 if a signal ended the program.
     pub status: i32,
     /// The text on stdout: the result.
@@ -253,12 +253,12 @@ impl Call {
 
     /// Runs the program to its end.
     #[must_use]
-    pub fn run(mut self) -> Ran {
+    pub fn run(mut self) -> RunOutput {
         let output = match self.stdin.take() {
             Some(bytes) => fed(&mut self.command, bytes),
             None => self.command.stdin(Stdio::null()).output().unwrap(),
         };
-        Ran {
+        RunOutput {
             status: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
             stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
@@ -266,7 +266,7 @@ impl Call {
     }
 }
 
-impl Ran {
+impl RunOutput {
     /// Fails unless the exit status is the given one.
     #[must_use]
     #[track_caller]
@@ -286,9 +286,9 @@ impl Ran {
 
 /// A test's own folder, empty at first and removed at the end.
 #[derive(Debug)]
-pub struct Scratch(PathBuf);
+pub struct TempDir(PathBuf);
 
-impl Scratch {
+impl TempDir {
     /// A new folder; its name includes `name`, for people to recognise.
     #[must_use]
     pub fn new(name: &str) -> Self {
@@ -320,7 +320,7 @@ impl Scratch {
     }
 }
 
-impl Drop for Scratch {
+impl Drop for TempDir {
     fn drop(&mut self) {
         // Files that cannot be removed are left to the machine's own cleaning.
         let _ = fs::remove_dir_all(&self.0);

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Random, Scratch, design, device_block, has, printed, root, sensedsl, text};
+use sensedsl_tests::{Random, TempDir, design, device_block, has, printed, root, sensedsl, text};
 
 use crate::prolog::random_table;
 
@@ -58,7 +58,7 @@ fn cost(call: &[&str], file: &Path) -> Option<u64> {
 /// tool finds none. Returns how many cases were feasible.
 #[track_caller]
 fn agree(name: &str, cases: &[(&[&str], String)]) -> usize {
-    let scratch = Scratch::new(name);
+    let scratch = TempDir::new(name);
     let mut models = Vec::new();
     let mut costs = Vec::new();
     for (at, (call, design)) in cases.iter().enumerate() {
@@ -101,7 +101,7 @@ fn fig2_and_the_car() {
 
 #[test]
 fn a_model_states_its_runs_and_its_width() {
-    let scratch = Scratch::new("alloy-text");
+    let scratch = TempDir::new("alloy-text");
     let file = scratch.write("fig2.sense", text("examples/fig2.sense"));
     let fig2 = model(&[], &file);
     // The cost of all pins together is 33, and six bits only reach 31.
@@ -123,7 +123,7 @@ fn a_model_states_its_runs_and_its_width() {
 
 #[test]
 fn ten_random_tables() {
-    let scratch = Scratch::new("tables");
+    let scratch = TempDir::new("tables");
     let pool = [
         "analog",
         "analog: prefer pin = PD3;",
@@ -164,7 +164,7 @@ fn every_part_of_the_objective() {
     };
     // The board's LEDs are on PD12 to PD15, the only pins that TIM4 has left.
     let lights = "# mcu = STM32F407VGT6\nPin,Usages,Onboard\nPD12,TIM4_CH1,LED:care\nPD13,TIM4_CH2 x,LED:care\nPB7,TIM4_CH2 y z,\n";
-    let scratch = Scratch::new("alloy-shared");
+    let scratch = TempDir::new("alloy-shared");
     let table = scratch.write("t.csv", lights).display().to_string();
     let shared = design(&format!("B on \"{table}\""), &["pwm: frequency = 50 Hz;"; 2]);
     let before = design(
@@ -201,7 +201,7 @@ fn every_part_of_the_objective() {
 
 #[test]
 fn hostile_names_stay_in_comments() {
-    let scratch = Scratch::new("alloy-hostile");
+    let scratch = TempDir::new("alloy-hostile");
     let table = "# mcu = STM32F407VGT6\nPin,Usages,Side\nPA1,ADC1_IN1 }fact{some/none},x } // fact { some none }\nPA2,ADC1_IN2,left\n";
     let table = scratch.write("t.csv", table).display().to_string();
     let rules = "analog: avoid side = \"x } // fact { some none }\"; avoid side = left;";

@@ -13,7 +13,7 @@ use sensedsl_firmware_chibios::Facts;
 use sensedsl_model::design::Design;
 use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_parts::{Completion, complete, find};
-use sensedsl_tests::{Scratch, sensedsl, text};
+use sensedsl_tests::{TempDir, sensedsl, text};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Solved, Wiring};
 
@@ -259,7 +259,7 @@ fn boards_with_a_profile_have_firmware() {
     for name in
         ["NUCLEO-F072RB", "NUCLEO-F103RB", "NUCLEO-G474RE", "NUCLEO-H743ZI", "NUCLEO-L476RG"]
     {
-        let scratch = Scratch::new("template");
+        let scratch = TempDir::new("template");
         let file = scratch.write("fig2.sense", fig2_on(catalog::find(name).unwrap()));
         let (file, out) = (file.display().to_string(), scratch.path().join("out"));
         let out = out.display().to_string();
@@ -271,7 +271,7 @@ fn boards_with_a_profile_have_firmware() {
 
 #[test]
 fn the_printed_table_is_whole() {
-    let scratch = Scratch::new("printed");
+    let scratch = TempDir::new("printed");
     for name in ["NUCLEO-F411RE", "RASPBERRYPI-PICO", "ARDUINO-NANO", "STM32F407G-DISC1"] {
         let printed = sensedsl(["boards", name]).run().exits(0).stdout;
         let table = scratch.write("printed.csv", &printed).display().to_string();

@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{Scratch, binary, missing, root, sensedsl};
+use sensedsl_tests::{TempDir, binary, missing, root, sensedsl};
 use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, Schema, encode_report};
 
 use crate::hosts::designs;
@@ -153,7 +153,7 @@ fn values_of_an_imported_file_are_those_of_cantools() {
     if !has_peer() {
         return;
     }
-    let (scratch, dbc) = (Scratch::new("dbc"), root().join("tests/can/vehicle.dbc"));
+    let (scratch, dbc) = (TempDir::new("dbc"), root().join("tests/can/vehicle.dbc"));
     let import = sensedsl(["import", "tests/can/vehicle.dbc", "--node", "Gateway", "-o"]);
     let _ = import.arg(scratch.join("vehicle.sense")).run().exits(0);
     let text = "use \"vehicle.sense\";\nboard OLIMEX_STM32_E407 {}\n";

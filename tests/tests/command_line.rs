@@ -3,7 +3,7 @@
 
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{Scratch, binary, files, is_thorough, read, root, sensedsl, text};
+use sensedsl_tests::{TempDir, binary, files, is_thorough, read, root, sensedsl, text};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";
@@ -62,7 +62,7 @@ fn a_reader_that_has_seen_enough_is_no_failure() {
 
 #[test]
 fn the_layout_is_canonical_once_and_for_all() {
-    let scratch = Scratch::new("fmt");
+    let scratch = TempDir::new("fmt");
     let ugly = "/* a */board   B on STM32F4DiscoveryBoard{sensor A returns uint16\n{id=1;// one\n type=analog;}}";
     let file = scratch.write("ugly.sense", ugly);
     let name = file.display().to_string();
@@ -92,7 +92,7 @@ fn shipped() -> Vec<std::path::PathBuf> {
 
 #[test]
 fn what_new_makes_works_at_once() {
-    let scratch = Scratch::new("new");
+    let scratch = TempDir::new("new");
     for board in ["STM32F4DiscoveryBoard", "STM32F407G-DISC1"] {
         let dir = scratch.join(board);
         let folder = dir.display().to_string();
@@ -113,7 +113,7 @@ fn what_new_makes_works_at_once() {
 /// The starter design has what the board can carry, and firmware if the board has any.
 #[test]
 fn new_works_for_every_board() {
-    let scratch = Scratch::new("new_everywhere");
+    let scratch = TempDir::new("new_everywhere");
     let boards = sensedsl_board::catalog::all();
     let works = |name: &str| {
         let dir = scratch.join(name);
@@ -155,7 +155,7 @@ fn every_code_is_explained() {
 
 #[test]
 fn files_that_are_none_are_refused_in_words() {
-    let scratch = Scratch::new("odd");
+    let scratch = TempDir::new("odd");
     let cases: &[(&str, &[u8], &str)] = &[
         ("latin1.sense", b"// K\xfchler\n", "UTF-8"),
         ("binary.sense", &[0xff, 0xfe, 0x00], "UTF-8"),
@@ -207,7 +207,7 @@ fn a_file_of_nothing_but_mistakes_is_answered_briefly() {
 #[test]
 fn a_chip_is_explained() {
     let text = "board STM32F407G_DISC1 { chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 {} } }";
-    let scratch = Scratch::new("chip-explained");
+    let scratch = TempDir::new("chip-explained");
     let file = scratch.write("robot.sense", text).display().to_string();
     let why = sensedsl(["explain", "wiring", &file, "Left", "-q"]).run().exits(0).stdout;
     for wire in ["pwm", "in1", "in2", "standby"] {
@@ -219,8 +219,8 @@ fn a_chip_is_explained() {
         "{why}"
     );
     let all = sensedsl(["explain", "wiring", &file, "Left", "-q", "--all"]).run().exits(0).stdout;
-    let told = format!("`--all` lists all {} places", all.lines().count() - 1);
-    assert!(all.lines().count() > 100 && why.contains(&told), "{why}\n{all}");
+    let reported = format!("`--all` lists all {} places", all.lines().count() - 1);
+    assert!(all.lines().count() > 100 && why.contains(&reported), "{why}\n{all}");
     let chosen: Vec<&str> = all.lines().filter(|line| line.ends_with(" chosen")).collect();
     for (line, first) in chosen.iter().zip(why.lines().skip(1)) {
         let [role, pin] = [0, 1].map(|at| line.split_whitespace().nth(at));

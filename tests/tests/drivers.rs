@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use sensedsl_tests::{Scratch, files, has, root};
+use sensedsl_tests::{TempDir, files, has, root};
 
 const VECTORS: &str = "tests/vectors/drivers";
 
@@ -29,7 +29,7 @@ fn what_disagrees_is_told() {
     if !has("python3") {
         return;
     }
-    let copy = Scratch::new("driver-vectors");
+    let copy = TempDir::new("driver-vectors");
     for (folder, ending) in [("crates/model/drivers", "sense"), (VECTORS, "txt"), (VECTORS, "py")] {
         fs::create_dir_all(copy.join(folder)).unwrap();
         for file in files(&root().join(folder), ending) {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use sensedsl_diagnostics::Severity;
 use sensedsl_model::facts::{self, EXAMPLE_BOARD};
 use sensedsl_report::drivers;
-use sensedsl_tests::{Scratch, assert_tree, sensedsl, text};
+use sensedsl_tests::{TempDir, assert_tree, sensedsl, text};
 
 /// All pages as the library gives them, by name.
 fn pages() -> BTreeMap<String, Vec<u8>> {
@@ -81,7 +81,7 @@ fn programs_read_the_same() {
     let one = sensedsl(["drivers", "gy521", "--format", "json"]).run().exits(0).json();
     let part = &one["drivers"][0];
     // The example is a complete file that can be solved.
-    let folder = Scratch::new("driver_example");
+    let folder = TempDir::new("driver_example");
     let file = folder.write("example.sense", part["example"].as_str().unwrap());
     let _ = sensedsl(["solve"]).arg(file).run().exits(0);
 }

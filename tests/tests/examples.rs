@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use sensedsl_tests::{Scratch, root, sensedsl};
+use sensedsl_tests::{TempDir, root, sensedsl};
 
 /// The maximum number of lines of the examples that show how short a robot's description can be; no
 /// limit for the others.
@@ -24,7 +24,7 @@ fn every_example_is_solved_and_generated() {
     names.retain(|name| name.ends_with(".sense"));
     names.sort();
     assert!(names.len() >= 7, "{names:?}");
-    let scratch = Scratch::new("examples");
+    let scratch = TempDir::new("examples");
     for name in &names {
         let path = format!("examples/{name}");
         let text = fs::read_to_string(root().join(&path)).unwrap();

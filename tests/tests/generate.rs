@@ -8,25 +8,25 @@ use std::path::Path;
 #[cfg(unix)]
 use std::process::Command;
 
-use sensedsl_tests::{Ran, Scratch, read, sensedsl, tree};
+use sensedsl_tests::{RunOutput, TempDir, read, sensedsl, tree};
 
 const FIG2: &str = "examples/fig2.sense";
 const CAR: &str = "examples/miniature_car.sense";
 const FIRMWARE: &str = "firmware/STM32F4DiscoveryBoard";
 
-fn generate(file: &str, scratch: &Scratch, arguments: &[&str]) -> Ran {
+fn generate(file: &str, scratch: &TempDir, arguments: &[&str]) -> RunOutput {
     let call = sensedsl(["generate", file, "-q", "-o"]).arg(scratch.join("out"));
     arguments.iter().fold(call, |call, argument| call.arg(argument)).run()
 }
 
-fn out(scratch: &Scratch) -> BTreeMap<String, Vec<u8>> {
+fn out(scratch: &TempDir) -> BTreeMap<String, Vec<u8>> {
     tree(&scratch.join("out"))
 }
 
 #[test]
 fn the_same_input_gives_the_same_bytes_wherever_it_is() {
     for file in [FIG2, CAR] {
-        let (one, other) = (Scratch::new("one"), Scratch::new("other-name"));
+        let (one, other) = (TempDir::new("one"), TempDir::new("other-name"));
         let _ = generate(file, &one, &[]).exits(0);
         let _ = generate(file, &other, &[]).exits(0);
         let first = out(&one);
@@ -36,7 +36,7 @@ fn the_same_input_gives_the_same_bytes_wherever_it_is() {
         // The design is named after its file, wherever that is.
         let name = file.rsplit('/').next().unwrap_or(file);
         let copy = other.write(&format!("elsewhere/{name}"), sensedsl_tests::text(file));
-        let third = Scratch::new("third");
+        let third = TempDir::new("third");
         let _ = generate(&copy.display().to_string(), &third, &[]).exits(0);
         assert_eq!(first, out(&third), "no path of the input is in the output");
         for (name, bytes) in &first {
@@ -51,7 +51,7 @@ fn the_same_input_gives_the_same_bytes_wherever_it_is() {
 
 #[test]
 fn a_file_that_needs_no_change_is_not_written_again() {
-    let scratch = Scratch::new("times");
+    let scratch = TempDir::new("times");
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let time = |name: &str| fs::metadata(scratch.join(name)).unwrap().modified().unwrap();
     let makefile = format!("out/{FIRMWARE}/Makefile");
@@ -63,7 +63,7 @@ fn a_file_that_needs_no_change_is_not_written_again() {
 
 #[test]
 fn a_list_that_lies_does_no_harm() {
-    let scratch = Scratch::new("lies");
+    let scratch = TempDir::new("lies");
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let outside = scratch.write("outside.txt", "precious");
     let list = read(&scratch.join("out/.sensedsl-files"));
@@ -77,7 +77,7 @@ fn a_list_that_lies_does_no_harm() {
 #[cfg(unix)]
 #[test]
 fn links_are_not_followed_out_of_the_folder() {
-    let scratch = Scratch::new("links");
+    let scratch = TempDir::new("links");
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let outside = scratch.write("outside/precious.txt", "precious");
     std::os::unix::fs::symlink(scratch.join("outside"), scratch.join("out/linked")).unwrap();
@@ -95,7 +95,7 @@ fn links_are_not_followed_out_of_the_folder() {
 #[test]
 fn a_folder_stays_the_one_it_is() {
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
-    let scratch = Scratch::new("same");
+    let scratch = TempDir::new("same");
     // The folder is named by a link, and the user's files in it include links and have modes of
     // their own.
     fs::create_dir(scratch.join("real")).unwrap();
@@ -140,7 +140,7 @@ fn a_folder_stays_the_one_it_is() {
 #[cfg(unix)]
 #[test]
 fn a_pipe_in_the_place_of_a_file_is_replaced_and_nobody_waits_for_it() {
-    let scratch = Scratch::new("pipe");
+    let scratch = TempDir::new("pipe");
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let sheet = scratch.join("out/wiring.md");
     fs::remove_file(&sheet).unwrap();
@@ -154,7 +154,7 @@ fn a_pipe_in_the_place_of_a_file_is_replaced_and_nobody_waits_for_it() {
 #[cfg(unix)]
 #[test]
 fn a_link_to_nowhere_is_said() {
-    let scratch = Scratch::new("none");
+    let scratch = TempDir::new("none");
     std::os::unix::fs::symlink("nowhere", scratch.join("out")).unwrap();
     let ran = generate(FIG2, &scratch, &[]).exits(2);
     assert!(ran.stderr.contains("link to a folder that does not exist"), "{}", ran.stderr);

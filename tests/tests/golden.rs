@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_tests::{Scratch, assert_tree, sensedsl, tree};
+use sensedsl_tests::{TempDir, assert_tree, sensedsl, tree};
 
 /// Whether a file is the same for all designs.
 fn is_runtime(path: &str) -> bool {
@@ -34,7 +34,7 @@ fn once(files: &mut BTreeMap<String, Vec<u8>>) {
 }
 
 fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
-    let scratch = Scratch::new("golden");
+    let scratch = TempDir::new("golden");
     let call = sensedsl(["generate", file, "-q", "-o"]).arg(scratch.join("out")).args(arguments);
     let _ = call.run().exits(0);
     let mut files = tree(&scratch.join("out"));

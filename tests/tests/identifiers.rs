@@ -5,7 +5,7 @@
     reason = "a test reads its data, and a panic is its failure"
 )]
 
-use sensedsl_tests::{Ran, Scratch, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, sensedsl};
 
 const BEFORE: &str = "// A robot.
 board Robot on NUCLEO_F446RE {
@@ -29,7 +29,7 @@ board Robot on NUCLEO_F446RE {
 ";
 
 /// The names and identifiers that a program reads from the answer.
-fn ids(folder: &Scratch, file: &str) -> Vec<(String, u64)> {
+fn ids(folder: &TempDir, file: &str) -> Vec<(String, u64)> {
     let ran = sensedsl(["solve", "--format", "json", file]).within(folder.path()).run();
     let value = ran.exits(0).json();
     let boards = value["boards"].as_array().unwrap().clone();
@@ -43,19 +43,19 @@ fn ids(folder: &Scratch, file: &str) -> Vec<(String, u64)> {
     all
 }
 
-fn fmt(folder: &Scratch, arguments: &[&str]) -> Ran {
+fn fmt(folder: &TempDir, arguments: &[&str]) -> RunOutput {
     sensedsl(["fmt", "--ids"]).args(arguments).within(folder.path()).run()
 }
 
 #[test]
 fn the_numbers_of_the_design_are_written() {
-    let folder = Scratch::new("ids");
+    let folder = TempDir::new("ids");
     let file = folder.write("robot.sense", BEFORE);
     let before = ids(&folder, "robot.sense");
     let _ = fmt(&folder, &["--check", "robot.sense"]).exits(1);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), BEFORE);
-    let told = fmt(&folder, &["robot.sense"]).exits(0);
-    assert_eq!(told.stdout, "robot.sense: identifiers written\n");
+    let reported = fmt(&folder, &["robot.sense"]).exits(0);
+    assert_eq!(reported.stdout, "robot.sense: identifiers written\n");
     let after = std::fs::read_to_string(&file).unwrap();
     let wanted = "// A robot.
 board Robot on NUCLEO_F446RE {
@@ -95,12 +95,16 @@ board Robot on NUCLEO_F446RE {
 
 #[test]
 fn a_file_with_errors_is_left_alone() {
-    let folder = Scratch::new("ids_errors");
+    let folder = TempDir::new("ids_errors");
     let text = BEFORE.replace("mpu6050", "mpu6051").replace("= 60", "= 40");
     let file = folder.write("robot.sense", &text);
-    let told = fmt(&folder, &["robot.sense"]).exits(1);
-    assert!(told.stderr.contains("E0216") && told.stderr.contains("E0203"), "{}", told.stderr);
-    assert!(told.stderr.contains("no identifiers are written"), "{}", told.stderr);
+    let reported = fmt(&folder, &["robot.sense"]).exits(1);
+    assert!(
+        reported.stderr.contains("E0216") && reported.stderr.contains("E0203"),
+        "{}",
+        reported.stderr
+    );
+    assert!(reported.stderr.contains("no identifiers are written"), "{}", reported.stderr);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
     // Without `--ids`, the file is only formatted.
     let _ = sensedsl(["fmt", "robot.sense"]).within(folder.path()).run().exits(0);
@@ -108,13 +112,13 @@ fn a_file_with_errors_is_left_alone() {
 
 #[test]
 fn used_files_are_left_alone_and_what_moves_there_is_told() {
-    let folder = Scratch::new("ids_use");
+    let folder = TempDir::new("ids_use");
     let other = "sensor Light returns uint16 {\n    type = analog;\n}\n";
     folder.write("other.sense", other);
     let main = "use \"other.sense\";\nboard Robot on NUCLEO_F446RE {\n    sensor Dark returns uint16 {\n        type = analog;\n    }\n}\n";
     let file = folder.write("robot.sense", main);
     let before = ids(&folder, "robot.sense");
-    let told = fmt(&folder, &["robot.sense"]).exits(0);
+    let reported = fmt(&folder, &["robot.sense"]).exits(0);
     assert_eq!(std::fs::read_to_string(folder.join("other.sense")).unwrap(), other);
     let after = ids(&folder, "robot.sense");
     let number = |all: &[(String, u64)], name: &str| {
@@ -124,12 +128,16 @@ fn used_files_are_left_alone_and_what_moves_there_is_told() {
     let written = std::fs::read_to_string(&file).unwrap();
     assert!(written.contains(&format!("id = {};", number(&before, "Dark"))), "{written}");
     let has_moved = number(&after, "Light") != number(&before, "Light");
-    assert_eq!(told.stderr.contains("Light"), has_moved, "{}", told.stderr);
+    assert_eq!(reported.stderr.contains("Light"), has_moved, "{}", reported.stderr);
 }
 
 #[test]
 fn the_standard_input_is_printed() {
     let text = "board Robot on NUCLEO_F446RE { sensor A returns uint16 { type = analog; } }";
-    let told = sensedsl(["fmt", "--ids", "-"]).stdin(text).run().exits(0);
-    assert!(told.stdout.contains("A returns uint16 { id = 1; type = analog; }"), "{}", told.stdout);
+    let reported = sensedsl(["fmt", "--ids", "-"]).stdin(text).run().exits(0);
+    assert!(
+        reported.stdout.contains("A returns uint16 { id = 1; type = analog; }"),
+        "{}",
+        reported.stdout
+    );
 }

@@ -110,10 +110,10 @@ const ROBOT: &str = "board STM32F407G_DISC1 {
 
 #[test]
 fn the_examples_do_what_the_page_says() {
-    let told = check(
+    let reported = check(
         "board STM32F407G_DISC1 { sensor Light returns uint16 { type = analog; pin = PZ9; } }",
     );
-    assert!(told.iter().any(|one| one.contains("PZ9")), "{told:?}");
+    assert!(reported.iter().any(|one| one.contains("PZ9")), "{reported:?}");
     let pins = solve(ROBOT).unwrap();
     assert_eq!(pins.len(), 3, "{pins:?}");
     assert!(solve(&ROBOT.replace("encoder;", "encoder; pin = PE0;")).is_err());

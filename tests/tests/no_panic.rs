@@ -11,7 +11,7 @@ use std::thread;
 
 use sensedsl_diagnostics::render;
 use sensedsl_generate::Selection;
-use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, apply_allows, resolve};
 use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_tests::{Random, files, is_thorough, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
@@ -26,9 +26,9 @@ struct Input {
 struct Memory<'a>(&'a Input);
 
 impl Files for Memory<'_> {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
         let table = self.0.table.as_ref().filter(|_| wanted.path.ends_with(".csv"));
-        table.cloned().ok_or(Unread::Missing)
+        table.cloned().ok_or(ReadError::Missing)
     }
 }
 

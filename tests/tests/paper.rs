@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_tests::{Ran, Random, Scratch, design, sensedsl, text};
+use sensedsl_tests::{Random, RunOutput, TempDir, design, sensedsl, text};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";
@@ -32,13 +32,13 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-fn solve(text: &str, arguments: &[&str]) -> Ran {
+fn solve(text: &str, arguments: &[&str]) -> RunOutput {
     sensedsl(["solve", "-", "-q", "--format", "json"].iter().chain(arguments)).stdin(text).run()
 }
 
 #[test]
 fn fig2_on_table1_has_the_known_answer_in_the_fixed_form() {
-    let scratch = Scratch::new("fig2");
+    let scratch = TempDir::new("fig2");
     let table = sensedsl(["boards", "STM32F4DiscoveryBoard"]).run().exits(0).stdout;
     assert_eq!(table.lines().filter(|line| line.starts_with('P')).count(), 1 + 26);
     let table = scratch.write("table1.csv", table);

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use sensedsl_tests::{Scratch, binary, design, root, sensedsl};
+use sensedsl_tests::{TempDir, binary, design, root, sensedsl};
 use serde_json::Value;
 
 /// The lines that `parts` prints for a file.
@@ -57,7 +57,7 @@ fn filters_leave_what_they_say() {
 
 #[test]
 fn parts_that_cannot_carry_the_devices_are_left_out() {
-    let scratch = Scratch::new("parts");
+    let scratch = TempDir::new("parts");
     let can = design("X", &["can: bitrate = 500 kHz; frame = 1;", "digital: pin = PA11;"]);
     let file = scratch.write("can.sense", can).display().to_string();
     let lines = carriers(&file, &["--family", "STM32F103", "--target", "none"]);

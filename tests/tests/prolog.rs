@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::{Call, Random, Scratch, design, device_block, has, run, sensedsl, text};
+use sensedsl_tests::{Call, Random, TempDir, design, device_block, has, run, sensedsl, text};
 use serde_json::Value;
 
 /// A call of `solve` that may read the tables of these tests, which are in folders of their own.
@@ -21,7 +21,7 @@ pub(crate) fn by_swipl(file: &Path) -> String {
 }
 
 /// The first line that `main` of an exported program prints: rules violated, shared pins, cost.
-fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64, u64)> {
+fn by_prolog(scratch: &TempDir, design: &str) -> Option<(u64, u64, u64)> {
     let program = call("prolog").arg(design).run().exits(0).stdout;
     let file = scratch.write("wiring.pl", program);
     let out = by_swipl(&file);
@@ -49,7 +49,7 @@ fn by_us(design: &str) -> Option<(u64, u64, u64)> {
 
 #[track_caller]
 fn agree(design: &str) -> Option<(u64, u64, u64)> {
-    let scratch = Scratch::new("prolog");
+    let scratch = TempDir::new("prolog");
     let file = scratch.write("robot.sense", design).display().to_string();
     let ours = by_us(&file);
     assert_eq!(by_prolog(&scratch, &file), ours, "{design}");
@@ -102,7 +102,7 @@ fn six_random_tables() {
     if !has("swipl") {
         return;
     }
-    let scratch = Scratch::new("tables");
+    let scratch = TempDir::new("tables");
     let pool = ["analog", "analog", "icu", "i2c: address = 0x20;", "i2c: address = 0x21;"];
     let mut answers = Vec::new();
     for seed in 1..=6 {

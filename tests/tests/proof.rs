@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Scratch, answered, design, read, sensedsl, verifier};
+use sensedsl_tests::{TempDir, answered, design, read, sensedsl, verifier};
 
 const BOARD: &str = "STM32F4DiscoveryBoard";
 
@@ -26,7 +26,7 @@ fn ran(verifier: &mut Command) -> (i32, String) {
 /// Solves with a certificate and verifies it; returns the output of the verifier.
 #[track_caller]
 fn proved(arguments: &[&str], stdin: &str, status: i32) -> String {
-    let scratch = Scratch::new("proof");
+    let scratch = TempDir::new("proof");
     let certificate = scratch.join("certificate.json");
     let call = sensedsl(["solve", "-q"]).arg("--proof").arg(&certificate);
     let ran = arguments.iter().fold(call, |call, argument| call.arg(argument)).stdin(stdin).run();
@@ -88,7 +88,7 @@ fn buses_frequencies_wishes_and_boards_are_proved() {
 
 #[test]
 fn moved_wires_are_proved_to_be_needed() {
-    let scratch = Scratch::new("proof-moved");
+    let scratch = TempDir::new("proof-moved");
     let before = design(BOARD, &["analog", "icu"]);
     let answer = sensedsl(["solve", "-q", "--format", "json", "-"]).stdin(before).run().exits(0);
     let keep = scratch.write(NAMES[3], answer.stdout);
@@ -102,7 +102,7 @@ const NAMES: [&str; 4] = ["robot.sense", "parts/arm.sense", "tables/own.csv", "b
 
 #[test]
 fn a_certificate_is_of_the_files_it_was_made_of() {
-    let scratch = Scratch::new("proof-for");
+    let scratch = TempDir::new("proof-for");
     let table = "# mcu = STM32F407VGT6\nPin,Side\nPA1,left\nPA2,left\nPB0,right\n";
     let sensor = |id: u8| format!("sensor S{id} returns uint16 {{ id = {id}; type = analog; }}\n");
     let main =
@@ -155,7 +155,7 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
 
 #[test]
 fn a_certificate_of_a_built_in_board_is_of_its_table() {
-    let scratch = Scratch::new("proof-built-in");
+    let scratch = TempDir::new("proof-built-in");
     let proof = scratch.join("proof.json");
     let given = scratch.write("given.sense", design("STM32F407G_DISC1", &["analog"]));
     let call = sensedsl(["solve", "-q", "-", "--target", "none", "--proof"]).arg(&proof);
@@ -173,7 +173,7 @@ fn a_certificate_of_a_built_in_board_is_of_its_table() {
 
 #[test]
 fn changed_certificates_are_refused_and_other_files_are_unusable() {
-    let scratch = Scratch::new("proof-changed");
+    let scratch = TempDir::new("proof-changed");
     let certificate = scratch.join("fig2.json");
     let _ = sensedsl(["solve", "-q", "examples/fig2.sense", "--proof"])
         .arg(&certificate)
@@ -202,7 +202,7 @@ fn changed_certificates_are_refused_and_other_files_are_unusable() {
 
 #[test]
 fn without_a_proof_there_is_an_answer_or_a_word() {
-    let scratch = Scratch::new("proof-none");
+    let scratch = TempDir::new("proof-none");
     let path = scratch.join("none.json");
     let late = ["solve", "examples/fig2.sense", "--timeout", "0", "--proof"];
     let ran = sensedsl(late).arg(&path).run();
@@ -224,7 +224,7 @@ fn without_a_proof_there_is_an_answer_or_a_word() {
 
 #[test]
 fn a_certificate_is_the_result_where_it_goes_to_the_standard_output() {
-    let scratch = Scratch::new("proof-stdout");
+    let scratch = TempDir::new("proof-stdout");
     let path = scratch.join("fig2.json");
     let to_file = sensedsl(["solve", "examples/fig2.sense", "--proof"]).arg(&path).run();
     let ran = sensedsl(["solve", "examples/fig2.sense", "--proof", "-"]).run();

@@ -2,11 +2,11 @@
 //! gets, and how `fmt --migrate` changes files whose values were raw codes.
 #![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
 
-use sensedsl_tests::{Scratch, read, sensedsl, text};
+use sensedsl_tests::{TempDir, read, sensedsl, text};
 
 /// The failsafes in the firmware of a file, in order.
 fn failsafes(text: &str) -> Vec<String> {
-    let folder = Scratch::new("shown-values");
+    let folder = TempDir::new("shown-values");
     let file = folder.write("robot.sense", text);
     let out = folder.join("out");
     let call = sensedsl(["generate", "-q", "--without", "host", "-o"]).arg(&out).arg(&file);
@@ -55,7 +55,7 @@ const OLD: &str = "board STM32F407G_DISC1 {
 
 #[test]
 fn a_file_of_before_is_written_as_it_was_meant() {
-    let folder = Scratch::new("shown-migrated");
+    let folder = TempDir::new("shown-migrated");
     let file = folder.write("robot.sense", OLD);
     let ran = sensedsl(["check"]).arg(&file).run().exits(1);
     assert!(ran.stderr.contains("E0234"), "{}", ran.stderr);

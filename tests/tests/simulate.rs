@@ -5,7 +5,7 @@ use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use sensedsl_tests::{Scratch, binary, has, root, run, sensedsl};
+use sensedsl_tests::{TempDir, binary, has, root, run, sensedsl};
 
 const FIG2: &str = "examples/fig2.sense";
 const CAR: &str = "examples/miniature_car.sense";
@@ -32,7 +32,7 @@ fn examples_agree_with_their_worlds() {
 
 #[test]
 fn a_seed_gives_the_same_bytes() {
-    let scratch = Scratch::new("frames");
+    let scratch = TempDir::new("frames");
     let frames = |name: &str, seed: &str| {
         let path = scratch.join(name);
         let world = ["--world", "examples/worlds/car.toml", "--judge", "--seconds", "3"];
@@ -74,7 +74,7 @@ impl Running {
     }
 }
 
-fn monitor(scratch: &Scratch, file: &str, board: &str) -> std::path::PathBuf {
+fn monitor(scratch: &TempDir, file: &str, board: &str) -> std::path::PathBuf {
     let out = scratch.join("out");
     let _ = sensedsl(["generate", file, "--quiet", "-o"]).arg(&out).run().exits(0);
     let program = scratch.join("monitor");
@@ -92,7 +92,7 @@ fn a_generated_host_reads_the_pseudo_terminal() {
     if !has("g++") {
         return;
     }
-    let scratch = Scratch::new("host");
+    let scratch = TempDir::new("host");
     let program = monitor(&scratch, CAR, "STM32F4DiscoveryBoard");
     let mut simulate = Command::new(binary());
     simulate.args(["simulate", CAR, "--seconds", "60"]).current_dir(root()).stderr(Stdio::null());
@@ -117,7 +117,7 @@ fn a_generated_host_reads_the_pseudo_terminal() {
 #[test]
 #[cfg(target_os = "linux")]
 fn nobody_opens_the_terminal() {
-    let scratch = Scratch::new("alone");
+    let scratch = TempDir::new("alone");
     let file = scratch.write(
         "alone.sense",
         "board STM32F407G_DISC1 { sensor A returns uint16 { id = 1; type = analog; delay = 1 s; } }",

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use sensedsl_tests::{Scratch, read, sensedsl};
+use sensedsl_tests::{TempDir, read, sensedsl};
 
 const FIG2: &str = "examples/fig2.sense";
 const UNTIDY: &str = "board   STM32F4DiscoveryBoard { }";
@@ -11,7 +11,7 @@ const PROJECT: &str = "Mcu.Name=STM32F407V(E-G)Tx\nMcu.UserName=STM32F407VGTx\n\
     PA1.Signal=ADCx_IN1\nSH.ADCx_IN1.0=ADC1_IN1,IN1\n";
 
 /// The names in a folder, in order.
-fn names(scratch: &Scratch) -> Vec<String> {
+fn names(scratch: &TempDir) -> Vec<String> {
     let entries = fs::read_dir(scratch.path()).unwrap();
     let mut names: Vec<String> =
         entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
@@ -23,7 +23,7 @@ fn names(scratch: &Scratch) -> Vec<String> {
 #[test]
 fn links_stay_links_and_modes_stay_modes() {
     use std::os::unix::fs::{PermissionsExt as _, symlink};
-    let scratch = Scratch::new("links");
+    let scratch = TempDir::new("links");
     let real = scratch.write("elsewhere/real.sense", UNTIDY);
     fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
     symlink("elsewhere/real.sense", scratch.join("one.sense")).unwrap();
@@ -60,7 +60,7 @@ fn devices_and_pipes_are_written_to() {
     assert!(device("/dev/null"), "replaced by a file");
     let ran = sensedsl(["solve", "-q", FIG2, "--proof", "/dev/stdout"]).run().exits(0);
     assert!(ran.stdout.contains("opportunity cost 5") && ran.stdout.contains("certificate 4"));
-    let scratch = Scratch::new("pipes");
+    let scratch = TempDir::new("pipes");
     let project = scratch.write("rover.ioc", PROJECT);
     let printed = sensedsl(["import", "-q"]).arg(&project).run().exits(0).stdout;
     let ran = sensedsl(["import", "-q"]).arg(&project).args(["-o", "/dev/stdout"]).run().exits(0);
@@ -79,7 +79,7 @@ fn devices_and_pipes_are_written_to() {
 
 #[test]
 fn new_goes_on_where_one_was_killed_and_prints_what_a_shell_takes() {
-    let scratch = Scratch::new("new-killed");
+    let scratch = TempDir::new("new-killed");
     let name = "$(touch evil) it's";
     for part in [".robot.sense.sensedsl-part-1-0", ".README.md.sensedsl-part-1-1"] {
         scratch.write(&format!("{name}/{part}"), "half of i");

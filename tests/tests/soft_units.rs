@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_tests::{Random, Scratch, design, sensedsl};
+use sensedsl_tests::{Random, TempDir, design, sensedsl};
 use serde_json::Value;
 
 /// The number of pins in the table.
@@ -155,7 +155,7 @@ fn wiring_of(answer: &Value) -> Wiring {
 
 #[test]
 fn soft_rules_for_units_count_without_a_target() {
-    let scratch = Scratch::new("soft_units");
+    let scratch = TempDir::new("soft_units");
     let (mut feasible, mut ruled) = (0, 0);
     for seed in 1..=40 {
         let mut random = Random::new(seed);

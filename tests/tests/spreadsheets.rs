@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{Ran, Scratch, has, root, sensedsl, text};
+use sensedsl_tests::{RunOutput, TempDir, has, root, sensedsl, text};
 
 /// A sheet of remarks, and a sheet of pins with a title, a formula, merged cells and a number among
 /// names.
@@ -61,7 +61,7 @@ fn flat(sheets: &str) -> String {
 }
 
 /// The file in another format, converted by LibreOffice.
-fn converted(scratch: &Scratch, source: &Path, format: &str) -> PathBuf {
+fn converted(scratch: &TempDir, source: &Path, format: &str) -> PathBuf {
     let profile = format!("-env:UserInstallation=file://{}", scratch.join("profile").display());
     let ending = format.split(':').next().unwrap();
     let folder = scratch.join(ending);
@@ -74,7 +74,7 @@ fn converted(scratch: &Scratch, source: &Path, format: &str) -> PathBuf {
     made
 }
 
-fn import(source: &Path) -> Ran {
+fn import(source: &Path) -> RunOutput {
     sensedsl(["import"]).arg(source).run().exits(0)
 }
 
@@ -83,7 +83,7 @@ fn table_1_comes_back_from_libreoffice() {
     if !has("soffice") {
         return;
     }
-    let scratch = Scratch::new("libreoffice");
+    let scratch = TempDir::new("libreoffice");
     let table = root().join("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
     let expected = text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
     for format in ["xlsx", "ods"] {
@@ -101,7 +101,7 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
     if !has("soffice") {
         return;
     }
-    let scratch = Scratch::new("libreoffice-odd");
+    let scratch = TempDir::new("libreoffice-odd");
     let odd = scratch.write("odd.fods", flat(ODD));
     for format in ["xlsx", "ods"] {
         let made = import(&converted(&scratch, &odd, format));
@@ -128,7 +128,7 @@ fn text_in_another_encoding_is_reported_at_its_cell() {
     if !has("soffice") {
         return;
     }
-    let scratch = Scratch::new("libreoffice-csv");
+    let scratch = TempDir::new("libreoffice-csv");
     let book = scratch.write("book.fods", flat(WESTERN));
     let made = import(&converted(&scratch, &book, "csv:Text - txt - csv (StarCalc):59,34,1"));
     assert_eq!(made.stdout, "Pin,I²C,Note\nPB6,I2C1-SCL,Prüfpunkt\nPB7,I2C1-SDA,\n");

@@ -8,14 +8,14 @@ use std::os::unix::fs::{MetadataExt as _, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Ran, Random, Scratch, design, few, read, sensedsl, text, tree};
+use sensedsl_tests::{Random, RunOutput, TempDir, design, few, read, sensedsl, text, tree};
 
 const USER: &str = "build/firmware/Robot/user";
 const SHEET: &str = "build/wiring.md";
 
 /// A home with files in it, and beside it a project of unknown origin.
 struct Clone {
-    scratch: Scratch,
+    scratch: TempDir,
     output: String,
 }
 
@@ -25,7 +25,7 @@ type Seen = BTreeMap<PathBuf, (u64, u32, u64, i64, i64, Vec<u8>)>;
 impl Clone {
     /// A project whose output was generated on another machine.
     fn new(made: &BTreeMap<String, Vec<u8>>) -> Self {
-        let scratch = Scratch::new("stranger");
+        let scratch = TempDir::new("stranger");
         for name in [".bashrc", "notes.txt", "keys/id"] {
             scratch.write(&format!("home/{name}"), format!("the user's {name}"));
         }
@@ -113,7 +113,7 @@ impl Clone {
         self.file(&format!("{work}/files/.sensedsl-files"), "evil\n");
     }
 
-    fn generate(&self, more: &[&str]) -> Ran {
+    fn generate(&self, more: &[&str]) -> RunOutput {
         let call = sensedsl(["generate", "-q", "robot.sense", "-o", &self.output]).args(more);
         let state = self.scratch.join("state").display().to_string();
         call.within(&self.path("")).env("XDG_STATE_HOME", &state).run()
@@ -172,7 +172,7 @@ fn traps() -> Vec<(String, Vec<String>)> {
 
 /// The output generated on another machine.
 fn made() -> BTreeMap<String, Vec<u8>> {
-    let scratch = Scratch::new("other-machine");
+    let scratch = TempDir::new("other-machine");
     let text = design("Robot on STM32F4DiscoveryBoard", &["analog"]);
     let file = scratch.write("robot.sense", text);
     let call = sensedsl(["generate", "-q"]).arg(file).arg("-o").arg(scratch.join("build"));

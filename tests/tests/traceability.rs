@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_tests::{Scratch, read, sensedsl, text, tree};
+use sensedsl_tests::{TempDir, read, sensedsl, text, tree};
 use serde_json::Value;
 
 const COLUMNS: [&str; 8] = [
@@ -122,7 +122,7 @@ fn section<'a>(text: &'a str, title: &str) -> &'a str {
 
 /// The text of each output column for a design.
 fn columns(design: &str) -> BTreeMap<&'static str, String> {
-    let scratch = Scratch::new("trace");
+    let scratch = TempDir::new("trace");
     let file = scratch.write("robot.sense", design);
     let call = sensedsl(["generate", "-q"]).arg(&file).arg("-o").arg(scratch.join("out"));
     let _ = call.run().exits(0);

@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_tests::{Ran, Scratch, design, device_block, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, design, device_block, sensedsl};
 use serde_json::Value;
 
 const BOARD: &str = "STM32F4DiscoveryBoard";
 const FULL: &str = "STM32F407G_DISC1";
 
-fn solve(text: impl Into<String>, arguments: &[&str]) -> Ran {
+fn solve(text: impl Into<String>, arguments: &[&str]) -> RunOutput {
     let call = sensedsl(["solve", "-", "-q", "--format", "json", "--allow-outside"]);
     // The tables are in folders of their own.
     let call = call.arg(std::env::temp_dir());
@@ -18,7 +18,7 @@ fn solve(text: impl Into<String>, arguments: &[&str]) -> Ran {
 }
 
 /// The pins, by `board.device.role`.
-fn pins(ran: &Ran) -> BTreeMap<String, String> {
+fn pins(ran: &RunOutput) -> BTreeMap<String, String> {
     let mut pins = BTreeMap::new();
     for board in ran.json()["boards"].as_array().unwrap() {
         for device in board["devices"].as_array().unwrap() {
@@ -38,8 +38,8 @@ fn best(text: &str) -> Vec<String> {
     pins(&solve(text, &[]).exits(0)).into_values().collect()
 }
 
-fn table(rows: &str) -> (Scratch, String) {
-    let scratch = Scratch::new("table");
+fn table(rows: &str) -> (TempDir, String) {
+    let scratch = TempDir::new("table");
     let path = scratch.write("table.csv", rows).display().to_string();
     (scratch, path)
 }
@@ -53,7 +53,7 @@ fn several_boards_and_devices_that_float() {
     // Nine fit on one board, but that costs more than using the cheap pins of both.
     let ran = solve(boards("", 9), &[]).exits(0);
     assert_eq!(ran.json()["cost"], 9);
-    let on_two = |ran: &Ran| pins(ran).keys().filter(|name| name.starts_with("Two.")).count();
+    let on_two = |ran: &RunOutput| pins(ran).keys().filter(|name| name.starts_with("Two.")).count();
     assert_eq!(on_two(&ran), 3);
     // A spare board is used only if the devices need it, whatever the cost; they need it from ten
     // on.

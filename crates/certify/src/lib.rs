@@ -94,7 +94,7 @@ pub enum Claim<'a> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Uncertified {
     /// No certificate was found within the effort.
-    GivenUp,
+    Incomplete,
     /// The caller stopped the search before one was found.
     Stopped,
     /// The verifier rejects it, for this reason.
@@ -143,7 +143,7 @@ struct Case<'a> {
 impl Case<'_> {
     fn certify(&self) -> Result<String, Uncertified> {
         let Self { problem, labels, subject, answer, cancel, .. } = *self;
-        let unknown = if cancel.is_over() { Uncertified::Stopped } else { Uncertified::GivenUp };
+        let unknown = if cancel.is_over() { Uncertified::Stopped } else { Uncertified::Incomplete };
         let search = self.recorded().ok_or(unknown)?;
         let text = Writer { problem, labels }.certificate(subject, answer, &search);
         believed(&text, cancel).map(|()| text)
@@ -165,7 +165,7 @@ impl Case<'_> {
 /// Verifies a text before it is handed out.
 fn believed(text: &str, cancel: Cancel<'_>) -> Result<(), Uncertified> {
     if sensedsl_proof::budget::fits(text).is_err() {
-        return Err(Uncertified::GivenUp);
+        return Err(Uncertified::Incomplete);
     }
     if cancel.is_over() {
         return Err(Uncertified::Stopped);
@@ -173,7 +173,9 @@ fn believed(text: &str, cancel: Cancel<'_>) -> Result<(), Uncertified> {
     let certificate = sensedsl_proof::read(text).map_err(|error| Uncertified::Refuted(error.0))?;
     match sensedsl_proof::verify(&certificate) {
         Ok(_) => Ok(()),
-        Err(refuted) if refuted.0 == sensedsl_proof::budget::TOO_LONG => Err(Uncertified::GivenUp),
+        Err(refuted) if refuted.0 == sensedsl_proof::budget::TOO_LONG => {
+            Err(Uncertified::Incomplete)
+        }
         Err(refuted) => Err(Uncertified::Refuted(refuted.0)),
     }
 }

@@ -14,7 +14,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::XML_NODES_MAX;
-use sensedsl_model::Unread;
+use sensedsl_model::ReadError;
 
 use crate::assemble::{self, Row};
 use crate::log::Log;
@@ -31,13 +31,13 @@ impl Cache {
     fn functions(
         &self,
         path: &str,
-        beside: &dyn Fn(&str) -> Result<Vec<u8>, Unread>,
+        beside: &dyn Fn(&str) -> Result<Vec<u8>, ReadError>,
     ) -> Result<Arc<Functions>, Refused> {
         if let Some(known) = self.files().get(path) {
             return Ok(Arc::clone(known));
         }
         // Two threads may read the same file at the same time; both get the same result.
-        let bytes = beside(path).map_err(Refused::Unread)?;
+        let bytes = beside(path).map_err(Refused::ReadError)?;
         let text = std::str::from_utf8(&bytes).map_err(|error| Refusal::why(&error));
         let document = text.and_then(parse).map_err(Refused::Unreadable)?;
         let found = Arc::new(functions(&document));
@@ -53,7 +53,7 @@ impl Cache {
 
 /// Why there are no alternate functions.
 enum Refused {
-    Unread(Unread),
+    ReadError(ReadError),
     Unreadable(Refusal),
 }
 
@@ -85,12 +85,12 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Texts
     let path = format!("IP/GPIO-{version}_Modes.xml");
     let functions = match cache.functions(&path, source.beside) {
         Ok(functions) => functions,
-        Err(Refused::Unread(Unread::Missing)) => {
+        Err(Refused::ReadError(ReadError::Missing)) => {
             let why = format!("the file `{path}` with its alternate functions is not beside it");
             log.unreadable(whole, source.name, &why);
             return Texts::default();
         }
-        Err(Refused::Unread(unread)) => {
+        Err(Refused::ReadError(unread)) => {
             log.refused(whole, &path, &unread);
             return Texts::default();
         }

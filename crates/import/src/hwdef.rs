@@ -13,7 +13,7 @@ use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::{HWDEF_LINES_MAX, HWDEF_MCUS_MAX, INCLUDE_DEPTH_MAX, INCLUDES_MAX};
-use sensedsl_model::Unread;
+use sensedsl_model::ReadError;
 
 use crate::log::Log;
 use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
         self.includes_left = fewer;
         let bytes = match (self.source.beside)(&path) {
             Ok(bytes) => bytes,
-            Err(Unread::Missing) => {
+            Err(ReadError::Missing) => {
                 let what =
                     format!("`{path}` is not beside the file: what it says of pins is missing");
                 return log.dropped(span, "", &what);

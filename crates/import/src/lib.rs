@@ -41,7 +41,7 @@ mod workbook;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
 
 pub use detect::{Format, detect};
-pub use sensedsl_model::Unread;
+pub use sensedsl_model::ReadError;
 
 use log::Log;
 
@@ -58,7 +58,7 @@ pub struct Source<'a> {
     /// The name under which the `.sense` file finds its table.
     pub table: &'a str,
     /// The content of a file by its path relative to the source, or why it was not read.
-    pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, Unread> + 'a),
+    pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, ReadError> + 'a),
 }
 
 /// The result of an import.

@@ -7,7 +7,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, SOURCE_TEXT_BYTES_MAX};
-use sensedsl_model::Unread;
+use sensedsl_model::ReadError;
 
 use crate::decode::decode;
 use crate::package::Refused;
@@ -75,16 +75,18 @@ impl Log {
     }
 
     /// Reports that a file named by the source was not read.
-    pub(crate) fn refused(&mut self, span: Span, path: &str, unread: &Unread) {
+    pub(crate) fn refused(&mut self, span: Span, path: &str, unread: &ReadError) {
         let help = match unread {
-            Unread::Outside(folder) => {
+            ReadError::Outside(folder) => {
                 format!("copy it into the folder, or allow it with `--allow-outside {folder}`")
             }
-            Unread::Missing
-            | Unread::Why(_)
-            | Unread::NotAFile(_)
-            | Unread::TooLarge
-            | Unread::AllTooLarge => "name a file of a reasonable size that can be read".to_owned(),
+            ReadError::Missing
+            | ReadError::Why(_)
+            | ReadError::NotAFile(_)
+            | ReadError::TooLarge
+            | ReadError::AllTooLarge => {
+                "name a file of a reasonable size that can be read".to_owned()
+            }
         };
         self.push(e0809_include_unreadable::include_unreadable(span, path, &unread.why(), &help));
     }

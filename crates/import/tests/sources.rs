@@ -2,12 +2,12 @@
 //! message with its place.
 
 use sensedsl_board::catalog;
-use sensedsl_import::{Imported, Source, Unread, import};
+use sensedsl_import::{Imported, ReadError, Source, import};
 
 fn with(name: &str, bytes: &[u8], sheet: Option<&str>, files: &[(&str, &str)]) -> Imported {
     let beside = |path: &str| {
         let found = files.iter().find(|(name, _)| *name == path);
-        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or(Unread::Missing)
+        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or(ReadError::Missing)
     };
     import(&Source { name, bytes, format: None, sheet, table: "pins.csv", beside: &beside })
 }
@@ -239,7 +239,7 @@ fn an_empty_description_of_an_mcu_is_refused_with_a_reason() {
         format: Some(sensedsl_import::Format::CubeMx),
         sheet: None,
         table: "pins.csv",
-        beside: &|_| Err(Unread::Missing),
+        beside: &|_| Err(ReadError::Missing),
     };
     let made = import(&source);
     assert!(made.failed() && says(&made, "E0801", &["empty.xml"]), "{:?}", said(&made));

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_board::table;
 use sensedsl_import::{Format, Imported, Importer, Source};
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, resolve};
 
 /// The folder, or a note that the test is skipped.
 fn data() -> Option<PathBuf> {
@@ -44,7 +44,7 @@ fn imported_with(importer: &Importer, path: &Path) -> Imported {
     let bytes = fs::read(path).unwrap();
     let folder = path.parent().unwrap();
     let name = path.file_name().unwrap().to_string_lossy();
-    let beside = |path: &str| fs::read(folder.join(path)).map_err(|_| Unread::Missing);
+    let beside = |path: &str| fs::read(folder.join(path)).map_err(|_| ReadError::Missing);
     importer.import(&Source {
         name: &name,
         bytes: &bytes,
@@ -149,8 +149,8 @@ fn remap_blocks_of_an_f1_are_at_its_usages() {
 struct Pins(String);
 
 impl Files for Pins {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        if wanted.path == "pins.csv" { Ok(self.0.clone()) } else { Err(Unread::Missing) }
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
+        if wanted.path == "pins.csv" { Ok(self.0.clone()) } else { Err(ReadError::Missing) }
     }
 }
 

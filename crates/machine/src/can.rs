@@ -171,7 +171,7 @@ impl Can {
     /// Restarts it in its state after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
-        self.tell(wires);
+        self.report(wires);
     }
 
     /// The number of clock periods in one bit.
@@ -246,7 +246,7 @@ impl Can {
                 self.receive(&frame, filters);
             }
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn sent(&mut self, mailbox: usize, wires: &Wires, filters: &Filters) {
@@ -280,7 +280,7 @@ impl Can {
         self.queues[queue].push_back([wide_bits(frame), length, word(0), word(4)]);
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let ier = self.ier;
         wires.interrupt(self.irqs[0], 0, ier & 1 != 0 && self.tsr & 0x0001_0101 != 0);
         for queue in 0..2 {
@@ -358,7 +358,7 @@ impl Can {
         if self.sent_at == NEVER {
             self.begin(wires.now, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn acknowledge(&mut self, bits: u32) {

@@ -59,7 +59,7 @@ pub(super) struct Chip {
     random: (Plain, u32),
     debug: [u32; 4],
     /// The peripherals about which something was reported already.
-    told: Vec<u32>,
+    reported: Vec<u32>,
     /// The address of an instruction just before the access.
     pub pc: u32,
     /// A reset that is due.
@@ -106,7 +106,7 @@ impl Chip {
             crc: u32::MAX,
             random: (plain("RNG"), 0),
             debug: [0; 4],
-            told: Vec::new(),
+            reported: Vec::new(),
             pc: 0,
             reset: None,
         };
@@ -212,7 +212,7 @@ impl Chip {
     /// Settles outputs, triggers, requests and interrupts after a change.
     fn settle(&mut self) {
         if self.wires.gpio.has_changes() {
-            self.wires.tell_outputs();
+            self.wires.report_outputs();
         }
         let triggers = std::mem::take(&mut self.wires.triggers);
         if triggers != 0 {
@@ -284,8 +284,8 @@ impl Chip {
             _ => self.is_enabled(row),
         };
         let is_modelled = device != Device::Other;
-        if (!is_on && is_lost || is_on && !is_modelled) && !self.told.contains(&base) {
-            self.told.push(base);
+        if (!is_on && is_lost || is_on && !is_modelled) && !self.reported.contains(&base) {
+            self.reported.push(base);
             let (at_ns, pc) = (self.wires.now, self.pc);
             self.wires.events.push(if is_on {
                 Event::NotModelled { at_ns, address, pc }

@@ -13,6 +13,7 @@ use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
 use super::Settings;
 use super::chip::Chip;
+use super::line::Line;
 use super::lockup::Lockup;
 use super::map::DEBUG_BASE;
 use super::mcu::{self, Mcu};
@@ -50,28 +51,6 @@ struct Shared {
     pc: AtomicU32,
     /// Whether the chip may have something new for the core, or an earlier deadline.
     touched: AtomicBool,
-}
-
-/// The conversion from cycles to time: a straight line from a moment on.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    cycles: u64,
-    ns: u64,
-    hz: u64,
-}
-
-impl Line {
-    fn ns_at(&self, cycles: u64) -> u64 {
-        let passed = u128::from(cycles - self.cycles) * u128::from(SECOND_NS) / u128::from(self.hz);
-        self.ns + u64::try_from(passed).unwrap_or(u64::MAX - self.ns)
-    }
-
-    /// The first cycle at which the time is `ns` or later.
-    fn cycles_at(&self, ns: u64) -> u64 {
-        let ahead = u128::from(ns.saturating_sub(self.ns)) * u128::from(self.hz);
-        let cycles = ahead.div_ceil(u128::from(SECOND_NS));
-        self.cycles.saturating_add(u64::try_from(cycles).unwrap_or(u64::MAX))
-    }
 }
 
 /// The peripherals on the core's bus.

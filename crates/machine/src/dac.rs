@@ -19,7 +19,7 @@ pub(super) struct Dac {
     sr: u32,
     holding: [u32; 2],
     output: [u32; 2],
-    told: [Option<u32>; 2],
+    reported: [Option<u32>; 2],
 }
 
 impl Dac {
@@ -82,15 +82,15 @@ impl Dac {
                 self.output[channel] = self.holding[channel];
             }
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
-    fn tell(&mut self, wires: &Wires) {
+    fn report(&mut self, wires: &Wires) {
         for channel in 0..2 {
             let is_on = self.cr >> (16 * channel) & 1 == 1;
             let output = is_on.then_some(self.output[channel]);
-            if output != self.told[channel] {
-                self.told[channel] = output;
+            if output != self.reported[channel] {
+                self.reported[channel] = output;
                 let millivolts = f64::from(output.unwrap_or(0)) / 4096.0 * SUPPLY_MV;
                 let number = self.before + u8::try_from(channel + 1).unwrap_or(0);
                 wires.world(|world, now| world.dac(number, millivolts, now));

@@ -98,7 +98,7 @@ impl Exti {
             }
         }
         self.look(wires);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn on_level(&mut self, number: usize, level: bool) {
@@ -125,10 +125,10 @@ impl Exti {
             }
             self.find_next();
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let held = self.pending & self.imr;
         for (first, irq) in self.irqs.iter().enumerate() {
             // Lines that share an interrupt hold it together.
@@ -164,7 +164,7 @@ impl Exti {
         if offset < 0x10 {
             self.look(wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     pub(super) fn read_ports(&self, offset: u32) -> u32 {

@@ -125,7 +125,7 @@ impl Fdcan {
         let memory = self.memory;
         *self = Self::new(self.unit, self.mcu);
         self.memory = memory;
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn register(&self, offset: u32) -> u32 {
@@ -219,7 +219,7 @@ impl Fdcan {
                 self.receive(&frame);
             }
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn loops(&self) -> bool {
@@ -317,7 +317,7 @@ impl Fdcan {
         self.registers[index(IR)] |= NEW[number] | if is_full { FULL[number] } else { 0 };
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let held = self.register(IR) & self.register(IE);
         let moves = |(group, _): &(usize, &u32)| self.register(ILS) >> group & 1 == 1;
         let second = GROUPS.iter().enumerate().filter(moves).fold(0, |all, (_, bits)| all | bits);
@@ -384,7 +384,7 @@ impl Fdcan {
         if self.sent_at == NEVER {
             self.begin(wires.now, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn request(&mut self, buffers: u32) {

@@ -66,6 +66,7 @@ mod gpio;
 mod i2c;
 mod image;
 mod iwdg;
+mod line;
 mod lockup;
 mod map;
 mod mcu;

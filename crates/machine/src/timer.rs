@@ -380,7 +380,7 @@ impl Timer {
             self.look_for_edges(wires);
         }
         self.settle(wires);
-        self.tell_waveforms(wires);
+        self.report_waveforms(wires);
     }
 
     /// Generates events for the program.
@@ -402,7 +402,7 @@ impl Timer {
         }
     }
 
-    fn tell_waveforms(&mut self, wires: &mut Wires) {
+    fn report_waveforms(&mut self, wires: &mut Wires) {
         for channel in 0..usize::from(self.variant.channels) {
             for is_complement in [false, true] {
                 let waveform = self.waveform(channel, is_complement);

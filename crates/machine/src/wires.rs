@@ -206,7 +206,7 @@ impl Wires {
     }
 
     /// Passes the MCU's changed outputs to the world.
-    pub(super) fn tell_outputs(&mut self) {
+    pub(super) fn report_outputs(&mut self) {
         let changes = self.gpio.take_changes();
         for (pad, level) in &changes {
             self.world(|world, now| world.driven(*pad, *level, now));

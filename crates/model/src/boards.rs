@@ -16,7 +16,7 @@ use sensedsl_syntax::ast::{self, BoardSource};
 use crate::constants::Constants;
 use crate::design::{Board, Spanned};
 use crate::fields::span;
-use crate::files::{Files, Unread, Wanted, What};
+use crate::files::{FileRequest, FileUse, Files, ReadError};
 use crate::links;
 use crate::resolve::Request;
 use crate::rules;
@@ -37,23 +37,23 @@ pub(crate) struct Context<'a> {
     pub(crate) tables: BTreeMap<FileId, Table>,
     /// The built-in tables already read.
     pub(crate) built_in: BTreeMap<FileId, Table>,
-    pub(crate) left: Left,
+    pub(crate) left: RemainingBudget,
 }
 
 /// The part of the budgets for all boards that is not yet used.
-pub(crate) struct Left {
+pub(crate) struct RemainingBudget {
     boards: usize,
     places: usize,
     bytes: usize,
 }
 
-impl Default for Left {
+impl Default for RemainingBudget {
     fn default() -> Self {
         Self { boards: BOARDS_MAX, places: PLACES_MAX, bytes: TABLES_BYTES_MAX }
     }
 }
 
-impl Left {
+impl RemainingBudget {
     /// Takes from a budget. If less than `taken` is left of it, the error names the budget and its
     /// full size.
     fn take(
@@ -191,14 +191,14 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> Opti
 fn afforded(context: &mut Context<'_>, pins: Pins, at: Span) -> Option<Pins> {
     let usages: usize = pins.table.pins.iter().map(|pin| 1 + pin.usages.len()).sum();
     let (left, bytes) = (&mut context.left, context.sources.text(pins.file).len());
-    let taken = Left::take(&mut left.boards, 1, "boards", BOARDS_MAX)
+    let taken = RemainingBudget::take(&mut left.boards, 1, "boards", BOARDS_MAX)
         .and_then(|()| {
             let what = "pins and usages on all boards";
-            Left::take(&mut left.places, usages, what, PLACES_MAX)
+            RemainingBudget::take(&mut left.places, usages, what, PLACES_MAX)
         })
         .and_then(|()| {
             let what = "bytes of tables for all boards";
-            Left::take(&mut left.bytes, bytes, what, TABLES_BYTES_MAX)
+            RemainingBudget::take(&mut left.bytes, bytes, what, TABLES_BYTES_MAX)
         });
     let Err((what, most)) = taken else { return Some(pins) };
     let report = e0225_too_many_items::too_many_items(at, what, most);
@@ -257,13 +257,13 @@ fn from_file(context: &mut Context<'_>, path: &str, at: Span, by_user: bool) -> 
         let table = table.unwrap_or_else(|| table::load(context.sources.text(file)).board);
         return Some(Pins { table, file, entry: None });
     }
-    let wanted = Wanted { path, what: What::Table, by_user };
+    let wanted = FileRequest { path, what: FileUse::Table, by_user };
     let text = match context.files.read(&wanted) {
         Ok(text) => text,
         Err(unread) => {
             let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
             let known = catalog::find(name).is_some() || sensedsl_parts::find(name).is_some();
-            let absent = matches!(unread, Unread::Missing | Unread::Why(_));
+            let absent = matches!(unread, ReadError::Missing | ReadError::Why(_));
             context.diagnostics.push(if known && absent {
                 e0302_table_unreadable::board_in_quotes(at, name)
             } else {

@@ -29,9 +29,9 @@ use crate::rules;
 use crate::value::Evaluator;
 use crate::words;
 use sockets::Socket;
-use values::Asked;
+use values::RequestedValue;
 
-use values::Given;
+use values::DriverValue;
 
 /// The properties of a chip, besides those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
@@ -51,7 +51,7 @@ struct ChipReader<'a> {
     properties: Vec<Property>,
     protocol: Protocol,
     /// The driver's named values.
-    given: Vec<Given>,
+    given: Vec<DriverValue>,
 }
 
 /// Reads a chip; none when too little of it is understood.
@@ -94,7 +94,7 @@ pub(crate) fn read(
     for device in node.devices() {
         whole.check_device(&device, &sockets, diagnostics);
     }
-    let asked: Vec<Asked> = if node.devices().next().is_some() {
+    let asked: Vec<RequestedValue> = if node.devices().next().is_some() {
         let devices = node.devices();
         devices.filter_map(|one| values::stated(&whole, &one, diagnostics)).collect()
     } else {
@@ -143,7 +143,7 @@ fn values_and_sockets(
     driver: &Driver,
     known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<(Vec<Given>, Vec<Socket>)> {
+) -> Option<(Vec<DriverValue>, Vec<Socket>)> {
     let mut sockets = sockets::of_driver(driver, diagnostics)?;
     let names: Vec<Option<&str>> = sockets.iter().map(|one| one.name.as_deref()).collect();
     let given = values::given(driver, &names, (known.constants, diagnostics));
@@ -188,10 +188,10 @@ pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut 
 }
 
 /// Reports readings of the same bits of the same register.
-fn twice(driver: &Driver, given: &[Given], diagnostics: &mut Vec<Diagnostic>) {
+fn twice(driver: &Driver, given: &[DriverValue], diagnostics: &mut Vec<Diagnostic>) {
     const PLACE: [&str; 9] =
         ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
-    let place = |one: &Given| {
+    let place = |one: &DriverValue| {
         let words = one.properties.iter().filter_map(|property| {
             let (name, value) = (property.name()?, property.value()?);
             PLACE
@@ -321,7 +321,7 @@ impl ChipReader<'_> {
     /// The requested values as devices. Marks their connections as used.
     fn devices(
         &self,
-        asked: Vec<Asked>,
+        asked: Vec<RequestedValue>,
         first_id: Option<u8>,
         sockets: &mut [Socket],
         diagnostics: &mut Vec<Diagnostic>,
@@ -346,12 +346,12 @@ impl ChipReader<'_> {
 
     fn device(
         &self,
-        asked: &Asked,
+        asked: &RequestedValue,
         id: Option<u8>,
         sockets: &[Socket],
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Device> {
-        let Asked { name, block, own, value, given } = asked;
+        let RequestedValue { name, block, own, value, given } = asked;
         let direction = given.direction;
         let main = sockets.get(*given.via.first()?)?;
         let said = (self.known.constants, &mut *diagnostics);
@@ -429,7 +429,7 @@ impl ChipReader<'_> {
         &self,
         kind: &Kind,
         value: &Spanned<ValueType>,
-        given: &Given,
+        given: &DriverValue,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let has_wires = kind.name().spec().values.wires(value.value).is_some();
@@ -448,7 +448,7 @@ impl ChipReader<'_> {
         devices: &[Device],
         sockets: &[Socket],
         board: Option<BoardIndex>,
-        wishes: &[crate::design::Wish],
+        wishes: &[crate::design::Preference],
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Vec<Connection> {
         if devices.is_empty() {

@@ -17,7 +17,7 @@ use crate::volts::{shown_mv, shown_ohm};
 
 mod placement;
 
-pub use placement::{Placement, Together, Wish, WishFor};
+pub use placement::{Placement, Preference, PreferenceSubject, Together};
 
 /// Index into [`Design::boards`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,7 +87,7 @@ pub struct Board {
     /// On-board pins and parts that may be used.
     pub released: Vec<Spanned<String>>,
     /// Soft rules for every device on the board.
-    pub wishes: Vec<Wish>,
+    pub wishes: Vec<Preference>,
     /// Warnings that are not given for anything on this board.
     pub allows: Vec<Allow>,
 }
@@ -255,7 +255,7 @@ pub struct Connection {
     /// What the user fixed about them.
     pub placement: Placement,
     /// Soft rules for them.
-    pub wishes: Vec<Wish>,
+    pub wishes: Vec<Preference>,
     /// The voltage on them, if it is stated.
     pub level: Option<Level>,
 }

@@ -25,7 +25,7 @@ use crate::value::{Evaluator, Value};
 use plain::{byte_list, describe};
 pub(crate) use plain::{name_or_text, plain_integer, plain_number};
 pub use shown::Bare;
-pub(crate) use shown::{Codes, Misfit, in_quantity, of_pulse, unit_of};
+pub(crate) use shown::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
 
 /// The span of a syntax range.
 pub(crate) fn span(file: FileId, range: TextRange) -> Span {

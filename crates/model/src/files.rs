@@ -2,7 +2,7 @@
 //! was not read.
 //!
 //! The caller of the library has access to the machine. It checks the path, what is at that path,
-//! and the budgets, and answers with a text or an [`Unread`]. The diagnostic is the same for all
+//! and the budgets, and answers with a text or an [`ReadError`]. The diagnostic is the same for all
 //! callers.
 
 use sensedsl_diagnostics::codes::{
@@ -21,7 +21,7 @@ pub trait Files {
     ///
     /// # Errors
     /// Why the file was not read.
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread>;
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError>;
 }
 
 /// Reads nothing: every file that is not open is missing.
@@ -29,25 +29,25 @@ pub trait Files {
 pub struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
+    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
+        Err(ReadError::Missing)
     }
 }
 
 /// A requested file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted<'a> {
+pub struct FileRequest<'a> {
     /// Its path, as seen from the working directory.
     pub path: &'a str,
     /// What the file is used for.
-    pub what: What,
+    pub what: FileUse,
     /// True if the command line names it, not a file: it may be anywhere, and may be a pipe.
     pub by_user: bool,
 }
 
 /// What a file is used for, which decides how large it may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum FileUse {
     /// A text in the language.
     Sense,
     /// A board table.
@@ -62,7 +62,7 @@ pub enum What {
     Image,
 }
 
-impl What {
+impl FileUse {
     /// Most bytes that are read.
     #[must_use]
     pub const fn bytes_max(self) -> usize {
@@ -90,14 +90,14 @@ impl What {
 
 /// Why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unread {
+pub enum ReadError {
     /// There is no such file.
     Missing,
     /// The system's reason, in words.
     Why(String),
     /// What is at the path instead of a file: `a pipe`.
     NotAFile(&'static str),
-    /// It has more bytes than [`What::bytes_max`].
+    /// It has more bytes than [`FileUse::bytes_max`].
     TooLarge,
     /// All files together have too many bytes.
     AllTooLarge,
@@ -105,13 +105,13 @@ pub enum Unread {
     Outside(String),
 }
 
-impl From<&str> for Unread {
+impl From<&str> for ReadError {
     fn from(why: &str) -> Self {
         Self::Why(why.to_owned())
     }
 }
 
-impl Unread {
+impl ReadError {
     /// The reason in words.
     #[must_use]
     pub fn why(&self) -> String {
@@ -128,8 +128,8 @@ impl Unread {
     }
 
     /// The diagnostic, at the place that names the file.
-    pub fn diagnostic(&self, at: Span, wanted: &Wanted<'_>) -> Diagnostic {
-        let Wanted { path, what, by_user } = *wanted;
+    pub fn diagnostic(&self, at: Span, wanted: &FileRequest<'_>) -> Diagnostic {
+        let FileRequest { path, what, by_user } = *wanted;
         match (self, what) {
             (Self::NotAFile(found), _) if !by_user => e0118_not_a_file::not_a_file(at, path, found),
             (Self::TooLarge, what) => {
@@ -139,8 +139,8 @@ impl Unread {
                 e0112_file_too_large::all_too_large(at, path, TOTAL_BYTES_MAX)
             }
             (Self::Outside(folder), _) => e0223_outside_folder::outside_folder(at, path, folder),
-            (_, What::Table) => e0302_table_unreadable::table_unreadable(at, path, &self.why()),
-            (_, What::Sense) if !by_user => {
+            (_, FileUse::Table) => e0302_table_unreadable::table_unreadable(at, path, &self.why()),
+            (_, FileUse::Sense) if !by_user => {
                 e0218_used_file_missing::used_file_missing(at, path, &self.why())
             }
             (_, _) => e0111_file_unreadable::file_unreadable(at, path, &self.why()),

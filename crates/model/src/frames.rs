@@ -35,8 +35,8 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
         select(design, devices, diagnostics);
         let own = || devices.iter().filter_map(|index| design.devices.get(*index));
         let sent: Vec<&Device> = own().filter(|one| one.direction == Direction::Actuator).collect();
-        let heard = own().find(|one| one.direction == Direction::Sensor);
-        if let (Some(one), Some(other)) = (sent.first(), heard) {
+        let received = own().find(|one| one.direction == Direction::Sensor);
+        if let (Some(one), Some(other)) = (sent.first(), received) {
             let frame = one.kind.can().map(Can::shown).unwrap_or_default();
             let (name, from) = (&one.name.value, &other.name.value);
             let clash = e0238_frame_clash::frame_clash;

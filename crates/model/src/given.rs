@@ -3,14 +3,14 @@
 //! those of the language.
 
 use crate::design::{Device, Presentation};
-use crate::fields::{Codes, Misfit, in_quantity, of_pulse, unit_of};
+use crate::fields::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
 use crate::kind::Interface;
 use crate::reach;
 use crate::value::{Measure, Number};
 
 /// A value that was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Given {
+pub enum EnteredValue {
     /// The value as the device shows it.
     Shown(f64),
     /// The code that goes over the wire.
@@ -19,11 +19,11 @@ pub enum Given {
 
 /// Why a text is not a value that the device can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotGiven {
+pub enum EntryError {
     /// It is not a number, with or without a unit.
     NoNumber,
     /// It does not fit: what is wrong, and what to write.
-    Misfit(String, String),
+    ValueMismatch(String, String),
 }
 
 /// A number as written: `1500 us`, `raw 307`.
@@ -38,10 +38,10 @@ struct Written<'t> {
 /// # Errors
 ///
 /// The text is not a number, or its unit is not one that the device shows.
-pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
+pub fn value(text: &str, device: &Device) -> Result<EnteredValue, EntryError> {
     let written = written(text)?;
     if written.is_raw {
-        return Ok(Given::Code(written.number));
+        return Ok(EnteredValue::Code(written.number));
     }
     let shown = &device.shown;
     if let Interface::Pwm(pwm) = device.kind.interface()
@@ -56,9 +56,11 @@ pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
             is_whole: device.value.value.scalar.integer_range().is_some(),
             pulses_us: Some(ends.into()),
         };
-        return Ok(Given::Code(of_pulse(&with_unit(&written, shown)?, codes).map_err(misfit)?));
+        return Ok(EnteredValue::Code(
+            of_pulse(&with_unit(&written, shown)?, codes).map_err(misfit)?,
+        ));
     }
-    in_unit(&written, shown).map(Given::Shown)
+    in_unit(&written, shown).map(EnteredValue::Shown)
 }
 
 /// The difference of a value from another one: `0.5`, `5 deg`, `raw 20`.
@@ -67,7 +69,7 @@ pub fn value(text: &str, device: &Device) -> Result<Given, NotGiven> {
 ///
 /// The errors of [`value`], and codes for a device with a curve, where a difference depends on the
 /// place.
-pub fn difference(text: &str, device: &Device) -> Result<f64, NotGiven> {
+pub fn difference(text: &str, device: &Device) -> Result<f64, EntryError> {
     let written = written(text)?;
     let shown = &device.shown;
     if !written.is_raw {
@@ -77,7 +79,7 @@ pub fn difference(text: &str, device: &Device) -> Result<f64, NotGiven> {
         return Ok(written.number * shown.scale.unwrap_or(1.0));
     }
     let message = "along a `curve` a number of codes is not always as much".to_owned();
-    Err(NotGiven::Misfit(message, "write it in the unit that is shown".to_owned()))
+    Err(EntryError::ValueMismatch(message, "write it in the unit that is shown".to_owned()))
 }
 
 /// The growth of a value per second: `25`, `90 deg/s`.
@@ -85,7 +87,7 @@ pub fn difference(text: &str, device: &Device) -> Result<f64, NotGiven> {
 /// # Errors
 ///
 /// The errors of [`difference`].
-pub fn a_second(text: &str, device: &Device) -> Result<f64, NotGiven> {
+pub fn a_second(text: &str, device: &Device) -> Result<f64, EntryError> {
     let written = written(text)?;
     if written.is_raw || written.unit.is_empty() {
         return difference(text, device);
@@ -106,7 +108,7 @@ pub fn a_second(text: &str, device: &Device) -> Result<f64, NotGiven> {
 }
 
 /// A number in the unit that the device shows.
-fn in_unit(written: &Written<'_>, shown: &Presentation) -> Result<f64, NotGiven> {
+fn in_unit(written: &Written<'_>, shown: &Presentation) -> Result<f64, EntryError> {
     // A quantity may be a unit that the language does not have: `lx`.
     if written.unit.is_empty() || shown.quantity.as_deref() == Some(written.unit) {
         return Ok(written.number);
@@ -114,7 +116,7 @@ fn in_unit(written: &Written<'_>, shown: &Presentation) -> Result<f64, NotGiven>
     in_quantity(&with_unit(written, shown)?, shown).map_err(misfit)
 }
 
-fn with_unit(written: &Written<'_>, shown: &Presentation) -> Result<Number, NotGiven> {
+fn with_unit(written: &Written<'_>, shown: &Presentation) -> Result<Number, EntryError> {
     let Some(unit) = unit_of(written.unit) else {
         let found = written.unit;
         let what = match &shown.quantity {
@@ -125,28 +127,31 @@ fn with_unit(written: &Written<'_>, shown: &Presentation) -> Result<Number, NotG
             Some(quantity) => format!("write it in {quantity}, or as a code: `raw 307`"),
             None => "write the number alone".to_owned(),
         };
-        return Err(NotGiven::Misfit(what, help));
+        return Err(EntryError::ValueMismatch(what, help));
     };
     Ok(Number { value: written.number, integer: None, measure: Measure::Unit(unit) })
 }
 
-fn misfit(why: Misfit) -> NotGiven {
-    NotGiven::Misfit(why.0, why.1)
+fn misfit(why: ValueMismatch) -> EntryError {
+    EntryError::ValueMismatch(why.0, why.1)
 }
 
 /// The number in a text, and the unit after it.
-fn written(text: &str) -> Result<Written<'_>, NotGiven> {
+fn written(text: &str) -> Result<Written<'_>, EntryError> {
     let text = text.trim();
     let raw = text.strip_prefix("raw").filter(|rest| rest.starts_with([' ', '+', '-']));
     let rest = raw.map_or(text, str::trim_start);
     let length = number_length(rest);
-    let (number, unit) = rest.split_at_checked(length).ok_or(NotGiven::NoNumber)?;
+    let (number, unit) = rest.split_at_checked(length).ok_or(EntryError::NoNumber)?;
     let number = number.replace('_', "").parse::<f64>().ok();
-    let number = number.filter(|number| number.is_finite()).ok_or(NotGiven::NoNumber)?;
+    let number = number.filter(|number| number.is_finite()).ok_or(EntryError::NoNumber)?;
     let unit = unit.trim();
     if raw.is_some() && !unit.is_empty() {
         let message = "a code has no unit".to_owned();
-        return Err(NotGiven::Misfit(message, "write the code alone: `raw 307`".to_owned()));
+        return Err(EntryError::ValueMismatch(
+            message,
+            "write the code alone: `raw 307`".to_owned(),
+        ));
     }
     Ok(Written { number, unit, is_raw: raw.is_some() })
 }

@@ -64,7 +64,7 @@ pub mod volts;
 pub mod words;
 
 pub use facts::all as part_facts;
-pub use files::{Files, NoFiles, Unread, Wanted, What, stays_inside};
+pub use files::{FileRequest, FileUse, Files, NoFiles, ReadError, stays_inside};
 pub use library::LIBRARY;
 pub use numbered::with_ids;
 pub use resolve::{Request, Resolved, resolve, sort};

@@ -84,7 +84,7 @@ fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
 }
 
 /// The places of properties that not every medium has.
-struct Given {
+struct PropertyPlaces {
     transport: Transport,
     baud: Option<Span>,
     unit: Option<Span>,
@@ -93,7 +93,7 @@ struct Given {
     silence: Option<Span>,
 }
 
-impl Given {
+impl PropertyPlaces {
     fn contradictions(&self, fields: &mut Fields<'_>) {
         let Self { transport, baud, unit, vbus, stamp, silence } = *self;
         let (spans, why) = match transport {
@@ -152,7 +152,7 @@ fn stated_link(
     }
     let stated = transport.is_some();
     let transport = transport.map_or(default, |word| word.value);
-    let given = Given {
+    let given = PropertyPlaces {
         transport,
         baud: baud.as_ref().map(|baud| baud.span),
         unit: unit.as_ref().map(|unit| unit.span),

@@ -9,7 +9,7 @@ use sensedsl_board::table::{Pin, Table};
 use sensedsl_diagnostics::codes::{e0310_unknown_pin, e0318_several_pins, h0704_printed_elsewhere};
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 
-use crate::design::{Board, BoardIndex, Design, Spanned, Wish, WishFor};
+use crate::design::{Board, BoardIndex, Design, Preference, PreferenceSubject, Spanned};
 
 /// A pin, as the file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,9 +99,9 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    fn wishes(&mut self, wishes: &mut [Wish]) {
+    fn wishes(&mut self, wishes: &mut [Preference]) {
         for wish in wishes {
-            if let WishFor::Pin(_, pin) = &mut wish.what {
+            if let PreferenceSubject::Pin(_, pin) = &mut wish.what {
                 // A wish may name a pin of the MCU that is not brought out on the board.
                 let must = PinName::parse(&pin.spelled).is_none();
                 self.pin(pin, wish.span, must, |_| true);
@@ -117,7 +117,7 @@ impl Binder<'_> {
         for (index, board) in range.clone().zip(self.boards.get(range).unwrap_or_default()) {
             let on = board.name.value.as_str();
             match find(&board.table, name) {
-                Meant::Pin { name: found, printed } => {
+                FoundName::Pin { name: found, printed } => {
                     if let Some(other) = printed {
                         let other = other.as_str();
                         let hint = h0704_printed_elsewhere::printed_elsewhere;
@@ -125,12 +125,12 @@ impl Binder<'_> {
                     }
                     pin.on.push((BoardIndex(index), found));
                 }
-                Meant::Several(pins) => {
+                FoundName::Several(pins) => {
                     let pins: Vec<&str> = pins.iter().map(PinName::as_str).collect();
                     let pins = pins.join(", ");
                     report = Some(e0318_several_pins::several_pins(span, name, on, &pins));
                 }
-                Meant::None if report.is_none() && must => {
+                FoundName::None if report.is_none() && must => {
                     let suited = board.table.pins.iter().filter(|pin| suits(pin));
                     let pins = suited.clone().map(|pin| pin.name.as_str());
                     let meant = nearest(name, pins.chain(printed(suited)));
@@ -138,7 +138,7 @@ impl Binder<'_> {
                     let shown = shown.as_ref().map_or(name, PinName::as_str);
                     report = Some(e0310_unknown_pin::unknown_pin(span, shown, on, meant));
                 }
-                Meant::None => {}
+                FoundName::None => {}
             }
         }
         self.diagnostics.extend(report.filter(|_| pin.on.is_empty()));
@@ -151,7 +151,7 @@ fn has_label(pin: &Pin, name: &str) -> bool {
 
 /// What a name stands for in a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Meant {
+enum FoundName {
     /// One pin; `printed` is a different pin that the board has labelled with that name.
     Pin { name: PinName, printed: Option<PinName> },
     /// Pins with the same label, or connected to parts with that name.
@@ -161,12 +161,12 @@ enum Meant {
 }
 
 /// What a name stands for: the MCU's names come first, then labels, then on-board parts.
-fn find(table: &Table, spelled: &str) -> Meant {
+fn find(table: &Table, spelled: &str) -> FoundName {
     let labelled = |pin: &&Pin| has_label(pin, spelled);
     if let Some(pin) = PinName::parse(spelled).and_then(|name| table.pin(&name)) {
         let mut others = table.pins.iter().filter(labelled).filter(|other| other.name != pin.name);
         let printed = others.next().map(|pin| pin.name.clone());
-        return Meant::Pin { name: pin.name.clone(), printed };
+        return FoundName::Pin { name: pin.name.clone(), printed };
     }
     let at_place = |pin: &&Pin| place(pin).is_some_and(|place| is(&place, spelled));
     let part = |pin: &&Pin| {
@@ -182,9 +182,9 @@ fn find(table: &Table, spelled: &str) -> Meant {
     };
     let mut found = first(first(by_label, &by_place), &by_part);
     match found.len() {
-        0 => Meant::None,
-        1 => found.pop().map_or(Meant::None, |name| Meant::Pin { name, printed: None }),
-        _ => Meant::Several(found),
+        0 => FoundName::None,
+        1 => found.pop().map_or(FoundName::None, |name| FoundName::Pin { name, printed: None }),
+        _ => FoundName::Several(found),
     }
 }
 
@@ -214,10 +214,10 @@ mod tests {
 
     fn meant(spelled: &str) -> String {
         match find(&sensedsl_board::table::load(TABLE).board, spelled) {
-            Meant::Pin { name, printed: None } => name.to_string(),
-            Meant::Pin { name, printed: Some(other) } => format!("{name}, not {other}"),
-            Meant::Several(pins) => format!("{pins:?}").replace("PinName", ""),
-            Meant::None => "none".into(),
+            FoundName::Pin { name, printed: None } => name.to_string(),
+            FoundName::Pin { name, printed: Some(other) } => format!("{name}, not {other}"),
+            FoundName::Several(pins) => format!("{pins:?}").replace("PinName", ""),
+            FoundName::None => "none".into(),
         }
     }
 

@@ -127,7 +127,7 @@ fn bare_numbers(design: &Design) -> Vec<Diagnostic> {
         let Some(bare) = &device.shown.bare else { continue };
         of_files.entry(bare.span.file).or_default().push((device, bare));
     }
-    let told = of_files.into_values().filter_map(|mut all| {
+    let reported = of_files.into_values().filter_map(|mut all| {
         all.sort_by_key(|(_, bare)| bare.span);
         let (device, bare) = all.first()?;
         let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}"));
@@ -140,7 +140,7 @@ fn bare_numbers(design: &Design) -> Vec<Diagnostic> {
         let more = all.len() - 1;
         Some(w0612_shown_not_raw::shown_not_raw(bare.span, &shown, &code, more, &write))
     });
-    told.collect()
+    reported.collect()
 }
 
 fn narrow(device: &Device) -> Option<Diagnostic> {

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
 use sensedsl_syntax::{Parse, ast};
 
-use crate::boards::{self, Context, Left};
+use crate::boards::{self, Context, RemainingBudget};
 use crate::checks;
 use crate::chips;
 use crate::constants::{self, Constants};
@@ -160,7 +160,7 @@ fn read_boards(
         completed: BTreeMap::new(),
         tables: BTreeMap::new(),
         built_in: BTreeMap::new(),
-        left: Left::default(),
+        left: RemainingBudget::default(),
     };
     let read = |(file, node): &(FileId, _)| boards::read(&mut context, *file, node);
     let boards = items.boards.iter().map(read).collect();

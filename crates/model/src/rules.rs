@@ -12,7 +12,7 @@ use sensedsl_syntax::TextRange;
 use sensedsl_syntax::ast::{self, AstNode as _, Rule};
 
 use crate::constants::Constants;
-use crate::design::{Allow, Design, Spanned, Together, Wish, WishFor};
+use crate::design::{Allow, Design, Preference, PreferenceSubject, Spanned, Together};
 use crate::fields::{name_or_text, span};
 use crate::kind::Role;
 use crate::pins::PinRef;
@@ -30,7 +30,7 @@ fn wishes() -> impl Iterator<Item = &'static str> {
 /// The rules of a board.
 #[derive(Debug, Default)]
 pub(crate) struct BoardRules {
-    pub(crate) wishes: Vec<Wish>,
+    pub(crate) wishes: Vec<Preference>,
     pub(crate) reserved: Vec<Spanned<String>>,
     pub(crate) released: Vec<Spanned<String>>,
     pub(crate) allows: Vec<Allow>,
@@ -66,7 +66,7 @@ pub(crate) fn of_device(
     rules: impl Iterator<Item = Rule>,
     block: TextRange,
     (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
-) -> (Vec<Wish>, Vec<Allow>) {
+) -> (Vec<Preference>, Vec<Allow>) {
     let (mut wishes, mut allows) = (Vec::new(), Vec::new());
     let scope = span(file, block);
     for rule in rules {
@@ -99,7 +99,7 @@ fn wish(
     prefer: bool,
     property: Option<ast::Property>,
     (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
-) -> Option<Wish> {
+) -> Option<Preference> {
     let property = property?;
     let (name, value) = (property.name()?, property.value()?);
     if wishes().all(|known| known != name.text()) {
@@ -125,12 +125,12 @@ fn wish(
         word @ ("together" | "sequence") => {
             of_array(file, prefer, word, &text, &value, diagnostics)?
         }
-        "unit" => WishFor::Unit(text.to_uppercase()),
-        "side" => WishFor::Side(text),
-        "header" => WishFor::Header(text),
-        property => WishFor::Pin(Role::from_property(property), PinRef::unbound(&text)),
+        "unit" => PreferenceSubject::Unit(text.to_uppercase()),
+        "side" => PreferenceSubject::Side(text),
+        "header" => PreferenceSubject::Header(text),
+        property => PreferenceSubject::Pin(Role::from_property(property), PinRef::unbound(&text)),
     };
-    Some(Wish { prefer, what, span: at })
+    Some(Preference { prefer, what, span: at })
 }
 
 /// Reads a wish for the elements of an array.
@@ -141,7 +141,7 @@ fn of_array(
     text: &str,
     value: &ast::Value,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<WishFor> {
+) -> Option<PreferenceSubject> {
     let at = span(file, value.range());
     if !prefer {
         let why = "it can be preferred, not avoided";
@@ -157,7 +157,11 @@ fn of_array(
         diagnostics.push(unknown(at, word, text, &all.join(", "), meant));
         return None;
     };
-    Some(if word == "together" { WishFor::Together(*found) } else { WishFor::Sequence })
+    Some(if word == "together" {
+        PreferenceSubject::Together(*found)
+    } else {
+        PreferenceSubject::Sequence
+    })
 }
 
 fn allow(

@@ -11,7 +11,7 @@ use sensedsl_syntax::ast::{self, AstNode as _, FileItem};
 use sensedsl_syntax::{Parse, SyntaxKind, SyntaxNode, parse_within};
 
 use crate::fields::span;
-use crate::files::{Files, Wanted, What};
+use crate::files::{FileRequest, FileUse, Files};
 use crate::syntax_errors;
 
 /// The items of a file and of the files it uses, in order, each with its file.
@@ -36,7 +36,7 @@ pub(crate) struct Reader<'a> {
     open: Vec<String>,
     /// Paths of all files that were read.
     done: BTreeSet<String>,
-    left: Left,
+    left: RemainingBudget,
 }
 
 /// The blocks and statements that are counted.
@@ -60,7 +60,7 @@ const STATEMENTS: [SyntaxKind; 7] = [
 ];
 
 /// The part of the budgets not yet used, over all files.
-struct Left {
+struct RemainingBudget {
     tokens: usize,
     items: usize,
     statements: usize,
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
         let (open, done) = (Vec::new(), BTreeSet::new());
-        let left = Left {
+        let left = RemainingBudget {
             tokens: TOKENS_MAX,
             items: ITEMS_MAX,
             statements: STATEMENTS_MAX,
@@ -180,7 +180,7 @@ impl<'a> Reader<'a> {
             return;
         };
         self.left.files = fewer;
-        let wanted = Wanted { path: &target, what: What::Sense, by_user: false };
+        let wanted = FileRequest { path: &target, what: FileUse::Sense, by_user: false };
         match self.files.read(&wanted) {
             Ok(text) => {
                 self.read(&target, text);

@@ -159,7 +159,7 @@ pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec
         ];
         codes.contains(&one.code)
     };
-    let is_told = |error: &Diagnostic| {
+    let is_reported = |error: &Diagnostic| {
         let at = error.primary.span;
         // Statements are not nested, except for a type, and the device around a type is not a
         // statement.
@@ -167,7 +167,7 @@ pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec
         let before = behind.checked_sub(1).and_then(|number| broken.get(number));
         before.is_some_and(|one| one.file == at.file && at.end <= one.end)
     };
-    diagnostics.retain(|one| !is_value(one) || !is_told(one));
+    diagnostics.retain(|one| !is_value(one) || !is_reported(one));
 }
 
 /// Whether a mistake leaves the value of its statement in doubt.

@@ -14,7 +14,7 @@ use crate::fields::Fields;
 const PROPERTIES: &[&str] = &["target"];
 
 /// The requested target, and where it is requested.
-pub(crate) struct Asked {
+pub(crate) struct RequestedTarget {
     /// None for the default, if that covers the MCU.
     name: Option<String>,
     at: Span,
@@ -26,7 +26,7 @@ pub(crate) fn asked(
     file: FileId,
     node: &ast::Board,
     board: Span,
-) -> Asked {
+) -> RequestedTarget {
     let said = (context.constants, &mut *context.diagnostics);
     let mut fields = Fields::new(node.properties(), file, "a board", board, said);
     let stated = fields.name("target", "a target such as chibios or embassy");
@@ -40,15 +40,15 @@ pub(crate) fn asked(
         ));
     }
     match (context.request.target, stated) {
-        (Some(name), _) => Asked { name: Some(name.to_owned()), at: board },
-        (None, Some(name)) => Asked { name: Some(name.value), at: name.span },
-        (None, None) => Asked { name: None, at: board },
+        (Some(name), _) => RequestedTarget { name: Some(name.to_owned()), at: board },
+        (None, Some(name)) => RequestedTarget { name: Some(name.value), at: name.span },
+        (None, None) => RequestedTarget { name: None, at: board },
     }
 }
 
 /// The requested profile for the MCU of the table `shown`.
 pub(crate) fn find(
-    asked: &Asked,
+    asked: &RequestedTarget,
     shown: &str,
     mcu: Option<&str>,
     diagnostics: &mut Vec<Diagnostic>,

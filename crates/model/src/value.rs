@@ -332,12 +332,12 @@ fn literal(number: &ast::Number) -> Value {
 }
 
 /// Why two numbers cannot be combined.
-struct Why {
+struct CombineError {
     message: String,
     help: &'static str,
 }
 
-fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Why> {
+fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, CombineError> {
     let (one, other) = (left.dimension(), right.dimension());
     let bare = left.measure == Measure::Bare && right.measure == Measure::Bare;
     let exact = left.integer.zip(right.integer).filter(|_| bare);
@@ -345,7 +345,7 @@ fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Wh
         Operator::Add | Operator::Subtract => {
             if one != other {
                 let (one, other) = (left.unit_name(), right.unit_name());
-                return Err(Why {
+                return Err(CombineError {
                     message: format!("a number of {one} and a number of {other} cannot be added"),
                     help: "give both the same kind of unit",
                 });
@@ -371,7 +371,7 @@ fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Wh
         }
         Operator::Divide if right.value == 0.0 => {
             let (message, help) = ("this divides by zero".to_owned(), "divide by another number");
-            return Err(Why { message, help });
+            return Err(CombineError { message, help });
         }
         Operator::Divide if right.measure == Measure::Bare => {
             Number::of(left.value / right.value, left.measure)
@@ -390,7 +390,7 @@ fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Wh
     });
     if !number.value.is_finite() || number.value.abs() > LARGEST {
         let message = "the result is too large".to_owned();
-        return Err(Why { message, help: "stay below 2^64" });
+        return Err(CombineError { message, help: "stay below 2^64" });
     }
     Ok(Number { integer: exactly.or(number.integer), ..number })
 }

@@ -55,10 +55,10 @@ mod tests {
 
     #[test]
     fn a_divider_leaves_no_more_than_the_supply() {
-        let told = |mv, most| divider(mv, most).map(shown_ohm).join(", ");
-        assert_eq!(told(5_000, 3_300), "5.6 kOhm, 10 kOhm");
-        assert_eq!(told(12_600, 3_300), "33 kOhm, 10 kOhm");
-        assert_eq!(told(3_400, 3_300), "330 Ohm, 10 kOhm");
+        let reported = |mv, most| divider(mv, most).map(shown_ohm).join(", ");
+        assert_eq!(reported(5_000, 3_300), "5.6 kOhm, 10 kOhm");
+        assert_eq!(reported(12_600, 3_300), "33 kOhm, 10 kOhm");
+        assert_eq!(reported(3_400, 3_300), "330 Ohm, 10 kOhm");
         for mv in (3_301..60_000).step_by(37) {
             let [upper, lower] = divider(mv, 3_300).map(u64::from);
             let left = u64::from(mv) * lower / (upper + lower);

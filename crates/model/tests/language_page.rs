@@ -207,12 +207,12 @@ fn the_driver_language_is_on_its_page() {
     let quoted = |cell: &str| -> Vec<String> {
         cell.split('`').skip(1).step_by(2).map(str::to_owned).collect()
     };
-    let told: BTreeSet<String> = cells.flat_map(quoted).collect();
+    let reported: BTreeSet<String> = cells.flat_map(quoted).collect();
     let words: BTreeSet<String> = facts::words_of_drivers().map(str::to_owned).collect();
-    let missing: Vec<&String> = words.difference(&told).collect();
+    let missing: Vec<&String> = words.difference(&reported).collect();
     assert!(missing.is_empty(), "docs/driver-language.md lacks {missing:?}");
     for block in ["driver", "connection", "reading", "command"] {
-        assert!(told.iter().any(|one| one.starts_with(&format!("{block} "))), "{block}");
+        assert!(reported.iter().any(|one| one.starts_with(&format!("{block} "))), "{block}");
     }
     for title in ["How the part is started", "Where a value stands", "What is said of the part"] {
         let known = |name: &String| words.contains(name) || ["level", "pull"].contains(&&**name);

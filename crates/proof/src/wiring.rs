@@ -9,17 +9,17 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Default)]
 struct Held<'a> {
     devices: BTreeSet<&'a str>,
-    behalves: BTreeSet<(&'a str, &'a str)>,
+    holders: BTreeSet<(&'a str, &'a str)>,
 }
 
 impl<'a> Held<'a> {
     fn join(&mut self, device: &'a str, holder: &'a str, signal: &'a str) {
         self.devices.insert(device);
-        self.behalves.insert((holder, if holder == OWN { device } else { signal }));
+        self.holders.insert((holder, if holder == OWN { device } else { signal }));
     }
 
     fn agree(&self) -> bool {
-        self.devices.len() == 1 || self.behalves.len() == 1
+        self.devices.len() == 1 || self.holders.len() == 1
     }
 }
 

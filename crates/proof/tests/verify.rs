@@ -119,10 +119,10 @@ fn files_are_told_from_others() {
 fn shared_pins_come_before_the_cost() {
     let shared = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA1\"]");
     // One shared pin is not needed: there are PA2 and PA3.
-    let told = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
+    let reported = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
     let why = verified(&shared).expect_err("PA1 is shared");
     assert!(why.starts_with("the wiring has moved 0, violated 0, shared 1, cost 3"), "{why}");
-    assert_eq!(verified(&told), Err("step 0 does not show what it has to".into()));
+    assert_eq!(verified(&reported), Err("step 0 does not show what it has to".into()));
     let nowhere = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA4\"]");
     assert_eq!(verified(&nowhere), Err("there is no pin \"PA4\"".into()));
 }

@@ -5,7 +5,7 @@ use core::cell::RefCell;
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::Instant;
-use sense_rt::{Contact, ContactConfig, ContactTold, Scalar, store_count};
+use sense_rt::{Contact, ContactConfig, ContactReport, Scalar, store_count};
 
 /// Microseconds, which wrap.
 fn now_us() -> u32 {
@@ -86,7 +86,7 @@ impl<P: Level> Watched<P> {
     ) -> bool {
         let contact = self.look();
         if scalar == Scalar::Bool {
-            let news = reported.level.tell(&self.config, &contact);
+            let news = reported.level.record(&self.config, &contact);
             reported.last = news.unwrap_or(reported.last);
             scalar.store(u64::from(reported.last != is_low_active), element);
             news.is_some()
@@ -102,12 +102,12 @@ impl<P: Level> Watched<P> {
 /// What was reported last of an input.
 #[derive(Clone, Copy)]
 pub struct Reported {
-    level: ContactTold,
+    level: ContactReport,
     last: bool,
     edges: u32,
 }
 
 impl Reported {
     /// Nothing was reported yet.
-    pub const NEW: Self = Self { level: ContactTold::NEW, last: false, edges: 0 };
+    pub const NEW: Self = Self { level: ContactReport::NEW, last: false, edges: 0 };
 }

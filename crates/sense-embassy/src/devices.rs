@@ -59,13 +59,15 @@ impl<const VALUES: usize, const ITEMS: usize> Report for Devices<VALUES, ITEMS> 
         value: &mut [u8],
     ) {
         let now = now_ms();
-        let told = match filter {
+        let reported = match filter {
             // Filters run outside the lock, which disables interrupts: a port would lose characters
             // during a median of many values.
             Some(filter) => Store::filtered(self.schema, filter, index, outcome, value, now),
             None => outcome,
         };
-        self.with(|store, health| store.tell_told(health, index, (outcome, told), value, now));
+        self.with(|store, health| {
+            store.record_filtered(health, index, (outcome, reported), value, now);
+        });
     }
 
     fn set(&self, index: usize, value: &[u8]) {

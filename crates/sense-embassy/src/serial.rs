@@ -54,7 +54,7 @@ pub struct Device<'a, const BYTES: usize> {
     /// The gap was found already.
     is_silent: bool,
     /// When something came last, in milliseconds that wrap.
-    heard_ms: u32,
+    received_ms: u32,
 }
 
 impl<'a, const BYTES: usize> Device<'a, BYTES> {
@@ -66,7 +66,7 @@ impl<'a, const BYTES: usize> Device<'a, BYTES> {
         gap_ms: u32,
         items: &'static [usize],
     ) -> Self {
-        Self { queue, stream, gap_ms, items, is_silent: false, heard_ms: now_ms() }
+        Self { queue, stream, gap_ms, items, is_silent: false, received_ms: now_ms() }
     }
 
     /// One cycle, up to `until`. Reports the first value of each item, because that is when it is
@@ -97,7 +97,7 @@ impl<'a, const BYTES: usize> Device<'a, BYTES> {
             let end = if is_gap { gap } else { until };
             match with_deadline(end, self.queue.bytes.read(&mut bytes)).await {
                 Ok(size) => {
-                    self.heard_ms = now_ms();
+                    self.received_ms = now_ms();
                     self.is_silent = false;
                     self.stream.feed(bytes.get(..size).unwrap_or_default(), sink);
                 }
@@ -112,9 +112,9 @@ impl<'a, const BYTES: usize> Device<'a, BYTES> {
 
     /// Whether the device has been silent for so long that it may have to be told everything again.
     pub fn is_forgotten(&mut self, cycle_ms: u32) -> bool {
-        let is_forgotten = now_ms().wrapping_sub(self.heard_ms) >= FORGOTTEN_MS + cycle_ms;
+        let is_forgotten = now_ms().wrapping_sub(self.received_ms) >= FORGOTTEN_MS + cycle_ms;
         if is_forgotten {
-            self.heard_ms = now_ms();
+            self.received_ms = now_ms();
         }
         is_forgotten
     }

@@ -77,14 +77,15 @@ impl Captured {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Capture {
     captures: u32,
-    told_ms: u32,
-    has_told: bool,
+    reported_ms: u32,
+    has_reported: bool,
     is_silent: bool,
 }
 
 impl Capture {
     /// The state at the start.
-    pub const NEW: Self = Self { captures: 0, told_ms: 0, has_told: false, is_silent: false };
+    pub const NEW: Self =
+        Self { captures: 0, reported_ms: 0, has_reported: false, is_silent: false };
 
     /// True if there is something new; then one element was stored. `first_edge_seen` makes up for
     /// an edge that a driver does not report: the one that starts the first period.
@@ -109,7 +110,7 @@ impl Capture {
             return self.read_silence(config, now_ms, scalar, element);
         }
         self.captures = captures;
-        self.told_ms = now_ms;
+        self.reported_ms = now_ms;
         self.is_silent = false;
         let (width, period) = (u64::from(raw.width_ticks), u64::from(raw.period_ticks));
         match config.mode {
@@ -124,13 +125,13 @@ impl Capture {
     /// An unchanged count is news as well: it is reported once at the start and repeated from time
     /// to time.
     fn read_count(&mut self, edges: u32, now_ms: u32, scalar: Scalar, element: &mut [u8]) -> bool {
-        let is_recent = now_ms.wrapping_sub(self.told_ms) < COUNT_REPEAT_MS;
-        if self.has_told && edges == self.captures && is_recent {
+        let is_recent = now_ms.wrapping_sub(self.reported_ms) < COUNT_REPEAT_MS;
+        if self.has_reported && edges == self.captures && is_recent {
             return false;
         }
-        self.has_told = true;
+        self.has_reported = true;
         self.captures = edges;
-        self.told_ms = now_ms;
+        self.reported_ms = now_ms;
         store_count(scalar, edges.into(), element);
         true
     }
@@ -143,9 +144,9 @@ impl Capture {
         scalar: Scalar,
         element: &mut [u8],
     ) -> bool {
-        let tells_silence = matches!(config.mode, CaptureMode::Frequency | CaptureMode::Duty);
-        let is_short = now_ms.wrapping_sub(self.told_ms) < config.silent_ms;
-        if !tells_silence || self.is_silent || is_short {
+        let reports_silence = matches!(config.mode, CaptureMode::Frequency | CaptureMode::Duty);
+        let is_short = now_ms.wrapping_sub(self.reported_ms) < config.silent_ms;
+        if !reports_silence || self.is_silent || is_short {
             return false;
         }
         self.is_silent = true;

@@ -117,23 +117,23 @@ impl Contact {
 
 /// The last report of a contact.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ContactTold {
+pub struct ContactReport {
     edges: u32,
     level: bool,
-    has_told: bool,
+    has_reported: bool,
 }
 
-impl ContactTold {
+impl ContactReport {
     /// The state at the start.
-    pub const NEW: Self = Self { edges: 0, level: false, has_told: false };
+    pub const NEW: Self = Self { edges: 0, level: false, has_reported: false };
 
     /// The level to report, if any: one that differs from the last, or that of a pulse that came
     /// and went since the last call; the present level is then reported by the next call.
-    pub fn tell(&mut self, config: &ContactConfig, contact: &Contact) -> Option<bool> {
+    pub fn record(&mut self, config: &ContactConfig, contact: &Contact) -> Option<bool> {
         let has_edge = contact.edges != self.edges;
         self.edges = contact.edges;
-        if !self.has_told || contact.level != self.level {
-            self.has_told = true;
+        if !self.has_reported || contact.level != self.level {
+            self.has_reported = true;
             self.level = contact.level;
             return Some(self.level);
         }

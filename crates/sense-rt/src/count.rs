@@ -50,21 +50,21 @@ pub fn store_count(scalar: Scalar, count: i64, element: &mut [u8]) {
 /// When an unchanged value is reported again.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Repeat {
-    told_ms: u32,
-    has_told: bool,
+    reported_ms: u32,
+    has_reported: bool,
 }
 
 impl Repeat {
     /// The state at the start.
-    pub const NEW: Self = Self { told_ms: 0, has_told: false };
+    pub const NEW: Self = Self { reported_ms: 0, has_reported: false };
 
     /// True if a value must be reported: it has changed, or was never reported, or not for
     /// `repeat_ms`.
     pub fn is_due(&mut self, has_changed: bool, repeat_ms: u32, now_ms: u32) -> bool {
-        if self.has_told && !has_changed && now_ms.wrapping_sub(self.told_ms) < repeat_ms {
+        if self.has_reported && !has_changed && now_ms.wrapping_sub(self.reported_ms) < repeat_ms {
             return false;
         }
-        *self = Self { told_ms: now_ms, has_told: true };
+        *self = Self { reported_ms: now_ms, has_reported: true };
         true
     }
 }

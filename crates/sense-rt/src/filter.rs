@@ -93,8 +93,8 @@ impl FilterTable {
     /// The size of the memory of an item's [`Filter`].
     #[must_use]
     pub const fn bytes(&self, item: &Item) -> usize {
-        let told = if self.change.is_some() { item.bytes() } else { 0 };
-        self.smooth_bytes(item) + told + self.median as usize * item.bytes()
+        let reported = if self.change.is_some() { item.bytes() } else { 0 };
+        self.smooth_bytes(item) + reported + self.median as usize * item.bytes()
     }
 
     const fn smooth_bytes(&self, item: &Item) -> usize {
@@ -131,7 +131,7 @@ pub struct Filter<M: ?Sized = [u8]> {
     /// When the last valid value came.
     seen_ms: Option<u32>,
     /// When a value was last reported.
-    told_ms: Option<u32>,
+    reported_ms: Option<u32>,
     window_at: u8,
     window_count: u8,
     /// The smoothed elements, the last value reported, the window of the median.
@@ -145,7 +145,7 @@ impl<const BYTES: usize> Filter<[u8; BYTES]> {
         Self {
             table,
             seen_ms: None,
-            told_ms: None,
+            reported_ms: None,
             window_at: 0,
             window_count: 0,
             memory: [0; BYTES],
@@ -182,10 +182,10 @@ impl Filter {
             self.smooth(item, now_ms, value);
         }
         let change = self.table.change.filter(|_| uses::CHANGE);
-        let is_told = change.is_none_or(|change| self.is_told(item, change, now_ms, value));
+        let is_reported = change.is_none_or(|change| self.is_reported(item, change, now_ms, value));
         self.seen_ms = Some(now_ms);
-        if is_told {
-            self.told_ms = Some(now_ms);
+        if is_reported {
+            self.reported_ms = Some(now_ms);
             Outcome::Fresh
         } else {
             Outcome::Nothing
@@ -195,8 +195,8 @@ impl Filter {
     fn take_median(&mut self, item: &Item, value: &mut [u8]) {
         let stride = item.bytes();
         let (_, rest) = split(&mut self.memory, self.table.smooth_bytes(item));
-        let told = if self.table.change.is_some() { stride } else { 0 };
-        let (_, window) = split(rest, told);
+        let reported = if self.table.change.is_some() { stride } else { 0 };
+        let (_, window) = split(rest, reported);
         let place = usize::from(self.window_at).wrapping_mul(stride);
         copy(window.get_mut(place..).unwrap_or_default(), value.get(..stride).unwrap_or_default());
         self.window_at += 1;
@@ -231,26 +231,26 @@ impl Filter {
     }
 
     /// Whether a value is reported; if so, it is stored as the last one reported.
-    fn is_told(&mut self, item: &Item, change: Number, now_ms: u32, value: &[u8]) -> bool {
+    fn is_reported(&mut self, item: &Item, change: Number, now_ms: u32, value: &[u8]) -> bool {
         let scalar = item.scalar;
-        let told = part(&self.memory, self.table.smooth_bytes(item), item.bytes());
+        let reported = part(&self.memory, self.table.smooth_bytes(item), item.bytes());
         let is_far = |index: usize| {
-            let (from, to) = (scalar.load_at(told, index), scalar.load_at(value, index));
+            let (from, to) = (scalar.load_at(reported, index), scalar.load_at(value, index));
             self.table.is_far(change, scalar, from, to)
         };
         let has_changed = (0..usize::from(item.count)).any(is_far);
-        if self.told_ms.is_some() && !has_changed && !self.is_heartbeat(now_ms) {
+        if self.reported_ms.is_some() && !has_changed && !self.is_heartbeat(now_ms) {
             return false;
         }
-        let (_, told) = split(&mut self.memory, self.table.smooth_bytes(item));
-        copy(told, value.get(..item.bytes()).unwrap_or_default());
+        let (_, reported) = split(&mut self.memory, self.table.smooth_bytes(item));
+        copy(reported, value.get(..item.bytes()).unwrap_or_default());
         true
     }
 
     /// Whether the next value would be too late for the heartbeat, assuming that it comes after at
     /// least three quarters of the present interval.
     fn is_heartbeat(&self, now_ms: u32) -> bool {
-        let silent_ms = now_ms.wrapping_sub(self.told_ms.unwrap_or_default());
+        let silent_ms = now_ms.wrapping_sub(self.reported_ms.unwrap_or_default());
         let interval_ms = now_ms.wrapping_sub(self.seen_ms.unwrap_or_default());
         let next_ms = u64::from(silent_ms) + u64::from(interval_ms - interval_ms / 4);
         self.table.heartbeat_ms != 0 && next_ms > u64::from(self.table.heartbeat_ms)

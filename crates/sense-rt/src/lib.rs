@@ -88,7 +88,7 @@ pub use chip::{
 };
 pub use coding::{Code, Coding, Crc};
 pub use compose::Compose;
-pub use contact::{Contact, ContactConfig, ContactTold, Edge};
+pub use contact::{Contact, ContactConfig, ContactReport, Edge};
 pub use convert::{
     load_magnitude, milliseconds, store_mean, store_ratio, store_signed, store_signed_ratio,
     store_unsigned,

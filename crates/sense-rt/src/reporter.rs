@@ -207,7 +207,7 @@ impl Reporter {
             }
         }
         if self.listener.frames() != frames {
-            self.silence.heard(self.now_ms());
+            self.silence.received(self.now_ms());
         }
     }
 

@@ -76,7 +76,7 @@ impl Store {
     /// Takes the outcome of a reading: puts a fresh value through the filter, if there is one,
     /// stores what must be reported, which is then due, and notes the health of the device.
     #[inline]
-    pub fn tell(
+    pub fn record(
         &mut self,
         health: &mut Health,
         filter: Option<&mut Filter>,
@@ -86,12 +86,12 @@ impl Store {
         now_ms: u32,
     ) {
         match filter {
-            Some(filter) => self.tell_filtered(health, filter, index, outcome, value, now_ms),
-            None => self.tell_plain(health, index, outcome, value, now_ms),
+            Some(filter) => self.record_after_filter(health, filter, index, outcome, value, now_ms),
+            None => self.record_plain(health, index, outcome, value, now_ms),
         }
     }
 
-    /// The outcome of filtering a reading, for [`Self::tell_told`]: a caller that must not hold the
+    /// The outcome of filtering a reading, for [`Self::record_filtered`]: a caller that must not hold the
     /// store for that long filters first.
     pub fn filtered(
         schema: &Schema,
@@ -108,24 +108,24 @@ impl Store {
     }
 
     /// Takes the outcome of a reading, and the outcome after its filter.
-    pub fn tell_told(
+    pub fn record_filtered(
         &mut self,
         health: &mut Health,
         index: usize,
-        (outcome, told): (Outcome, Outcome),
+        (outcome, reported): (Outcome, Outcome),
         value: &[u8],
         now_ms: u32,
     ) {
-        if told == Outcome::Nothing {
+        if reported == Outcome::Nothing {
             // The device answered; the filter withholds the value from the host.
             health.note(index, outcome, now_ms);
         } else {
-            self.tell_plain(health, index, told, value, now_ms);
+            self.record_plain(health, index, reported, value, now_ms);
         }
     }
 
-    /// Like [`Self::tell`] without a filter: a program that only calls this links no filter code.
-    pub fn tell_plain(
+    /// Like [`Self::record`] without a filter: a program that only calls this links no filter code.
+    pub fn record_plain(
         &mut self,
         health: &mut Health,
         index: usize,
@@ -139,7 +139,7 @@ impl Store {
         health.note(index, outcome, now_ms);
     }
 
-    fn tell_filtered(
+    fn record_after_filter(
         &mut self,
         health: &mut Health,
         filter: &mut Filter,
@@ -148,8 +148,8 @@ impl Store {
         value: &mut [u8],
         now_ms: u32,
     ) {
-        let told = Self::filtered(self.schema, filter, index, outcome, value, now_ms);
-        self.tell_told(health, index, (outcome, told), value, now_ms);
+        let reported = Self::filtered(self.schema, filter, index, outcome, value, now_ms);
+        self.record_filtered(health, index, (outcome, reported), value, now_ms);
     }
 
     /// Whether anything is due.

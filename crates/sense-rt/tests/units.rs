@@ -66,18 +66,18 @@ fn what_a_filter_keeps_back_is_a_measurement_all_the_same() {
     let mut filter = Filter::<[u8; BYTES]>::new(&TABLE);
     let mut store = Store::<[u8; 4]>::new(&SCHEMA);
     let mut health = Health::<[Record; 2]>::new(&[100]);
-    let mut tell = |value: u16, now_ms| {
+    let mut record = |value: u16, now_ms| {
         let mut value = value.to_be_bytes();
         let outcome = Outcome::Fresh;
-        store.tell(&mut health, Some(&mut filter), 0, outcome, &mut value, now_ms);
-        let told = store.get(0).unwrap().to_vec();
+        store.record(&mut health, Some(&mut filter), 0, outcome, &mut value, now_ms);
+        let reported = store.get(0).unwrap().to_vec();
         let is_due = store.has_due(0);
         store.forget(0);
-        (told, is_due, health.row(0, now_ms).status, health.row(0, now_ms).age_ms)
+        (reported, is_due, health.row(0, now_ms).status, health.row(0, now_ms).age_ms)
     };
-    assert_eq!(tell(300, 0), (vec![1, 44], true, Status::Good, 0));
-    assert_eq!(tell(302, 1000), (vec![1, 44], false, Status::Good, 0));
-    assert_eq!(tell(305, 2000), (vec![1, 49], true, Status::Good, 0));
+    assert_eq!(record(300, 0), (vec![1, 44], true, Status::Good, 0));
+    assert_eq!(record(302, 1000), (vec![1, 44], false, Status::Good, 0));
+    assert_eq!(record(305, 2000), (vec![1, 49], true, Status::Good, 0));
 }
 
 #[test]
@@ -280,10 +280,10 @@ fn requests_are_what_a_decoder_finds() {
         for _ in 0..20_000 {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             let piece = &pieces[(seed >> 33) as usize % pieces.len()];
-            let (mut heard, mut decoded) = (String::new(), String::new());
-            requests.feed(piece, &mut |frame| heard += &format!("{frame:?}"));
+            let (mut received, mut decoded) = (String::new(), String::new());
+            requests.feed(piece, &mut |frame| received += &format!("{frame:?}"));
             decoder.feed(piece, &mut |frame| decoded += &format!("{frame:?}"));
-            assert_eq!((&heard, requests.frames()), (&decoded, decoder.frames()), "{piece:?}");
+            assert_eq!((&received, requests.frames()), (&decoded, decoder.frames()), "{piece:?}");
             assert!(requests.is_idle() || !decoder.is_idle());
         }
         assert!(requests.frames() > 3_000);

@@ -39,4 +39,4 @@ pub use answer::{Answer, Ask, Goal};
 pub use fit::{Fit, Quality};
 pub use snapshot::{Snapshot, Sound, has_errors};
 pub use subject::{Origin, printed_board};
-pub use workspace::{Misplaced, On, Workspace};
+pub use workspace::{EditOutOfRange, On, Workspace};

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 
 use sensedsl_diagnostics::{SourceMap, Span};
-use sensedsl_model::{Files, Request, Unread, Wanted, What, normal_path, resolve};
+use sensedsl_model::{FileRequest, FileUse, Files, ReadError, Request, normal_path, resolve};
 
 use crate::Snapshot;
 
@@ -26,21 +26,21 @@ pub struct Workspace {
 
 /// An edit at a place that is not in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Misplaced {
+pub struct EditOutOfRange {
     /// The file.
     pub path: String,
     /// The bytes that were to be replaced.
     pub range: Range<usize>,
 }
 
-impl fmt::Display for Misplaced {
+impl fmt::Display for EditOutOfRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { path, range } = self;
         write!(f, "{path} has no text at bytes {} to {}", range.start, range.end)
     }
 }
 
-impl std::error::Error for Misplaced {}
+impl std::error::Error for EditOutOfRange {}
 
 impl Workspace {
     /// Opens a file with this text, or replaces the text of an open one.
@@ -63,14 +63,19 @@ impl Workspace {
     ///
     /// # Errors
     /// The file is not open, or the range does not begin and end between two of its characters.
-    pub fn edit(&mut self, path: &str, range: Range<usize>, with: &str) -> Result<(), Misplaced> {
+    pub fn edit(
+        &mut self,
+        path: &str,
+        range: Range<usize>,
+        with: &str,
+    ) -> Result<(), EditOutOfRange> {
         let text = self.texts.get_mut(&normal_path(path));
         match text.filter(|text| text.get(range.clone()).is_some()) {
             Some(text) => {
                 text.replace_range(range, with);
                 Ok(())
             }
-            None => Err(Misplaced { path: path.to_owned(), range }),
+            None => Err(EditOutOfRange { path: path.to_owned(), range }),
         }
     }
 
@@ -79,7 +84,7 @@ impl Workspace {
     #[must_use]
     pub fn snapshot(&self, path: &str, on: On<'_>, files: &dyn Files) -> Snapshot {
         let over = Overlay { workspace: self, files };
-        let wanted = Wanted { path, what: What::Sense, by_user: true };
+        let wanted = FileRequest { path, what: FileUse::Sense, by_user: true };
         match over.read(&wanted) {
             Ok(text) => {
                 let request = Request { path, text: &text, board: on.board, target: on.target };
@@ -101,9 +106,9 @@ struct Overlay<'a> {
 }
 
 impl Files for Overlay<'_> {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
         match self.workspace.text(wanted.path) {
-            Some(text) if text.len() > wanted.what.bytes_max() => Err(Unread::TooLarge),
+            Some(text) if text.len() > wanted.what.bytes_max() => Err(ReadError::TooLarge),
             Some(text) => Ok(text.to_owned()),
             None => self.files.read(wanted),
         }

@@ -10,7 +10,7 @@
 )]
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::{Files, NoFiles, Unread, Wanted};
+use sensedsl_model::{FileRequest, Files, NoFiles, ReadError};
 use sensedsl_session::{Ask, On, Workspace};
 
 const NAME: &str = "robot.sense";
@@ -183,13 +183,13 @@ fn a_missing_board_takes_with_it_what_may_belong_on_it() {
 fn open_texts_win_over_files() {
     struct Stored;
     impl Files for Stored {
-        fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
             match wanted.path {
                 "robot.sense" => {
                     Ok("use \"legs.sense\";\nboard B on STM32F4DiscoveryBoard {}".into())
                 }
                 "legs.sense" => Ok("sensor Leg returns uint16 { id = 1; }".into()),
-                _ => Err(Unread::Missing),
+                _ => Err(ReadError::Missing),
             }
         }
     }

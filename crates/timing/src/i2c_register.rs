@@ -138,16 +138,16 @@ mod tests {
         let is_fast = asked_hz > 100_000;
         let (least_low, least_high, setup) =
             if is_fast { (1.3e6, 0.6e6, 0.4e6) } else { (4.7e6, 4.0e6, 1.25e6) };
-        let told = format!("{unit_hz} {asked_hz}: {register:?}");
-        assert!(part(low) >= least_low - 1.0 && part(high) >= least_high - 1.0, "{told}");
+        let reported = format!("{unit_hz} {asked_hz}: {register:?}");
+        assert!(part(low) >= least_low - 1.0 && part(high) >= least_high - 1.0, "{reported}");
         let real_hz = 1e12 / (part(low) + part(high));
-        assert!(real_hz <= f64::from(asked_hz) + 1e-3, "{told}");
-        assert!((real_hz - f64::from(speed_hz)).abs() <= 1.0, "{told}");
+        assert!(real_hz <= f64::from(asked_hz) + 1e-3, "{reported}");
+        assert!((real_hz - f64::from(speed_hz)).abs() <= 1.0, "{reported}");
         let is_longest = (prescaler, data_setup) == (15, 15);
-        assert!(is_longest || f64::from(data_setup + 1) * step_ps >= setup - 1.0, "{told}");
+        assert!(is_longest || f64::from(data_setup + 1) * step_ps >= setup - 1.0, "{reported}");
         let hold_ps = f64::from(data_hold) * step_ps + 260_000.0 + 4.0 * clock_ps;
         let late_ps = if is_fast { 0.6e6 } else { 2.45e6 };
-        assert!(data_hold == 0 || hold_ps <= late_ps + 1.0, "{told}");
+        assert!(data_hold == 0 || hold_ps <= late_ps + 1.0, "{reported}");
         assert!(
             prescaler <= 15 && data_setup <= 15 && data_hold <= 15 && high <= 255 && low <= 255
         );

@@ -29,7 +29,7 @@ mod recorded;
 mod units;
 
 use chips::Chip;
-pub use chips::Unasked;
+pub use chips::UncheckedIdentity;
 pub use peer::Peer;
 pub(crate) use units::Units;
 pub use units::number_of;
@@ -46,7 +46,7 @@ pub struct Bench {
     wires: BTreeMap<ConnectionIndex, Wired>,
     pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
     chips: Vec<Chip>,
-    talkers: BTreeMap<u8, Talking>,
+    talkers: BTreeMap<u8, ConnectedSender>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
@@ -86,9 +86,9 @@ struct Analog {
 }
 
 #[derive(Clone, Debug)]
-struct Talking {
+struct ConnectedSender {
     part: PartIndex,
-    talker: message::Talker,
+    talker: message::MessageSender,
 }
 
 impl Bench {
@@ -313,8 +313,9 @@ impl Bench {
             (Interface::Uart(uart), Some(unit)) if !devices.is_empty() => {
                 let fields = devices.iter().filter_map(|of| self.field(of)).collect();
                 let delay_ns = MS_NS * u64::from(one.cycle.delay_ms);
-                let talker = message::Talker::new(uart.clone(), fields, delay_ns, &self.subjects);
-                self.talkers.insert(unit, Talking { part, talker });
+                let talker =
+                    message::MessageSender::new(uart.clone(), fields, delay_ns, &self.subjects);
+                self.talkers.insert(unit, ConnectedSender { part, talker });
             }
             (Interface::Can(_), Some(unit)) => self.stations(unit, part, &devices),
             // Nothing is sent without a unit, or by a part that is only written.

@@ -9,7 +9,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 
 use crate::bench::{Bench, number_of};
-use crate::pads::{PadMismatch, Planned, misled, planned};
+use crate::pads::{PadMismatch, Planned, mismatches, planned};
 use crate::ports::{self, PlannedPort};
 use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, Mcu, ResetCause, Settings};
 
@@ -25,7 +25,7 @@ const WATCHED_NS: u64 = 2_500 * MS_NS;
 /// The time after a start at which pads and ports are checked, the number of checks and the time between them. A bus
 /// that is being freed takes its pads over for a moment.
 const LOOK_NS: u64 = 1_000 * MS_NS;
-const LOOKS: u32 = 4;
+const IDENTITY_ATTEMPTS: u32 = 4;
 const LOOKS_APART_NS: u64 = 7 * MS_NS;
 /// After this many resets that nobody asked for, the program counts as one that only ever starts.
 const RESETS_MAX: u32 = 3;
@@ -39,8 +39,8 @@ pub struct EmulatedBoard {
     garbage: Vec<u8>,
     garbage_ms: u64,
     is_off: bool,
-    look: Option<Look>,
-    misled: Vec<PadMismatch>,
+    look: Option<NextCheck>,
+    mismatches: Vec<PadMismatch>,
     /// The time of the next watchdog check.
     watchdog_at_ns: Option<u64>,
     /// The watchdog's fault, if it has one.
@@ -53,15 +53,15 @@ pub struct EmulatedBoard {
 
 /// The time of the next check of pads and ports, the number of checks left, and the mismatches that every check so far
 /// has found.
-struct Look {
+struct NextCheck {
     at_ns: u64,
     left: u32,
     wrong: Option<Vec<PadMismatch>>,
 }
 
-impl Look {
+impl NextCheck {
     fn after(start_ns: u64) -> Self {
-        Self { at_ns: start_ns + LOOK_NS, left: LOOKS, wrong: None }
+        Self { at_ns: start_ns + LOOK_NS, left: IDENTITY_ATTEMPTS, wrong: None }
     }
 }
 
@@ -92,8 +92,8 @@ impl EmulatedBoard {
             garbage: Vec::new(),
             garbage_ms: 0,
             is_off: false,
-            look: Some(Look::after(0)),
-            misled: Vec::new(),
+            look: Some(NextCheck::after(0)),
+            mismatches: Vec::new(),
             watchdog_at_ns: Some(WATCHED_NS),
             unwatched: None,
             events: Vec::new(),
@@ -161,7 +161,7 @@ impl EmulatedBoard {
     fn follow(&mut self) {
         for event in self.machine.events() {
             if let Event::Reset { at_ns, cause } = &event {
-                self.look = Some(Look::after(*at_ns));
+                self.look = Some(NextCheck::after(*at_ns));
                 self.watchdog_at_ns = Some(at_ns + WATCHED_NS);
                 self.resets = if *cause == ResetCause::Power { 0 } else { self.resets + 1 };
                 if self.resets >= RESETS_MAX && self.loops.is_none() {
@@ -182,8 +182,8 @@ impl EmulatedBoard {
     /// Compares pads and ports with the plan if it is time.
     fn look(&mut self, now_ns: u64) {
         let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
-        let mut now = misled(&self.planned, &self.machine.pads());
-        now.extend(ports::misled(&self.ports, &self.machine.ports()));
+        let mut now = mismatches(&self.planned, &self.machine.pads());
+        now.extend(ports::mismatches(&self.ports, &self.machine.ports()));
         let still = match look.wrong.take() {
             None => now,
             Some(before) => before.into_iter().filter(|one| now.contains(one)).collect(),
@@ -195,7 +195,7 @@ impl EmulatedBoard {
             return;
         }
         self.look = None;
-        self.misled.extend(still);
+        self.mismatches.extend(still);
     }
 
     /// Checks whether the watchdog runs if it is time.
@@ -212,8 +212,8 @@ impl EmulatedBoard {
     }
 
     /// The pads and ports found not to be as planned since the last call.
-    pub fn misled(&mut self) -> Vec<PadMismatch> {
-        std::mem::take(&mut self.misled)
+    pub fn mismatches(&mut self) -> Vec<PadMismatch> {
+        std::mem::take(&mut self.mismatches)
     }
 
     /// The watchdog's fault, if one was found since the last call.
@@ -229,7 +229,7 @@ impl EmulatedBoard {
 
     /// The parts on buses that the board has read without asking for their identity.
     #[must_use]
-    pub fn unasked(&self) -> Vec<crate::bench::Unasked> {
+    pub fn unasked(&self) -> Vec<crate::bench::UncheckedIdentity> {
         self.bench().unasked()
     }
 

@@ -122,7 +122,7 @@ fn led(
 }
 
 /// The pads that are not as planned.
-pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<PadMismatch> {
+pub(crate) fn mismatches(planned: &[Planned], states: &[PadState]) -> Vec<PadMismatch> {
     let differs = |one: &Planned| {
         let state = states.iter().find(|state| state.pad == one.pad)?;
         let drives = one.open_drain.is_none_or(|open_drain| open_drain == state.open_drain);

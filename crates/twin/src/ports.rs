@@ -23,12 +23,12 @@ pub(crate) struct PlannedPort {
     /// The titles of its devices.
     title: String,
     /// The settings, any of which will do: each chip on an SPI bus has its own.
-    wanted: Vec<Wanted>,
+    wanted: Vec<RequiredSettings>,
 }
 
 /// The settings that one device needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wanted {
+enum RequiredSettings {
     Serial { baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8 },
     Spi { most_hz: u64, mode: u8 },
     I2c { most_hz: u64 },
@@ -38,14 +38,14 @@ enum Wanted {
 /// The ports of all devices and of a serial link.
 pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
     let mut ports: BTreeMap<String, PlannedPort> = BTreeMap::new();
-    let mut add = |unit: &str, title: &str, wanted: Wanted| {
+    let mut add = |unit: &str, title: &str, wanted: RequiredSettings| {
         let fresh = || PlannedPort { unit: unit.to_owned(), title: String::new(), wanted: vec![] };
         let port = ports.entry(unit.to_owned()).or_insert_with(fresh);
         let and = if port.title.is_empty() { "" } else { " and " };
         port.title.push_str(&format!("{and}{title}"));
         match (port.wanted.first_mut(), wanted) {
             // The slowest part determines the speed of a bus.
-            (Some(Wanted::I2c { most_hz }), Wanted::I2c { most_hz: other }) => {
+            (Some(RequiredSettings::I2c { most_hz }), RequiredSettings::I2c { most_hz: other }) => {
                 *most_hz = other.min(*most_hz);
             }
             (_, _) => port.wanted.push(wanted),
@@ -58,15 +58,15 @@ pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
     }
     if let Some(link) = &job.link {
         let baud = u64::from(job.board.link.baud);
-        let plain = Wanted::Serial { baud, data_bits: 8, odd_parity: None, stop_bits: 1 };
+        let plain = RequiredSettings::Serial { baud, data_bits: 8, odd_parity: None, stop_bits: 1 };
         add(link.unit, "the link", plain);
     }
     ports.into_values().collect()
 }
 
-fn of_kind(kind: &Kind) -> Option<Wanted> {
+fn of_kind(kind: &Kind) -> Option<RequiredSettings> {
     match kind.interface() {
-        Interface::Uart(own) => Some(Wanted::Serial {
+        Interface::Uart(own) => Some(RequiredSettings::Serial {
             baud: u64::from(own.baud),
             data_bits: own.data_bits,
             odd_parity: match own.parity {
@@ -77,10 +77,12 @@ fn of_kind(kind: &Kind) -> Option<Wanted> {
             stop_bits: own.stop_bits,
         }),
         Interface::Spi(own) => {
-            Some(Wanted::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode })
+            Some(RequiredSettings::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode })
         }
-        Interface::I2c(own) => Some(Wanted::I2c { most_hz: u64::from(own.speed_hz) }),
-        Interface::Can(own) => Some(Wanted::Can { bitrate_hz: u64::from(own.bitrate_hz) }),
+        Interface::I2c(own) => Some(RequiredSettings::I2c { most_hz: u64::from(own.speed_hz) }),
+        Interface::Can(own) => {
+            Some(RequiredSettings::Can { bitrate_hz: u64::from(own.bitrate_hz) })
+        }
         Interface::Analog(_)
         | Interface::Dac(_)
         | Interface::Digital(_)
@@ -91,7 +93,7 @@ fn of_kind(kind: &Kind) -> Option<Wanted> {
 }
 
 /// The ports that are not as planned. A port that was not started shows in the silence of its devices.
-pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<PadMismatch> {
+pub(crate) fn mismatches(planned: &[PlannedPort], states: &[PortState]) -> Vec<PadMismatch> {
     let differs = |one: &PlannedPort| {
         let state = states.iter().find(|state| state.unit == one.unit)?;
         let is_right = one.wanted.iter().any(|wanted| fits(*wanted, state.setting));
@@ -107,10 +109,10 @@ pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<PadMi
     planned.iter().filter_map(differs).collect()
 }
 
-fn fits(wanted: Wanted, state: Setting) -> bool {
+fn fits(wanted: RequiredSettings, state: Setting) -> bool {
     match (wanted, state) {
         (
-            Wanted::Serial { baud, data_bits, odd_parity, stop_bits },
+            RequiredSettings::Serial { baud, data_bits, odd_parity, stop_bits },
             Setting::Serial {
                 baud: found,
                 data_bits: found_bits,
@@ -121,19 +123,27 @@ fn fits(wanted: Wanted, state: Setting) -> bool {
             baud.abs_diff(found) * 100 <= baud * BAUD_PERCENT
                 && (data_bits, odd_parity, stop_bits) == (found_bits, found_parity, found_stops)
         }
-        (Wanted::Spi { most_hz, mode }, Setting::Spi { clock_hz, fastest_hz, mode: found }) => {
+        (
+            RequiredSettings::Spi { most_hz, mode },
+            Setting::Spi { clock_hz, fastest_hz, mode: found },
+        ) => {
             // Dividers are powers of 2, so a clock above half of the allowed one is always possible.
             let least_hz = (most_hz / 2).min(fastest_hz);
             mode == found && (least_hz..=most_hz).contains(&clock_hz)
         }
         // A driver that only divides without a remainder may have to stay below the allowed speed.
-        (Wanted::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
+        (RequiredSettings::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
             let most_hz = most_hz.min(fastest_hz);
             (most_hz / 2..=most_hz).contains(&clock_hz)
         }
-        (Wanted::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => bitrate_hz == found,
+        (RequiredSettings::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => {
+            bitrate_hz == found
+        }
         (
-            Wanted::Serial { .. } | Wanted::Spi { .. } | Wanted::I2c { .. } | Wanted::Can { .. },
+            RequiredSettings::Serial { .. }
+            | RequiredSettings::Spi { .. }
+            | RequiredSettings::I2c { .. }
+            | RequiredSettings::Can { .. },
             Setting::Serial { .. }
             | Setting::Spi { .. }
             | Setting::I2c { .. }
@@ -151,22 +161,22 @@ fn serial(baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8) -> 
     format!("at {baud} baud, {data_bits}{parity}{stop_bits}")
 }
 
-fn expected(wanted: Wanted, state: Setting) -> String {
+fn expected(wanted: RequiredSettings, state: Setting) -> String {
     match wanted {
-        Wanted::Serial { baud, data_bits, odd_parity, stop_bits } => {
+        RequiredSettings::Serial { baud, data_bits, odd_parity, stop_bits } => {
             serial(baud, data_bits, odd_parity, stop_bits)
         }
-        Wanted::Spi { most_hz, mode } => {
+        RequiredSettings::Spi { most_hz, mode } => {
             format!("at {} to {most_hz} Hz in mode {mode}", most_hz / 2)
         }
-        Wanted::I2c { most_hz } => {
+        RequiredSettings::I2c { most_hz } => {
             let most_hz = match state {
                 Setting::I2c { fastest_hz, .. } => most_hz.min(fastest_hz),
                 Setting::Serial { .. } | Setting::Spi { .. } | Setting::Can { .. } => most_hz,
             };
             format!("at {} to {most_hz} Hz", most_hz / 2)
         }
-        Wanted::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
+        RequiredSettings::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
     }
 }
 
@@ -185,26 +195,28 @@ fn found(state: Setting) -> String {
 mod tests {
     use super::*;
 
-    fn is_misled(wanted: &[Wanted], setting: Setting) -> bool {
+    fn is_mismatch(wanted: &[RequiredSettings], setting: Setting) -> bool {
         let [unit, title] = ["SPI2", "Angle"].map(str::to_owned);
         let planned = PlannedPort { unit: unit.clone(), title, wanted: wanted.to_vec() };
-        !misled(&[planned], &[PortState { unit, setting }]).is_empty()
+        !mismatches(&[planned], &[PortState { unit, setting }]).is_empty()
     }
 
     #[test]
     fn a_clock_of_spi_is_the_fastest_that_is_allowed() {
-        let wanted = [Wanted::Spi { most_hz: 1_000_000, mode: 1 }];
+        let wanted = [RequiredSettings::Spi { most_hz: 1_000_000, mode: 1 }];
         let found = |clock_hz, mode| Setting::Spi { clock_hz, fastest_hz: 21_000_000, mode };
-        assert!(!is_misled(&wanted, found(656_250, 1)));
+        assert!(!is_mismatch(&wanted, found(656_250, 1)));
         for (clock_hz, mode) in [(656_250, 0), (1_312_500, 1), (328_125, 1)] {
-            assert!(is_misled(&wanted, found(clock_hz, mode)), "{clock_hz} Hz, {mode}");
+            assert!(is_mismatch(&wanted, found(clock_hz, mode)), "{clock_hz} Hz, {mode}");
         }
         // The port is not asked for more than it can do.
         let slow = Setting::Spi { clock_hz: 250_000, fastest_hz: 250_000, mode: 1 };
-        assert!(!is_misled(&wanted, slow));
+        assert!(!is_mismatch(&wanted, slow));
         // Each of two chips on one bus has its own setting.
-        let both = [wanted[0], Wanted::Spi { most_hz: 10_000_000, mode: 3 }];
-        assert!(!is_misled(&both, found(5_250_000, 3)) && is_misled(&both, found(5_250_000, 1)));
+        let both = [wanted[0], RequiredSettings::Spi { most_hz: 10_000_000, mode: 3 }];
+        assert!(
+            !is_mismatch(&both, found(5_250_000, 3)) && is_mismatch(&both, found(5_250_000, 1))
+        );
     }
 
     #[test]
@@ -215,28 +227,32 @@ mod tests {
             odd_parity,
             stop_bits,
         };
-        let wanted =
-            [Wanted::Serial { baud: 115_200, data_bits: 8, odd_parity: None, stop_bits: 1 }];
-        assert!(!is_misled(&wanted, serial(115_384, None, 1)));
+        let wanted = [RequiredSettings::Serial {
+            baud: 115_200,
+            data_bits: 8,
+            odd_parity: None,
+            stop_bits: 1,
+        }];
+        assert!(!is_mismatch(&wanted, serial(115_384, None, 1)));
         let wrong = [serial(57_692, None, 1), serial(115_384, Some(false), 1)];
         for setting in wrong.into_iter().chain([serial(115_384, None, 2)]) {
-            assert!(is_misled(&wanted, setting), "{setting:?}");
+            assert!(is_mismatch(&wanted, setting), "{setting:?}");
         }
         let found = |clock_hz| Setting::I2c { clock_hz, fastest_hz: 400_000 };
-        let bus = [Wanted::I2c { most_hz: 400_000 }];
-        assert!(!is_misled(&bus, found(280_000)));
+        let bus = [RequiredSettings::I2c { most_hz: 400_000 }];
+        assert!(!is_mismatch(&bus, found(280_000)));
         for clock_hz in [100_000, 410_000] {
-            assert!(is_misled(&bus, found(clock_hz)), "{clock_hz}");
+            assert!(is_mismatch(&bus, found(clock_hz)), "{clock_hz}");
         }
         // A unit that is slower than its part runs at its own highest speed.
-        let bus = [Wanted::I2c { most_hz: 1_000_000 }];
-        assert!(!is_misled(&bus, found(400_000)));
+        let bus = [RequiredSettings::I2c { most_hz: 1_000_000 }];
+        assert!(!is_mismatch(&bus, found(400_000)));
         for clock_hz in [100_000, 1_000_000] {
-            assert!(is_misled(&bus, found(clock_hz)), "{clock_hz}");
+            assert!(is_mismatch(&bus, found(clock_hz)), "{clock_hz}");
         }
-        let bus = [Wanted::Can { bitrate_hz: 500_000 }];
-        assert!(!is_misled(&bus, Setting::Can { bitrate_hz: 500_000 }));
-        assert!(is_misled(&bus, Setting::Can { bitrate_hz: 250_000 }));
-        assert!(is_misled(&bus, found(500_000)));
+        let bus = [RequiredSettings::Can { bitrate_hz: 500_000 }];
+        assert!(!is_mismatch(&bus, Setting::Can { bitrate_hz: 500_000 }));
+        assert!(is_mismatch(&bus, Setting::Can { bitrate_hz: 250_000 }));
+        assert!(is_mismatch(&bus, found(500_000)));
     }
 }

@@ -21,7 +21,7 @@ mod uart;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::silicon::Ability;
-use sensedsl_model::design::{Board, BoardIndex, Connection, PartIndex, Placement, Wish};
+use sensedsl_model::design::{Board, BoardIndex, Connection, PartIndex, Placement, Preference};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
@@ -32,7 +32,7 @@ use crate::offer::Offer;
 use crate::wishes;
 
 /// The wires that a connection or a link wants.
-pub(crate) struct Wanted<'a> {
+pub(crate) struct RequestedWires<'a> {
     /// The part; `None` for a link.
     pub(crate) part: Option<PartIndex>,
     /// Whether it is one element of an array.
@@ -45,12 +45,12 @@ pub(crate) struct Wanted<'a> {
     pub(crate) unit: Option<&'a str>,
     pub(crate) side: Option<&'a str>,
     pub(crate) header: Option<&'a str>,
-    pub(crate) wishes: &'a [Wish],
+    pub(crate) wishes: &'a [Preference],
     /// The voltage that the device puts on the pins, in millivolts, if it is stated.
     pub(crate) level_mv: Option<u32>,
 }
 
-impl<'a> Wanted<'a> {
+impl<'a> RequestedWires<'a> {
     pub(crate) fn connection(connection: &'a Connection, boards: Vec<BoardIndex>) -> Self {
         let Placement { pins, unit, side, header, .. } = &connection.placement;
         Self {
@@ -105,7 +105,7 @@ impl<'a> Wanted<'a> {
 pub(crate) fn alternatives<'a>(
     builder: &mut Builder<'a>,
     offers: &[Offer<'a>],
-    wanted: &Wanted<'a>,
+    wanted: &RequestedWires<'a>,
 ) -> (Vec<Alternative>, Vec<Meaning>) {
     let rules = wishes::rules(builder, wanted);
     let mut list = Vec::new();
@@ -126,7 +126,7 @@ pub(crate) fn alternatives<'a>(
 pub(crate) struct Maker<'b, 'a> {
     builder: &'b mut Builder<'a>,
     offer: &'b Offer<'a>,
-    wanted: &'b Wanted<'a>,
+    wanted: &'b RequestedWires<'a>,
     rules: &'b wishes::Rules<'a>,
 }
 
@@ -191,6 +191,6 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
 }
 
 /// Whether the instance is not reserved and is the fixed one, if one is fixed.
-fn unit_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, unit: &str) -> bool {
+fn unit_fits(offer: &Offer<'_>, wanted: &RequestedWires<'_>, unit: &str) -> bool {
     wanted.unit.is_none_or(|fixed| offer.same_unit(fixed, unit)) && !offer.unit_reserved(unit)
 }

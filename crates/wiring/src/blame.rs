@@ -224,7 +224,7 @@ fn in_force(design: &Design) -> Vec<Rule> {
         };
         rules.extend(reserved.map(rule));
     }
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for connection in &design.connections {
         let (index, placement) = (connection.part, &connection.placement);
         let side = placement.side.iter().map(|side| Rule::Side(index, side.span));
@@ -235,7 +235,7 @@ fn in_force(design: &Design) -> Vec<Rule> {
         let ties = ties.map(|span| Rule::Tie(index, span));
         for rule in side.chain(header).chain(unit).chain(pins).chain(ties) {
             // The wires of one part share some of them.
-            if rule.span().is_none_or(|span| told.insert(span)) {
+            if rule.span().is_none_or(|span| reported.insert(span)) {
                 rules.push(rule);
             }
         }

@@ -31,7 +31,7 @@ impl Wiring<'_> {
 
     fn uncertified(&self, why: &Uncertified) -> Box<Diagnostic> {
         let why = match why {
-            Uncertified::GivenUp => "the proof is longer than a certificate may be",
+            Uncertified::Incomplete => "the proof is longer than a certificate may be",
             Uncertified::Stopped => "time ran out before the proof was complete",
             Uncertified::Refuted(why) => return Box::new(self.disagrees(why)),
         };

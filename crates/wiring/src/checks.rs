@@ -17,12 +17,14 @@ use sensedsl_diagnostics::codes::{
     w0610_level_not_known,
 };
 use sensedsl_diagnostics::{Diagnostic, visible};
-use sensedsl_model::design::{Board, BoardIndex, Connection, Design, Level, Spanned, WishFor};
+use sensedsl_model::design::{
+    Board, BoardIndex, Connection, Design, Level, PreferenceSubject, Spanned,
+};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::pins::PinRef;
 use sensedsl_model::volts::{divider, shown_mv, shown_ohm};
 
-use crate::alternatives::{Wanted, alternatives};
+use crate::alternatives::{RequestedWires, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
 use crate::levels::{Tolerates, stands, supply_mv};
@@ -33,9 +35,9 @@ use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     // All elements of an array have the same reason.
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for (wires, meanings) in design.connections.iter().zip(&formulation.meanings) {
-        if meanings.is_empty() && told.insert((wires.part, wires.name.as_deref())) {
+        if meanings.is_empty() && reported.insert((wires.part, wires.name.as_deref())) {
             diagnostics.extend(why_hopeless(design, formulation, wires));
         }
     }
@@ -275,7 +277,7 @@ fn possible(
     design: &Design,
     offers: &[&Offer<'_>],
     wires: &Connection,
-    relax: impl Fn(&mut Wanted<'_>),
+    relax: impl Fn(&mut RequestedWires<'_>),
 ) -> bool {
     !relaxed(design, offers, wires, relax).is_empty()
 }
@@ -284,7 +286,7 @@ fn relaxed(
     design: &Design,
     offers: &[&Offer<'_>],
     wires: &Connection,
-    relax: impl Fn(&mut Wanted<'_>),
+    relax: impl Fn(&mut RequestedWires<'_>),
 ) -> Vec<crate::formulate::Meaning> {
     let fresh: Vec<Offer<'_>> =
         offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
@@ -295,7 +297,7 @@ fn relaxed_on(
     design: &Design,
     offers: &[Offer<'_>],
     wires: &Connection,
-    relax: impl Fn(&mut Wanted<'_>),
+    relax: impl Fn(&mut RequestedWires<'_>),
 ) -> Vec<crate::formulate::Meaning> {
     let mut wanted = wanted(design, wires);
     relax(&mut wanted);
@@ -304,7 +306,7 @@ fn relaxed_on(
     alternatives(&mut builder, offers, &wanted).1
 }
 
-fn free(wanted: &mut Wanted<'_>) {
+fn free(wanted: &mut RequestedWires<'_>) {
     wanted.pins.clear();
     wanted.unit = None;
     wanted.side = None;
@@ -438,23 +440,24 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         }
         diagnostics.extend(releases(BoardIndex(index), board));
     }
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for wires in &design.connections {
         // The connections of a part share their rules.
-        if !told.insert(wires.part) {
+        if !reported.insert(wires.part) {
             continue;
         }
         let several = wires.kind.roles(wires.direction).len() > 1
             || wires.element.is_some()
             || design.connections_of(wires.part).nth(1).is_some();
         for wish in &wires.wishes {
-            if several && wish.prefer && matches!(wish.what, WishFor::Pin(None, _)) {
+            if several && wish.prefer && matches!(wish.what, PreferenceSubject::Pin(None, _)) {
                 let roles: Vec<&str> =
                     wires.kind.roles(wires.direction).iter().map(|role| role.name()).collect();
                 let why = format!("the device has several wires: name one of {}", roles.join(", "));
                 diagnostics.push(w0604_unused_rule::unused_rule(wish.span, "prefer pin", &why));
             }
-            let of_array = matches!(wish.what, WishFor::Together(_) | WishFor::Sequence);
+            let of_array =
+                matches!(wish.what, PreferenceSubject::Together(_) | PreferenceSubject::Sequence);
             if of_array && wires.element.is_none() {
                 let text = crate::labels::describe(wish);
                 let why = "it is for arrays, whose elements have a wire each";

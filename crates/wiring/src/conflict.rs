@@ -7,7 +7,7 @@ use sensedsl_model::design::{BoardIndex, Design, PartIndex};
 use sensedsl_solve::{Cancel, Conflict};
 
 use crate::blame::{self, Rule};
-use crate::formulate::{Asker, Formulation};
+use crate::formulate::{Formulation, Requester};
 use crate::names::list;
 use crate::repairs::{self, Repair, Repaired};
 use crate::{Solved, Wiring};
@@ -109,10 +109,10 @@ pub(crate) fn named(
     let (mut parts, mut links) = (Vec::new(), Vec::new());
     for asker in askers {
         match asker {
-            Asker::Connection(connection) => {
+            Requester::Connection(connection) => {
                 parts.extend(design.connection(*connection).map(|one| one.part));
             }
-            Asker::Link(board) => links.push(*board),
+            Requester::Link(board) => links.push(*board),
         }
     }
     parts.dedup();

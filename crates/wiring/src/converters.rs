@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::signal::Function;
 use sensedsl_board::table::Usage;
 use sensedsl_model::design::{
-    Board, Connection, ConnectionIndex, Design, PartIndex, Together, Wish, WishFor,
+    Board, Connection, ConnectionIndex, Design, PartIndex, Preference, PreferenceSubject, Together,
 };
 
 use crate::assignment::ConnectionWiring;
@@ -81,7 +81,8 @@ fn keep_together(design: &Design, board: &Board, class: &mut [Input]) {
         let connection: &Connection = design.connection(*connection)?;
         let hard = connection.placement.together.iter().any(|one| one.value == Together::Unit);
         let mut wishes = connection.wishes.iter().chain(&board.wishes);
-        let mut wished = || wishes.any(|wish| wish.what == WishFor::Together(Together::Unit));
+        let mut wished =
+            || wishes.any(|wish| wish.what == PreferenceSubject::Together(Together::Unit));
         (connection.element.is_some() && (hard || wished())).then_some(connection.part)
     };
     let mut common: BTreeMap<PartIndex, BTreeSet<u8>> = BTreeMap::new();
@@ -160,17 +161,17 @@ pub(crate) fn units_of(board: &Board, usage: &Usage, fixed: Option<&str>) -> Vec
 }
 
 /// The units that meet most of the wishes for units.
-fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
+fn wished(board: &Board, units: BTreeSet<u8>, own: &[Preference]) -> BTreeSet<u8> {
     let met = |unit: u8| {
         let wishes = own.iter().chain(&board.wishes).filter_map(|wish| match &wish.what {
-            WishFor::Unit(wanted) => {
+            PreferenceSubject::Unit(wanted) => {
                 Some(board.same_unit(wanted, &format!("ADC{unit}")) == wish.prefer)
             }
-            WishFor::Pin(..)
-            | WishFor::Side(_)
-            | WishFor::Header(_)
-            | WishFor::Together(_)
-            | WishFor::Sequence => None,
+            PreferenceSubject::Pin(..)
+            | PreferenceSubject::Side(_)
+            | PreferenceSubject::Header(_)
+            | PreferenceSubject::Together(_)
+            | PreferenceSubject::Sequence => None,
         });
         wishes.filter(|met| *met).count()
     };

@@ -14,7 +14,7 @@ use sensedsl_solve::problem::{
     StreamId,
 };
 
-use crate::alternatives::{Wanted, alternatives};
+use crate::alternatives::{RequestedWires, alternatives};
 use crate::keep::Keep;
 use crate::names::{Group, Names, Resource};
 use crate::offer::Offer;
@@ -26,7 +26,7 @@ pub(crate) const GPIO: &str = "GPIO";
 
 /// Something that asks for wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Asker {
+pub(crate) enum Requester {
     Connection(ConnectionIndex),
     /// The serial link of a board.
     Link(BoardIndex),
@@ -53,7 +53,7 @@ pub(crate) struct Formulation<'a> {
     pub(crate) problem: Problem,
     pub(crate) offers: Vec<Offer<'a>>,
     /// For each device of the problem, what asks for its wires.
-    pub(crate) askers: Vec<Asker>,
+    pub(crate) askers: Vec<Requester>,
     /// For each device of the problem, the meanings of its alternatives.
     pub(crate) meanings: Vec<Vec<Meaning>>,
     pub(crate) resources: Vec<Resource>,
@@ -70,7 +70,7 @@ pub(crate) struct Formulation<'a> {
 
 /// The form in which the problem is put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Asked {
+pub(crate) struct ProblemForm {
     pub(crate) converters: Converters,
     /// Whether arrays that violate a wish for their elements are distinguished from those that keep
     /// it: each wiring that keeps it is then found a second time, as one that need not.
@@ -197,7 +197,7 @@ impl<'a> Builder<'a> {
 pub(crate) fn formulate<'a>(
     design: &'a Design,
     keep: Option<&Keep>,
-    asked: Asked,
+    asked: ProblemForm,
     cancel: Cancel<'a>,
 ) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
@@ -214,21 +214,20 @@ pub(crate) fn formulate<'a>(
     let mut askers = Vec::new();
     let mut devices = Vec::new();
     let mut meanings = Vec::new();
-    let of_connections = design
-        .connections
-        .iter()
-        .enumerate()
-        .map(|(index, one)| (Asker::Connection(ConnectionIndex(index)), wanted(design, one)));
+    let of_connections =
+        design.connections.iter().enumerate().map(|(index, one)| {
+            (Requester::Connection(ConnectionIndex(index)), wanted(design, one))
+        });
     let of_links = links.iter().map(|(board, kind, link)| {
         let unit = link.unit.as_ref().map(|unit| unit.value.as_str());
-        (Asker::Link(*board), Wanted::link(*board, kind, unit, &link.pins))
+        (Requester::Link(*board), RequestedWires::link(*board, kind, unit, &link.pins))
     });
     for (asker, wanted) in of_connections.chain(of_links) {
         if cancel.is_over() {
             break;
         }
         let (mut list, meaning) = alternatives(&mut builder, &offers, &wanted);
-        if let (Some(keep), Asker::Connection(connection)) = (keep, asker) {
+        if let (Some(keep), Requester::Connection(connection)) = (keep, asker) {
             mark_moved(design, keep, connection, &mut list, &meaning);
         }
         askers.push(asker);
@@ -270,15 +269,15 @@ pub(crate) fn formulate<'a>(
 /// Ties the connections of each part that has several.
 fn tie(
     builder: &mut Builder<'_>,
-    askers: &[Asker],
+    askers: &[Requester],
     devices: &mut [solver::Device],
     meanings: &mut [Vec<Meaning>],
     wishes: bool,
 ) {
     let design = builder.design;
-    let part = |asker: &Asker| match asker {
-        Asker::Connection(index) => design.connection(*index).map(|one| one.part),
-        Asker::Link(_) => None,
+    let part = |asker: &Requester| match asker {
+        Requester::Connection(index) => design.connection(*index).map(|one| one.part),
+        Requester::Link(_) => None,
     };
     let mut from = 0;
     for group in askers.chunk_by(|one, next| part(one) == part(next)) {
@@ -322,12 +321,12 @@ pub(crate) fn board_id(board: BoardIndex) -> BoardId {
     BoardId(u32::try_from(board.0).unwrap_or(u32::MAX))
 }
 
-pub(crate) fn wanted<'a>(design: &'a Design, connection: &'a Connection) -> Wanted<'a> {
+pub(crate) fn wanted<'a>(design: &'a Design, connection: &'a Connection) -> RequestedWires<'a> {
     let boards = match connection.board {
         Some(board) => vec![board],
         None => (0..design.boards.len()).map(BoardIndex).collect(),
     };
-    Wanted::connection(connection, boards)
+    RequestedWires::connection(connection, boards)
 }
 
 /// All pins of all boards in tie-break order, and the position at which each board begins.

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use sensedsl_certify::{AlternativeLabels, Labels, distinct};
-use sensedsl_model::design::{BoardIndex, Design, Wish, WishFor};
+use sensedsl_model::design::{BoardIndex, Design, Preference, PreferenceSubject};
 
-use crate::formulate::{Asker, Formulation, GPIO, wanted};
+use crate::formulate::{Formulation, GPIO, Requester, wanted};
 use crate::names::{Group, Resource};
 use crate::read_back;
 
@@ -54,14 +54,14 @@ impl Namer<'_> {
         self.design.board(board)?.table.pins.get(pin)
     }
 
-    fn device(&self, asker: Asker) -> String {
+    fn device(&self, asker: Requester) -> String {
         let board = |board| self.design.board(board).map_or("", |board| &board.name.value);
         match asker {
-            Asker::Connection(connection) => {
+            Requester::Connection(connection) => {
                 let connection = self.design.connection(connection);
                 connection.map_or(String::new(), |one| self.design.connection_name(one))
             }
-            Asker::Link(of) => format!("link of {}", board(of)),
+            Requester::Link(of) => format!("link of {}", board(of)),
         }
     }
 
@@ -107,7 +107,7 @@ impl Namer<'_> {
     }
 
     fn alternatives(&self) -> Vec<Vec<AlternativeLabels>> {
-        let of_device = |(asker, meanings): (&Asker, &Vec<_>)| {
+        let of_device = |(asker, meanings): (&Requester, &Vec<_>)| {
             let roles: Vec<String> = read_back::roles(self.design, *asker)
                 .iter()
                 .map(|role| role.name().to_owned())
@@ -148,19 +148,19 @@ impl Namer<'_> {
         for asker in &self.formulation.askers {
             // The connections of a part share their rules.
             let part = match asker {
-                Asker::Connection(index) => self.design.connection(*index).map(|one| one.part),
-                Asker::Link(_) => None,
+                Requester::Connection(index) => self.design.connection(*index).map(|one| one.part),
+                Requester::Link(_) => None,
             };
             if part.is_some() && part == last {
                 continue;
             }
             last = part;
-            let (own, boards): (&[Wish], _) = match asker {
-                Asker::Connection(index) => match self.design.connection(*index) {
+            let (own, boards): (&[Preference], _) = match asker {
+                Requester::Connection(index) => match self.design.connection(*index) {
                     Some(one) => (&one.wishes, wanted(self.design, one).boards),
                     None => (&[], Vec::new()),
                 },
-                Asker::Link(board) => (&[], vec![*board]),
+                Requester::Link(board) => (&[], vec![*board]),
             };
             let boards = boards.iter().filter_map(|board| self.design.board(*board));
             let of_boards = boards.flat_map(|board| &board.wishes);
@@ -192,15 +192,17 @@ impl Namer<'_> {
 }
 
 /// A wish as it is written.
-pub(crate) fn describe(wish: &Wish) -> String {
+pub(crate) fn describe(wish: &Preference) -> String {
     let verb = if wish.prefer { "prefer" } else { "avoid" };
     match &wish.what {
-        WishFor::Pin(Some(role), pin) => format!("{verb} {} = {}", role.name(), pin.spelled),
-        WishFor::Pin(None, pin) => format!("{verb} pin = {}", pin.spelled),
-        WishFor::Unit(unit) => format!("{verb} unit = {unit}"),
-        WishFor::Side(side) => format!("{verb} side = {side}"),
-        WishFor::Header(header) => format!("{verb} header = {header}"),
-        WishFor::Together(what) => format!("{verb} together = {}", what.name()),
-        WishFor::Sequence => format!("{verb} sequence = header"),
+        PreferenceSubject::Pin(Some(role), pin) => {
+            format!("{verb} {} = {}", role.name(), pin.spelled)
+        }
+        PreferenceSubject::Pin(None, pin) => format!("{verb} pin = {}", pin.spelled),
+        PreferenceSubject::Unit(unit) => format!("{verb} unit = {unit}"),
+        PreferenceSubject::Side(side) => format!("{verb} side = {side}"),
+        PreferenceSubject::Header(header) => format!("{verb} header = {header}"),
+        PreferenceSubject::Together(what) => format!("{verb} together = {}", what.name()),
+        PreferenceSubject::Sequence => format!("{verb} sequence = header"),
     }
 }

@@ -49,11 +49,11 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Span};
 use std::collections::BTreeSet;
 
-use sensedsl_model::design::{ConnectionIndex, Design, Wish, WishFor};
+use sensedsl_model::design::{ConnectionIndex, Design, Preference, PreferenceSubject};
 use sensedsl_solve::{Answers, Conflict, Count, Experience, Fault, Objective, Options, Outcome};
 
 use assignment::{Assignment, Bound};
-use formulate::{Asked, Converters, Formulation, formulate};
+use formulate::{Converters, Formulation, ProblemForm, formulate};
 
 pub use blame::Rule;
 pub use capacity::{Capacity, capacity};
@@ -102,7 +102,7 @@ pub enum Solved {
 }
 
 /// The meaning of an outcome of the solver for the design.
-enum Meant {
+enum OutcomeMeaning {
     Solved(Solved),
     /// A wiring of the pins that leaves the converters no DMA stream.
     NoStreams,
@@ -142,11 +142,16 @@ impl<'a> Wiring<'a> {
     /// then.
     #[must_use]
     pub fn within(design: &'a Design, keep: Option<&Keep>, cancel: Cancel<'a>) -> Self {
-        let asked = Asked { converters: Converters::Later, wishes: true };
+        let asked = ProblemForm { converters: Converters::Later, wishes: true };
         Self::put(design, keep, asked, cancel)
     }
 
-    fn put(design: &'a Design, keep: Option<&Keep>, asked: Asked, cancel: Cancel<'a>) -> Self {
+    fn put(
+        design: &'a Design,
+        keep: Option<&Keep>,
+        asked: ProblemForm,
+        cancel: Cancel<'a>,
+    ) -> Self {
         let formulation = formulate(design, keep, asked, cancel);
         Self { design, keep: keep.cloned(), formulation, wishes: asked.wishes, cancel }
     }
@@ -155,7 +160,7 @@ impl<'a> Wiring<'a> {
     /// streams; `None` if they are already in it.
     fn with_converters(&self) -> Option<Self> {
         let later = self.formulation.converters == Converters::Later;
-        let asked = Asked { converters: Converters::Now, wishes: true };
+        let asked = ProblemForm { converters: Converters::Now, wishes: true };
         later.then(|| Self::put(self.design, self.keep.as_ref(), asked, self.cancel))
     }
 
@@ -187,12 +192,12 @@ impl<'a> Wiring<'a> {
     #[must_use]
     pub fn solve(&self, search: &Search) -> Solved {
         match self.named(self.search(search)) {
-            Meant::Solved(solved) => solved,
-            Meant::NoStreams => match self.with_converters() {
+            OutcomeMeaning::Solved(solved) => solved,
+            OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve(search),
                 None => self.no_streams(),
             },
-            Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
+            OutcomeMeaning::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         }
     }
 
@@ -211,12 +216,12 @@ impl<'a> Wiring<'a> {
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
         match self.named(self.search(&Search { any })) {
-            Meant::Solved(solved) => solved,
-            Meant::NoStreams => match self.with_converters() {
+            OutcomeMeaning::Solved(solved) => solved,
+            OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve_only(any),
                 None => self.no_streams(),
             },
-            Meant::Infeasible(conflict) => {
+            OutcomeMeaning::Infeasible(conflict) => {
                 Solved::Infeasible(conflict::named(self.design, &self.formulation, &conflict))
             }
         }
@@ -233,12 +238,12 @@ impl<'a> Wiring<'a> {
             cancelled
         };
         match self.named(found.transpose()?) {
-            Meant::Solved(solved) => Some(solved),
-            Meant::NoStreams => match self.with_converters() {
+            OutcomeMeaning::Solved(solved) => Some(solved),
+            OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.one_of_the_best(),
                 None => Some(self.no_streams()),
             },
-            Meant::Infeasible(_) => None,
+            OutcomeMeaning::Infeasible(_) => None,
         }
     }
 
@@ -252,12 +257,12 @@ impl<'a> Wiring<'a> {
         };
         let certificate = self.certificate(&outcome, &learned, of);
         let solved = match self.named(outcome) {
-            Meant::Solved(solved) => solved,
-            Meant::NoStreams => match self.with_converters() {
+            OutcomeMeaning::Solved(solved) => solved,
+            OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => return wiring.solve_with_proof(of),
                 None => self.no_streams(),
             },
-            Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
+            OutcomeMeaning::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         };
         // A wiring that cannot be built is not a wiring, whatever was proved about its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
@@ -277,15 +282,16 @@ impl<'a> Wiring<'a> {
         solver::solve_and_learn(&self.formulation.problem, &options)
     }
 
-    fn named(&self, outcome: Result<Outcome, Fault>) -> Meant {
-        let failed = |fault: &Fault| Meant::Solved(Solved::Failed(Box::new(self.fault(fault))));
+    fn named(&self, outcome: Result<Outcome, Fault>) -> OutcomeMeaning {
+        let failed =
+            |fault: &Fault| OutcomeMeaning::Solved(Solved::Failed(Box::new(self.fault(fault))));
         match outcome {
             Ok(Outcome::Solved(answer)) => self.read(&answer, None),
             Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
                 let Objective { moved, violated, shared, cost, .. } = bound;
                 self.read(&answer, Some(Bound { moved, violated, shared, cost }))
             }
-            Ok(Outcome::Infeasible(conflict)) => Meant::Infeasible(conflict),
+            Ok(Outcome::Infeasible(conflict)) => OutcomeMeaning::Infeasible(conflict),
             Ok(Outcome::Stopped { answer: None, .. }) => failed(&Fault::Cancelled),
             Err(fault) => failed(&fault),
         }
@@ -303,11 +309,11 @@ impl<'a> Wiring<'a> {
         let answers: Answers<'_> = solver::enumerate(&self.formulation.problem, self.cancel);
         let mut seen = BTreeSet::new();
         answers.filter_map(move |answer| match self.named(answer.map(Outcome::Solved)) {
-            Meant::Solved(Solved::Wired(wiring)) if self.finds_twice() => {
+            OutcomeMeaning::Solved(Solved::Wired(wiring)) if self.finds_twice() => {
                 seen.insert(wiring.wires()).then_some(Solved::Wired(wiring))
             }
-            Meant::Solved(solved) => Some(solved),
-            Meant::NoStreams | Meant::Infeasible(_) => None,
+            OutcomeMeaning::Solved(solved) => Some(solved),
+            OutcomeMeaning::NoStreams | OutcomeMeaning::Infeasible(_) => None,
         })
     }
 
@@ -317,7 +323,7 @@ impl<'a> Wiring<'a> {
     /// The diagnostic of a fault in the solver.
     pub fn count(&self) -> Result<Count, Box<Diagnostic>> {
         if self.finds_twice() {
-            let asked = Asked { converters: self.formulation.converters, wishes: false };
+            let asked = ProblemForm { converters: self.formulation.converters, wishes: false };
             let (design, keep) = (self.design, self.keep.as_ref());
             return Self::put(design, keep, asked, self.cancel).count();
         }
@@ -328,8 +334,9 @@ impl<'a> Wiring<'a> {
     /// Whether a wiring that keeps a wish for an array is found a second time, as one that need
     /// not.
     fn finds_twice(&self) -> bool {
-        let is_of_array =
-            |wish: &Wish| matches!(wish.what, WishFor::Together(_) | WishFor::Sequence);
+        let is_of_array = |wish: &Preference| {
+            matches!(wish.what, PreferenceSubject::Together(_) | PreferenceSubject::Sequence)
+        };
         let of_boards = self.design.boards.iter().flat_map(|board| &board.wishes);
         let mut arrays = self.design.connections.iter().filter(|one| one.element.is_some());
         self.wishes
@@ -352,7 +359,7 @@ impl<'a> Wiring<'a> {
         let outcome = self.search(&Search { any: false });
         let outcome = outcome.map_err(|fault| Box::new(self.fault(&fault)))?;
         if let Outcome::Solved(answer) = &outcome
-            && let (Meant::NoStreams, Some(wiring)) =
+            && let (OutcomeMeaning::NoStreams, Some(wiring)) =
                 (self.read(answer, None), self.with_converters())
         {
             return wiring.posed();
@@ -361,13 +368,13 @@ impl<'a> Wiring<'a> {
     }
 
     /// The answer in names; `bound` is that of a search that was stopped.
-    fn read(&self, answer: &solver::Answer, bound: Option<Bound>) -> Meant {
+    fn read(&self, answer: &solver::Answer, bound: Option<Bound>) -> OutcomeMeaning {
         match read_back::read_back(self.design, &self.formulation, answer) {
             Some(wiring) => {
                 let bound = bound.or(wiring.bound);
-                Meant::Solved(Solved::Wired(Box::new(Assignment { bound, ..wiring })))
+                OutcomeMeaning::Solved(Solved::Wired(Box::new(Assignment { bound, ..wiring })))
             }
-            None => Meant::NoStreams,
+            None => OutcomeMeaning::NoStreams,
         }
     }
 

@@ -12,7 +12,7 @@ use crate::assignment::{
     SharedPin, Status, Wire,
 };
 use crate::converters::{self, Choice};
-use crate::formulate::{Asker, Converters, Formulation};
+use crate::formulate::{Converters, Formulation, Requester};
 use crate::streams;
 
 /// The answer in names. `None` if a board's DMA requests, including those of its converters, cannot
@@ -41,19 +41,19 @@ pub(crate) fn read_back(
         let chosen = chosen.filter_map(|(role, candidate)| role.get(*candidate));
         let wires = roles(design, *asker).into_iter().zip(chosen);
         let connection = match asker {
-            Asker::Connection(connection) => Some(*connection),
-            Asker::Link(_) => None,
+            Requester::Connection(connection) => Some(*connection),
+            Requester::Link(_) => None,
         };
         let wires = wires.map(|(role, at)| Wire { connection, role, pin: at.pin, usage: at.usage });
         let wires = wires.collect();
         match asker {
-            Asker::Connection(connection) => {
+            Requester::Connection(connection) => {
                 let connection = *connection;
                 // The converter is finally chosen by `converters`.
                 let unit = meaning.unit.clone().filter(|_| !is_analog(design, connection));
                 board.connections.push(ConnectionWiring { connection, unit, wires });
             }
-            Asker::Link(_) => {
+            Requester::Link(_) => {
                 let unit = meaning.unit.clone().unwrap_or_default();
                 board.link = Some(LinkWiring { unit, wires });
             }
@@ -89,13 +89,13 @@ pub(crate) fn read_back(
 }
 
 /// The roles of an asker, in order.
-pub(crate) fn roles(design: &Design, asker: Asker) -> Vec<Role> {
+pub(crate) fn roles(design: &Design, asker: Requester) -> Vec<Role> {
     match asker {
-        Asker::Connection(connection) => design
+        Requester::Connection(connection) => design
             .connection(connection)
             .map(|one| one.kind.roles(one.direction))
             .unwrap_or_default(),
-        Asker::Link(_) => vec![Role::Tx, Role::Rx],
+        Requester::Link(_) => vec![Role::Tx, Role::Rx],
     }
 }
 

@@ -10,7 +10,7 @@ pub use repair::Repair;
 use sensedsl_model::design::{Design, PartIndex};
 
 use self::alike::Alike;
-use self::budget::{Budget, SHARES, Tried};
+use self::budget::{Budget, SHARES, TrialResult};
 use self::proposals::{is_exclusive, proposals};
 use crate::Cancel;
 use crate::formulate::Formulation;
@@ -79,10 +79,10 @@ pub(crate) fn find(
             if let Some(change) = as_well_as {
                 alike.learn(change, tried);
             }
-            if let Tried::Helps { cost, is_best } = tried {
+            if let TrialResult::Helps { cost, is_best } = tried {
                 found.push(Repaired { repair: repair.clone(), cost, is_best });
             }
-            tried == Tried::Unknown
+            tried == TrialResult::Unknown
         });
     }
     let is_open = is_cut || proposals.iter().any(is_drop);
@@ -110,8 +110,8 @@ fn sharing(design: &Design, parts: &[PartIndex], budget: &mut Budget<'_>) -> Opt
     pairs.take(TRIED_MAX).chain([exclusive.clone()]).find_map(|some| {
         let repair = Repair::Share(some);
         match budget.tried(design, &repair, SHARES[1]) {
-            Tried::Helps { cost, is_best } => Some(Repaired { repair, cost, is_best }),
-            Tried::IsNoHelp | Tried::Unknown => None,
+            TrialResult::Helps { cost, is_best } => Some(Repaired { repair, cost, is_best }),
+            TrialResult::IsNoHelp | TrialResult::Unknown => None,
         }
     })
 }

@@ -20,7 +20,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{Board, BoardIndex, Connection, Design, PartIndex, Together, WishFor};
+use sensedsl_model::design::{
+    Board, BoardIndex, Connection, Design, PartIndex, PreferenceSubject, Together,
+};
 use sensedsl_solve::problem::{self as solver, Alternative, Claim, RuleId};
 
 use crate::converters::units_of;
@@ -83,9 +85,12 @@ pub(crate) fn tie(
     }
     for (rule, board, wish) in builder.rules_of(part) {
         let soft = match &wish.what {
-            WishFor::Together(what) => Tie::Together(*what),
-            WishFor::Sequence => Tie::Sequence,
-            WishFor::Pin(..) | WishFor::Unit(_) | WishFor::Side(_) | WishFor::Header(_) => continue,
+            PreferenceSubject::Together(what) => Tie::Together(*what),
+            PreferenceSubject::Sequence => Tie::Sequence,
+            PreferenceSubject::Pin(..)
+            | PreferenceSubject::Unit(_)
+            | PreferenceSubject::Side(_)
+            | PreferenceSubject::Header(_) => continue,
         };
         if wished {
             let tier = Tier::new(design, part, soft, Some(rule), &connections, elements);

@@ -7,7 +7,7 @@ use sensedsl_solve::{Cancel, Objective, Options, Outcome, solve};
 
 use crate::Found;
 use crate::assignment::Assignment;
-use crate::formulate::{Asker, Formulation};
+use crate::formulate::{Formulation, Requester};
 use crate::read_back::roles;
 
 /// The cost of one pin for one wire of a device.
@@ -55,7 +55,7 @@ fn of_connection(
     cancel: Cancel<'_>,
     all: &mut Vec<Alternative>,
 ) -> bool {
-    let asker = Asker::Connection(connection);
+    let asker = Requester::Connection(connection);
     let number = formulation.askers.iter().position(|one| *one == asker);
     let (Some(number), Some(wires)) = (number, design.connection(connection)) else { return true };
     for (at, role) in roles(design, asker).into_iter().enumerate() {

@@ -7,16 +7,16 @@ use std::collections::BTreeSet;
 
 use sensedsl_board::signal::{Function, UnitName};
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{BoardIndex, Design, PartIndex, Wish, WishFor};
+use sensedsl_model::design::{BoardIndex, Design, PartIndex, Preference, PreferenceSubject};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Device, RuleId};
 
-use crate::alternatives::Wanted;
+use crate::alternatives::RequestedWires;
 use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 
 /// A soft rule, with the board that it is bound to if it is written in one.
-pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Wish);
+pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Preference);
 
 /// The soft rules for one device.
 pub(crate) struct Rules<'a> {
@@ -27,7 +27,7 @@ pub(crate) struct Rules<'a> {
 }
 
 /// Collects the rules for a device: its own, and those of the boards it may go to.
-pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules<'a> {
+pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &RequestedWires<'a>) -> Rules<'a> {
     // The connections of a part share them: each counts once, however many violate it.
     let known = wanted.part.map(|part| builder.rules_of(part)).unwrap_or_default();
     let rules = if known.is_empty() { number(builder, wanted) } else { known };
@@ -41,7 +41,7 @@ pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules
     Rules { rules, single, unit: wanted.unit }
 }
 
-fn number<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Vec<Rule<'a>> {
+fn number<'a>(builder: &mut Builder<'a>, wanted: &RequestedWires<'a>) -> Vec<Rule<'a>> {
     let mut rules = Vec::new();
     for wish in wanted.wishes {
         rules.push((builder.rule(), None, wish));
@@ -66,7 +66,7 @@ pub(crate) fn leave_out_others(
 ) {
     let design = builder.design;
     for (rule, _, wish) in builder.rules_of(part) {
-        let WishFor::Unit(wanted) = &wish.what else { continue };
+        let PreferenceSubject::Unit(wanted) = &wish.what else { continue };
         let mut could: Vec<BTreeSet<BoardIndex>> = Vec::new();
         for ways in meanings {
             let with = ways.iter().filter(|meaning| has_unit(design, meaning, wanted));
@@ -101,7 +101,7 @@ fn has_unit(design: &Design, meaning: &Meaning, wanted: &str) -> bool {
 }
 
 impl Rules<'_> {
-    fn on(&self, board: BoardIndex) -> impl Iterator<Item = (RuleId, &Wish)> {
+    fn on(&self, board: BoardIndex) -> impl Iterator<Item = (RuleId, &Preference)> {
         let here = move |bound: Option<BoardIndex>| bound.is_none_or(|bound| bound == board);
         let rules = self.rules.iter().filter(move |(_, bound, _)| here(*bound));
         rules.map(|(id, _, wish)| (*id, *wish))
@@ -119,16 +119,20 @@ impl Rules<'_> {
         let place = |has: &Option<String>, wanted: &str| {
             has.as_deref().is_some_and(|has| has.eq_ignore_ascii_case(wanted))
         };
-        let violated = |wish: &Wish| match &wish.what {
-            WishFor::Pin(Some(of), _) if *of != role => false,
+        let violated = |wish: &Preference| match &wish.what {
+            PreferenceSubject::Pin(Some(of), _) if *of != role => false,
             // One pin for a device of several wires: nothing to prefer, but something to avoid.
-            WishFor::Pin(None, _) if wish.prefer && !self.single => false,
-            WishFor::Pin(_, name) => (name.on(offer.index) == Some(&pin.name)) != wish.prefer,
-            WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
-            WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
-            WishFor::Unit(unit) => self.wire_violates(offer, (usage, channels), unit, wish.prefer),
+            PreferenceSubject::Pin(None, _) if wish.prefer && !self.single => false,
+            PreferenceSubject::Pin(_, name) => {
+                (name.on(offer.index) == Some(&pin.name)) != wish.prefer
+            }
+            PreferenceSubject::Side(side) => place(&pin.side, side) != wish.prefer,
+            PreferenceSubject::Header(header) => place(&pin.header, header) != wish.prefer,
+            PreferenceSubject::Unit(unit) => {
+                self.wire_violates(offer, (usage, channels), unit, wish.prefer)
+            }
             // They are kept or violated by the array as a whole.
-            WishFor::Together(_) | WishFor::Sequence => false,
+            PreferenceSubject::Together(_) | PreferenceSubject::Sequence => false,
         };
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
@@ -136,13 +140,13 @@ impl Rules<'_> {
     /// The rules that taking this peripheral instance violates.
     pub(crate) fn violated_by_unit(&self, offer: &Offer<'_>, unit: Option<&str>) -> Vec<RuleId> {
         let Some(unit) = unit else { return Vec::new() };
-        let violated = |wish: &Wish| match &wish.what {
-            WishFor::Unit(wanted) => offer.same_unit(wanted, unit) != wish.prefer,
-            WishFor::Pin(..)
-            | WishFor::Side(_)
-            | WishFor::Header(_)
-            | WishFor::Together(_)
-            | WishFor::Sequence => false,
+        let violated = |wish: &Preference| match &wish.what {
+            PreferenceSubject::Unit(wanted) => offer.same_unit(wanted, unit) != wish.prefer,
+            PreferenceSubject::Pin(..)
+            | PreferenceSubject::Side(_)
+            | PreferenceSubject::Header(_)
+            | PreferenceSubject::Together(_)
+            | PreferenceSubject::Sequence => false,
         };
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }

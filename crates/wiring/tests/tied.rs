@@ -35,7 +35,7 @@ const MOST: f64 = 40_000.0;
 /// Board, pin and signal of each wire.
 type Wires = Vec<(usize, String, String)>;
 
-fn told(case: &Case, found: &Found) -> Wires {
+fn reported(case: &Case, found: &Found) -> Wires {
     let one = |wire: &support::meaning::Wire| {
         let row = &case.boards[wire.board][wire.pin];
         let signal = wire.usage.map_or("GPIO", |usage| row.usages[usage].as_str());
@@ -126,19 +126,19 @@ fn has_best(
 ) {
     let first = found.first().unwrap_or_else(|| panic!("a wiring where there is none\n{}", what()));
     assert_eq!(objective(best), first.objective[..3], "{}", what());
-    assert_eq!(wires(design, best), told(case, first), "{}", what());
+    assert_eq!(wires(design, best), reported(case, first), "{}", what());
     sampled_together(case, design, best, what);
     let wiring = Wiring::new(design, None);
     let any = wired(wiring.solve(&Search { any: true }), what);
     let any = wires(design, &any);
-    assert!(found.iter().any(|one| told(case, one) == any), "{}", what());
+    assert!(found.iter().any(|one| reported(case, one) == any), "{}", what());
     let listed: Vec<Assignment> = wiring.enumerate().map(|one| wired(one, what)).collect();
     let ours: Vec<_> = listed.iter().map(|one| (objective(one), wires(design, one))).collect();
     let distinct: BTreeSet<&Wires> = ours.iter().map(|(_, wires)| wires).collect();
     assert_eq!(distinct.len(), ours.len(), "a wiring twice\n{}", what());
     let theirs: Vec<_> = found
         .iter()
-        .map(|one| ([one.objective[0], one.objective[1], one.objective[2]], told(case, one)))
+        .map(|one| ([one.objective[0], one.objective[1], one.objective[2]], reported(case, one)))
         .collect();
     assert_eq!(ours, theirs, "{}", what());
     kept(case, found, design, what);
@@ -162,7 +162,7 @@ fn sampled_together(case: &Case, design: &Design, best: &Assignment, what: &dyn 
 fn kept(case: &Case, found: &[Found], design: &Design, what: &dyn Fn() -> String) {
     let Some(last) = found.last() else { return };
     let mut keep = Keep::default();
-    let before = told(case, last);
+    let before = reported(case, last);
     let mut at = 0;
     for connection in &design.connections {
         let device = &design.device(connection.device).unwrap().name.value;

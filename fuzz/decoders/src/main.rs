@@ -100,15 +100,15 @@ fn foreign(
 
 static STREAMS_RUN: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
 
-extern "C" fn tell() {
+extern "C" fn record() {
     let streams = STREAMS_RUN.load(std::sync::atomic::Ordering::Relaxed);
     eprintln!("stages: {streams} streams, each decoded in Rust, C and C++");
 }
 
 fuzz_target!(|bytes: &[u8]| {
     if STREAMS_RUN.fetch_add(STREAMS, std::sync::atomic::Ordering::Relaxed) == 0 {
-        // SAFETY: `tell` takes nothing, gives nothing and does not unwind.
-        unsafe { atexit(tell) };
+        // SAFETY: `record` takes nothing, gives nothing and does not unwind.
+        unsafe { atexit(record) };
     }
     let others: [(&str, Other); 2] = [
         ("C", |stream| foreign(stream, sense_decode_c)),

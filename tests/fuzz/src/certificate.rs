@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use sensedsl_certify::{Subject, sha256};
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, resolve};
 use sensedsl_proof::subject::compare;
 use sensedsl_proof::{Verified, read, verify};
 use sensedsl_wiring::{Keep, Wiring};
@@ -57,7 +57,7 @@ fn designs() -> Vec<(String, bool)> {
 struct Table;
 
 impl Files for Table {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
         Ok(TABLE.into())
     }
 }

@@ -48,13 +48,13 @@ pub fn reference(stream: &Stream) -> Decoded {
     let mut log = Vec::new();
     let mut from = 0;
     for to in stream.cuts.iter().copied().chain([stream.bytes.len()]) {
-        decoder.feed(&stream.bytes[from..to], |event| tell(&stream.schema, &event, &mut log));
+        decoder.feed(&stream.bytes[from..to], |event| record(&stream.schema, &event, &mut log));
         from = to;
     }
     Decoded { log, frames: decoder.frames(), dropped_bytes: decoder.dropped_bytes() }
 }
 
-fn tell(schema: &Schema, event: &Event, log: &mut Vec<u8>) {
+fn record(schema: &Schema, event: &Event, log: &mut Vec<u8>) {
     match event {
         Event::Report(stamp, values) => {
             if let Some(stamp) = stamp {

@@ -3,7 +3,7 @@
 mod devices;
 mod words;
 
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::{FileRequest, Files, ReadError};
 
 use crate::draw::Draw;
 use words::{BOARDS, BREAKS, CODES, ODD_CELLS, ODD_ROWS, PINS, ROWS, TARGETS, UNITS};
@@ -22,9 +22,9 @@ pub struct Input {
 }
 
 impl Files for Input {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
         let found = self.files.iter().find(|(name, _)| name == wanted.path);
-        found.map(|(_, text)| text.clone()).ok_or(Unread::Missing)
+        found.map(|(_, text)| text.clone()).ok_or(ReadError::Missing)
     }
 }
 

@@ -5,7 +5,7 @@
 //! the one of the last digit in it.
 
 use sensedsl_diagnostics::{Severity, SourceMap, render};
-use sensedsl_import::{Format, Imported, Source, Unread, import};
+use sensedsl_import::{Format, Imported, ReadError, Source, import};
 
 /// A table as text, wide or long; as what it looks like where it begins with `!`.
 pub fn tabular(bytes: &[u8]) {
@@ -39,7 +39,7 @@ fn source(format: Option<Format>, bytes: &[u8]) {
     let parts: Vec<&[u8]> = bytes.split(|byte| *byte == 0xFF).collect();
     let beside = |path: &str| {
         let digit = path.bytes().rev().find(u8::is_ascii_digit).unwrap_or(b'1');
-        parts.get(usize::from(digit - b'0')).map(|part| part.to_vec()).ok_or(Unread::Missing)
+        parts.get(usize::from(digit - b'0')).map(|part| part.to_vec()).ok_or(ReadError::Missing)
     };
     let made = import(&Source {
         name: "source",

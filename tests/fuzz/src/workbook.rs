@@ -3,7 +3,7 @@
 
 use std::io::{Cursor, Write as _};
 
-use sensedsl_import::{Format, Source, Unread, import};
+use sensedsl_import::{Format, ReadError, Source, import};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -51,7 +51,7 @@ pub fn run(bytes: &[u8]) {
         format: (form & 32 == 0).then_some(format),
         sheet,
         table: "pins.csv",
-        beside: &|_| Err(Unread::Missing),
+        beside: &|_| Err(ReadError::Missing),
     });
     check(&made);
 }

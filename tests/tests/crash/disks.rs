@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{Ran, missing};
+use sensedsl_tests::{RunOutput, missing};
 
 use super::{Stage, asked, identity, nothing_beside, run};
 
@@ -80,7 +80,7 @@ fn a_full_disk_leaves_the_old_tree() {
 
 /// Whether the disk was full for the run; if not, the run has written the other tree.
 #[track_caller]
-fn is_refused(stage: &Stage, ran: &Ran, out: &Path) -> bool {
+fn is_refused(stage: &Stage, ran: &RunOutput, out: &Path) -> bool {
     let now = stage.which(out);
     match ran.status {
         0 => assert_eq!(now, 1),

@@ -17,7 +17,7 @@ use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, state, tree, write_all};
+use sensedsl_tests::{RunOutput, TempDir, binary, design, sensedsl, state, tree, write_all};
 
 /// The number of crashes requested; `None` for the few that always run.
 fn asked() -> Option<usize> {
@@ -29,7 +29,7 @@ type Tree = BTreeMap<String, Vec<u8>>;
 /// A folder that two designs are written to in turn. They differ in the board's name, so most files
 /// of one are missing or different in the other.
 struct Stage {
-    scratch: Scratch,
+    scratch: TempDir,
     designs: [PathBuf; 2],
     /// The trees without the user's files.
     trees: [Tree; 2],
@@ -47,7 +47,7 @@ const MINE: [(&str, &str); 4] = [
 
 impl Stage {
     fn new(name: &str) -> Self {
-        let scratch = Scratch::new(name);
+        let scratch = TempDir::new(name);
         let devices: [&[&str]; 2] = [&["analog", "icu"], &["analog", "analog", "icu"]];
         let designs = [0, 1].map(|which| {
             let board = format!("{} on STM32F4DiscoveryBoard", NAMES[which]);
@@ -109,7 +109,7 @@ fn identity(out: &Path) -> Vec<(String, u64, u32, u64, i64, i64)> {
     all
 }
 
-fn run(file: &Path, out: &Path) -> Ran {
+fn run(file: &Path, out: &Path) -> RunOutput {
     sensedsl(["generate", "-q"]).arg(file).arg("-o").arg(out).run()
 }
 

@@ -130,7 +130,7 @@ impl Form {
             let line = &stream[begun..at];
             let is_end = line.ends_with(&self.end) && (line.len() >= self.least() || !is_aligned);
             if is_end && is_aligned && self.is_message(line) {
-                found.push_str(&told(self.body(line)));
+                found.push_str(&reported(self.body(line)));
                 begun = at;
             } else if is_end || (is_aligned && line.len() == self.bytes_max) {
                 dropped += line.len();
@@ -158,7 +158,7 @@ impl Form {
         while at < stream.len() {
             match self.judge(&stream[at..]) {
                 Verdict::Whole(size) => {
-                    found.push_str(&told(self.body(&stream[at..][..size])));
+                    found.push_str(&reported(self.body(&stream[at..][..size])));
                     at += size;
                 }
                 Verdict::Bad => {
@@ -190,7 +190,7 @@ impl Form {
     }
 }
 
-fn told(body: &[u8]) -> String {
+fn reported(body: &[u8]) -> String {
     if body.is_empty() { ";".to_owned() } else { hex(body) + ";" }
 }
 

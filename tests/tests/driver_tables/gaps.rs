@@ -1,10 +1,10 @@
 //! A device that firmware does not support yet is refused, never left out silently; everything else
 //! is still written.
 
-use sensedsl_tests::{Ran, Scratch, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, sensedsl};
 
-fn generate(body: &str, arguments: &[&str]) -> Ran {
-    let scratch = Scratch::new("gaps");
+fn generate(body: &str, arguments: &[&str]) -> RunOutput {
+    let scratch = TempDir::new("gaps");
     let text = format!("board STM32F407G_DISC1 {{ {body} }}\n");
     let file = scratch.write("gap.sense", text);
     let out = scratch.join("out");

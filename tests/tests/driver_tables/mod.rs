@@ -97,8 +97,8 @@ fn what_disagrees_is_told() {
                 design: unit.design.clone(),
                 cases: Vec::new(),
             };
-            let told = judge(&unit, &case, &outcome);
-            assert!(told.len() >= changes, "{}: {changes} changes, {told:?}", case.title);
+            let reported = judge(&unit, &case, &outcome);
+            assert!(reported.len() >= changes, "{}: {changes} changes, {reported:?}", case.title);
         }
     }
 }

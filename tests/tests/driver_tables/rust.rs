@@ -182,7 +182,7 @@ impl<'a> Told<'a> {
         out.push('\n');
     }
 
-    fn tell(
+    fn record(
         &mut self,
         index: usize,
         outcome: Outcome,
@@ -215,7 +215,7 @@ struct Run<'a> {
     bus: Bus,
     chip: Option<Box<Chip<[u8; MEMORY_BYTES]>>>,
     stream: Option<Box<MessageStream<[u8; MEMORY_BYTES]>>>,
-    told: Told<'a>,
+    reported: Told<'a>,
     bridges: Vec<BridgeState>,
     out: String,
 }
@@ -230,7 +230,7 @@ pub fn answer(units: &[(Unit, Tables)], request: &str) -> String {
         bus: Bus { register_bytes: 1, ..Bus::default() },
         chip: tables.chip.map(|table| Box::new(Chip::new(table, tables.schema))),
         stream: tables.message.map(|table| Box::new(MessageStream::new(table, tables.schema))),
-        told: Told::new(tables),
+        reported: Told::new(tables),
         bridges: vec![BridgeState::NEW; tables.schema.items.len()],
         out: String::new(),
     };
@@ -256,7 +256,7 @@ pub fn answer(units: &[(Unit, Tables)], request: &str) -> String {
             "faults" => run.bus.seed = ask().parse().unwrap(),
             "steps" => run.steps(ask().parse().unwrap()),
             "trace" => run.bus.traces = ask() != "0",
-            "later" => run.told.now_ms += ask().parse::<u32>().unwrap(),
+            "later" => run.reported.now_ms += ask().parse::<u32>().unwrap(),
             "feed" => run.feed(&unhex(ask())),
             "raw" => run.raw(ask().parse().unwrap(), ask().parse().unwrap()),
             "frame" => run.frame(ask().parse().unwrap(), &unhex(ask())),
@@ -283,23 +283,23 @@ impl Run<'_> {
 
     /// One step of the chip; returns how long the chip then has nothing to do.
     fn step(&mut self) -> u32 {
-        let Self { bus, chip, told, out, .. } = self;
+        let Self { bus, chip, reported, out, .. } = self;
         let chip = chip.as_mut().unwrap();
         loop {
-            let outcome = match chip.next(told.now_ms) {
+            let outcome = match chip.next(reported.now_ms) {
                 Step::Wait(ms) => return ms,
-                step => bus.make(step, &mut told.now_ms, out),
+                step => bus.make(step, &mut reported.now_ms, out),
             };
             let traces = bus.traces;
             let sink: &mut Sink<'_> =
-                &mut |index, outcome, value| told.tell(index, outcome, value, traces, out);
+                &mut |index, outcome, value| reported.record(index, outcome, value, traces, out);
             chip.done(outcome, sink);
         }
     }
 
     fn is_finished(&self) -> bool {
         let chip = self.chip.as_ref().unwrap();
-        let said = |item: u16| self.told.results[usize::from(item)] != Outcome::Nothing;
+        let said = |item: u16| self.reported.results[usize::from(item)] != Outcome::Nothing;
         chip.table().readings.iter().all(|reading| said(reading.item))
             && (chip.is_running() || chip.fault() != Outcome::Nothing)
     }
@@ -309,7 +309,7 @@ impl Run<'_> {
         while !self.is_finished() {
             assert!(steps < STEPS_MAX, "it gives no end of it");
             let idle_ms = self.step();
-            self.told.now_ms += idle_ms.max(1);
+            self.reported.now_ms += idle_ms.max(1);
             steps += 1;
         }
     }
@@ -319,25 +319,25 @@ impl Run<'_> {
         for _ in 0..count {
             let idle_ms = self.step();
             let chip = self.chip.as_ref().unwrap();
-            let (now_ms, fault, seen) = (self.told.now_ms, chip.fault(), chip.identity_seen());
+            let (now_ms, fault, seen) = (self.reported.now_ms, chip.fault(), chip.identity_seen());
             writeln!(self.out, "step {now_ms} {idle_ms} {} {seen}", fault as u8).unwrap();
             let cycle_ms = chip.table().cycle_ms;
             let is_other = self.bus.draw(3) == 0;
             let later_ms = if is_other { self.bus.draw(cycle_ms + 2) } else { idle_ms };
-            self.told.now_ms = self.told.now_ms.wrapping_add(later_ms);
+            self.reported.now_ms = self.reported.now_ms.wrapping_add(later_ms);
         }
         self.bus.traces = false;
     }
 
     fn feed(&mut self, bytes: &[u8]) {
-        let Self { bus, stream, told, out, .. } = self;
+        let Self { bus, stream, reported, out, .. } = self;
         let sink: &mut Sink<'_> =
-            &mut |index, outcome, value| told.tell(index, outcome, value, bus.traces, out);
+            &mut |index, outcome, value| reported.record(index, outcome, value, bus.traces, out);
         stream.as_mut().unwrap().feed(bytes, sink);
     }
 
-    fn tell(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
-        self.told.tell(index, outcome, value, self.bus.traces, &mut self.out);
+    fn record(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
+        self.reported.record(index, outcome, value, self.bus.traces, &mut self.out);
     }
 
     fn empty(&self, index: usize) -> (Scalar, Vec<u8>) {
@@ -356,7 +356,7 @@ impl Run<'_> {
             number = outputs.unwrap_or_default()[usize::from(output)];
         }
         store_signed(scalar, number, &mut value);
-        self.tell(index, outcome, &mut value);
+        self.record(index, outcome, &mut value);
     }
 
     fn frame(&mut self, index: usize, bytes: &[u8]) {
@@ -364,7 +364,7 @@ impl Run<'_> {
         let (how, byte) = self.tables.own[index].can.unwrap();
         let item = &self.tables.schema.items[index];
         let outcome = how.decode(item, &bytes[usize::from(byte)..], &mut value);
-        self.tell(index, outcome, &mut value);
+        self.record(index, outcome, &mut value);
     }
 
     fn edges(&mut self, times_us: Vec<u32>) {
@@ -378,7 +378,7 @@ impl Run<'_> {
         }
         let (_, mut value) = self.empty(index);
         let outcome = train.read(&config, &mut seen, &self.tables.schema.items[index], &mut value);
-        self.tell(index, outcome, &mut value);
+        self.record(index, outcome, &mut value);
     }
 
     fn command(&mut self, index: usize, numbers: Vec<i64>) {
@@ -406,7 +406,7 @@ impl Run<'_> {
             self.bus.prints = true;
             let written = match chip.write(command, &value) {
                 Ok(step) => {
-                    let outcome = self.bus.make(step, &mut self.told.now_ms, &mut self.out);
+                    let outcome = self.bus.make(step, &mut self.reported.now_ms, &mut self.out);
                     chip.done(outcome, &mut |_, _, _| panic!("a command has no values"));
                     outcome
                 }
@@ -423,8 +423,8 @@ impl Run<'_> {
 
     fn end(&mut self) {
         let items = self.tables.schema.items.iter();
-        for (index, (item, outcome)) in items.zip(&self.told.results).enumerate() {
-            let value = &self.told.values[index];
+        for (index, (item, outcome)) in items.zip(&self.reported.results).enumerate() {
+            let value = &self.reported.values[index];
             match outcome {
                 Outcome::Nothing => {}
                 Outcome::Fresh => {

@@ -16,7 +16,7 @@ use sensedsl_model::NoFiles;
 use sensedsl_model::kind::KindName;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
-    Scratch, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
+    TempDir, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
 };
 
 /// A board with wires of all kinds.
@@ -76,7 +76,7 @@ fn every_wire_is_a_line() {
 /// A project has all of the runtime, and its versions are those of the lock file.
 #[test]
 fn a_project_is_whole() {
-    let scratch = Scratch::new("embassy");
+    let scratch = TempDir::new("embassy");
     let out = scratch.join("out").display().to_string();
     let file = root().join("examples/fig2.sense").display().to_string();
     let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
@@ -202,7 +202,7 @@ fn fig2_builds() {
     if !can_link() {
         return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
     }
-    let scratch = Scratch::new("embassy-fig2");
+    let scratch = TempDir::new("embassy-fig2");
     let out = scratch.join("out").display().to_string();
     let file = root().join("examples/fig2.sense").display().to_string();
     let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);

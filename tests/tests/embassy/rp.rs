@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use sensedsl_generate::target;
-use sensedsl_tests::{Scratch, is_exhaustive, is_thorough, missing, sensedsl, tree};
+use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, sensedsl, tree};
 
 use super::{
     can_link, checked, is_told, linked, source, versions_are_those_of_the_lock_file, with_job,
@@ -49,7 +49,7 @@ const PORTS: &str = r#" {
 "#;
 
 /// Generates a design for a board; returns the folder of its project.
-pub(super) fn generated(scratch: &Scratch, board: &str, design: &str) -> PathBuf {
+pub(super) fn generated(scratch: &TempDir, board: &str, design: &str) -> PathBuf {
     let file = scratch.write(&format!("{board}.sense"), format!("board {board}{design}"));
     let (file, out) = (file.display().to_string(), scratch.join(board).display().to_string());
     let _ = sensedsl(["generate", &file, "-q", "-o", &out]).run().exits(0);
@@ -59,7 +59,7 @@ pub(super) fn generated(scratch: &Scratch, board: &str, design: &str) -> PathBuf
 /// A project has its memory, its start and what its HAL is reached by, and nothing of the other HAL.
 #[test]
 fn projects_are_whole() {
-    let scratch = Scratch::new("embassy-rp");
+    let scratch = TempDir::new("embassy-rp");
     for (board, triple) in BOARDS {
         let project = tree(&generated(&scratch, board, KINDS));
         let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
@@ -165,7 +165,7 @@ fn projects_compile() {
     if !is_thorough() {
         return;
     }
-    let scratch = Scratch::new("embassy-rp-check");
+    let scratch = TempDir::new("embassy-rp-check");
     let boards = BOARDS.iter().take(if is_exhaustive() { 2 } else { 1 });
     for (board, triple) in boards {
         for design in [KINDS, PORTS] {
@@ -197,7 +197,7 @@ fn images_link() {
     if !can_link() {
         return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
     }
-    let scratch = Scratch::new("embassy-rp-link");
+    let scratch = TempDir::new("embassy-rp-link");
     for (board, triple) in BOARDS {
         let elf = linked(&generated(&scratch, board, KINDS), triple);
         let sections = Command::new("arm-none-eabi-size").arg("-A").arg(elf).output().unwrap();

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::Command;
 
-use sensedsl_tests::{Scratch, answered, has, is_exhaustive, missing, root};
+use sensedsl_tests::{TempDir, answered, has, is_exhaustive, missing, root};
 use sensedsl_wire::{
     Causes, Decoder, Direction, Event, Health, ResetCause, Scalar, Schema, encode_health_request,
     encode_hello_request, encode_report,
@@ -48,7 +48,7 @@ struct Made {
     has_words: bool,
     image: PathBuf,
     schema: Schema,
-    _scratch: Scratch,
+    _scratch: TempDir,
 }
 
 /// What the host received, and what was on the pins.
@@ -82,7 +82,7 @@ fn folder() -> PathBuf {
 }
 
 fn made(name: &str, link: &str) -> Made {
-    let scratch = Scratch::new(name);
+    let scratch = TempDir::new(name);
     let design = format!(" {{ target = embassy; {link} {DEVICES}");
     let board = "RASPBERRYPI_PICO";
     let elf = linked(&generated(&scratch, board, &design), "thumbv6m-none-eabi");
@@ -133,9 +133,9 @@ fn run(made: &Made, world: &Value) -> Run {
         resets: serde_json::from_value(answer["resets"].clone()).unwrap(),
         written: serde_json::from_value(answer["written"].clone()).unwrap(),
     };
-    let heard: Vec<(u64, String)> = serde_json::from_value(answer["heard"].clone()).unwrap();
+    let received: Vec<(u64, String)> = serde_json::from_value(answer["heard"].clone()).unwrap();
     let mut decoder = Decoder::new(&made.schema, Direction::Sensor);
-    for (at, bytes) in &heard {
+    for (at, bytes) in &received {
         let bytes: Vec<u8> = (0..bytes.len() / 2)
             .map(|byte| u8::from_str_radix(&bytes[2 * byte..2 * byte + 2], 16).unwrap())
             .collect();

@@ -10,7 +10,7 @@ use std::process::Command;
 use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
-    Mistake, Scratch, assert_section, is_exhaustive, is_thorough, mistakes, root, sensedsl, tree,
+    Mistake, TempDir, assert_section, is_exhaustive, is_thorough, mistakes, root, sensedsl, tree,
 };
 
 use super::{KINDS, checked, source};
@@ -70,7 +70,7 @@ const MOVED: &str = "board BLUEPILL_F103C8 { link { transport = none; }\n\
 fn of_the_check(text: &str, all: &[&Swaps]) -> Vec<Option<Option<String>>> {
     let check = checked(text);
     let source = source(&check);
-    let (folder, target) = (Scratch::new("seeds"), root().join("target/embassy-check"));
+    let (folder, target) = (TempDir::new("seeds"), root().join("target/embassy-check"));
     for (path, file) in check.files.iter() {
         let _ = folder.write(path, &file.bytes);
     }
@@ -89,7 +89,7 @@ fn of_the_check(text: &str, all: &[&Swaps]) -> Vec<Option<Option<String>>> {
 
 /// What the generated project says of each mistake.
 fn of_the_project(all: &[&Mistake]) -> Vec<Option<Option<String>>> {
-    let scratch = Scratch::new("seeds-project");
+    let scratch = TempDir::new("seeds-project");
     let file = scratch.write("bench.sense", bench()).display().to_string();
     let out = scratch.join("out").display().to_string();
     let call = ["generate", &file, "--target", "embassy", "--without", "host", "-q", "-o", &out];

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_files::FileSet;
 use sensedsl_generate::target;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, resolve};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 /// The paper's Fig. 2.
@@ -30,11 +30,11 @@ pub(crate) const PINS: &str = include_str!("../../firmware/designs/pins.sense");
 struct Tables;
 
 impl Files for Tables {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
         match wanted.path {
             "odd.csv" => Ok(ODD_TABLE.to_owned()),
             "emulated.csv" => Ok(super::emulated::TABLE.to_owned()),
-            _ => Err(Unread::Missing),
+            _ => Err(ReadError::Missing),
         }
     }
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 
-use sensedsl_tests::{Ran, Scratch, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, sensedsl};
 
 use super::applications::{FIG2, TWO};
 
@@ -15,12 +15,12 @@ const GCC: &str = "arm-none-eabi-gcc";
 
 /// A machine with a ChibiOS tree, make and a compiler, all of which do nothing.
 struct Machine {
-    scratch: Scratch,
+    scratch: TempDir,
 }
 
 impl Machine {
     fn new() -> Self {
-        let machine = Self { scratch: Scratch::new("building") };
+        let machine = Self { scratch: TempDir::new("building") };
         let release = "#define CH_VERSION_STABLE 1\n#define CH_VERSION \"2021.11.5\"\n";
         machine.file("tree/os/license/chversion.h", release);
         for path in wanted_by_fig2() {
@@ -53,7 +53,7 @@ impl Machine {
     }
 
     /// Runs the program in the machine's folder, with its tools and its tree.
-    fn run(&self, arguments: &[&str], settings: &[(&str, &str)]) -> Ran {
+    fn run(&self, arguments: &[&str], settings: &[(&str, &str)]) -> RunOutput {
         let path = |name: &str| self.scratch.join(name).display().to_string();
         let mut call = sensedsl(arguments).within(self.scratch.path());
         call = call.env("PATH", &path("bin")).env("LOG", &path("log"));
@@ -346,7 +346,7 @@ fn a_tool_that_fails_and_an_mcu_that_is_not_known_are_told() {
 #[test]
 fn fig2_is_built_with_the_real_tree() {
     let Some(tree) = super::chibios::tree() else { return };
-    let scratch = Scratch::new("really-building");
+    let scratch = TempDir::new("really-building");
     let file = scratch.write("fig2.sense", FIG2).display().to_string();
     let call = sensedsl(["build", &file]).env("CHIBIOS", &tree.display().to_string());
     let ran = call.run().exits(0);

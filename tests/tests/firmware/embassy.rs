@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
 
-use sensedsl_tests::{Scratch, has, is_thorough, missing, printed, root, sensedsl};
+use sensedsl_tests::{TempDir, has, is_thorough, missing, printed, root, sensedsl};
 
 use super::tools::scratch;
 
@@ -32,7 +32,7 @@ pub(crate) fn can_build() -> bool {
 
 /// The project of the only board of a design, not built.
 pub(crate) fn generated(name: &str, text: &str) -> PathBuf {
-    let designs = Scratch::new(name);
+    let designs = TempDir::new(name);
     let file = designs.write("design.sense", text).display().to_string();
     let folder = scratch(name);
     let out = folder.display().to_string();

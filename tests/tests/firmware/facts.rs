@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_generate::target;
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::Kind;
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::{FileRequest, Files, ReadError};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
@@ -21,8 +21,8 @@ pub(crate) type Folder = BTreeMap<String, String>;
 struct Alone;
 
 impl Files for Alone {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
+    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
+        Err(ReadError::Missing)
     }
 }
 
@@ -218,9 +218,9 @@ fn captures(design: &Design, on: &BoardAssignment, hardware: &str, differences: 
     ticks.sort_unstable();
     found.sort_unstable();
     differences.same("ticks", found.clone(), ticks.clone());
-    let mut told = numbers(hardware, ".tick_hz = ");
-    told.sort_unstable();
-    differences.same("ticks of the runtime", told, ticks);
+    let mut reported = numbers(hardware, ".tick_hz = ");
+    reported.sort_unstable();
+    differences.same("ticks of the runtime", reported, ticks);
     let both = hardware.matches(".both_edges = true").count();
     let wanted = on.devices.iter().filter(|one| {
         matches!(&design.device(one.device).unwrap().kind, Kind::Icu(icu)

@@ -120,8 +120,8 @@ fn health_becomes_lines_and_warnings() {
     scene.answer(&healthy());
     scene.monitor.wait_for("IRFront: good again\n");
     let output = scene.monitor.output();
-    let told = "IRFront: failed (19 not acknowledged, 65535 or more timed out)\n";
-    assert_eq!(output.matches(told).count(), 1, "{output}");
+    let reported = "IRFront: failed (19 not acknowledged, 65535 or more timed out)\n";
+    assert_eq!(output.matches(reported).count(), 1, "{output}");
     assert!(
         output.contains(
             "  IRFront  failed, 12 ms ago: 19 not acknowledged, 65535 or more timed out\n"
@@ -140,8 +140,8 @@ fn health_becomes_lines_and_warnings() {
     scene.answer(&Health { uptime_ms: 1_700, ..hung.clone() });
     scene.monitor.wait_for("up 1.7 s, started by its watchdog: the thread of Wheel hung\n  65536 reports sent, 3 refused\n");
     let output = scene.monitor.output();
-    let told = "Robot was reset 1.5 s ago by its watchdog: the thread of Wheel hung\n";
-    assert_eq!(output.matches(told).count(), 1, "{output}");
+    let reported = "Robot was reset 1.5 s ago by its watchdog: the thread of Wheel hung\n";
+    assert_eq!(output.matches(reported).count(), 1, "{output}");
 }
 
 #[test]
@@ -162,9 +162,9 @@ fn health_of_another_version_is_told_and_not_believed() {
     }
     scene.wait_for_question();
     let output = scene.monitor.output();
-    let told = "Robot tells its health in version 2, and this program knows version 1: not believed; \
+    let reported = "Robot tells its health in version 2, and this program knows version 1: not believed; \
                 generate again\n";
-    assert_eq!(output.matches(told).count(), 1, "{output}");
+    assert_eq!(output.matches(reported).count(), 1, "{output}");
     assert!(!output.contains("health of Robot") && !output.contains("failed"), "{output}");
 }
 

@@ -52,15 +52,15 @@ impl Board {
         let thread = std::thread::spawn(move || {
             let frame = frame(&designs::fig2()[0].schema, front);
             let request = encode_hello_request(&schema);
-            let mut heard = Vec::new();
+            let mut received = Vec::new();
             while stopped.try_recv().is_err() {
-                heard.extend(line.hear(1, Duration::from_millis(20)));
-                if heard.windows(request.len()).any(|bytes| bytes == request) {
-                    heard.clear();
+                received.extend(line.hear(1, Duration::from_millis(20)));
+                if received.windows(request.len()).any(|bytes| bytes == request) {
+                    received.clear();
                     line.say(&encode_hello(&schema));
                 }
-                if has_shell && heard.ends_with(b"schema\r") {
-                    heard.clear();
+                if has_shell && received.ends_with(b"schema\r") {
+                    received.clear();
                     let text = schema.canonical_text().replace('\n', "\r\n");
                     line.say(format!("\r\nch> schema\r\n{text}ch> ").as_bytes());
                 }
@@ -142,14 +142,14 @@ fn the_second_opener_is_told(application: &Application<'_>) {
     first.wait_for("IRFront = 300\n");
     let mut second = (application.start)(&device);
     assert_eq!(second.exit_status(), Some(2), "{}", second.output());
-    let told = format!(
+    let reported = format!(
         "cannot open {}: {} (process {}) has it open: end that program first\n",
         device.display(),
         // The system keeps only 15 characters of a name.
         application.program.get(..15).unwrap_or(application.program),
         first.child.id()
     );
-    assert!(second.output().contains(&told), "no {told:?} in:\n{}", second.output());
+    assert!(second.output().contains(&reported), "no {reported:?} in:\n{}", second.output());
     assert!(!second.output().contains("IRFront"), "{}", second.output());
     let before = first.output().matches("IRFront = ").count();
     std::thread::sleep(Duration::from_millis(300));

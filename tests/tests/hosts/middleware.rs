@@ -65,13 +65,13 @@ fn full_report(board: &HostBoard) -> Vec<u8> {
 /// Waits until the board has received each of these commands at least once, and nothing else.
 fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar>)]) {
     let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
-    let mut heard = Vec::new();
+    let mut received = Vec::new();
     let start = Instant::now();
-    while !expected.iter().all(|value| heard.contains(value)) {
-        assert!(start.elapsed() < Duration::from_secs(30), "heard {heard:?}");
+    while !expected.iter().all(|value| received.contains(value)) {
+        assert!(start.elapsed() < Duration::from_secs(30), "heard {received:?}");
         let bytes = line.hear(1, Duration::from_millis(100));
         decoder.feed(&bytes, |event| match event {
-            Event::Report(_, values) => heard.extend(values),
+            Event::Report(_, values) => received.extend(values),
             // The host repeats its request until it is answered, so one more may have been on its
             // way.
             Event::HelloRequest | Event::HealthRequest => {}
@@ -79,7 +79,7 @@ fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar
         });
     }
     assert_eq!(decoder.dropped_bytes(), 0);
-    assert!(heard.iter().all(|value| expected.contains(value)), "{heard:?}");
+    assert!(received.iter().all(|value| expected.contains(value)), "{received:?}");
 }
 
 /// Lets the host find its board: request, hello, report.

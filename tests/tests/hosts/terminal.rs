@@ -59,7 +59,7 @@ impl Line {
     }
 
     /// Bytes that the host has sent.
-    pub(crate) fn heard(&mut self) -> Vec<u8> {
+    pub(crate) fn received(&mut self) -> Vec<u8> {
         let mut bytes = [0_u8; 256];
         let count = self.board.read(&mut bytes).unwrap_or(0);
         bytes[..count].to_vec()
@@ -68,15 +68,15 @@ impl Line {
     /// The bytes that the host sends within the time, or the first `enough` of them.
     pub(crate) fn hear(&mut self, enough: usize, time: Duration) -> Vec<u8> {
         let start = Instant::now();
-        let mut heard = Vec::new();
+        let mut received = Vec::new();
         let mut bytes = [0_u8; 256];
-        while heard.len() < enough && start.elapsed() < time {
+        while received.len() < enough && start.elapsed() < time {
             match self.board.read(&mut bytes) {
-                Ok(count) if count > 0 => heard.extend_from_slice(&bytes[..count]),
+                Ok(count) if count > 0 => received.extend_from_slice(&bytes[..count]),
                 _ => std::thread::sleep(Duration::from_millis(5)),
             }
         }
-        heard
+        received
     }
 }
 
@@ -135,8 +135,8 @@ fn the_paper_s_frames_become_lines() {
          IRFront = 772\nIRFrontRight = 3345\nUSRear = 19\nWheelEncoder = 438075146\n\
          IRFront = 1\nIRFrontRight = 2\nUSRear = 3\nWheelEncoder = 4\n"
     );
-    let heard = line.hear(6, Duration::from_millis(200));
-    assert_eq!(heard, encode_health_request(&boards[0].schema), "the host echoes nothing");
+    let received = line.hear(6, Duration::from_millis(200));
+    assert_eq!(received, encode_health_request(&boards[0].schema), "the host echoes nothing");
     drop(line);
     monitor.wait_for(": the device is gone\n4 frames, 18 bytes dropped\n");
     assert_eq!(monitor.exit_status(), Some(1));

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::{Scratch, has, read};
+use sensedsl_tests::{TempDir, has, read};
 
 use super::corpus::projects;
 
@@ -25,7 +25,7 @@ fn the_picture_shows_hostile_text_and_runs_nothing() {
     if !has("chromium") {
         return;
     }
-    let scratch = Scratch::new("browser");
+    let scratch = TempDir::new("browser");
     // One page contains all pictures, so that the browser starts once; each picture is also checked
     // as XML.
     let mut html = String::from("<!doctype html><meta charset=utf-8><title>calm</title>\n");

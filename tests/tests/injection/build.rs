@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use sensedsl_tests::{Scratch, few, has, printed, text, tree};
+use sensedsl_tests::{TempDir, few, has, printed, text, tree};
 
 use super::corpus::{OWNED, generate, words_design};
 
@@ -20,7 +20,7 @@ fn is_owned(folder: &Path) -> bool {
 }
 
 /// A `ChibiOS` tree with only the files that Make includes before it builds anything.
-fn empty_tree(scratch: &Scratch, makefile: &str) -> std::path::PathBuf {
+fn empty_tree(scratch: &TempDir, makefile: &str) -> std::path::PathBuf {
     for line in makefile.lines() {
         let included = line.trim().strip_prefix("include $(CHIBIOS)/");
         if let Some(path) = included {
@@ -42,7 +42,7 @@ fn make_takes_a_folder_of_any_name() {
     if !has("make") {
         return;
     }
-    let scratch = Scratch::new("make");
+    let scratch = TempDir::new("make");
     let source = scratch.write("fig2.sense", text("examples/fig2.sense"));
     let output = scratch.join(FOLDER);
     let next = generate(&source, &output);
@@ -65,7 +65,7 @@ fn make_takes_a_folder_of_any_name() {
 }
 
 /// The output of `CMake` for a host's folder in `output`; it builds in a scratch folder.
-fn configured(output: &Path, host: &str, scratch: &Scratch) -> Output {
+fn configured(output: &Path, host: &str, scratch: &TempDir) -> Output {
     let mut command = Command::new("cmake");
     command.arg("-S").arg(output.join("host").join(host));
     command.arg("-B").arg(scratch.join(&format!("build-{host}")));
@@ -77,7 +77,7 @@ fn cmake_takes_a_folder_of_any_name_and_words_as_names() {
     if !has("cmake") || !has("g++") {
         return;
     }
-    let scratch = Scratch::new("cmake");
+    let scratch = TempDir::new("cmake");
     let source = scratch.write("words.sense", words_design());
     let output = scratch.join(FOLDER_OF_CMAKE);
     let _ = generate(&source, &output);
@@ -91,7 +91,7 @@ fn a_folder_that_cmake_cannot_take_is_told() {
     if !has("cmake") || !has("g++") {
         return;
     }
-    let scratch = Scratch::new("semicolon");
+    let scratch = TempDir::new("semicolon");
     let source = scratch.write("words.sense", words_design());
     let output = scratch.join("a;b");
     let _ = generate(&source, &output);
@@ -110,7 +110,7 @@ fn a_file_of_any_name_is_a_design() {
     let names =
         [FOLDER_OF_CMAKE, "-rf", "\u{202e}gnp", FOLDER, "a;b", "\"q\" \\n", "class", "7up", "ä 机"];
     for (number, name) in few(&names, 3).iter().enumerate() {
-        let scratch = Scratch::new(&format!("named{number}"));
+        let scratch = TempDir::new(&format!("named{number}"));
         let source = scratch.write(&format!("{name}.sense"), words_design());
         let output = scratch.join("out");
         let _ = generate(&source, &output);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use sensedsl_diagnostics::{is_hidden, visible};
-use sensedsl_tests::{Scratch, few, has, root, tree};
+use sensedsl_tests::{TempDir, few, has, root, tree};
 
 use super::corpus::{projects, words};
 
@@ -36,7 +36,7 @@ fn compile_model(compiler: &str, board: &Path) {
 /// programs are the same for all designs, except for the types that they name.
 fn compile_host(compiler: &str, host: &Path) {
     let include = host.join("include");
-    let scratch = Scratch::new("headers");
+    let scratch = TempDir::new("headers");
     let headers = tree(&include).into_keys().filter(|path| path.starts_with("sense/"));
     let source: String = headers.map(|path| format!("#include \"{path}\"\n")).collect();
     let source = scratch.write("all.cpp", source + "int main() { return 0; }\n");
@@ -87,7 +87,7 @@ fn a_program_prints_a_hostile_quantity_as_it_is() {
         return;
     }
     let project = &projects()[0];
-    let scratch = Scratch::new("quantities");
+    let scratch = TempDir::new("quantities");
     let include = project.output.join("host/cpp/include");
     let header = tree(&include).into_keys().find(|path| path.ends_with("/Robot.hpp")).unwrap();
     let namespace = header.rsplit_once('/').unwrap().0.replace('/', "::");

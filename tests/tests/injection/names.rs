@@ -33,8 +33,8 @@ fn names_are_letters_digits_and_underscores_of_ascii() {
             for text in [sensor(&name), board(&name)] {
                 let codes = codes(text);
                 // A possible operator is unexpected there; anything else is an unknown character.
-                let told = |code: &String| code == "E0102" || code == "E0101";
-                assert!(codes.iter().any(told), "{name:?}: {codes:?}");
+                let reported = |code: &String| code == "E0102" || code == "E0101";
+                assert!(codes.iter().any(reported), "{name:?}: {codes:?}");
             }
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use sensedsl_diagnostics::is_hidden;
-use sensedsl_tests::{Ran, has, printed, read, run, sensedsl};
+use sensedsl_tests::{RunOutput, has, printed, read, run, sensedsl};
 use serde_json::Value;
 
 use super::corpus::{Project, projects};
@@ -21,7 +21,7 @@ json.dump(list(csv.reader(open(sys.argv[1], newline='', encoding='utf-8'), stric
     serde_json::from_str(&rows).unwrap()
 }
 
-fn call(project: &Project, arguments: &[&str]) -> Ran {
+fn call(project: &Project, arguments: &[&str]) -> RunOutput {
     sensedsl(arguments).arg(&project.source).run()
 }
 

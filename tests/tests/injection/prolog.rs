@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_tests::{Scratch, has, sensedsl};
+use sensedsl_tests::{TempDir, has, sensedsl};
 
 use crate::prolog::by_swipl;
 
@@ -11,7 +11,7 @@ fn prolog_finds_the_same_cost_whatever_devices_are_called() {
     if !has("swipl") {
         return;
     }
-    let scratch = Scratch::new("prolog");
+    let scratch = TempDir::new("prolog");
     let words = ["Self_", "dynamic", "discontiguous", "halt", "is", "rem", "fail", "module"];
     let mut design = String::from("board once on STM32F4DiscoveryBoard {\n");
     for (at, word) in words.iter().enumerate() {

@@ -4,7 +4,7 @@
 use std::ffi::OsString;
 
 use sensedsl_diagnostics::is_hidden;
-use sensedsl_tests::{Ran, sensedsl};
+use sensedsl_tests::{RunOutput, sensedsl};
 
 use super::corpus::projects;
 
@@ -12,7 +12,7 @@ use super::corpus::projects;
 const NAME: &str = "x\u{1b}]0;owned\u{7}\u{202e}\n::error::owned.sense";
 
 #[track_caller]
-fn is_calm(ran: &Ran) {
+fn is_calm(ran: &RunOutput) {
     for text in [&ran.stdout, &ran.stderr] {
         let hidden = text.chars().find(|&c| is_hidden(c) && !matches!(c, '\n' | '\t'));
         assert_eq!(hidden, None, "{text:?}");

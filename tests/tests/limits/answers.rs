@@ -1,13 +1,13 @@
 //! Earlier answers and certificates.
 
 use rustix::fs::{CWD, FileType, Mode, mknodat};
-use sensedsl_tests::{Scratch, root, verifier};
+use sensedsl_tests::{TempDir, root, verifier};
 
 use super::{expect, expect_of, sparse};
 
 #[test]
 fn answers_to_keep() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     let design = root().join("examples/fig2.sense");
     let design = design.to_str().unwrap();
     folder.write("nested.json", "[".repeat(100_000));
@@ -23,7 +23,7 @@ const NOT_KEPT: i32 = 2;
 
 #[test]
 fn certificates() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     sparse(&folder, "large.json", 60_000_000);
     folder.write("nested.json", format!("{{\"format\":{}", "[".repeat(100_000)));
     let digits = "9".repeat(1_000_000);
@@ -69,7 +69,7 @@ fn device(name: &str, candidates: usize, more: &str) -> String {
 
 #[test]
 fn certificates_of_many_steps_and_choices() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     let refused = |text: &str, status, why| {
         folder.write("proof.json", text);
         expect_of(verifier(), &folder, &["proof.json"], status, why);

@@ -3,12 +3,12 @@
 use std::os::unix::fs::symlink;
 
 use rustix::fs::{CWD, FileType, Mode, mknodat};
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 
 use super::{expect, expect_alone, repeat, sparse};
 
 /// A pipe to which nobody writes.
-fn pipe(folder: &Scratch, name: &str) {
+fn pipe(folder: &TempDir, name: &str) {
     mknodat(CWD, folder.join(name), FileType::Fifo, Mode::RWXU, 0).unwrap();
 }
 
@@ -18,7 +18,7 @@ fn board(table: &str) -> String {
 
 #[test]
 fn what_is_not_a_file_is_not_waited_for() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     pipe(&folder, "p.sense");
     pipe(&folder, "p.csv");
     expect(&folder, &["check", "p.sense"], 2, "E0111");
@@ -37,7 +37,7 @@ fn what_is_not_a_file_is_not_waited_for() {
 
 #[test]
 fn nothing_outside_of_the_project_is_read() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("outer.sense", "driver x for analog { delay = 1 s; }\n");
     folder.write("project/up.sense", "use \"../outer.sense\";\n");
     folder.write("project/absolute.sense", "use \"/etc/passwd\";\n");
@@ -51,7 +51,7 @@ fn nothing_outside_of_the_project_is_read() {
 
 #[test]
 fn files_that_use_each_other_end() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     // This many files once overflowed the stack.
     for at in 0..16_000 {
         folder.write(&format!("c{at}.sense"), format!("use \"c{}.sense\";\n", at + 1));
@@ -66,7 +66,7 @@ fn files_that_use_each_other_end() {
 
 #[test]
 fn large_files_are_not_read() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     sparse(&folder, "large.sense", 60_000_000);
     expect(&folder, &["check", "large.sense"], 1, "E0112");
     sparse(&folder, "large.csv", 80_000_000);

@@ -22,7 +22,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{Scratch, binary};
+use sensedsl_tests::{TempDir, binary};
 
 /// The head of a board that has an MCU.
 const BOARD: &str = "board STM32F4DiscoveryBoard {\n";
@@ -37,13 +37,13 @@ const WALL: Duration = Duration::from_secs(60);
 /// Runs the program in a folder under the limits. It must exit with this status and report this
 /// code; the code is empty for input that is accepted.
 #[track_caller]
-fn expect(folder: &Scratch, arguments: &[&str], status: i32, code: &str) {
+fn expect(folder: &TempDir, arguments: &[&str], status: i32, code: &str) {
     expect_of(binary(), folder, arguments, status, code);
 }
 
 /// Like `expect` for a refusal: the program must report this code and no other error.
 #[track_caller]
-fn expect_alone(folder: &Scratch, arguments: &[&str], code: &str) {
+fn expect_alone(folder: &TempDir, arguments: &[&str], code: &str) {
     let said = expect_of(binary(), folder, arguments, 1, code);
     let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error[")).collect();
     assert!(matches!(errors.as_slice(), [one] if one.contains(code)), "{arguments:?}: {errors:?}");
@@ -52,7 +52,7 @@ fn expect_alone(folder: &Scratch, arguments: &[&str], code: &str) {
 #[track_caller]
 fn expect_of(
     program: &Path,
-    folder: &Scratch,
+    folder: &TempDir,
     arguments: &[&str],
     status: i32,
     code: &str,
@@ -89,7 +89,7 @@ fn expect_of(
 /// `check` or `import` must refuse the text with this code.
 #[track_caller]
 fn refuses(name: &str, text: impl AsRef<[u8]>, code: &str) {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write(name, text);
     let command = if name.ends_with(".sense") { "check" } else { "import" };
     expect(&folder, &[command, name], 1, code);
@@ -101,6 +101,6 @@ fn repeat(n: usize, piece: impl Fn(usize) -> String) -> String {
 }
 
 /// A file of this size without content, which takes no space on the disk.
-fn sparse(folder: &Scratch, name: &str, bytes: u64) {
+fn sparse(folder: &TempDir, name: &str, bytes: u64) {
     File::create(folder.join(name)).unwrap().set_len(bytes).unwrap();
 }

@@ -9,7 +9,7 @@ use std::fs::{self, File};
 use std::process::{Command, Stdio};
 
 use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-use sensedsl_tests::{Scratch, binary};
+use sensedsl_tests::{TempDir, binary};
 
 use super::{BOARD, repeat};
 
@@ -24,7 +24,7 @@ const RUNS: usize = 5;
 /// Writes the inputs that `make` gives for each size, and compares the runs on them.
 #[track_caller]
 fn grows(command: &str, n: usize, name: &str, make: impl Fn(usize) -> Vec<(&'static str, String)>) {
-    let folder = Scratch::new("scaling");
+    let folder = TempDir::new("scaling");
     let [none, once, twice, more] = [1, n, 2 * n, TIMES * n].map(|n| {
         make(n).into_iter().for_each(|(file, text)| {
             folder.write(&format!("{n}/{file}"), text);

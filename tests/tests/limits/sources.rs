@@ -1,6 +1,6 @@
 //! Texts that `import` reads: tables, projects of other tools, XML.
 
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 
 use super::{expect, refuses, repeat};
 
@@ -8,7 +8,7 @@ const MCU: &str = "MCU STM32F4xx STM32F405xx\n";
 
 #[test]
 fn hwdef_includes_end_and_stay_inside() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     let own = format!("{MCU}{}PA0 UART4_TX UART4\n", "include hwdef.dat\n".repeat(6));
     folder.write("a/b/hwdef.dat", own);
     expect(&folder, &["import", "a/b/hwdef.dat"], 1, "E0808");
@@ -35,7 +35,7 @@ fn hwdef_mcus() {
     let lines = ["", "F", "L", "H", "G", "U"];
     let mcu = |at: usize| format!("MCU STM32 STM32{}XX\nPA0 X ADC1\n", lines[at]);
     refuses("hwdef.dat", repeat(6, mcu), "E0807");
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("four.hwdef.dat", format!("{}PA1 UART4_RX UART4\n", repeat(4, mcu)));
     expect(&folder, &["import", "four.hwdef.dat"], 0, "");
 }
@@ -69,7 +69,7 @@ fn dbc_lines_that_name_signals() {
         repeat(40_000, signal),
         "VAL_ 1 s39999 1 \"a\";\n".repeat(100_000)
     );
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("found.dbc", text);
     expect(&folder, &["import", "found.dbc"], 0, "W0804");
 }
@@ -107,7 +107,7 @@ fn long_tables() {
         |at: usize| format!("P{}{}", char::from(b'A' + u8::try_from(at % 20).unwrap()), at % 16);
     let row = |at: usize| format!("{},S{at}\n", pin(at));
     refuses("long.csv", format!("Pin,Signal\n{}", repeat(190_000, row)), "E0317");
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("fewer.csv", format!("Pin,Signal\n{}", repeat(49_000, row)));
     expect(&folder, &["import", "fewer.csv"], 0, "");
     let names = repeat(500_000, |at| format!("s{at} "));

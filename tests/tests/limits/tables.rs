@@ -1,13 +1,13 @@
 //! Board tables of a `.sense` file.
 
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 
 use super::{expect, repeat};
 
 /// `check` must refuse a design on this table with this code.
 #[track_caller]
 fn refused(table: &str, code: &str) {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("t.csv", table);
     let board = "board B on \"t.csv\" { sensor A returns uint16 { id = 1; type = analog; } }\n";
     folder.write("t.sense", board);
@@ -41,7 +41,7 @@ fn properties_and_quotes() {
 
 #[test]
 fn one_table_of_many_boards() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("t.csv", format!("Pin,ADC\n{}", repeat(2_000, |at| format!("A{at},x y z\n"))));
     folder.write("t.sense", repeat(253, |at| format!("board B{at} on \"t.csv\" {{}}\n")));
     expect(&folder, &["check", "t.sense"], 1, "E0225");

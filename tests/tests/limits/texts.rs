@@ -1,6 +1,6 @@
 //! Texts of the language that repeat one construct without end.
 
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 
 use super::{BOARD, expect, refuses, repeat};
 
@@ -37,7 +37,7 @@ fn long_words() {
 
 #[test]
 fn the_list_of_mistakes_ends() {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     folder.write("unknown.sense", "@ a ".repeat(MI / 4));
     expect(&folder, &["check", "--format", "json", "unknown.sense"], 1, "E0117");
 }

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::Write as _;
 
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -15,7 +15,7 @@ const RELATION: &str = "http://schemas.openxmlformats.org/officeDocument/2006/re
 /// Imports an archive of these files and expects this status and code.
 #[track_caller]
 fn archive(name: &str, files: &[(&str, &str)], status: i32, code: &str) {
-    let folder = Scratch::new("limits");
+    let folder = TempDir::new("limits");
     let mut archive = ZipWriter::new(File::create(folder.join(name)).unwrap());
     for (path, content) in files {
         archive.start_file(*path, SimpleFileOptions::default()).unwrap();

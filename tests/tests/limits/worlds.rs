@@ -1,6 +1,6 @@
 //! Worlds of `simulate` that take much memory, or that would never end.
 
-use sensedsl_tests::Scratch;
+use sensedsl_tests::TempDir;
 
 use super::expect_alone;
 
@@ -13,7 +13,7 @@ const BOARD: &str = "board STM32F407G_DISC1 {
 
 #[track_caller]
 fn refused(world: &str, code: &str) {
-    let folder = Scratch::new("worlds");
+    let folder = TempDir::new("worlds");
     let _ = folder.write("board.sense", BOARD);
     let _ = folder.write("a.toml", world);
     expect_alone(&folder, &["simulate", "board.sense", "--world", "a.toml", "--judge"], code);

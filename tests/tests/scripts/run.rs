@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use sensedsl_tests::{Ran, Scratch, design, read, root, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, design, read, root, sensedsl};
 use serde_json::Value;
 
 use super::block;
@@ -10,16 +10,16 @@ use super::block;
 /// A folder, and the last call in it.
 pub(super) struct Place {
     name: String,
-    folder: Scratch,
+    folder: TempDir,
     /// The standard input of the next call, if it has no block.
     input: String,
-    ran: Ran,
+    ran: RunOutput,
 }
 
 impl Place {
     pub(super) fn new(name: String) -> Self {
-        let ran = Ran { status: 0, stdout: String::new(), stderr: String::new() };
-        Self { name, folder: Scratch::new("script"), input: String::new(), ran }
+        let ran = RunOutput { status: 0, stdout: String::new(), stderr: String::new() };
+        Self { name, folder: TempDir::new("script"), input: String::new(), ran }
     }
 
     pub(super) fn run(mut self, lines: &[String]) {

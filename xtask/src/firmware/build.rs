@@ -217,8 +217,8 @@ mod tests {
     #[test]
     fn programs_that_are_too_large_are_told() {
         let back = "ld:rules_memory.ld:314 cannot move location counter backwards (from 200011e8 to 20001000)";
-        let told = "the memory for variables overflowed by 488 bytes";
-        assert_eq!(overflow(back).as_deref(), Some(told));
+        let reported = "the memory for variables overflowed by 488 bytes";
+        assert_eq!(overflow(back).as_deref(), Some(reported));
         let region = "ld: region `flash0' overflowed by 12 bytes";
         assert_eq!(overflow(region).as_deref(), Some("flash0 overflowed by 12 bytes"));
         assert_eq!(overflow("collect2: error: ld returned 1 exit status"), None);

@@ -142,8 +142,8 @@ fn check(
     }
     let output = cargo.env("CARGO_INCREMENTAL", "0").output().context("cargo")?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let is_told = |line: &&str| line.contains("error") || line.contains("warning");
-    let first = said.lines().find(is_told).map(str::to_owned);
+    let is_reported = |line: &&str| line.contains("error") || line.contains("warning");
+    let first = said.lines().find(is_reported).map(str::to_owned);
     Ok(match (output.status.success(), first) {
         (true, first) => first,
         (false, first) => Some(first.unwrap_or_else(|| "cargo failed and says nothing".to_owned())),

@@ -124,9 +124,9 @@ impl<'a> Campaign<'a> {
         let (class, said) = subject.outcome(site, folder)?;
         let place = site.file.strip_prefix(&subject.board).unwrap_or(&site.file).display();
         let place = format!("{place}:{}", site.line);
-        let (target, told) = (target(subject.is_rust), site.told(&text));
+        let (target, reported) = (target(subject.is_rust), site.reported(&text));
         let number = number.to_string();
-        let cells = [&number, target, &subject.name, site.sort, &place, &told, &class, &said];
+        let cells = [&number, target, &subject.name, site.sort, &place, &reported, &class, &said];
         let line = cells.map(|cell| cell.replace(['\t', '\n'], " ")).join("\t");
         Ok(writeln!(lock(&self.into), "{line}")?)
     }

@@ -51,7 +51,7 @@ impl Site {
     }
 
     /// The old and the new text, for people.
-    pub(super) fn told(&self, text: &str) -> String {
+    pub(super) fn reported(&self, text: &str) -> String {
         let was = text.get(self.range.clone()).unwrap_or_default();
         let [was, with] = [was, &self.with].map(|one| {
             let one = one.split_whitespace().collect::<Vec<&str>>().join(" ");

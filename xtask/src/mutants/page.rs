@@ -39,9 +39,9 @@ pub(super) fn page(lines: &str) -> String {
         counts.get(&(class.to_owned(), target.to_owned())).copied().unwrap_or(0)
     };
     let mut text = "| | ChibiOS | Embassy | both |\n| --- | --- | --- | --- |\n".to_owned();
-    for (class, told) in CLASSES {
+    for (class, reported) in CLASSES {
         let (one, other) = (count(class, "chibios"), count(class, "embassy"));
-        text.push_str(&format!("| {told} | {one} | {other} | {} |\n", one + other));
+        text.push_str(&format!("| {reported} | {one} | {other} | {} |\n", one + other));
     }
     let [noticed, escaped] = noticed(lines);
     let share = share(lines);
@@ -52,9 +52,9 @@ pub(super) fn page(lines: &str) -> String {
     ));
     text.push_str("\n| mistake that nobody notices | |\n| --- | --- |\n");
     for row in rows.iter().filter(|row| cell(row, 6) == "nobody") {
-        let [target, design, sort, place, told] = [1, 2, 3, 4, 5].map(|at| cell(row, at));
+        let [target, design, sort, place, reported] = [1, 2, 3, 4, 5].map(|at| cell(row, at));
         let said = cell(row, 7).replace('|', "\\|");
-        text.push_str(&format!("| {target}, {design}: {sort} at {place}: {told} | {said} |\n"));
+        text.push_str(&format!("| {target}, {design}: {sort} at {place}: {reported} | {said} |\n"));
     }
     text
 }

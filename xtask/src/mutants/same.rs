@@ -52,7 +52,7 @@ pub(super) fn differ(schema: &Schema, one: &Seen, other: &Seen) -> Option<String
         return None;
     }
     wires_differ(&one.wires, &other.wires).or_else(|| {
-        let [one, other] = [one, other].map(|seen| heard(schema, &seen.frames));
+        let [one, other] = [one, other].map(|seen| received(schema, &seen.frames));
         heard_differ(schema, &one, &other)
     })
 }
@@ -98,20 +98,20 @@ fn wires_differ(one: &str, other: &str) -> Option<String> {
     })
 }
 
-fn heard(schema: &Schema, bytes: &[u8]) -> Heard {
-    let mut heard = Heard::default();
+fn received(schema: &Schema, bytes: &[u8]) -> Heard {
+    let mut received = Heard::default();
     Decoder::new(schema, Direction::Sensor).feed(bytes, |event| match event {
         Event::Report(_, values) => {
             for (id, elements) in values {
                 let value = elements.iter().map(number).collect();
-                heard.values.entry(id).or_default().push(value);
+                received.values.entry(id).or_default().push(value);
             }
         }
-        Event::Hello(_) => heard.hellos += 1,
-        Event::Health(health) => heard.devices = health.devices,
+        Event::Hello(_) => received.hellos += 1,
+        Event::Health(health) => received.devices = health.devices,
         Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
     });
-    heard
+    received
 }
 
 #[expect(clippy::cast_precision_loss, reason = "it is compared with a tolerance")]
@@ -141,7 +141,8 @@ fn heard_differ(schema: &Schema, one: &Heard, other: &Heard) -> Option<String> {
     }
     schema.items.iter().find_map(|item| {
         let empty = Vec::new();
-        let [one, other] = [one, other].map(|heard| heard.values.get(&item.id).unwrap_or(&empty));
+        let [one, other] =
+            [one, other].map(|received| received.values.get(&item.id).unwrap_or(&empty));
         values_differ(one, other).map(|what| format!("{}: {what}", item.name))
     })
 }

@@ -1,6 +1,6 @@
 use proptest::prelude::*;
 
-use crate::{Format, Importer, Source, Unread};
+use crate::{Format, Importer, ReadError, Source};
 
 const VESC: &str = r#"VERSION ""
 NS_ :
@@ -30,7 +30,7 @@ fn imported(text: &str, node: Option<&str>) -> (String, Vec<String>) {
         format: None,
         sheet: None,
         table: "",
-        beside: &|_| Err(Unread::Missing),
+        beside: &|_| Err(ReadError::Missing),
     };
     let made = Importer::default().import_for(&source, node);
     let said = made.diagnostics.iter().map(|one| {
@@ -167,7 +167,7 @@ proptest! {
                 format: Some(Format::Dbc),
                 sheet: None,
                 table: "",
-                        beside: &|_| Err(Unread::Missing),
+                        beside: &|_| Err(ReadError::Missing),
             };
             let _ = Importer::default().import_for(&source, node);
         }

@@ -18,9 +18,9 @@ pub const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
 /// a checksum or an end.
 #[must_use]
 pub fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
-    let is_told = message.checksum != MessageChecksum::None || !uart.end.is_empty();
+    let is_reported = message.checksum != MessageChecksum::None || !uart.end.is_empty();
     let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
-    if is_told { 0 } else { two_characters_ms.max(2) }
+    if is_reported { 0 } else { two_characters_ms.max(2) }
 }
 
 /// The bytes that arrive during [`PATIENCE_MS`].

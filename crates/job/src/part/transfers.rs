@@ -61,7 +61,7 @@ struct Key {
 }
 
 /// The bytes that a reading needs, without checksums.
-struct Wanted {
+struct NeededBytes {
     key: Key,
     register: u32,
     end: u32,
@@ -70,7 +70,7 @@ struct Wanted {
 }
 
 /// Bytes that are read together.
-struct Together {
+struct CombinedRead {
     key: Key,
     register: u32,
     end: u32,
@@ -81,20 +81,24 @@ pub(super) fn plan(
     readings: &[&Device],
     protocol: &Protocol,
 ) -> (Vec<TransferPlan>, Vec<Option<Place>>) {
-    let wanted: Vec<Option<Wanted>> = readings.iter().map(|device| wanted(device)).collect();
-    let mut sorted: Vec<&Wanted> = wanted.iter().flatten().collect();
+    let wanted: Vec<Option<NeededBytes>> = readings.iter().map(|device| wanted(device)).collect();
+    let mut sorted: Vec<&NeededBytes> = wanted.iter().flatten().collect();
     sorted.sort_by_key(|one| (&one.key, one.register, one.end));
-    let mut all: Vec<Together> = Vec::new();
+    let mut all: Vec<CombinedRead> = Vec::new();
     for one in sorted {
         match all.last_mut().filter(|last| last.takes(one, protocol)) {
             Some(last) => last.end = last.end.max(one.end),
             None => {
-                all.push(Together { key: one.key.clone(), register: one.register, end: one.end });
+                all.push(CombinedRead {
+                    key: one.key.clone(),
+                    register: one.register,
+                    end: one.end,
+                });
             }
         }
     }
     // In the file order of the first value of each.
-    let first = |together: &Together| wanted.iter().flatten().position(|one| together.has(one));
+    let first = |together: &CombinedRead| wanted.iter().flatten().position(|one| together.has(one));
     all.sort_by_key(first);
     let places = wanted.iter().map(|one| {
         let one = one.as_ref()?;
@@ -106,7 +110,7 @@ pub(super) fn plan(
 }
 
 /// The bytes that a reading needs; `None` if it is not on a register bus.
-fn wanted(device: &Device) -> Option<Wanted> {
+fn wanted(device: &Device) -> Option<NeededBytes> {
     let coding = &device.coding;
     let RegisterAccess { trigger, wait_us, register, read, length_bytes, address: _ } =
         device.kind.register_access()?;
@@ -126,12 +130,17 @@ fn wanted(device: &Device) -> Option<Wanted> {
         has_crc: words.is_some_and(|words| words.crc.is_some()),
         select,
     };
-    Some(Wanted { key, register: first, end: first + u32::from(byte) + u32::from(length), byte })
+    Some(NeededBytes {
+        key,
+        register: first,
+        end: first + u32::from(byte) + u32::from(length),
+        byte,
+    })
 }
 
-impl Together {
+impl CombinedRead {
     /// Whether the transfer also covers the reading, which begins no earlier.
-    fn takes(&self, one: &Wanted, protocol: &Protocol) -> bool {
+    fn takes(&self, one: &NeededBytes, protocol: &Protocol) -> bool {
         if self.key != one.key {
             return false;
         }
@@ -145,7 +154,7 @@ impl Together {
         runs_on && one.register <= self.end.saturating_add(gap) && is_short
     }
 
-    fn has(&self, one: &Wanted) -> bool {
+    fn has(&self, one: &NeededBytes) -> bool {
         self.key == one.key && self.register <= one.register && one.end <= self.end
     }
 
@@ -154,7 +163,7 @@ impl Together {
         u16::try_from(bytes).unwrap_or(u16::MAX)
     }
 
-    fn offset(&self, one: &Wanted) -> u16 {
+    fn offset(&self, one: &NeededBytes) -> u16 {
         self.on_wire(one.register - self.register + u32::from(one.byte))
     }
 

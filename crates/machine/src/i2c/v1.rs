@@ -237,7 +237,7 @@ impl Unit {
         if self.cr[0] & NEXT != 0 { self.acknowledged } else { self.cr[0] & ACKNOWLEDGE != 0 }
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let events = self.sr1 & 0x1F != 0
             || (self.cr[1] >> 10 & 1 == 1 && self.sr1 & (EMPTY | RECEIVED) != 0);
         wires.interrupt(self.irqs[0], 0, self.cr[1] >> 9 & 1 == 1 && events);
@@ -306,7 +306,7 @@ impl Unit {
 impl I2c for Unit {
     fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn state(&self, wires: &Wires) -> Option<PortState> {
@@ -327,7 +327,7 @@ impl I2c for Unit {
             self.proceed(wires);
             self.continue_at(at, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn asks(&self, transmits: bool) -> bool {
@@ -350,7 +350,7 @@ impl I2c for Unit {
             0x20 => self.trise,
             _ => 0,
         };
-        self.tell(wires);
+        self.report(wires);
         value
     }
 
@@ -370,6 +370,6 @@ impl I2c for Unit {
             _ => {}
         }
         self.continue_at(wires.now, wires);
-        self.tell(wires);
+        self.report(wires);
     }
 }

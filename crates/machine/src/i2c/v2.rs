@@ -259,7 +259,7 @@ impl Unit {
         }
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let holds = |enable: u32, flags: u32| self.cr[0] & enable != 0 && self.isr & flags != 0;
         let events = holds(EMPTY_INTERRUPTS, WANTED)
             || holds(RECEIVED_INTERRUPTS, RECEIVED)
@@ -321,7 +321,7 @@ impl Unit {
 impl I2c for Unit {
     fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.unit, self.mcu);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn state(&self, wires: &Wires) -> Option<PortState> {
@@ -341,7 +341,7 @@ impl I2c for Unit {
             self.proceed(at, wires);
             self.continue_at(at, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn asks(&self, transmits: bool) -> bool {
@@ -365,7 +365,7 @@ impl I2c for Unit {
             _ => 0,
         };
         self.continue_at(wires.now, wires);
-        self.tell(wires);
+        self.report(wires);
         value
     }
 
@@ -390,6 +390,6 @@ impl I2c for Unit {
             _ => {}
         }
         self.continue_at(wires.now, wires);
-        self.tell(wires);
+        self.report(wires);
     }
 }

@@ -95,7 +95,7 @@ impl Place {
         if input { answer } else { 0xFF }
     }
 
-    fn tell(&self, cr2: u32, sr: u32, wires: &mut Wires) {
+    fn report(&self, cr2: u32, sr: u32, wires: &mut Wires) {
         let holds = |enable: u32, flag: u32| cr2 & enable != 0 && sr & flag != 0;
         let is_held = holds(EMPTY_INTERRUPTS, EMPTY)
             || holds(RECEIVED_INTERRUPTS, RECEIVED)

@@ -124,15 +124,15 @@ impl Unit {
         }
     }
 
-    fn tell(&self, wires: &mut Wires) {
-        self.place.tell(self.cr[1], self.sr(), wires);
+    fn report(&self, wires: &mut Wires) {
+        self.place.report(self.cr[1], self.sr(), wires);
     }
 }
 
 impl Spi for Unit {
     fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.place.unit, self.place.mcu);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn state(&self, wires: &Wires) -> Option<PortState> {
@@ -150,7 +150,7 @@ impl Spi for Unit {
             self.finish(item, wires);
             self.begin(at, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn asks(&self, transmits: bool) -> bool {
@@ -174,7 +174,7 @@ impl Spi for Unit {
             0x10..=0x20 => self.other[((offset - 0x10) / 4) as usize],
             _ => 0,
         };
-        self.tell(wires);
+        self.report(wires);
         value
     }
 
@@ -189,6 +189,6 @@ impl Spi for Unit {
         if self.until == NEVER {
             self.begin(wires.now, wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 }

@@ -129,7 +129,7 @@ impl Usart {
     /// Restarts it in its state after a reset.
     pub(crate) fn restart(&mut self, wires: &mut Wires) {
         *self = Self::new(self.place, self.mcu);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn is_on(&self) -> bool {
@@ -196,7 +196,7 @@ impl Usart {
         while self.listens_at <= wires.now {
             self.listen(wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn is_link(&self, wires: &Wires) -> bool {
@@ -255,7 +255,7 @@ impl Usart {
         }
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let (sr, cr) = (self.sr, self.cr[0]);
         let holds = |enable: u32, flags: u32| cr & enable != 0 && sr & flags != 0;
         let by_flag = holds(EMPTY_INTERRUPTS, EMPTY)
@@ -280,7 +280,7 @@ impl Usart {
             Version::V2 => self.read_v2(offset),
             Version::V4 | Version::LowPower => self.read_v4(offset),
         };
-        self.tell(wires);
+        self.report(wires);
         value
     }
 
@@ -294,7 +294,7 @@ impl Usart {
         } else if self.listens_at == NEVER {
             self.listens_at = wires.now + self.frame_ns(wires);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn transmit(&mut self, byte: u8, wires: &Wires) {

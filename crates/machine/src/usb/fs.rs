@@ -152,7 +152,7 @@ impl Device {
         self.istr | TRANSFERRED | direction | u32::try_from(number).unwrap_or(0)
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         wires.interrupt(self.irq, HOLDER, self.status() & self.cntr & ENABLES != 0);
     }
 
@@ -294,7 +294,7 @@ impl Function for Device {
 impl Usb for Device {
     fn restart(&mut self, wires: &mut Wires) {
         *self = Self::with(self.irq, self.layout);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn deadline(&self) -> u64 {
@@ -307,7 +307,7 @@ impl Usb for Device {
             host.act(self, wires);
         }
         self.host = host;
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn read(&mut self, offset: u32, _: &mut Wires) -> u32 {
@@ -347,7 +347,7 @@ impl Usb for Device {
             let is_connected = self.is_connected(wires);
             self.host.plugged(is_connected, wires.now);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn read_memory(&self, offset: u32) -> u32 {

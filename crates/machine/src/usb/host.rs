@@ -61,12 +61,12 @@ pub(super) struct Host {
 }
 
 /// A request of the enumeration: its packet, and the data sent with it.
-struct Enquiry {
+struct ControlRequest {
     packet: [u8; 8],
     data: Vec<u8>,
 }
 
-impl Enquiry {
+impl ControlRequest {
     fn is_in(&self) -> bool {
         self.packet[0] & 0x80 != 0
     }
@@ -155,7 +155,7 @@ impl Host {
     }
 
     /// The host's requests, in order; `None` after the last one.
-    fn enquiry(&self, at: usize) -> Option<Enquiry> {
+    fn enquiry(&self, at: usize) -> Option<ControlRequest> {
         let interface = u16::from(self.interface);
         let line = vec![0x00, 0xC2, 0x01, 0x00, 0, 0, 8];
         let (packet, data) = match at {
@@ -172,7 +172,7 @@ impl Host {
             }
             _ => return None,
         };
-        Some(Enquiry { packet, data })
+        Some(ControlRequest { packet, data })
     }
 
     fn enumerate(&mut self, at: usize, usb: &mut dyn Function) {

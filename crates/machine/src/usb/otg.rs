@@ -177,7 +177,7 @@ impl Otg {
         status
     }
 
-    fn tell(&self, wires: &mut Wires) {
+    fn report(&self, wires: &mut Wires) {
         let is_held =
             self.core_interrupts() & self.register(0x18) != 0 && self.register(0x08) & 1 == 1;
         wires.interrupt(self.irq, 0, is_held);
@@ -328,7 +328,7 @@ impl Function for Otg {
 impl Usb for Otg {
     fn restart(&mut self, wires: &mut Wires) {
         *self = Self::with(self.irq);
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn deadline(&self) -> u64 {
@@ -345,7 +345,7 @@ impl Usb for Otg {
             self.session_ns = NEVER;
             self.status |= SESSION;
         }
-        self.tell(wires);
+        self.report(wires);
     }
 
     fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
@@ -371,7 +371,7 @@ impl Usb for Otg {
             0x1000..=0x1FFF => self.read_fifo(),
             _ => self.register(offset),
         };
-        self.tell(wires);
+        self.report(wires);
         value
     }
 
@@ -416,7 +416,7 @@ impl Usb for Otg {
             let is_connected = self.is_connected(wires);
             self.host.plugged(is_connected, wires.now);
         }
-        self.tell(wires);
+        self.report(wires);
     }
 }
 

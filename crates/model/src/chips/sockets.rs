@@ -7,7 +7,7 @@ use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::{ChipReader, Given};
+use super::{ChipReader, DriverValue};
 use crate::bounds::Bounds;
 use crate::design::{DeviceIndex, Level, Placement, Spanned};
 use crate::devices;
@@ -112,7 +112,7 @@ impl Socket {
     }
 
     /// Records that a device's value goes over it.
-    pub(super) fn take(&mut self, device: DeviceIndex, given: &Given) {
+    pub(super) fn take(&mut self, device: DeviceIndex, given: &DriverValue) {
         if !self.is_used {
             self.device = Some(device);
             self.direction = given.direction;

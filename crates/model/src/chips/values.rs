@@ -20,7 +20,7 @@ use crate::types;
 
 /// A reading or command of a driver.
 #[derive(Clone, Debug)]
-pub(super) struct Given {
+pub(super) struct DriverValue {
     pub(crate) name: String,
     pub(crate) direction: Direction,
     pub(crate) value: ValueType,
@@ -30,12 +30,12 @@ pub(super) struct Given {
 }
 
 /// A device of a chip, and the driver's value that it is.
-pub(super) struct Asked {
+pub(super) struct RequestedValue {
     pub(super) name: Spanned<String>,
     pub(super) block: Span,
     pub(super) own: Vec<Property>,
     pub(super) value: Spanned<ValueType>,
-    pub(super) given: Given,
+    pub(super) given: DriverValue,
 }
 
 /// The properties that a driver gives for all its values, without those of the part itself and of
@@ -51,7 +51,7 @@ pub(super) fn shared(driver: &Driver) -> impl Iterator<Item = Property> {
 
 /// Whether the chip's formula computes the value from its bytes: true of a sensor that states
 /// nothing else.
-pub(super) fn is_computed(given: &Given) -> bool {
+pub(super) fn is_computed(given: &DriverValue) -> bool {
     given.direction == Direction::Sensor
 }
 
@@ -60,7 +60,7 @@ pub(super) fn given(
     driver: &Driver,
     sockets: &[Option<&str>],
     (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
-) -> Vec<Given> {
+) -> Vec<DriverValue> {
     let readings = driver.node.readings().map(|one| {
         let properties: Vec<Property> = one.properties().collect();
         (one.name(), one.ty(), properties, Direction::Sensor)
@@ -69,7 +69,7 @@ pub(super) fn given(
         let properties: Vec<Property> = one.properties().collect();
         (one.name(), one.ty(), properties, Direction::Actuator)
     });
-    let mut all: Vec<Given> = Vec::new();
+    let mut all: Vec<DriverValue> = Vec::new();
     for (name, ty, properties, direction) in readings.chain(commands) {
         let Some(name) = name else { continue };
         if all.len() >= DRIVER_VALUES_MAX {
@@ -89,7 +89,7 @@ pub(super) fn given(
         let via = via((driver.file, at), &properties, sockets, said);
         let (Some(value), Some(via)) = (value, via) else { continue };
         let (name, value) = (name.text().to_owned(), value.value);
-        all.push(Given { name, direction, value, properties, via });
+        all.push(DriverValue { name, direction, value, properties, via });
     }
     all
 }
@@ -128,7 +128,10 @@ fn via(
 }
 
 /// All values of the driver as devices of the chip.
-pub(super) fn all(whole: &ChipReader<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Asked> {
+pub(super) fn all(
+    whole: &ChipReader<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<RequestedValue> {
     let given = whole.given.clone();
     if given.is_empty() {
         let name = &whole.driver.name.value;
@@ -147,7 +150,7 @@ pub(super) fn all(whole: &ChipReader<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             first.into_iter().chain(letters).collect::<String>()
         });
         let value = format!("{}{}", whole.name.value, words.collect::<String>());
-        Asked {
+        RequestedValue {
             name: Spanned { value, span: whole.name.span },
             block: whole.block,
             own: Vec::new(),
@@ -163,7 +166,7 @@ pub(super) fn stated(
     whole: &ChipReader<'_>,
     node: &ast::Device,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Asked> {
+) -> Option<RequestedValue> {
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(whole.file, name.range()) };
     let direction = direction(node)?;
@@ -174,7 +177,7 @@ pub(super) fn stated(
     let given = if all.is_empty() && !whole.driver.has_values() {
         // A driver of the first edition: one value, which has no name.
         let (name, properties) = (String::new(), Vec::new());
-        Given { name, direction, value: value.value, properties, via: vec![0] }
+        DriverValue { name, direction, value: value.value, properties, via: vec![0] }
     } else {
         choose(whole, all, (&name, direction), &own, diagnostics)?
     };
@@ -189,23 +192,23 @@ pub(super) fn stated(
         return None;
     }
     let block = span(whole.file, node.range());
-    Some(Asked { name, block, own, value, given })
+    Some(RequestedValue { name, block, own, value, given })
 }
 
 fn choose(
     whole: &ChipReader<'_>,
-    all: &[Given],
+    all: &[DriverValue],
     (name, direction): (&Spanned<String>, Direction),
     own: &[Property],
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Given> {
+) -> Option<DriverValue> {
     let is_reading = |one: &&Property| one.name().is_some_and(|name| name.text() == "reading");
     let constants = whole.known.constants;
     let stated = own.iter().filter(is_reading).cloned();
     let said = (constants, &mut *diagnostics);
     let mut fields = Fields::new(stated, whole.file, "a device", name.span, said);
     let stated = fields.name("reading", "the name of a reading or command");
-    let fitting: Vec<&Given> = all.iter().filter(|one| one.direction == direction).collect();
+    let fitting: Vec<&DriverValue> = all.iter().filter(|one| one.direction == direction).collect();
     let wanted = stated.as_ref().unwrap_or(name);
     let called = fitting.iter().find(|one| folded(&one.name) == folded(&wanted.value));
     let only = match fitting.as_slice() {

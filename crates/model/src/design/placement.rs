@@ -51,18 +51,18 @@ impl Together {
 
 /// A soft rule: `prefer` or `avoid`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wish {
+pub struct Preference {
     /// True for `prefer`, false for `avoid`.
     pub prefer: bool,
     /// The thing preferred or avoided.
-    pub what: WishFor,
+    pub what: PreferenceSubject,
     /// The place of the rule.
     pub span: Span,
 }
 
 /// The thing that a soft rule is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum WishFor {
+pub enum PreferenceSubject {
     /// A pin, of one role or of any.
     Pin(Option<Role>, PinRef),
     /// A peripheral instance.

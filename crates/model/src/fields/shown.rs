@@ -44,7 +44,7 @@ pub struct Bare {
 }
 
 /// Why a number is not a value of the device: what is wrong, and what to write.
-pub(crate) struct Misfit(pub(crate) String, pub(crate) String);
+pub(crate) struct ValueMismatch(pub(crate) String, pub(crate) String);
 
 impl Fields<'_> {
     /// The bare number that was taken as a shown value, if one was.
@@ -95,7 +95,7 @@ impl Fields<'_> {
         };
         match in_quantity(number, &self.peek_shown(true)) {
             Ok(value) => Some(Spanned { value, span: field.value_span }),
-            Err(Misfit(message, help)) => {
+            Err(ValueMismatch(message, help)) => {
                 let message = format!("`{name}`: {message}");
                 self.say(misfit::value_does_not_fit(field.value_span, &message, &help));
                 None
@@ -124,7 +124,7 @@ impl Fields<'_> {
                 self.note_bare(&number, &shown, Spanned { value: code, span: at });
                 Some(Spanned { value: code, span: at })
             }
-            Err(Misfit(message, help)) => {
+            Err(ValueMismatch(message, help)) => {
                 let message = format!("`{name}`: {message}");
                 self.say(misfit::value_does_not_fit(at, &message, &help));
                 None
@@ -182,7 +182,7 @@ pub(crate) fn unit_of(quantity: &str) -> Option<Unit> {
     }
 }
 
-fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, Misfit> {
+fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, ValueMismatch> {
     if number.measure == Measure::Raw {
         return held(number.value, number.value, "raw ", codes, None);
     }
@@ -198,14 +198,14 @@ fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, M
     }
     let Some(raw) = shown.raw_of(value) else {
         let message = format!("{} is never shown by this device", with(value, unit.as_deref()));
-        return Err(Misfit(message, "write a value that `curve` reaches".to_owned()));
+        return Err(ValueMismatch(message, "write a value that `curve` reaches".to_owned()));
     };
     let code = if codes.is_whole { raw.round() } else { raw };
     within(code, codes, shown, &with(value, unit.as_deref()))
 }
 
 /// The code of a percentage or pulse of a pwm output that shows nothing else.
-pub(crate) fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
+pub(crate) fn of_pulse(number: &Number, codes: Codes) -> Result<f64, ValueMismatch> {
     let (least, most) = codes.pulses_us.unwrap_or((0.0, CODES));
     let help = format!("write 0 to 10000, 0 % to 100 %, or a pulse of {least} us to {most} us");
     let found = with(number.value, Some(&number.unit_name()));
@@ -217,11 +217,11 @@ pub(crate) fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
             CODES * (shifted_us(number) - least) / (most - least)
         }
         Measure::Bare | Measure::Derived(_) | Measure::Raw | Measure::Unit(_) => {
-            return Err(Misfit(format!("{found} is not a value of a pwm output"), help));
+            return Err(ValueMismatch(format!("{found} is not a value of a pwm output"), help));
         }
     };
     if codes.range.is_some_and(|(least, most)| !(code >= least && code <= most)) {
-        return Err(Misfit(format!("{found} is out of reach"), help));
+        return Err(ValueMismatch(format!("{found} is out of reach"), help));
     }
     Ok(if codes.is_whole { code.round() } else { code })
 }
@@ -234,7 +234,7 @@ fn shifted_us(number: &Number) -> f64 {
 }
 
 /// The number in the unit that the device shows.
-pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, Misfit> {
+pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, ValueMismatch> {
     let given = match number.measure {
         Measure::Bare => return Ok(number.value),
         Measure::Unit(unit) => Some(unit),
@@ -244,7 +244,7 @@ pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, 
     let Some(quantity) = &shown.quantity else {
         let message = format!("the value has no unit, and this is a number of {found}");
         let help = "write the number alone, or give the device its `quantity`".to_owned();
-        return Err(Misfit(message, help));
+        return Err(ValueMismatch(message, help));
     };
     let wanted = unit_of(quantity).filter(|wanted| Dimension::of(*wanted) == number.dimension());
     match (wanted, given) {
@@ -254,13 +254,13 @@ pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, 
         (Some(wanted), None) => Ok(shifted(number.in_base_units(), -power_of_ten(wanted))),
         (None, _) => {
             let message = format!("the device shows {quantity}, and this is a number of {found}");
-            Err(Misfit(message, format!("write it in {quantity}, or as a code: `raw 307`")))
+            Err(ValueMismatch(message, format!("write it in {quantity}, or as a code: `raw 307`")))
         }
     }
 }
 
 /// Refuses a value outside `min` and `max`.
-fn bounded(value: f64, shown: &Presentation) -> Result<(), Misfit> {
+fn bounded(value: f64, shown: &Presentation) -> Result<(), ValueMismatch> {
     let unit = shown.quantity.as_deref();
     let is_below = shown.min.is_some_and(|min| value < min);
     if !is_below && shown.max.is_none_or(|max| value <= max) {
@@ -278,7 +278,7 @@ fn bounded(value: f64, shown: &Presentation) -> Result<(), Misfit> {
             "stay within the bounds; a number is as it is shown, and `raw 307` is a code".to_owned()
         }
     };
-    Err(Misfit(message, help))
+    Err(ValueMismatch(message, help))
 }
 
 /// Checks a code that is written as one.
@@ -288,7 +288,7 @@ fn held(
     before: &str,
     codes: Codes,
     unit: Option<&str>,
-) -> Result<f64, Misfit> {
+) -> Result<f64, ValueMismatch> {
     let is_whole = !codes.is_whole || code.fract() == 0.0;
     let is_within = codes.range.is_none_or(|(least, most)| code >= least && code <= most);
     if is_whole && is_within {
@@ -300,11 +300,16 @@ fn held(
         Some((least, most)) => format!("its codes are {kind} from {least} to {most}"),
         None => format!("its codes are {kind}"),
     };
-    Err(Misfit(message, help))
+    Err(ValueMismatch(message, help))
 }
 
 /// Refuses a shown value whose code does not exist.
-fn within(code: f64, codes: Codes, shown: &Presentation, value: &str) -> Result<f64, Misfit> {
+fn within(
+    code: f64,
+    codes: Codes,
+    shown: &Presentation,
+    value: &str,
+) -> Result<f64, ValueMismatch> {
     let Some((least, most)) =
         codes.range.filter(|(least, most)| !(code >= *least && code <= *most))
     else {
@@ -318,7 +323,7 @@ fn within(code: f64, codes: Codes, shown: &Presentation, value: &str) -> Result<
         with(rounded(one.max(other)), unit)
     );
     let message = format!("{value} is out of reach: the value goes from {range}");
-    Err(Misfit(message, "write the value as it is shown, or a code: `raw 307`".to_owned()))
+    Err(ValueMismatch(message, "write the value as it is shown, or a code: `raw 307`".to_owned()))
 }
 
 fn with(value: impl std::fmt::Display, unit: Option<&str>) -> String {

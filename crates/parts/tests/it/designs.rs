@@ -1,14 +1,14 @@
 //! Code that several tests share: designs written in one line, and the file beside them.
 
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, Resolved, resolve};
 
 /// The content of every other file; `None` if there are no other files.
 struct OneFile(Option<&'static str>);
 
 impl Files for OneFile {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        self.0.map(str::to_owned).ok_or(Unread::Missing)
+    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
+        self.0.map(str::to_owned).ok_or(ReadError::Missing)
     }
 }
 

@@ -128,19 +128,19 @@ fn values(out: &mut String, part: &PartFacts) {
         );
     }
     let has = |of: fn(&ValueFacts) -> bool| part.values.iter().any(of);
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     if has(|one| one.shown.offset.is_some()) {
-        told.push(
+        reported.push(
             "A host multiplies the raw value by the scale, then adds what stands behind the sign.",
         );
     } else if has(|one| one.shown.scale.is_some()) {
-        told.push("A host multiplies the raw value by the scale.");
+        reported.push("A host multiplies the raw value by the scale.");
     }
     if has(|one| !one.filter.invalid.is_empty()) {
-        told.push("The board does not report invalid raw values.");
+        reported.push("The board does not report invalid raw values.");
     }
-    if !told.is_empty() {
-        let _ = write!(out, "\n{}", wrapped(&told.join(" "), WIDTH, "", ""));
+    if !reported.is_empty() {
+        let _ = write!(out, "\n{}", wrapped(&reported.join(" "), WIDTH, "", ""));
     }
     for curve in part.values.iter().map(|one| &one.shown.curve).filter(|curve| !curve.is_empty()) {
         let points =

@@ -2,19 +2,19 @@
 
 use super::memory::{Memory, due_ms, ready_ms};
 use super::time::{early_ms, is_reached};
-use super::{Asked, Chip, Pending, Stage, Step};
+use super::{Chip, NextTransfer, Pending, Stage, Step};
 use crate::bytes::{copy, part_mut, split};
 
 impl Chip {
     /// The next transfer of the step; `None` at its end. `now_ms` is the time of the call, not that
     /// of the step.
-    pub(super) fn ask(&mut self, now_ms: u32) -> Option<(Pending, Asked)> {
+    pub(super) fn ask(&mut self, now_ms: u32) -> Option<(Pending, NextTransfer)> {
         loop {
             match self.stage {
                 Stage::Idle | Stage::Over => return None,
                 Stage::Look | Stage::Identify => match self.table.identity() {
                     Some(identity) => {
-                        let asked = Asked::Read(identity.select, identity.expected.len());
+                        let asked = NextTransfer::Read(identity.select, identity.expected.len());
                         return Some((Pending::Identity, asked));
                     }
                     None => self.identified(),
@@ -26,7 +26,7 @@ impl Chip {
                 }
                 Stage::Calibrate(block, _) => match self.table.calibration().get(block) {
                     Some(block) => {
-                        let asked = Asked::Read(block.select, block.count.into());
+                        let asked = NextTransfer::Read(block.select, block.count.into());
                         return Some((Pending::Calibration, asked));
                     }
                     None => self.begin_transfers(now_ms),
@@ -44,7 +44,7 @@ impl Chip {
     }
 
     /// The write of the next step of the initialisation, if it has bytes; `None` during a pause.
-    fn ask_init(&mut self, now_ms: u32) -> Option<Option<Asked>> {
+    fn ask_init(&mut self, now_ms: u32) -> Option<Option<NextTransfer>> {
         if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
             return None;
         }
@@ -55,14 +55,14 @@ impl Chip {
                 self.initialised();
                 self.begin_wait(now_ms);
             }
-            Some(step) => return Some(Some(Asked::Write(step.bytes))),
+            Some(step) => return Some(Some(NextTransfer::Write(step.bytes))),
         }
         Some(None)
     }
 
     /// Fetches what is ready and triggers the next transfer, repeatedly, so that a conversion that
     /// takes no time is fetched at once.
-    fn ask_triggered(&mut self, turns: usize, now_ms: u32) -> Option<(Pending, Asked)> {
+    fn ask_triggered(&mut self, turns: usize, now_ms: u32) -> Option<(Pending, NextTransfer)> {
         if turns > self.table.transfers.len() {
             return None;
         }
@@ -76,7 +76,7 @@ impl Chip {
         }
         let transfer = self.next_triggered()?;
         let table = self.table.transfers.get(transfer)?;
-        Some((Pending::Trigger(transfer), Asked::Write(table.trigger)))
+        Some((Pending::Trigger(transfer), NextTransfer::Write(table.trigger)))
     }
 
     fn is_due(&self, transfer: usize) -> bool {
@@ -105,15 +105,17 @@ impl Chip {
 
     /// Bytes are sent from the chip's memory, because the DMA may be unable to reach constant
     /// tables.
-    pub(super) fn hand_out(&mut self, asked: Asked) -> Step<'_> {
+    pub(super) fn hand_out(&mut self, asked: NextTransfer) -> Step<'_> {
         let work = Memory::split(&mut self.memory, &self.sizes).work;
-        let (Asked::Write(sent) | Asked::Read(sent, _) | Asked::Exchange(sent, _)) = asked;
+        let (NextTransfer::Write(sent)
+        | NextTransfer::Read(sent, _)
+        | NextTransfer::Exchange(sent, _)) = asked;
         copy(work, sent);
         let (sent, rest) = split(work, sent.len());
         match asked {
-            Asked::Write(_) => Step::Write(sent),
-            Asked::Read(_, count) => Step::WriteRead(sent, part_mut(rest, 0, count)),
-            Asked::Exchange(_, count) => Step::Exchange(sent, part_mut(rest, 0, count)),
+            NextTransfer::Write(_) => Step::Write(sent),
+            NextTransfer::Read(_, count) => Step::WriteRead(sent, part_mut(rest, 0, count)),
+            NextTransfer::Exchange(_, count) => Step::Exchange(sent, part_mut(rest, 0, count)),
         }
     }
 }

@@ -29,7 +29,7 @@ use self::time::{after, early_ms, is_reached, left_ms};
 
 /// After this many attempts a chip with a wrong identity is started anyway: a few parts identify
 /// themselves only after they have been set up.
-const LOOKS: u32 = 16;
+const IDENTITY_ATTEMPTS: u32 = 16;
 
 /// The next thing to do. The address is in the table.
 #[derive(Debug, PartialEq, Eq)]
@@ -101,7 +101,7 @@ enum Begun {
 
 /// The transfer to make on the bus.
 #[derive(Clone, Copy)]
-enum Asked {
+enum NextTransfer {
     Write(&'static [u8]),
     Read(&'static [u8], usize),
     Exchange(&'static [u8], usize),
@@ -129,7 +129,7 @@ pub struct Chip<M: ?Sized = [u8]> {
     /// The triggered transfer that has not been fetched yet.
     in_flight: Option<usize>,
     is_running: bool,
-    is_stranger: bool,
+    has_wrong_identity: bool,
     memory: M,
 }
 
@@ -153,7 +153,7 @@ impl<const BYTES: usize> Chip<[u8; BYTES]> {
             begun: None,
             in_flight: None,
             is_running: false,
-            is_stranger: false,
+            has_wrong_identity: false,
             memory: [0; BYTES],
         }
     }
@@ -217,7 +217,7 @@ impl Chip {
         if self.stage == Stage::Idle {
             self.now_ms = now_ms;
             self.is_touched = false;
-            self.stage = match (self.is_running, self.is_stranger) {
+            self.stage = match (self.is_running, self.has_wrong_identity) {
                 (true, _) => Stage::Free(0),
                 (false, true) => Stage::Look,
                 (false, false) => Stage::Initialise,
@@ -375,15 +375,15 @@ impl Chip {
         self.identity_seen = *found;
         self.count_fault(Outcome::WrongIdentity);
         let looks = self.counts.causes.get(Outcome::WrongIdentity as usize);
-        self.is_stranger = looks.is_some_and(|looks| looks % LOOKS != 0);
+        self.has_wrong_identity = looks.is_some_and(|looks| looks % IDENTITY_ATTEMPTS != 0);
         self.restart();
         self.say_fault(None, sink);
     }
 
     fn identified(&mut self) {
-        self.is_stranger = false;
-        let was_stranger = self.stage == Stage::Look;
-        self.stage = if was_stranger { Stage::Initialise } else { Stage::Calibrate(0, 0) };
+        self.has_wrong_identity = false;
+        let had_wrong_identity = self.stage == Stage::Look;
+        self.stage = if had_wrong_identity { Stage::Initialise } else { Stage::Calibrate(0, 0) };
     }
 
     fn take_calibration(&mut self) {

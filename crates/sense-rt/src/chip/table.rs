@@ -1,6 +1,6 @@
 //! The tables that describe a chip.
 
-use super::Asked;
+use super::NextTransfer;
 use super::say::Computed;
 use crate::coding::Coding;
 use crate::formula::Formula;
@@ -60,11 +60,11 @@ impl Transfer {
     pub const NEW: Self =
         Self { trigger: &[], select: &[], cycle_ms: 0, wait_ms: 0, length: 1, exchange: false };
 
-    pub(super) fn asked(&self) -> Asked {
+    pub(super) fn asked(&self) -> NextTransfer {
         if uses::CHIP_EXCHANGES && self.exchange {
-            Asked::Exchange(self.select, self.length.into())
+            NextTransfer::Exchange(self.select, self.length.into())
         } else {
-            Asked::Read(self.select, self.length.into())
+            NextTransfer::Read(self.select, self.length.into())
         }
     }
 }

@@ -5,7 +5,7 @@ use std::str::SplitWhitespace;
 
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
-    Compose, Contact, ContactConfig, ContactTold, Counter, Crc, Edge, Elements, Filter,
+    Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, Filter,
     FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE, decay,
     load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
     store_signed, store_signed_ratio, store_unsigned,
@@ -105,7 +105,7 @@ pub(crate) struct Desk {
     item: Item,
     filter: Box<Filter<[u8; 4096]>>,
     capture: (CaptureConfig, Captured, Capture),
-    contact: (ContactConfig, Contact, ContactTold),
+    contact: (ContactConfig, Contact, ContactReport),
     bridge: (Bridge, BridgeState),
     counter: Counter,
     elements: Elements,
@@ -120,7 +120,7 @@ impl Default for Desk {
             item: Item::sensor(1, Scalar::Bool, 1),
             filter: Box::new(Filter::new(&FilterTable::NEW)),
             capture: (capture, Captured::NEW, Capture::NEW),
-            contact: (contact, Contact::NEW, ContactTold::NEW),
+            contact: (contact, Contact::NEW, ContactReport::NEW),
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
             elements: Elements::NEW,
@@ -152,7 +152,7 @@ impl Desk {
                 let edges = [Edge::Rising, Edge::Falling, Edge::Both];
                 let lasting = words.small();
                 let config = ContactConfig { lasting, edge: edges[words.number() as usize] };
-                self.contact = (config, Contact::NEW, ContactTold::NEW);
+                self.contact = (config, Contact::NEW, ContactReport::NEW);
             }
             "see" => self.see(&mut words, &mut out),
             "bridge" => {
@@ -236,14 +236,14 @@ impl Desk {
     }
 
     fn see(&mut self, words: &mut Words<'_>, out: &mut String) {
-        let (config, contact, told) = &mut self.contact;
+        let (config, contact, reported) = &mut self.contact;
         let (what, level, now) = (words.number(), words.flag(), words.small());
         match what {
             0 => contact.on_edge(config, level, now),
             1 => contact.look(config, level, now),
             2 => contact.sample(config, level, now),
             _ => {
-                if let Some(level) = told.tell(config, contact) {
+                if let Some(level) = reported.record(config, contact) {
                     write!(out, " {}", u8::from(level)).unwrap();
                 }
             }

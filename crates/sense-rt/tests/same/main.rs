@@ -81,8 +81,8 @@ fn rust_answers_as_c_does() {
     for word in questions::WORDS.split(' ') {
         let mut wrong = of_c.clone();
         let starts = |line: &&mut String| line.split(' ').next() == Some(word);
-        let told = wrong.iter_mut().find(|line| starts(line) && line.contains(' '));
-        told.unwrap_or_else(|| panic!("nothing is asked of {word}")).push('0');
+        let reported = wrong.iter_mut().find(|line| starts(line) && line.contains(' '));
+        reported.unwrap_or_else(|| panic!("nothing is asked of {word}")).push('0');
         assert!(difference(&questions, &wrong).is_some(), "{word}");
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::render;
-use sensedsl_model::What;
+use sensedsl_model::FileUse;
 use sensedsl_report::diff::{Change, Place, Wire, changes, wires};
 use sensedsl_report::json::wired;
 use sensedsl_session::Ask;
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &DiffArgs, terminal: &mut Terminal) -> Result<Status> {
 
 /// The wires of an answer, or of a file that is solved.
 fn wires_of(path: &Path, on: &On, terminal: &Terminal) -> Result<BTreeMap<Wire, Place>> {
-    let text = read_text(path, What::Sense)?;
+    let text = read_text(path, FileUse::Sense)?;
     let answer = if text.trim_start().starts_with('{') {
         input::answer_in(path, &text)?
     } else {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::{SourceMap, visible};
-use sensedsl_model::{What, syntax_diagnostic, with_ids};
+use sensedsl_model::{FileUse, syntax_diagnostic, with_ids};
 use sensedsl_session::Snapshot;
 
 use super::input;
@@ -18,7 +18,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut status = Status::Done;
     for path in &args.files {
-        let text = read_text(path, What::Sense)?;
+        let text = read_text(path, FileUse::Sense)?;
         let Some(formatted) = laid_out(path, &text, terminal)? else {
             status = Status::Wrong;
             continue;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0803_import_no_sheet;
 use sensedsl_import::{Format, Imported, Importer, Source, detect};
-use sensedsl_model::What;
+use sensedsl_model::FileUse;
 
 use super::in_the_way;
 use crate::Status;
@@ -14,12 +14,12 @@ use crate::files::{Disk, is_stream, read_bytes, real_folder, shown, write_togeth
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> {
-    let bytes = read_bytes(&args.source, What::Source)?;
+    let bytes = read_bytes(&args.source, FileUse::Source)?;
     let table = table_path(args);
     let table_name = table.file_name().map(|name| name.to_string_lossy().into_owned());
     let (folder, root) = folders(args, &bytes);
     let disk = Disk::below(&root, &args.reach.allow_outside);
-    let beside = |path: &str| disk.bytes(&folder.join(path), What::Source);
+    let beside = |path: &str| disk.bytes(&folder.join(path), FileUse::Source);
     let source = Source {
         name: &shown(&args.source),
         bytes: &bytes,

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Design;
-use sensedsl_model::{Unread, What};
+use sensedsl_model::{FileUse, ReadError};
 use sensedsl_session::{Answer, Ask, Goal, Snapshot, Workspace, has_errors};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Keep, Solved};
@@ -25,7 +25,7 @@ const BEST: Duration = Duration::from_secs(2);
 
 /// Reads a file and everything that it uses. A file that cannot be read becomes a diagnostic like any other.
 pub(crate) fn load(path: &Path, on: &On) -> Snapshot {
-    match read_text(path, What::Sense) {
+    match read_text(path, FileUse::Sense) {
         Ok(text) => of_text(path, text, on),
         Err(Refused { diagnostic, sources }) => Snapshot::unread(*diagnostic, sources),
     }
@@ -60,7 +60,7 @@ pub(crate) fn wired<'a>(
 /// The earlier answer of `--keep`.
 pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
     let Some(path) = path else { return Ok(None) };
-    Ok(Some(keep_in(path, &read_text(path, What::Answer)?)?))
+    Ok(Some(keep_in(path, &read_text(path, FileUse::Answer)?)?))
 }
 
 /// The earlier answer in a text.
@@ -71,8 +71,8 @@ pub(crate) fn keep_in(path: &Path, text: &str) -> Result<Keep, Refused> {
 
 /// An earlier answer in JSON.
 pub(crate) fn answer_in(path: &Path, text: &str) -> Result<serde_json::Value, Refused> {
-    if text.len() > What::Answer.bytes_max() {
-        return Err(Refused::unread(path, What::Answer, &Unread::TooLarge));
+    if text.len() > FileUse::Answer.bytes_max() {
+        return Err(Refused::unread(path, FileUse::Answer, &ReadError::TooLarge));
     }
     serde_json::from_str(text).map_err(|error| not_an_answer(path, &error.to_string()))
 }

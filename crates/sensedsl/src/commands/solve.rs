@@ -6,7 +6,7 @@ use anyhow::{Result, ensure};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, render, visible_json};
 use sensedsl_export::{alloy, prolog};
-use sensedsl_model::What;
+use sensedsl_model::FileUse;
 use sensedsl_model::design::Design;
 use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_session::{Answer, Ask, Goal, Origin, has_errors};
@@ -29,7 +29,7 @@ const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let deadline = Deadline::after(args.timeout);
-    let kept = args.keep.as_deref().map(|path| read_text(path, What::Answer)).transpose()?;
+    let kept = args.keep.as_deref().map(|path| read_text(path, FileUse::Answer)).transpose()?;
     let keep = args.keep.as_deref().zip(kept.as_deref());
     let keep = keep.map(|(path, text)| input::keep_in(path, text)).transpose()?;
     let snapshot = input::load(&args.file, &args.on);

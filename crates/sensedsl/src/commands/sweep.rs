@@ -8,7 +8,7 @@ use std::thread;
 
 use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
-use sensedsl_model::What;
+use sensedsl_model::FileUse;
 use sensedsl_parts::{Part, Sheet};
 use sensedsl_session::{Fit, On, Quality, Workspace};
 use sensedsl_wiring::Cancel;
@@ -38,7 +38,7 @@ struct Carrier {
 pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
     let deadline = Deadline::after(args.timeout);
     let interrupted = interruption()?;
-    let text = read_text(file, What::Sense)?;
+    let text = read_text(file, FileUse::Sense)?;
     let disk = Disk::of(file, &args.reach.allow_outside);
     let path = shown(file);
     let mut workspace = Workspace::default();

@@ -17,7 +17,7 @@ mod write;
 use std::path::Path;
 
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
-use sensedsl_model::{Unread, Wanted, What};
+use sensedsl_model::{FileRequest, FileUse, ReadError};
 
 pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
 pub(crate) use write::{
@@ -46,9 +46,9 @@ impl Refused {
     }
 
     /// Reports that a file was not read.
-    pub(crate) fn unread(path: &Path, what: What, unread: &Unread) -> Self {
+    pub(crate) fn unread(path: &Path, what: FileUse, unread: &ReadError) -> Self {
         Self::new(path, |at, shown| {
-            unread.diagnostic(at, &Wanted { path: shown, what, by_user: true })
+            unread.diagnostic(at, &FileRequest { path: shown, what, by_user: true })
         })
     }
 }
@@ -62,11 +62,11 @@ impl std::fmt::Display for Refused {
 impl std::error::Error for Refused {}
 
 /// The contents of a file that the command line names.
-pub(crate) fn read_bytes(path: &Path, what: What) -> Result<Vec<u8>, Refused> {
+pub(crate) fn read_bytes(path: &Path, what: FileUse) -> Result<Vec<u8>, Refused> {
     read::read(path, what, true).map_err(|unread| Refused::unread(path, what, &unread))
 }
 
 /// The text of a file that the command line names.
-pub(crate) fn read_text(path: &Path, what: What) -> Result<String, Refused> {
+pub(crate) fn read_text(path: &Path, what: FileUse) -> Result<String, Refused> {
     read::text(read_bytes(path, what)?).map_err(|unread| Refused::unread(path, what, &unread))
 }

@@ -8,7 +8,7 @@ use std::fs::{self, File, FileType};
 use std::io::{self, Read};
 use std::path::Path;
 
-use sensedsl_model::Unread;
+use sensedsl_model::ReadError;
 
 use super::read::why;
 
@@ -27,7 +27,7 @@ impl Opened {
 }
 
 /// Opens a file for reading; a pipe only if the user names it.
-pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, Unread> {
+pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, ReadError> {
     readable(fs::metadata(path).map_err(|error| why(&error))?.file_type(), by_user)?;
     let file = open_at_once(path).map_err(|error| why(&error))?;
     let kind = file.metadata().map_err(|error| why(&error))?.file_type();
@@ -36,12 +36,12 @@ pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, Unread> {
 }
 
 /// Refuses anything that is neither a file nor a pipe named by the user.
-fn readable(kind: FileType, by_user: bool) -> Result<(), Unread> {
+fn readable(kind: FileType, by_user: bool) -> Result<(), ReadError> {
     match () {
         () if kind.is_file() || (by_user && is_pipe(kind)) => Ok(()),
-        () if kind.is_dir() => Err(Unread::NotAFile("a folder")),
-        () if is_pipe(kind) => Err(Unread::NotAFile("a pipe")),
-        () => Err(Unread::NotAFile("a device")),
+        () if kind.is_dir() => Err(ReadError::NotAFile("a folder")),
+        () if is_pipe(kind) => Err(ReadError::NotAFile("a pipe")),
+        () => Err(ReadError::NotAFile("a device")),
     }
 }
 
@@ -73,7 +73,7 @@ fn open_at_once(path: &Path) -> io::Result<File> {
 
 /// Waits a moment for a program that writes to a pipe; from then on, reading waits for that program.
 #[cfg(unix)]
-fn pipe(mut file: File) -> Result<Opened, Unread> {
+fn pipe(mut file: File) -> Result<Opened, ReadError> {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
     const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 500_000_000 };
@@ -82,7 +82,7 @@ fn pipe(mut file: File) -> Result<Opened, Unread> {
     let mut head = vec![0];
     match file.read(&mut head) {
         // Only our end of it is open.
-        Ok(0) => return Err(Unread::NotAFile("a pipe to which no program writes")),
+        Ok(0) => return Err(ReadError::NotAFile("a pipe to which no program writes")),
         Ok(_) => {}
         // A program has it open and has not written yet.
         Err(error) if error.kind() == io::ErrorKind::WouldBlock => head.clear(),
@@ -94,6 +94,6 @@ fn pipe(mut file: File) -> Result<Opened, Unread> {
 }
 
 #[cfg(not(unix))]
-fn pipe(file: File) -> Result<Opened, Unread> {
+fn pipe(file: File) -> Result<Opened, ReadError> {
     Ok(Opened { file, head: Vec::new() })
 }

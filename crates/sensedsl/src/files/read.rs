@@ -13,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
 use sensedsl_limits::TOTAL_BYTES_MAX;
-use sensedsl_model::{Files, Unread, Wanted, What, normal_path, stays_inside};
+use sensedsl_model::{FileRequest, FileUse, Files, ReadError, normal_path, stays_inside};
 
 use super::open::open;
 
@@ -43,17 +43,17 @@ impl Disk {
 
     /// The contents of a file that a file names, with a path relative to the program's working
     /// folder.
-    pub(crate) fn bytes(&self, path: &Path, what: What) -> Result<Vec<u8>, Unread> {
+    pub(crate) fn bytes(&self, path: &Path, what: FileUse) -> Result<Vec<u8>, ReadError> {
         let real = self.real(path)?;
         self.counted(&real, read(&real, what, false)?)
     }
 
     /// The path without symbolic links, if it is in an allowed folder.
-    fn real(&self, path: &Path) -> Result<PathBuf, Unread> {
+    fn real(&self, path: &Path) -> Result<PathBuf, ReadError> {
         let relative = path.strip_prefix(&self.root).ok();
         let outside = || {
             let folder = normal_path(&path.parent().unwrap_or(Path::new("")).to_string_lossy());
-            Unread::Outside(if folder.is_empty() { ".".to_owned() } else { folder })
+            ReadError::Outside(if folder.is_empty() { ".".to_owned() } else { folder })
         };
         let stays = relative.is_some_and(|relative| stays_inside(&relative.to_string_lossy()))
             || self.comes_back(path);
@@ -75,16 +75,16 @@ impl Disk {
 
     /// The bytes, unless all files together are too large. A file that is read again counts only
     /// once.
-    fn counted(&self, path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, Unread> {
+    fn counted(&self, path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.insert(path.to_path_buf(), bytes.len());
         let all: usize = seen.values().sum();
-        if all > TOTAL_BYTES_MAX { Err(Unread::AllTooLarge) } else { Ok(bytes) }
+        if all > TOTAL_BYTES_MAX { Err(ReadError::AllTooLarge) } else { Ok(bytes) }
     }
 }
 
 impl Files for Disk {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
         let path = Path::new(wanted.path);
         if wanted.by_user {
             return text(self.counted(path, read(path, wanted.what, true)?)?);
@@ -94,25 +94,25 @@ impl Files for Disk {
 }
 
 /// The contents of a file, or of the standard input for `-` if the user names it.
-pub(crate) fn read(path: &Path, what: What, by_user: bool) -> Result<Vec<u8>, Unread> {
+pub(crate) fn read(path: &Path, what: FileUse, by_user: bool) -> Result<Vec<u8>, ReadError> {
     if by_user && path == Path::new("-") {
         return limited(io::stdin().lock(), what);
     }
     let opened = open(path, by_user)?;
     let length = opened.file.metadata().map_err(|error| why(&error))?.len();
     if length > what.bytes_max() as u64 {
-        return Err(Unread::TooLarge);
+        return Err(ReadError::TooLarge);
     }
     limited(opened.reader(), what)
 }
 
 /// Reads to the end, or until there is more than allowed: a file can grow, and a pipe has no
 /// length.
-fn limited(source: impl io::Read, what: What) -> Result<Vec<u8>, Unread> {
+fn limited(source: impl io::Read, what: FileUse) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     let most = what.bytes_max();
     source.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|error| why(&error))?;
-    if bytes.len() > most { Err(Unread::TooLarge) } else { Ok(bytes) }
+    if bytes.len() > most { Err(ReadError::TooLarge) } else { Ok(bytes) }
 }
 
 /// A folder without symbolic links, so that it has a name; unchanged if it does not exist.
@@ -122,19 +122,19 @@ pub(crate) fn real_folder(folder: &Path) -> PathBuf {
 }
 
 /// The bytes as text.
-pub(crate) fn text(bytes: Vec<u8>) -> Result<String, Unread> {
+pub(crate) fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        Unread::Why(format!("it is not text in UTF-8 (byte {at})"))
+        ReadError::Why(format!("it is not text in UTF-8 (byte {at})"))
     })
 }
 
 /// The reason that the system gives.
-pub(crate) fn why(error: &io::Error) -> Unread {
+pub(crate) fn why(error: &io::Error) -> ReadError {
     if error.kind() == io::ErrorKind::NotFound {
-        Unread::Missing
+        ReadError::Missing
     } else {
-        Unread::Why(error.to_string())
+        ReadError::Why(error.to_string())
     }
 }
 
@@ -147,7 +147,7 @@ pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
             read.with_context(|| format!("cannot read {}", path.display()))?;
             Ok(Some(bytes))
         }
-        Err(Unread::Missing) => Ok(None),
+        Err(ReadError::Missing) => Ok(None),
         Err(unread) => anyhow::bail!("cannot read {}: {}", path.display(), unread.why()),
     }
 }

@@ -19,7 +19,7 @@ mod fixing;
 mod multipliers;
 
 use super::dualized::Dualized;
-use super::subproblems::{Subproblems, Way};
+use super::subproblems::{SlotChoice, Subproblems};
 use crate::domains::{Charge, Domains};
 use crate::index::{GroupId, IdVec, OpeningId, OptionId, PriceId};
 use crate::model::Model;
@@ -78,7 +78,7 @@ impl Lagrangian {
     }
 
     #[inline]
-    fn way_cost(&self, way: &Way) -> i64 {
+    fn way_cost(&self, way: &SlotChoice) -> i64 {
         let more = self.subproblems.lists.of(way.more);
         way.fixed + self.prices[way.price] + more.iter().map(|&p| self.prices[p]).sum::<i64>()
     }

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 
 /// One of several ways to fill a slot: a price, more prices, and a fixed cost.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct SlotChoice {
     /// The candidate, unless the way is a DMA stream.
     pub(crate) id: Option<CandId>,
     /// Pin or stream.
@@ -64,7 +64,7 @@ pub(crate) struct Subproblems {
     pub(crate) groups: IdVec<GroupId, Group>,
     pub(crate) options: IdVec<OptionId, Choosable>,
     pub(crate) slots: IdVec<SlotId, Ids<WayId>>,
-    pub(crate) ways: IdVec<WayId, Way>,
+    pub(crate) ways: IdVec<WayId, SlotChoice>,
     pub(crate) lists: IdVec<ListId, PriceId>,
     pub(crate) openings: IdVec<OpeningId, Opening>,
     pub(crate) opening_of: IdVec<FacilityId, Option<OpeningId>>,
@@ -192,7 +192,7 @@ impl Subproblems {
     fn add_way(&mut self, dualized: &Dualized, model: &Model, more: &[PriceId], id: CandId) {
         let more = self.add_list(more);
         let c = &model.cand[id];
-        self.ways.push(Way {
+        self.ways.push(SlotChoice {
             id: Some(id),
             price: Dualized::pin(c.pin),
             fixed: ((c.extra + model.pin_weight[c.pin]) as i64) << dualized.shift,
@@ -204,7 +204,7 @@ impl Subproblems {
         for request in requests {
             let start = self.ways.len();
             for &price in request {
-                self.ways.push(Way { id: None, price, fixed: 0, more: Ids::default() });
+                self.ways.push(SlotChoice { id: None, price, fixed: 0, more: Ids::default() });
             }
             self.slots.push(added(start, self.ways.len()));
         }

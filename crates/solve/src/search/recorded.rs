@@ -23,7 +23,7 @@ use crate::trace::{Cover, Exchange, Facility, Multipliers, Question, Record, Ste
 const STEPS_MAX: usize = 20_000;
 
 /// A record that cannot be completed.
-struct GivenUp;
+struct Incomplete;
 
 /// Records why no answer weighs less than the best one, `best`, or that there is none. Equal boards
 /// may replace each other if `boards` is true. `learned` comes from the search that found the
@@ -120,11 +120,11 @@ impl crate::bounds::dualized::Cover {
 
 impl Engine<'_> {
     /// Searches below the current domains, with a record; leaves them smaller.
-    fn recorded(&mut self, steps: &mut Vec<Step>) -> Result<(), GivenUp> {
+    fn recorded(&mut self, steps: &mut Vec<Step>) -> Result<(), Incomplete> {
         loop {
             self.progress.step();
             if self.is_stopped() || steps.len() > STEPS_MAX {
-                return Err(GivenUp);
+                return Err(Incomplete);
             }
             if self.domains.propagate(self.model).is_err() || !self.streams_may_suffice() {
                 steps.push(Step::Dead);
@@ -146,7 +146,7 @@ impl Engine<'_> {
                 }
                 Recorded::Narrowed(_, Ok(false)) => {}
             }
-            let branch = self.split().ok_or(GivenUp)?;
+            let branch = self.split().ok_or(Incomplete)?;
             steps.push(self.stated(branch));
             let mark = self.domains.mark();
             let saved = self.flow.save();

@@ -25,7 +25,7 @@ pub(super) struct Chip {
 
 /// A part whose identity the board has not asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unasked {
+pub struct UncheckedIdentity {
     /// Its name.
     pub name: String,
     /// Whether its driver gives an identity to compare with, so that the board should have asked.
@@ -35,10 +35,10 @@ pub struct Unasked {
 impl Bench {
     /// The parts on buses that the board has read without asking for their identity.
     #[must_use]
-    pub fn unasked(&self) -> Vec<Unasked> {
+    pub fn unasked(&self) -> Vec<UncheckedIdentity> {
         let all = self.chips.iter().filter_map(|one| {
             let is_known = one.registers.is_unasked()?;
-            Some(Unasked { name: one.name.clone(), is_known })
+            Some(UncheckedIdentity { name: one.name.clone(), is_known })
         });
         all.collect()
     }
@@ -50,13 +50,13 @@ impl Bench {
         let odd = |one: &Chip| {
             let of_bus = self.chips.iter().filter(|other| other.unit == one.unit).count();
             let registers = &one.registers;
-            let told = registers.odd().map(str::to_owned);
+            let reported = registers.odd().map(str::to_owned);
             // Settings that a fault of the world has undone may not have been restored yet.
             let not_set_up = || registers.not_set_up().filter(|_| self.faults.is_empty());
             let not_left_alone = || registers.not_left_alone().filter(|_| self.faults.is_empty());
             let parts = u64::try_from(of_bus).unwrap_or(u64::MAX);
-            let told = told.or_else(not_left_alone).or_else(not_set_up);
-            told.or_else(|| registers.waits_too_long(parts))
+            let reported = reported.or_else(not_left_alone).or_else(not_set_up);
+            reported.or_else(|| registers.waits_too_long(parts))
         };
         self.chips.iter().filter_map(|one| Some((one.name.clone(), odd(one)?))).collect()
     }

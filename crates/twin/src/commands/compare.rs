@@ -2,7 +2,7 @@
 
 use sensedsl_model::design::ConnectionIndex;
 
-use super::expect::{Expected, Sent, What};
+use super::expect::{Expectation, Expected, Sent};
 use super::outputs::Outputs;
 use super::written::Written;
 use sensedsl_surroundings::CanFrame;
@@ -21,30 +21,30 @@ pub(super) fn differs(
     (since_ns, now_ns): (u64, u64),
 ) -> Option<String> {
     match &one.what {
-        What::Level(role, high) => {
+        Expectation::Level(role, high) => {
             let found = outputs.level(one.at, *role);
             (found != Some(*high)).then(|| found.map_or("not driven", level).to_owned())
         }
-        What::Pulses(wanted) => {
+        Expectation::Pulses(wanted) => {
             let found = outputs.pulses(one.at);
             (!is_same(*wanted, found)).then(|| pulses(found))
         }
-        What::Millivolts(wanted) => {
+        Expectation::Millivolts(wanted) => {
             let found = outputs.millivolts(one.at).unwrap_or(0.0);
             ((found - wanted).abs() > 0.5).then(|| format!("{found:.0} mV"))
         }
-        What::Write(wanted) => {
+        Expectation::Write(wanted) => {
             let found = last_write(one.at, outputs, since_ns, wanted);
             let is_it = found.as_deref().is_some_and(|found| wanted.is(found));
             (!is_it).then(|| found.map_or("nothing".into(), |one| hex(&one)))
         }
-        What::Message(unit, bytes) => {
+        Expectation::Message(unit, bytes) => {
             let found = outputs.bytes(*unit, since_ns);
             let is_there = found.windows(bytes.len().max(1)).any(|part| part == bytes);
             let last = found.len().saturating_sub(bytes.len());
             (!is_there).then(|| hex(found.get(last..).unwrap_or_default()))
         }
-        What::Frame(sent) => {
+        Expectation::Frame(sent) => {
             let span = (since_ns, now_ns);
             let found = frame(sent, outputs, since_ns);
             found
@@ -128,15 +128,15 @@ fn too_often(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> 
 /// The expected output, as text for people.
 pub(super) fn shown(one: &Expected) -> String {
     match &one.what {
-        What::Level(_, high) => level(*high).to_owned(),
-        What::Pulses(wanted) => pulses(*wanted),
-        What::Millivolts(wanted) => format!("{wanted:.0} mV"),
-        What::Write(written) => {
+        Expectation::Level(_, high) => level(*high).to_owned(),
+        Expectation::Pulses(wanted) => pulses(*wanted),
+        Expectation::Millivolts(wanted) => format!("{wanted:.0} mV"),
+        Expectation::Write(written) => {
             let own = written.mask().map(|mask| format!(" where bits are set in {}", hex(mask)));
             hex(&written.bytes) + &own.unwrap_or_default()
         }
-        What::Message(_, bytes) => hex(bytes),
-        What::Frame(sent) => {
+        Expectation::Message(_, bytes) => hex(bytes),
+        Expectation::Frame(sent) => {
             let Sent { identifier, length, bits: (mask, bits), .. } = sent;
             let shown =
                 |bits: u64| hex(bits.to_le_bytes().get(..usize::from(*length)).unwrap_or_default());

@@ -30,12 +30,12 @@ pub(super) struct Expected {
     /// The wire, for people: `Left.in1 at PB4`.
     pub(super) wire: String,
     pub(super) at: ConnectionIndex,
-    pub(super) what: What,
+    pub(super) what: Expectation,
 }
 
 /// The expected level, pulses, voltage or data.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum What {
+pub(super) enum Expectation {
     Level(Role, bool),
     /// Period and width in nanoseconds; `None` if there must be no pulses.
     Pulses(Option<(u64, u64)>),
@@ -80,7 +80,7 @@ pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
 }
 
 /// The expected outputs of a device that was set to these raw values.
-pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<Expected> {
+pub(super) fn reported(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<Expected> {
     let wires = job.wires_of(one.device);
     let value = |element: usize| raw.get(element).copied().unwrap_or(0.0);
     if let Some(drive) = one.device.coding.drive {
@@ -94,14 +94,14 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
             Interface::Dac(_) => {
                 let code = value(element).round().clamp(0.0, FULL_CODE);
                 // A 12-bit converter divides its reference by 4096.
-                let what = What::Millivolts(code / (FULL_CODE + 1.0) * REFERENCE_MV);
+                let what = Expectation::Millivolts(code / (FULL_CODE + 1.0) * REFERENCE_MV);
                 Some(expected(wire, element, what))
             }
             Interface::I2c(_) | Interface::Spi(_) => write(job, wire, one, raw),
             Interface::Uart(own) => {
                 let body = words::bytes(&Words::of(one.device)?, raw);
                 let unit = number(job, wire)?;
-                let what = What::Message(unit, message::framed(own, &body));
+                let what = Expectation::Message(unit, message::framed(own, &body));
                 Some(expected(wire, 0, what))
             }
             Interface::Can(_) => frame(job, wire, one, raw),
@@ -112,17 +112,17 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
 }
 
 /// The expected outputs of a device that the host has not set yet; empty if the design does not define them.
-pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Vec<Expected> {
+pub(super) fn unreported(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Vec<Expected> {
     let wires = job.wires_of(one.device);
     if let Some(safe) = one.device.kind.failsafe() {
-        return told(job, one, &vec![safe; one.device.value.value.count()]);
+        return reported(job, one, &vec![safe; one.device.value.value.count()]);
     }
     let each = |wire: &&JobConnection<'_>| {
         let element = usize::from(wire.element());
         match wire.connection.kind.interface() {
             Interface::Digital(own) => Some(level(wire, element, own, own.initial)),
-            Interface::Pwm(_) => Some(expected(wire, element, What::Pulses(None))),
-            Interface::Dac(_) => Some(expected(wire, element, What::Millivolts(0.0))),
+            Interface::Pwm(_) => Some(expected(wire, element, Expectation::Pulses(None))),
+            Interface::Dac(_) => Some(expected(wire, element, Expectation::Millivolts(0.0))),
             Interface::I2c(_) | Interface::Spi(_) => written::first(job, wire, one, now_ns),
             Interface::Uart(_)
             | Interface::Can(_)
@@ -139,14 +139,14 @@ pub(super) fn failsafe(one: &JobDevice<'_>) -> Option<f64> {
     one.device.coding.failsafe.or_else(|| one.device.kind.failsafe())
 }
 
-pub(super) fn expected(wire: &JobConnection<'_>, element: usize, what: What) -> Expected {
+pub(super) fn expected(wire: &JobConnection<'_>, element: usize, what: Expectation) -> Expected {
     let pins: Vec<String> = wire.pads.iter().map(|pad| pad.pin.name.to_string()).collect();
     let name = format!("{} at {}", wire.title, pins.join(", "));
     Expected { element, wire: name, at: wire.index, what }
 }
 
 fn level(wire: &JobConnection<'_>, element: usize, own: &Digital, is_on: bool) -> Expected {
-    expected(wire, element, What::Level(Role::Out, is_on != own.active_low))
+    expected(wire, element, Expectation::Level(Role::Out, is_on != own.active_low))
 }
 
 fn pulses(wire: &JobConnection<'_>, element: usize, own: &Pwm, raw: f64) -> Expected {
@@ -156,7 +156,7 @@ fn pulses(wire: &JobConnection<'_>, element: usize, own: &Pwm, raw: f64) -> Expe
     let share = raw.round().clamp(0.0, FULL_LEVEL) / FULL_LEVEL;
     let width_ns = least_ns + (most_ns - least_ns) * share;
     let [period_ns, width_ns] = [period_ns, width_ns].map(crate::arith::nanoseconds);
-    expected(wire, element, What::Pulses(Some((period_ns, width_ns))))
+    expected(wire, element, Expectation::Pulses(Some((period_ns, width_ns))))
 }
 
 /// A motor's bridge: a duty and two direction pins, or a duty for each direction.
@@ -237,5 +237,5 @@ fn frame(
         resend_ns: if resend_ms == u32::MAX { 0 } else { 1_000_000 * u64::from(resend_ms) },
         devices,
     };
-    Some(expected(wire, 0, What::Frame(sent)))
+    Some(expected(wire, 0, Expectation::Frame(sent)))
 }

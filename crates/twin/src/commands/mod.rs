@@ -19,7 +19,7 @@ use crate::bench::Bench;
 use expect::Expected;
 use outputs::Outputs;
 use tried::Actor;
-pub use tried::{Amiss, Tried};
+pub use tried::{ActuatorFindings, WireMismatch};
 
 const MS: u64 = 1_000_000;
 /// The latest time at which outputs that nobody has set yet are checked.
@@ -60,7 +60,7 @@ enum Phase {
 pub struct Commands<'a> {
     job: &'a BoardJob<'a>,
     actors: Vec<Actor>,
-    constants: Vec<(Expected, Tried)>,
+    constants: Vec<(Expected, ActuatorFindings)>,
     /// `None` if no actuator falls back.
     silence_ns: Option<u64>,
     end_ns: u64,
@@ -89,12 +89,12 @@ impl<'a> Commands<'a> {
             actors.push(actor);
         }
         let constants = expect::constants(job).into_iter();
-        let constants = constants.map(|one| (Tried::of(one.wire.clone()), one));
+        let constants = constants.map(|one| (ActuatorFindings::of(one.wire.clone()), one));
         let silence = job.board.link.silence_ms.filter(|_| job.has_actuators());
         let silence_ns = silence.map(|ms| MS * u64::from(ms));
         let is_soon = |ns: &u64| *ns >= SILENCE_MIN_NS;
-        let untold_ns = silence_ns.map_or(UNTOLD_NS, |ns| UNTOLD_NS.min(ns / 2));
-        let look_ns = silence_ns.is_none_or(|ns| is_soon(&ns)).then_some(untold_ns);
+        let unreported_ns = silence_ns.map_or(UNTOLD_NS, |ns| UNTOLD_NS.min(ns / 2));
+        let look_ns = silence_ns.is_none_or(|ns| is_soon(&ns)).then_some(unreported_ns);
         Self {
             job,
             actors,
@@ -148,7 +148,7 @@ impl<'a> Commands<'a> {
         match self.phase {
             Phase::Listening => {
                 for actor in &mut self.actors {
-                    actor.look_untold(self.job, now_ns, outputs);
+                    actor.look_unreported(self.job, now_ns, outputs);
                 }
             }
             Phase::Holding => {
@@ -173,13 +173,13 @@ impl<'a> Commands<'a> {
 
     /// The identifiers of the actuators that the host has set so far, and the time of the last command to each.
     #[must_use]
-    pub fn told(&self) -> Vec<(u8, u64)> {
-        self.actors.iter().filter_map(Actor::told).collect()
+    pub fn reported(&self) -> Vec<(u8, u64)> {
+        self.actors.iter().filter_map(Actor::reported).collect()
     }
 
     /// Ends the run and returns the findings.
     #[must_use]
-    pub fn finish(self) -> Vec<Tried> {
+    pub fn finish(self) -> Vec<ActuatorFindings> {
         let is_silence_left = self.silence_ns.is_some() && !self.is_silence_tried;
         let actors = self.actors.into_iter().map(|actor| actor.finish(is_silence_left));
         actors.chain(self.constants.into_iter().map(|(_, tried)| tried)).collect()

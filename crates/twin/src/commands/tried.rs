@@ -6,7 +6,7 @@ use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, Scalar};
 
-use super::expect::{self, Expected, What};
+use super::expect::{self, Expectation, Expected};
 use super::outputs::Outputs;
 use super::{Command, MS, compare};
 use crate::arith::number;
@@ -21,7 +21,7 @@ const RECOVERY_NS: u64 = 1_500 * MS;
 
 /// A wire that does not carry what it must.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Amiss {
+pub struct WireMismatch {
     /// The time of the check.
     pub at_ns: u64,
     /// The element of the value.
@@ -38,7 +38,7 @@ pub struct Amiss {
 
 /// The findings about an actuator, or about a level that never changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tried {
+pub struct ActuatorFindings {
     /// Its name, or the wire.
     pub name: String,
     /// Whether the host sets it.
@@ -56,10 +56,10 @@ pub struct Tried {
     /// The number of comparisons that failed.
     pub wrong: u64,
     /// The first failure.
-    pub first: Option<Amiss>,
+    pub first: Option<WireMismatch>,
 }
 
-impl Tried {
+impl ActuatorFindings {
     pub(super) fn of(name: String) -> Self {
         Self { name, ..Self::default() }
     }
@@ -80,7 +80,7 @@ impl Tried {
             let got = compare::differs(one, outputs, (since_ns, at_ns))?;
             let (element, wire) = (one.element, one.wire.clone());
             let (after, expected) = (after.to_owned(), compare::shown(one));
-            Some(Amiss { at_ns, element, wire, after, expected, got })
+            Some(WireMismatch { at_ns, element, wire, after, expected, got })
         });
         self.wrong += u64::from(wrong.is_some());
         self.first = self.first.take().or(wrong);
@@ -107,9 +107,9 @@ pub(super) struct Actor {
     /// The time by which the last command must have taken effect.
     settles_ns: Option<u64>,
     /// The last command and its time.
-    told: Option<(u64, Vec<Scalar>)>,
+    reported: Option<(u64, Vec<Scalar>)>,
     excuses: Vec<(u64, u64)>,
-    tried: Tried,
+    tried: ActuatorFindings,
 }
 
 impl Actor {
@@ -133,9 +133,9 @@ impl Actor {
             next: 0,
             due_ns: 0,
             settles_ns: None,
-            told: None,
+            reported: None,
             excuses: one.map(|one| bench.excused(job, one.index)).unwrap_or_default(),
-            tried: Tried { is_set: true, ..Tried::of(name) },
+            tried: ActuatorFindings { is_set: true, ..ActuatorFindings::of(name) },
         }
     }
 
@@ -185,13 +185,13 @@ impl Actor {
         self.next += 1;
         self.tried.commands += 1;
         self.settles_ns = Some(now_ns + self.settle_ns);
-        self.told = Some((now_ns, value.clone()));
+        self.reported = Some((now_ns, value.clone()));
         Some(value.clone())
     }
 
     /// Its identifier, and the time of its last command.
-    pub(super) fn told(&self) -> Option<(u8, u64)> {
-        self.told.as_ref().map(|(at_ns, _)| (self.id, *at_ns))
+    pub(super) fn reported(&self) -> Option<(u8, u64)> {
+        self.reported.as_ref().map(|(at_ns, _)| (self.id, *at_ns))
     }
 
     /// Whether all commands have been sent and checked.
@@ -210,15 +210,15 @@ impl Actor {
         }
         self.settles_ns = None;
         self.due_ns = now_ns;
-        let Some((since_ns, value)) = self.told.clone() else { return };
+        let Some((since_ns, value)) = self.reported.clone() else { return };
         let after = format!("after {}", self.shown(&value));
         self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, |_| true);
     }
 
     /// Checks the outputs before any command.
-    pub(super) fn look_untold(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
+    pub(super) fn look_unreported(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
         let Some(one) = job.devices.get(self.index) else { return };
-        let expected = expect::untold(job, one, now_ns);
+        let expected = expect::unreported(job, one, now_ns);
         if self.is_excused(0, now_ns) {
             self.tried.excused += 1;
         } else {
@@ -228,7 +228,7 @@ impl Actor {
 
     /// Checks the outputs while the host is silent, but not yet for long enough to count.
     pub(super) fn look_held(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
-        let Some((since_ns, value)) = self.told.clone() else { return };
+        let Some((since_ns, value)) = self.reported.clone() else { return };
         let after = format!("after {}, and before the silence counts", self.shown(&value));
         let counts = |one: &Expected| is_lasting(one) || is_repeated(one);
         self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, counts);
@@ -244,13 +244,19 @@ impl Actor {
         let Some(one) = job.devices.get(self.index) else { return };
         let after = format!("after {} ms of silence", silence_ns / MS);
         let safe = expect::failsafe(one).map(|safe| vec![safe; one.device.value.value.count()]);
-        match (safe, self.told.clone()) {
+        match (safe, self.reported.clone()) {
             (Some(safe), _) => {
                 let with = (safe.as_slice(), outputs);
                 self.compare(job, with, (since_ns, now_ns), &after, |_| true);
             }
-            (None, Some((told_ns, value))) => {
-                self.compare(job, (&raw(&value), outputs), (told_ns, now_ns), &after, is_lasting);
+            (None, Some((reported_ns, value))) => {
+                self.compare(
+                    job,
+                    (&raw(&value), outputs),
+                    (reported_ns, now_ns),
+                    &after,
+                    is_lasting,
+                );
             }
             (None, None) => {}
         }
@@ -265,7 +271,7 @@ impl Actor {
         counts: impl Fn(&Expected) -> bool,
     ) {
         let Some(one) = job.devices.get(self.index) else { return };
-        let mut expected = expect::told(job, one, raw);
+        let mut expected = expect::reported(job, one, raw);
         expected.retain(counts);
         if self.is_excused(since_ns, now_ns) {
             self.tried.excused += 1;
@@ -279,7 +285,7 @@ impl Actor {
         self.excuses.iter().any(hits)
     }
 
-    pub(super) fn finish(mut self, is_silence_left: bool) -> Tried {
+    pub(super) fn finish(mut self, is_silence_left: bool) -> ActuatorFindings {
         let left = self.steps.len().saturating_sub(self.next);
         self.tried.left += u64::try_from(left).unwrap_or(0);
         self.tried.is_silence_left = is_silence_left;
@@ -317,15 +323,15 @@ fn raw(value: &[Scalar]) -> Vec<f64> {
 /// Whether an output stays without being sent again.
 fn is_lasting(one: &Expected) -> bool {
     match &one.what {
-        What::Level(..) | What::Pulses(_) | What::Millivolts(_) => true,
-        What::Write(written) => written.is_shared(),
-        What::Message(..) | What::Frame(_) => false,
+        Expectation::Level(..) | Expectation::Pulses(_) | Expectation::Millivolts(_) => true,
+        Expectation::Write(written) => written.is_shared(),
+        Expectation::Message(..) | Expectation::Frame(_) => false,
     }
 }
 
 /// Whether an output is sent again and again while the host speaks.
 fn is_repeated(one: &Expected) -> bool {
-    matches!(&one.what, What::Frame(sent) if sent.resend_ns > 0)
+    matches!(&one.what, Expectation::Frame(sent) if sent.resend_ns > 0)
 }
 
 /// The longest time that a device takes to follow a command.

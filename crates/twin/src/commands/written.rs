@@ -5,7 +5,7 @@ use sensedsl_model::protocol::{InitStep, Protocol};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
-use super::expect::{Expected, What, expected};
+use super::expect::{Expectation, Expected, expected};
 use crate::parts::words;
 
 /// A transfer to a chip.
@@ -74,7 +74,7 @@ pub(super) fn write(
             all.for_each(|((byte, start), own)| *byte |= start & !own);
         }
     }
-    Some(expected(wire, 0, What::Write(Written { bytes, begins, mask })))
+    Some(expected(wire, 0, Expectation::Write(Written { bytes, begins, mask })))
 }
 
 /// The last transfer of the initialisation with the same length and start.

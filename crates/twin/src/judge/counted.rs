@@ -10,7 +10,7 @@ use sensedsl_model::kind::icu::Mode;
 
 use super::age::link_ns;
 use super::pace::{Pace, REPEAT_NS};
-use super::{Finding, MS, Wrong};
+use super::{Disagreement, Finding, MS};
 use crate::arith::number;
 use crate::truth::Subject;
 
@@ -71,11 +71,11 @@ impl Counted {
     }
 
     /// Whether values come later than the board has to report them.
-    pub(super) fn differs(&self, now_ns: u64) -> Option<Wrong> {
+    pub(super) fn differs(&self, now_ns: u64) -> Option<Disagreement> {
         let got_ns = self.sum_ns.checked_div(self.times)?;
         let most_ns = self.most_ns + self.most_ns * PERCENT / 100 + MS;
         let is_late = self.times >= TIMES_MIN && got_ns > most_ns;
-        is_late.then(|| Wrong {
+        is_late.then(|| Disagreement {
             at_ns: now_ns,
             finding: Finding::Late { most_ns: self.most_ns, got_ns },
             off: 1_000.0 * number(got_ns) / number(self.most_ns.max(1)),

@@ -5,7 +5,7 @@
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_wire::{Causes, DeviceHealth, Health, NEVER_MS, ResetCause, Status};
 
-use super::{Finding, Judged, MS, Wrong};
+use super::{DeviceFindings, Disagreement, Finding, MS};
 use crate::bench::Bench;
 
 /// The health that the world lets a device have when the board is asked for it.
@@ -89,7 +89,7 @@ const SET_NS: u64 = 500 * MS;
 const UNDERWAY: u64 = 2;
 
 /// The error in a board's report on itself, if nothing in the world has disturbed it.
-pub(super) fn board_differs(health: &Health, now_ns: u64, heard: u64) -> Option<String> {
+pub(super) fn board_differs(health: &Health, now_ns: u64, received: u64) -> Option<String> {
     let (now_ms, up_ms) = (now_ns / MS, u64::from(health.uptime_ms));
     if up_ms > now_ms + now_ms / 100 || up_ms + CLOCK_MS + now_ms / 100 < now_ms {
         return Some(format!("it runs for {up_ms} ms, and not for {now_ms} ms"));
@@ -107,38 +107,38 @@ pub(super) fn board_differs(health: &Health, now_ns: u64, heard: u64) -> Option<
         return Some(format!("device {} hung before it started", health.reset_device));
     }
     let sent = u64::from(health.reports_sent);
-    if !(heard..=heard + UNDERWAY).contains(&sent) {
-        return Some(format!("it has sent {sent} reports, of which {heard} came"));
+    if !(received..=received + UNDERWAY).contains(&sent) {
+        return Some(format!("it has sent {sent} reports, of which {received} came"));
     }
     (health.stack_left_bytes == 0).then(|| "a stack is full".to_owned())
 }
 
 /// A finding about the board's report.
-pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
-    Wrong { at_ns, finding: Finding::Health(what), off: 100_000.0 }
+pub(super) fn wrong(at_ns: u64, what: String) -> Disagreement {
+    Disagreement { at_ns, finding: Finding::Health(what), off: 100_000.0 }
 }
 
 /// A device that reports no values: its bus may still count faults, and the board knows when the device was set.
 #[derive(Clone, Debug)]
-pub(super) struct OtherJudge {
+pub(super) struct SilentDeviceJudge {
     pub(super) id: u8,
-    pub(super) judged: Judged,
+    pub(super) judged: DeviceFindings,
     pub(super) is_well: bool,
     /// The time at which the host last set it.
-    pub(super) told_ns: Option<u64>,
+    pub(super) reported_ns: Option<u64>,
 }
 
-impl OtherJudge {
+impl SilentDeviceJudge {
     pub(super) fn new(job: &BoardJob<'_>, bench: &Bench, one: &JobDevice<'_>) -> Self {
-        let judged = Judged::new(one.name().to_owned(), one.device.shown.quantity.clone());
+        let judged = DeviceFindings::new(one.name().to_owned(), one.device.shown.quantity.clone());
         let is_well = bench.excused(job, one.index).is_empty();
-        Self { id: one.device.id.value, judged, is_well, told_ns: None }
+        Self { id: one.device.id.value, judged, is_well, reported_ns: None }
     }
 
     /// A value that is set has no cycle in which it must come again: it is never stale, and it is as old as the
     /// command.
     pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
-        let since_ns = self.told_ns.map(|at_ns| now_ns.saturating_sub(at_ns));
+        let since_ns = self.reported_ns.map(|at_ns| now_ns.saturating_sub(at_ns));
         let expected = Expected {
             is_well: self.is_well,
             was_well: self.is_well,
@@ -159,15 +159,15 @@ mod tests {
 
     #[test]
     fn what_is_set_is_never_stale_and_as_old_as_its_command() {
-        let judge = |told_ns| OtherJudge {
+        let judge = |reported_ns| SilentDeviceJudge {
             id: 20,
-            judged: Judged::new("Motor".to_owned(), None),
+            judged: DeviceFindings::new("Motor".to_owned(), None),
             is_well: true,
-            told_ns,
+            reported_ns,
         };
         let row =
             |status, age_ms| DeviceHealth { id: 20, status, age_ms, causes: Causes::default() };
-        for (told_ns, status, age_ms, is_right) in [
+        for (reported_ns, status, age_ms, is_right) in [
             (Some(4_000 * MS), Status::Good, 2_000, true),
             (Some(4_000 * MS), Status::Stale, 2_000, false),
             (Some(4_000 * MS), Status::NeverRead, NEVER_MS, false),
@@ -176,9 +176,9 @@ mod tests {
             (None, Status::NeverRead, NEVER_MS, true),
             (None, Status::Stale, 5_000, false),
         ] {
-            let mut judge = judge(told_ns);
+            let mut judge = judge(reported_ns);
             judge.health(6_000 * MS, &row(status, age_ms));
-            assert_eq!(judge.judged.wrong == 0, is_right, "{told_ns:?} {status:?} {age_ms}");
+            assert_eq!(judge.judged.wrong == 0, is_right, "{reported_ns:?} {status:?} {age_ms}");
         }
     }
 

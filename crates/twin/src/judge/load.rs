@@ -43,13 +43,13 @@ impl Load {
 
     /// The error in the board's reported load.
     pub(super) fn differs(&self, health: &Health) -> Option<String> {
-        let told = u64::from(health.load_percent);
+        let reported = u64::from(health.load_percent);
         let is_known = health.load_percent != UNKNOWN && self.past.len() > 1;
         let least = self.most_percent.saturating_sub(SLACK_PERCENT);
-        let is_right = (least..=self.most_percent + SLACK_PERCENT).contains(&told);
+        let is_right = (least..=self.most_percent + SLACK_PERCENT).contains(&reported);
         (is_known && !is_right).then(|| {
             let most = self.most_percent;
-            format!("its processor works {told} % of the time at most, and it worked {most} %")
+            format!("its processor works {reported} % of the time at most, and it worked {most} %")
         })
     }
 }
@@ -65,7 +65,7 @@ mod tests {
             // 30 % of the time.
             load.take(step * EVERY_NS, step * EVERY_NS / 10 * 3);
         }
-        let told = |load_percent: u8| Health {
+        let reported = |load_percent: u8| Health {
             uptime_ms: 3_000,
             reset_cause: sensedsl_wire::ResetCause::Power,
             reset_device: 0,
@@ -75,9 +75,9 @@ mod tests {
             stack_left_bytes: 100,
             devices: Vec::new(),
         };
-        assert_eq!(load.differs(&told(30)), None);
-        assert_eq!(load.differs(&told(UNKNOWN)), None);
-        assert!(load.differs(&told(3)).is_some() && load.differs(&told(100)).is_some());
-        assert_eq!(Load::default().differs(&told(100)), None);
+        assert_eq!(load.differs(&reported(30)), None);
+        assert_eq!(load.differs(&reported(UNKNOWN)), None);
+        assert!(load.differs(&reported(3)).is_some() && load.differs(&reported(100)).is_some());
+        assert_eq!(Load::default().differs(&reported(100)), None);
     }
 }

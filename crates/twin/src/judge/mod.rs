@@ -24,7 +24,7 @@ use sensedsl_wire::{Direction, Health, Scalar};
 
 use crate::bench::Bench;
 use crate::truth::Subject;
-use health::OtherJudge;
+use health::SilentDeviceJudge;
 use load::Load;
 use sensor::SensorJudge;
 
@@ -35,7 +35,7 @@ const REPORTS_MIN: u64 = 100;
 
 /// A disagreement between a board and its world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wrong {
+pub struct Disagreement {
     /// The time at which it was noticed.
     pub at_ns: u64,
     /// The kind of disagreement.
@@ -99,7 +99,7 @@ pub enum Finding {
 
 /// The findings about a device.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged {
+pub struct DeviceFindings {
     /// Its name.
     pub name: String,
     /// Its unit.
@@ -111,7 +111,7 @@ pub struct Judged {
     /// The number of wrong values and of silences.
     pub wrong: u64,
     /// The worst finding.
-    pub worst: Option<Wrong>,
+    pub worst: Option<Disagreement>,
     /// The greatest age of a value.
     pub age_ns: u64,
     /// The average time from one report to the next; `None` if too few came.
@@ -123,14 +123,14 @@ pub struct Judged {
 pub struct Judge {
     devices: Vec<SensorJudge>,
     /// The actuators, whose health is all that is judged here.
-    others: Vec<OtherJudge>,
+    others: Vec<SilentDeviceJudge>,
     board: String,
     /// The identifiers of the board's devices, in order.
     ids: Vec<u8>,
     /// The board's name; `None` if something in the world disturbs the board.
     undisturbed: Option<String>,
     /// The number of reports received.
-    heard: u64,
+    received: u64,
     /// The times of the first and the last report.
     first_ns: Option<u64>,
     last_ns: u64,
@@ -139,7 +139,7 @@ pub struct Judge {
     load: Load,
 }
 
-impl Judged {
+impl DeviceFindings {
     fn new(name: String, quantity: Option<String>) -> Self {
         let quantity = quantity.unwrap_or_default();
         Self {
@@ -155,7 +155,7 @@ impl Judged {
     }
 
     /// Counts a finding, and keeps the worst.
-    fn note(&mut self, wrong: Option<Wrong>) {
+    fn note(&mut self, wrong: Option<Disagreement>) {
         let Some(wrong) = wrong else { return };
         self.wrong += 1;
         if self.worst.as_ref().is_none_or(|worst| worst.off < wrong.off) {
@@ -180,9 +180,9 @@ impl Judge {
             devices,
             board: name.clone(),
             ids,
-            others: others.map(|one| OtherJudge::new(job, bench, one)).collect(),
+            others: others.map(|one| SilentDeviceJudge::new(job, bench, one)).collect(),
             undisturbed: (!bench.is_disturbed()).then_some(name),
-            heard: 0,
+            received: 0,
             first_ns: None,
             last_ns: 0,
             reporter_ns: pace::reporter_ns(job),
@@ -192,7 +192,7 @@ impl Judge {
 
     /// A report has arrived.
     pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
-        self.heard += 1;
+        self.received += 1;
         self.last_ns = now_ns;
         let first_ns = *self.first_ns.get_or_insert(now_ns);
         for (id, elements) in values {
@@ -217,10 +217,10 @@ impl Judge {
     }
 
     /// Takes the time at which the host last set each actuator, by identifier.
-    pub fn told(&mut self, told: &[(u8, u64)]) {
-        for (id, at_ns) in told {
+    pub fn reported(&mut self, reported: &[(u8, u64)]) {
+        for (id, at_ns) in reported {
             if let Some(other) = self.others.iter_mut().find(|one| one.id == *id) {
-                other.told_ns = Some(*at_ns);
+                other.reported_ns = Some(*at_ns);
             }
         }
     }
@@ -228,7 +228,7 @@ impl Judge {
     /// The board has reported its own health and that of its devices.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
         if let Some(board) = self.undisturbed.clone() {
-            let what = health::board_differs(health, now_ns, self.heard);
+            let what = health::board_differs(health, now_ns, self.received);
             let load = self.load.differs(health).filter(|_| what.is_none());
             for what in what.into_iter().chain(load) {
                 self.say_of_board(now_ns, &board, what);
@@ -252,9 +252,14 @@ impl Judge {
     fn rows_differ(&self, health: &Health) -> Option<String> {
         let mut ids: Vec<u8> = health.devices.iter().map(|row| row.id).collect();
         ids.sort_unstable();
-        let told = |ids: &[u8]| ids.iter().map(u8::to_string).collect::<Vec<String>>().join(", ");
+        let reported =
+            |ids: &[u8]| ids.iter().map(u8::to_string).collect::<Vec<String>>().join(", ");
         (ids != self.ids).then(|| {
-            format!("it speaks of the devices {}, and not of {}", told(&ids), told(&self.ids))
+            format!(
+                "it speaks of the devices {}, and not of {}",
+                reported(&ids),
+                reported(&self.ids)
+            )
         })
     }
 
@@ -265,37 +270,42 @@ impl Judge {
 
     /// The board has handled the return of its host wrongly.
     pub fn comes_back(&mut self, now_ns: u64, what: String) {
-        let mut judged = Judged::new(self.board.clone(), None);
-        judged.note(Some(Wrong {
+        let mut judged = DeviceFindings::new(self.board.clone(), None);
+        judged.note(Some(Disagreement {
             at_ns: now_ns,
             finding: Finding::Transfer(what),
             off: 200_000.0,
         }));
-        self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+        self.others.push(SilentDeviceJudge { id: 0, judged, is_well: false, reported_ns: None });
     }
 
     /// The board has treated parts on buses in ways that their drivers do not describe.
     pub fn transfers(&mut self, now_ns: u64, odd: &[(String, String)]) {
         for (part, what) in odd {
-            let mut judged = Judged::new(part.clone(), None);
+            let mut judged = DeviceFindings::new(part.clone(), None);
             let finding = Finding::Transfer(what.clone());
-            judged.note(Some(Wrong { at_ns: now_ns, finding, off: 50.0 }));
-            self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+            judged.note(Some(Disagreement { at_ns: now_ns, finding, off: 50.0 }));
+            self.others.push(SilentDeviceJudge {
+                id: 0,
+                judged,
+                is_well: false,
+                reported_ns: None,
+            });
         }
     }
 
     fn say_of_board(&mut self, now_ns: u64, board: &str, what: String) {
-        let mut judged = Judged::new(board.to_owned(), None);
+        let mut judged = DeviceFindings::new(board.to_owned(), None);
         judged.note(Some(health::wrong(now_ns, what)));
-        self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+        self.others.push(SilentDeviceJudge { id: 0, judged, is_well: false, reported_ns: None });
     }
 
     /// The finding if the board sends more than one report in each cycle of its reporter.
-    fn hurries(&self) -> Option<Wrong> {
-        let between = self.heard.checked_sub(1).filter(|between| *between >= REPORTS_MIN)?;
+    fn hurries(&self) -> Option<Disagreement> {
+        let between = self.received.checked_sub(1).filter(|between| *between >= REPORTS_MIN)?;
         let got_ns = self.last_ns.saturating_sub(self.first_ns?) / between;
         let expected_ns = (self.reporter_ns, self.reporter_ns);
-        (got_ns < self.reporter_ns - self.reporter_ns / 20).then_some(Wrong {
+        (got_ns < self.reporter_ns - self.reporter_ns / 20).then_some(Disagreement {
             at_ns: self.last_ns,
             finding: Finding::Pace { expected_ns, got_ns },
             off: 1_000.0,
@@ -304,11 +314,16 @@ impl Judge {
 
     /// Ends the run and returns the findings.
     #[must_use]
-    pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
+    pub fn finish(mut self, now_ns: u64) -> Vec<DeviceFindings> {
         if let Some(wrong) = self.hurries() {
-            let mut judged = Judged::new(self.board.clone(), None);
+            let mut judged = DeviceFindings::new(self.board.clone(), None);
             judged.note(Some(wrong));
-            self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+            self.others.push(SilentDeviceJudge {
+                id: 0,
+                judged,
+                is_well: false,
+                reported_ns: None,
+            });
         }
         for sensor in &mut self.devices {
             sensor.finish(now_ns);

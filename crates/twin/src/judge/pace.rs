@@ -4,7 +4,7 @@ use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
-use super::{Finding, MS, SECOND, Wrong};
+use super::{Disagreement, Finding, MS, SECOND};
 use crate::arith::number;
 use crate::bench::Bench;
 use crate::parts::pulses;
@@ -152,7 +152,7 @@ fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64)
 
 /// The time between reports so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Paced {
+pub(super) struct ReportIntervals {
     sum_ns: u64,
     times: u64,
     /// The time of the last report, if the interval that starts there may count.
@@ -161,7 +161,7 @@ pub(super) struct Paced {
     answers: u64,
 }
 
-impl Paced {
+impl ReportIntervals {
     /// A report has come. The interval since the one before counts unless something explains its length. A report that
     /// was delayed by an answer to the host says nothing about when the next one comes.
     pub(super) fn take(&mut self, now_ns: u64, counts: bool, has_waited: bool) {
@@ -188,7 +188,12 @@ impl Paced {
     }
 
     /// The finding if the measured pace is not the expected one.
-    pub(super) fn differs(&self, now_ns: u64, pace: &Pace, may_be_slow: bool) -> Option<Wrong> {
+    pub(super) fn differs(
+        &self,
+        now_ns: u64,
+        pace: &Pace,
+        may_be_slow: bool,
+    ) -> Option<Disagreement> {
         let got_ns = self.mean_ns()?;
         let jitter_ns = pace.jitter_ns / self.times.max(1);
         let answers_ns = self.answers * pace.turn_ns / self.times.max(1);
@@ -201,7 +206,7 @@ impl Paced {
         let ratio =
             number(got_ns.max(1)) / number(if is_slow { pace.most_ns } else { pace.least_ns });
         let expected_ns = (pace.least_ns, pace.most_ns);
-        (is_slow || is_fast).then(|| Wrong {
+        (is_slow || is_fast).then(|| Disagreement {
             at_ns: now_ns,
             finding: Finding::Pace { expected_ns, got_ns },
             // A wrong pace explains values that are too old, but not the other way round.
@@ -216,7 +221,7 @@ mod tests {
 
     #[test]
     fn what_has_waited_for_its_host_says_nothing_of_the_pace() {
-        let mut paced = Paced::default();
+        let mut paced = ReportIntervals::default();
         for (at_ms, has_waited) in
             [(1_320, true), (2_000, false), (3_000, false), (4_000, false), (5_000, false)]
         {

@@ -8,7 +8,7 @@ use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
 
 use super::pace::reporter_ns;
-use super::{Finding, Wrong};
+use super::{Disagreement, Finding};
 use crate::arith::number;
 use crate::parts::line::{Spikes, levels};
 use crate::truth::Subject;
@@ -18,7 +18,7 @@ const SEEN_MIN: f64 = 4.0;
 
 /// The values of a contact.
 #[derive(Clone, Debug)]
-pub(super) struct Pressed {
+pub(super) struct ContactValues {
     lasting_ns: u64,
     spikes: Spikes,
     /// The time from one sample of its wire to the next; 0 if its edges interrupt.
@@ -26,10 +26,10 @@ pub(super) struct Pressed {
     /// The time from one value to the next; 0 if each change is reported.
     delay_ns: u64,
     /// For each element, its changes so far: the time, and whether it was on from then.
-    told: Vec<Vec<(u64, bool)>>,
+    reported: Vec<Vec<(u64, bool)>>,
 }
 
-impl Pressed {
+impl ContactValues {
     /// The state for a contact with a debounce time; `None` for any other device.
     pub(super) fn of(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Self> {
         let device: &Device = one.device;
@@ -46,16 +46,16 @@ impl Pressed {
             spikes: Spikes::below(lasting_ns),
             look_ns: if is_looked_at { reporter_ns(job) } else { 0 },
             delay_ns: if is_looked_at { delay_ns } else { 0 },
-            told: vec![Vec::new(); device.value.value.count()],
+            reported: vec![Vec::new(); device.value.value.count()],
         })
     }
 
     /// A value has come.
     pub(super) fn take(&mut self, now_ns: u64, raw: &[f64]) {
-        for (told, raw) in self.told.iter_mut().zip(raw) {
+        for (reported, raw) in self.reported.iter_mut().zip(raw) {
             let level = *raw >= 0.5;
-            if told.last().is_none_or(|(_, before)| *before != level) {
-                told.push((now_ns, level));
+            if reported.last().is_none_or(|(_, before)| *before != level) {
+                reported.push((now_ns, level));
             }
         }
     }
@@ -67,9 +67,9 @@ impl Pressed {
         subject: &Subject,
         (from_ns, now_ns): (u64, u64),
         age_ns: u64,
-    ) -> Option<Wrong> {
+    ) -> Option<Disagreement> {
         let (mut count, mut seen) = (0_u64, 0.0);
-        for (element, told) in self.told.iter().enumerate() {
+        for (element, reported) in self.reported.iter().enumerate() {
             let levels = levels(subject, element, from_ns, now_ns);
             for window in levels.windows(4) {
                 let &[(before_ns, _), (start_ns, level), (end_ns, _), (next_ns, _)] = window else {
@@ -79,10 +79,10 @@ impl Pressed {
                 if !is_alone || !self.is_short(start_ns, end_ns) {
                     continue;
                 }
-                let is_told = |(at_ns, what): &(u64, bool)| {
+                let is_reported = |(at_ns, what): &(u64, bool)| {
                     *what == level && (start_ns..=end_ns + age_ns).contains(at_ns)
                 };
-                if told.iter().any(is_told) {
+                if reported.iter().any(is_reported) {
                     return None;
                 }
                 count += 1;
@@ -90,7 +90,7 @@ impl Pressed {
             }
         }
         let finding = Finding::Unseen { count, lasting_ns: self.lasting_ns };
-        (seen >= SEEN_MIN).then_some(Wrong { at_ns: now_ns, finding, off: 1_000.0 })
+        (seen >= SEEN_MIN).then_some(Disagreement { at_ns: now_ns, finding, off: 1_000.0 })
     }
 
     /// Whether a level lasts longer than the debounce time but less than twice as long, and nothing disturbs it.

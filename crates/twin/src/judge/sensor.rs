@@ -9,11 +9,11 @@ use super::age::{link_ns, measured_ns};
 use super::counted::Counted;
 use super::filtered::{Filtered, Shape};
 use super::health::{Expected, wrong};
-use super::pace::{Pace, Paced};
-use super::pressed::Pressed;
+use super::pace::{Pace, ReportIntervals};
+use super::pressed::ContactValues;
 use super::silence::Reasons;
 use super::tolerance::tolerance;
-use super::{Finding, Judged, MS, SECOND, Wrong};
+use super::{DeviceFindings, Disagreement, Finding, MS, SECOND};
 use crate::bench::Bench;
 use crate::range::{is_counter, raw_range};
 use crate::truth::{Subject, real};
@@ -30,16 +30,16 @@ const SETTLED: u64 = 8;
 #[derive(Clone, Debug)]
 pub(super) struct SensorJudge {
     pub(super) subject: Subject,
-    pub(super) judged: Judged,
+    pub(super) judged: DeviceFindings,
     /// The tolerance in raw numbers.
     tolerance: f64,
     /// How often it should report; `None` if the world gives it nothing to measure.
     pace: Option<Pace>,
-    paced: Paced,
+    paced: ReportIntervals,
     /// How late its values are, for a device that is reported when it changes.
     counted: Option<Counted>,
     /// The values reported for a contact with a debounce time.
-    pressed: Option<Pressed>,
+    pressed: Option<ContactValues>,
     reasons: Reasons,
     /// The time until which a board need not be up.
     start_ns: u64,
@@ -110,7 +110,8 @@ impl SensorJudge {
         let reasons =
             Reasons { filter: filter.clone(), icu: icu.cloned(), tolerance, age_ns: memory_ns };
         let quantity = device.shown.quantity.clone();
-        let judged = Judged { age_ns, ..Judged::new(subject.name.clone(), quantity) };
+        let judged =
+            DeviceFindings { age_ns, ..DeviceFindings::new(subject.name.clone(), quantity) };
         let is_encoder = device.kind.encoder().is_some();
         Self {
             judged,
@@ -120,9 +121,9 @@ impl SensorJudge {
             filtered: vec![Filtered::default(); subject.signals.len()],
             fed_since_ns: None,
             memory_ns,
-            paced: Paced::default(),
+            paced: ReportIntervals::default(),
             counted: Counted::of(job, one, pace.as_ref()),
-            pressed: Pressed::of(job, one),
+            pressed: ContactValues::of(job, one),
             reasons,
             start_ns: START_NS + MS * u64::from(one.cycle.start_ms),
             halves: u16::from(device.kind.uart().is_some()),
@@ -178,7 +179,8 @@ impl SensorJudge {
             } else {
                 self.compare(now_ns, element, *got)
             };
-            let is_worse = |wrong: &Wrong| worst.as_ref().is_none_or(|worst| worst.off < wrong.off);
+            let is_worse =
+                |wrong: &Disagreement| worst.as_ref().is_none_or(|worst| worst.off < wrong.off);
             if let Some(wrong) = wrong.filter(is_worse) {
                 worst = Some(wrong);
             }
@@ -189,12 +191,12 @@ impl SensorJudge {
     }
 
     /// The finding if a value should not have been reported at all.
-    fn unfiltered(&self, now_ns: u64, before_ns: u64, raw: &[f64]) -> Option<Wrong> {
+    fn unfiltered(&self, now_ns: u64, before_ns: u64, raw: &[f64]) -> Option<Disagreement> {
         let filter = &self.reasons.filter;
         let is_raw = filter.median < 2 && filter.smooth_ms == 0;
         let is_invalid =
             |raw: &&f64| filter.invalid.iter().any(|(low, high)| (*low..=*high).contains(*raw));
-        let wrong = |finding| Some(Wrong { at_ns: now_ns, finding, off: 100.0 });
+        let wrong = |finding| Some(Disagreement { at_ns: now_ns, finding, off: 100.0 });
         if let Some(raw) = raw.iter().find(is_invalid).filter(|_| is_raw) {
             return wrong(Finding::Invalid(self.subject.scale.shown(*raw)));
         }
@@ -244,7 +246,7 @@ impl SensorJudge {
         (least, greatest, self.tolerance)
     }
 
-    fn compare(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+    fn compare(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Disagreement> {
         if self.selections.contains(&got) {
             return None;
         }
@@ -257,7 +259,7 @@ impl SensorJudge {
     }
 
     /// The start of a count is unknown, but it must be the same for all reports.
-    fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+    fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Disagreement> {
         let (least, greatest, tolerance) = self.expected(now_ns, element);
         let found = (got - greatest - tolerance, got - least + tolerance);
         let known = self.bases.get(element).copied().flatten();
@@ -287,11 +289,11 @@ impl SensorJudge {
         element: usize,
         (least, greatest): (f64, f64),
         (got, off): (f64, f64),
-    ) -> Wrong {
+    ) -> Disagreement {
         let [one, other, got] = [least, greatest, got].map(|raw| self.subject.scale.shown(raw));
         let expected = (one.min(other), one.max(other));
         let finding = Finding::Value { element, expected, got };
-        Wrong { at_ns, finding, off: off / self.tolerance.max(0.5) }
+        Disagreement { at_ns, finding, off: off / self.tolerance.max(0.5) }
     }
 
     /// By how much a count may be off, down and up, because the board was not up.
@@ -331,7 +333,7 @@ impl SensorJudge {
             let off = 10.0 * crate::arith::number(silent_ns) / crate::arith::number(gap_ns);
             let since_ns = if since_ns == self.start_ns { 0 } else { since_ns };
             let finding = Finding::Silence(crate::bench::seconds(now_ns - since_ns));
-            self.judged.note(Some(Wrong { at_ns: now_ns, finding, off }));
+            self.judged.note(Some(Disagreement { at_ns: now_ns, finding, off }));
         }
     }
 
@@ -366,7 +368,7 @@ impl SensorJudge {
         let cycles = 2 + u64::from(self.reasons.filter.median);
         if silent_ns > cycles * pace.most_ns + self.judged.age_ns {
             let finding = Finding::Silence(crate::bench::seconds(now_ns));
-            self.judged.note(Some(Wrong { at_ns: now_ns, finding, off: 10.0 }));
+            self.judged.note(Some(Disagreement { at_ns: now_ns, finding, off: 10.0 }));
         }
     }
 

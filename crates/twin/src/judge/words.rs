@@ -1,9 +1,9 @@
 //! Findings in words.
 
-use super::{Finding, Judged, MS};
+use super::{DeviceFindings, Finding, MS};
 use crate::bench::seconds;
 
-impl Judged {
+impl DeviceFindings {
     /// The worst finding about the device; empty if there is none.
     #[must_use]
     pub fn words(&self) -> String {

@@ -33,7 +33,7 @@ struct Form {
 
 /// A part that sends messages.
 #[derive(Clone, Debug)]
-pub(crate) struct Talker {
+pub(crate) struct MessageSender {
     form: Form,
     /// The time from one message to the next.
     period_ns: u64,
@@ -45,7 +45,7 @@ pub(crate) struct Talker {
     number: u64,
 }
 
-impl Talker {
+impl MessageSender {
     pub(crate) fn new(uart: Uart, fields: Vec<Field>, delay_ns: u64, subjects: &[Subject]) -> Self {
         let form = Form { uart, fields };
         // Text fields get longer and shorter with their values.

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use sensedsl_model::protocol::{Formula, Protocol};
 use sensedsl_model::words::Words;
 
-use rest::Rest;
+use rest::Pause;
 
 use super::ranges::Ranges;
 use super::sleep::Sleep;
@@ -92,7 +92,7 @@ pub(crate) struct Registers {
     odd: Option<String>,
     waits: Waits,
     /// The pause that it needs.
-    rest: Rest,
+    rest: Pause,
 }
 
 impl Registers {
@@ -114,7 +114,7 @@ impl Registers {
             begun: 0,
             odd: None,
             waits: Waits::default(),
-            rest: Rest::default(),
+            rest: Pause::default(),
         }
     }
 

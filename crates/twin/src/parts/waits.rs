@@ -56,9 +56,9 @@ mod tests {
 
     #[test]
     fn a_wait_that_is_always_too_long_is_told() {
-        let told = waited(&[65, 66, 65]).too_long(2).unwrap();
+        let reported = waited(&[65, 66, 65]).too_long(2).unwrap();
         assert_eq!(
-            told,
+            reported,
             "it is read 130 ms after its trigger at the soonest, and measures for 65 ms"
         );
         // The other parts had their turn now and then.

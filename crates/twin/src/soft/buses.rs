@@ -71,7 +71,7 @@ impl Bus {
                     break;
                 }
             };
-            self.chip.done(outcome, &mut |item, outcome, value| core.tell(item, outcome, value));
+            self.chip.done(outcome, &mut |item, outcome, value| core.record(item, outcome, value));
             if outcome != Outcome::Fresh {
                 // It is started again in the next cycle.
                 self.wakes_ms = since_ms + u64::from(self.table.cycle_ms.max(1));
@@ -228,7 +228,7 @@ pub(super) struct Port {
     unit: u8,
     cycle: Cycle,
     /// The items reported in this cycle.
-    told: Vec<usize>,
+    reported: Vec<usize>,
     /// The length of a silence that no message contains, and how long the line has been silent.
     pause_ms: u64,
     idle_ms: u64,
@@ -238,24 +238,24 @@ impl Port {
     /// The same part in its state at the start of the board.
     pub(super) fn anew(&self) -> Self {
         let stream = Box::new(MessageStream::new(self.table, self.schema));
-        Self { stream, told: Vec::new(), idle_ms: 0, ..*self }
+        Self { stream, reported: Vec::new(), idle_ms: 0, ..*self }
     }
 
     pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
         if begins(since_ms, self.cycle) {
-            self.told.clear();
+            self.reported.clear();
         }
         self.idle_ms += 1;
         while let Some(byte) = bench.uart_in(self.unit, now_ns) {
             self.idle_ms = 0;
-            let told = &mut self.told;
+            let reported = &mut self.reported;
             self.stream.feed(&[byte], &mut |item, outcome, value| {
                 // Only the first value of each item in a cycle counts.
-                if !told.contains(&item) {
+                if !reported.contains(&item) {
                     if outcome == Outcome::Fresh {
-                        told.push(item);
+                        reported.push(item);
                     }
-                    core.tell(item, outcome, value);
+                    core.record(item, outcome, value);
                 }
             });
         }
@@ -281,7 +281,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             stream: Box::new(MessageStream::new(table, schema)),
             unit: one.unit.and_then(|name| units.number(name)).unwrap_or(0),
             cycle: one.cycle,
-            told: Vec::new(),
+            reported: Vec::new(),
             pause_ms: 2 + 30_000 / u64::from(uart.baud.max(1)),
             idle_ms: 0,
         });
@@ -293,7 +293,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
 #[derive(Clone)]
 pub(super) struct CanPeers {
     unit: u8,
-    heard: Vec<Heard>,
+    received: Vec<Heard>,
 }
 
 #[derive(Clone)]
@@ -305,26 +305,26 @@ struct Heard {
     what: Item,
     field: MessageField,
     cycle: Cycle,
-    is_told: bool,
+    is_reported: bool,
 }
 
 impl CanPeers {
     pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
-        for heard in self.heard.iter_mut().filter(|one| begins(since_ms, one.cycle)) {
-            heard.is_told = false;
+        for received in self.received.iter_mut().filter(|one| begins(since_ms, one.cycle)) {
+            received.is_reported = false;
         }
         while let Some(frame) = bench.can_in(self.unit, now_ns) {
             let data = frame.data.get(..usize::from(frame.length)).unwrap_or_default();
             let bits = data.iter().rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte));
-            let takers = self.heard.iter_mut().filter(|one| {
+            let takers = self.received.iter_mut().filter(|one| {
                 let (mask, select) = one.select;
                 one.frame_id == (frame.id, frame.extended) && bits & mask == select
             });
-            for heard in takers.filter(|one| !one.is_told) {
-                let mut value = vec![0; heard.what.bytes()];
-                if let Some(outcome) = heard.field.read(&heard.what, data, &mut value) {
-                    heard.is_told = true;
-                    core.tell(heard.item, outcome, &mut value);
+            for received in takers.filter(|one| !one.is_reported) {
+                let mut value = vec![0; received.what.bytes()];
+                if let Some(outcome) = received.field.read(&received.what, data, &mut value) {
+                    received.is_reported = true;
+                    core.record(received.item, outcome, &mut value);
                 }
             }
         }
@@ -343,18 +343,18 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<CanPeers> {
         };
         let Some(field) = tables::in_frame(item, one.device) else { continue };
         let unit = one.unit.and_then(|name| units.number(name)).unwrap_or(0);
-        let heard = Heard {
+        let received = Heard {
             frame_id: (can.frame_id, can.is_extended),
             select: can.select().unwrap_or_default(),
             item,
             what: *what,
             field,
             cycle: one.cycle,
-            is_told: false,
+            is_reported: false,
         };
         match all.iter_mut().find(|bus| bus.unit == unit) {
-            Some(bus) => bus.heard.push(heard),
-            None => all.push(CanPeers { unit, heard: vec![heard] }),
+            Some(bus) => bus.received.push(received),
+            None => all.push(CanPeers { unit, received: vec![received] }),
         }
     }
     all

@@ -95,9 +95,9 @@ struct Core {
 }
 
 impl Core {
-    fn tell(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
+    fn record(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
         let filter = self.filters.get_mut(&index).map(|filter| &mut ***filter);
-        self.store.tell(&mut self.health, filter, index, outcome, value, self.now_ms);
+        self.store.record(&mut self.health, filter, index, outcome, value, self.now_ms);
     }
 }
 

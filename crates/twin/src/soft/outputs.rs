@@ -48,12 +48,12 @@ enum Sink {
     Bridge(Bridge, BridgeState, Vec<Pin>),
     Message(u8, Compose),
     /// A value may be in each of the contents of a multiplexed frame.
-    Frames(Vec<InFrame>),
+    Frames(Vec<FrameField>),
 }
 
 /// The frame that has a value, the byte at which it starts there, and its coding.
 #[derive(Clone)]
-struct InFrame {
+struct FrameField {
     place: usize,
     byte: usize,
     coding: Coding,
@@ -206,7 +206,7 @@ impl Output {
     }
 }
 
-impl InFrame {
+impl FrameField {
     /// Writes the value, and returns whether the frame must be sent now.
     fn put(&self, item: &Item, value: &[u8], to: &mut Frame) -> bool {
         let mut coded = [0; 8];
@@ -293,7 +293,7 @@ fn pin(wire: &JobConnection<'_>) -> Option<Pin> {
 
 /// The values in CAN frames, by place in the schema.
 fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
-    let mut all: BTreeMap<usize, Vec<InFrame>> = BTreeMap::new();
+    let mut all: BTreeMap<usize, Vec<FrameField>> = BTreeMap::new();
     let units = Units::new(job);
     for bus in can::buses(job, job.connections.iter(), &mut Vec::new()) {
         // The unit goes by the board's name for it: a profile may use another one.
@@ -304,7 +304,7 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
                 let words = Words::of(value.device.device);
                 let mask = words.map_or(0, |words| words.in_frame(value.byte));
                 let (place, byte, is_quiet) = (frames.len(), value.byte.into(), value.is_quiet);
-                let in_frame = InFrame { place, byte, coding, mask, is_quiet };
+                let in_frame = FrameField { place, byte, coding, mask, is_quiet };
                 all.entry(value.index).or_default().push(in_frame);
             }
             let length = u8::try_from(repeated.bytes).unwrap_or(8);

@@ -1,7 +1,7 @@
 //! Converters, captures, contacts and encoders: the measurements of the MCU's own peripherals.
 
 use sense_rt::{
-    Capture, CaptureConfig, CaptureMode, Captured, Contact, ContactConfig, ContactTold, Edge,
+    Capture, CaptureConfig, CaptureMode, Captured, Contact, ContactConfig, ContactReport, Edge,
     Elements, Formula, Item, Outcome, Repeat, Train, TrainConfig, store_count, store_mean,
     store_signed,
 };
@@ -86,12 +86,12 @@ impl Converter {
             };
             let outputs = formula.compute(&[], parameters, &level.to_be_bytes());
             let Some(result) = outputs.as_ref().and_then(|all| all.get(*output)) else {
-                core.tell(self.index, Outcome::Invalid, &mut []);
+                core.record(self.index, Outcome::Invalid, &mut []);
                 return;
             };
             store_signed(self.item.scalar, *result, target);
         }
-        core.tell(self.index, Outcome::Fresh, &mut value);
+        core.record(self.index, Outcome::Fresh, &mut value);
     }
 }
 
@@ -215,7 +215,7 @@ impl Captures {
         if self.mode == Mode::Ppm {
             self.tell_train(core, &config);
         } else {
-            self.tell(core, since_ms);
+            self.record(core, since_ms);
         }
     }
 
@@ -235,7 +235,7 @@ impl Captures {
         }
     }
 
-    fn tell(&mut self, core: &mut Core, since_ms: u64) {
+    fn record(&mut self, core: &mut Core, since_ms: u64) {
         let config = CaptureConfig {
             mode: match self.mode {
                 Mode::Width => CaptureMode::Width,
@@ -260,7 +260,7 @@ impl Captures {
         }
         let is_complete = matches!(self.mode, Mode::Width | Mode::Period);
         if self.elements.are_due(self.wires.len(), is_complete) {
-            core.tell(self.index, Outcome::Fresh, &mut self.value.clone());
+            core.record(self.index, Outcome::Fresh, &mut self.value.clone());
         }
     }
 
@@ -277,7 +277,7 @@ impl Captures {
         let Some(wire) = self.wires.first() else { return };
         let mut value = vec![0; self.item.bytes()];
         let outcome = wire.train.read(config, &mut self.seen_trains, &self.item, &mut value);
-        core.tell(self.index, outcome, &mut value);
+        core.record(self.index, outcome, &mut value);
     }
 }
 
@@ -316,15 +316,15 @@ pub(super) struct Contacts {
     is_count: bool,
     is_active_low: bool,
     at_rest: bool,
-    wires: Vec<(Edges, Contact, ContactTold)>,
-    told: Vec<u32>,
+    wires: Vec<(Edges, Contact, ContactReport)>,
+    reported: Vec<u32>,
 }
 
 pub(super) fn contacts(job: &BoardJob<'_>) -> Vec<Contacts> {
     let all = devices(job).filter_map(|(index, one, item)| {
         let own = one.device.kind.digital()?;
         let wire =
-            |connection| (Edges::new(connection, Role::In), Contact::NEW, ContactTold::default());
+            |connection| (Edges::new(connection, Role::In), Contact::NEW, ContactReport::default());
         let edge = match own.edge {
             Some(digital::Edge::Rising) => Edge::Rising,
             Some(digital::Edge::Falling) => Edge::Falling,
@@ -341,7 +341,7 @@ pub(super) fn contacts(job: &BoardJob<'_>) -> Vec<Contacts> {
             is_active_low: own.active_low,
             at_rest: own.pull == Pull::Up,
             wires: wires(one).into_iter().map(wire).collect(),
-            told: Vec::new(),
+            reported: Vec::new(),
         })
     });
     all.collect()
@@ -351,7 +351,7 @@ impl Contacts {
     pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
         let now_us = wrapped(now_ns / 1_000);
         let mut has_news = false;
-        for (edges, contact, told) in &mut self.wires {
+        for (edges, contact, reported) in &mut self.wires {
             edges.begin(now_ns);
             while let Some((at, level)) = edges.next(bench, now_ns) {
                 if self.has_edge && interrupts(&self.config, level) {
@@ -361,7 +361,7 @@ impl Contacts {
             let level = bench.level_at(edges.connection, Role::In, now_ns).unwrap_or(self.at_rest);
             if self.has_edge {
                 contact.look(&self.config, level, now_us);
-                has_news |= told.tell(&self.config, contact).is_some();
+                has_news |= reported.record(&self.config, contact).is_some();
             } else {
                 contact.sample(&self.config, level, now_us);
             }
@@ -369,8 +369,8 @@ impl Contacts {
         if self.is_count {
             let counts: Vec<u32> =
                 self.wires.iter().map(|(_, contact, _)| contact.edges()).collect();
-            has_news = counts != self.told;
-            self.told = counts;
+            has_news = counts != self.reported;
+            self.reported = counts;
         }
         if !has_news && !begins(since_ms, self.cycle) {
             return;
@@ -382,7 +382,7 @@ impl Contacts {
             let raw = if self.is_count { i64::from(contact.edges()) } else { i64::from(is_on) };
             store_count(self.item.scalar, raw, target);
         }
-        core.tell(self.index, Outcome::Fresh, &mut value);
+        core.record(self.index, Outcome::Fresh, &mut value);
     }
 }
 
@@ -403,7 +403,7 @@ pub(super) struct Encoders {
     item: Item,
     wheels: Vec<Wheel>,
     repeat: Repeat,
-    told: Vec<i32>,
+    reported: Vec<i32>,
 }
 
 #[derive(Clone)]
@@ -424,7 +424,7 @@ pub(super) fn encoders(job: &BoardJob<'_>) -> Vec<Encoders> {
             count: 0,
         };
         let wheels = wires(one).into_iter().map(wheel).collect();
-        Some(Encoders { index, item, wheels, repeat: Repeat::NEW, told: Vec::new() })
+        Some(Encoders { index, item, wheels, repeat: Repeat::NEW, reported: Vec::new() })
     });
     all.collect()
 }
@@ -438,7 +438,7 @@ impl Encoders {
             return;
         }
         let counts: Vec<i32> = self.wheels.iter().map(|wheel| wheel.count).collect();
-        if !self.repeat.is_due(counts != self.told, REPEAT_MS, wrapped(since_ms)) {
+        if !self.repeat.is_due(counts != self.reported, REPEAT_MS, wrapped(since_ms)) {
             return;
         }
         let mut value = vec![0; self.item.bytes()];
@@ -446,8 +446,8 @@ impl Encoders {
             let target = element(&mut value, &self.item, place);
             store_count(self.item.scalar, i64::from(*count), target);
         }
-        self.told = counts;
-        core.tell(self.index, Outcome::Fresh, &mut value);
+        self.reported = counts;
+        core.record(self.index, Outcome::Fresh, &mut value);
     }
 }
 

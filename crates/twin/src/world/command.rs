@@ -6,7 +6,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 use sensedsl_model::design::{Device, DeviceIndex};
-use sensedsl_model::given::{self, Given, NotGiven};
+use sensedsl_model::given::{self, EnteredValue, EntryError};
 use sensedsl_wire::{Direction, Scalar};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -100,15 +100,15 @@ impl<'a> Reader<'a> {
         let name = &device.name.value;
         let read = match wanted.get_ref().as_str() {
             Some(text) => given::value(text, device),
-            None => number(wanted.get_ref()).map(Given::Shown).ok_or(NotGiven::NoNumber),
+            None => number(wanted.get_ref()).map(EnteredValue::Shown).ok_or(EntryError::NoNumber),
         };
         let (raw, words) = match read {
-            Ok(Given::Shown(shown)) => (scale.raw(shown), short(shown)),
-            Ok(Given::Code(code)) => (code, format!("raw {}", short(code))),
-            Err(NotGiven::Misfit(why, help)) => {
+            Ok(EnteredValue::Shown(shown)) => (scale.raw(shown), short(shown)),
+            Ok(EnteredValue::Code(code)) => (code, format!("raw {}", short(code))),
+            Err(EntryError::ValueMismatch(why, help)) => {
                 return Err(value::does_not_fit(span, name, &why, &help).into());
             }
-            Err(NotGiven::NoNumber) => {
+            Err(EntryError::NoNumber) => {
                 let what = format!("what `{name}` is set to");
                 let wanted = "a number, a text with a unit, `true` or `false`";
                 return Err(unreadable::wrong_sort(span, &what, wanted, "value = 50").into());

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_model::design::Device;
-use sensedsl_model::given::{self, Given, NotGiven};
+use sensedsl_model::given::{self, EnteredValue, EntryError};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -203,8 +203,8 @@ impl Entry<'_> {
         let Some(text) = value.get_ref().as_str() else { return Ok(number(value.get_ref())) };
         match read(text, self.device) {
             Ok(number) => Ok(Some(number)),
-            Err(NotGiven::NoNumber) => Ok(None),
-            Err(NotGiven::Misfit(why, help)) => {
+            Err(EntryError::NoNumber) => Ok(None),
+            Err(EntryError::ValueMismatch(why, help)) => {
                 let span = self.span(value);
                 Err(e0542_world_value::does_not_fit(span, self.name(), &why, &help).into())
             }
@@ -221,16 +221,16 @@ impl Entry<'_> {
 }
 
 /// The function that reads a text.
-type Read = fn(&str, &Device) -> Result<f64, NotGiven>;
+type Read = fn(&str, &Device) -> Result<f64, EntryError>;
 
 /// The kind of value expected for a quantity.
 const NUMBER: &str = "a number, or a text with a unit";
 
 /// A value as the device shows it.
-fn shown_of(text: &str, device: &Device) -> Result<f64, NotGiven> {
+fn shown_of(text: &str, device: &Device) -> Result<f64, EntryError> {
     Ok(match given::value(text, device)? {
-        Given::Shown(shown) => shown,
-        Given::Code(code) => device.shown.of_raw(code),
+        EnteredValue::Shown(shown) => shown,
+        EnteredValue::Code(code) => device.shown.of_raw(code),
     })
 }
 

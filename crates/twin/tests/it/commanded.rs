@@ -2,7 +2,7 @@
 //! of the correct design.
 
 use sensedsl_twin::bench::Bench;
-use sensedsl_twin::commands::{Commands, Tried};
+use sensedsl_twin::commands::{ActuatorFindings, Commands};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_wire::{Decoder, Direction, Event, encode_hello_request};
 
@@ -40,11 +40,11 @@ const EXPANDER: &str = "board STM32F407G_DISC1 {
 }";
 
 /// The findings about the outputs of a board with a mistake, by the judge of the correct design.
-fn tried(wrong: &str, world: &str) -> Vec<Tried> {
+fn tried(wrong: &str, world: &str) -> Vec<ActuatorFindings> {
     tried_as(RIGHT, wrong, world)
 }
 
-pub(crate) fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
+pub(crate) fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<ActuatorFindings> {
     with_job(right, |right| {
         with_job(wrong, |wrong| {
             assert_eq!(right.schema.hash(), wrong.schema.hash());
@@ -69,7 +69,7 @@ pub(crate) fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
 }
 
 /// The names of the actuators with findings when a text of the design is replaced by another.
-fn amiss(from: &str, to: &str) -> Vec<String> {
+fn mismatch(from: &str, to: &str) -> Vec<String> {
     assert!(RIGHT.contains(from), "{from}");
     let all = tried(&RIGHT.replacen(from, to, 1), "");
     all.into_iter().filter(|one| one.wrong > 0).map(|one| one.name).collect()
@@ -93,7 +93,7 @@ fn outputs_of_an_expander_are_judged_bit_by_bit() {
         assert_eq!((one.wrong, one.left, one.is_silence_left), (0, 0, false), "{one:#?}");
         assert!(one.looks >= 5 && one.commands >= 4, "{one:#?}");
     }
-    let amiss = |wrong: &str| {
+    let mismatch = |wrong: &str| {
         let all = tried_as(EXPANDER, wrong, "").into_iter().filter(|one| one.wrong > 0);
         all.map(|one| one.name).collect::<Vec<String>>()
     };
@@ -104,7 +104,7 @@ fn outputs_of_an_expander_are_judged_bit_by_bit() {
         ("reading = gpb4", "reading = gpb6", "Pump"),
     ];
     for (from, to, name) in seeds {
-        let found = amiss(&EXPANDER.replacen(from, to, 1));
+        let found = mismatch(&EXPANDER.replacen(from, to, 1));
         assert!(found.iter().any(|one| one == name), "{from} -> {to}: {found:?}");
     }
 }
@@ -134,7 +134,7 @@ fn each_mistake_is_noticed_where_it_is() {
         ("end = [0x0D]", "end = [0x0A]", "Say"),
     ];
     for (from, to, name) in seeds {
-        let found = amiss(from, to);
+        let found = mismatch(from, to);
         assert!(found.iter().any(|one| one == name), "{from} -> {to}: {found:?}");
     }
 }
@@ -169,7 +169,7 @@ fn several_actuators_are_told_at_once() {
 #[test]
 fn a_silence_that_does_not_count_or_counts_too_soon_is_noticed() {
     for silence in ["3 s", "200 ms"] {
-        let found = amiss("silence = 400 ms", &format!("silence = {silence}"));
+        let found = mismatch("silence = 400 ms", &format!("silence = {silence}"));
         assert!(found.len() >= 5, "{silence}: {found:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use sensedsl_job::JobDevice;
 use sensedsl_twin::bench::Bench;
-use sensedsl_twin::judge::{Finding, Judge, Judged};
+use sensedsl_twin::judge::{DeviceFindings, Finding, Judge};
 use sensedsl_wire::{Causes, DeviceHealth, Health, ResetCause, Scalar, Status};
 
 use crate::run::{Values, plainly, read, simulate, with_job};
@@ -201,7 +201,7 @@ fn a_first_value_that_does_not_come_is_wrong() {
     }
 }
 
-fn wrong_names(judged: &[Judged]) -> Vec<&str> {
+fn wrong_names(judged: &[DeviceFindings]) -> Vec<&str> {
     judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect()
 }
 

@@ -171,14 +171,14 @@ fn a_contact_that_must_last_for_another_time_is_seen() {
                  {edge} delay = 50 ms; pull = up; active = low; }} }}"
             )
         };
-        let told = |debounce: &str| {
+        let reported = |debounce: &str| {
             let run = mistaken(&text("20 ms"), &text(debounce), "", 6);
             run.of("Bumper").words()
         };
-        assert_eq!(told("20 ms"), "", "{edge}");
-        let longer = told("40 ms");
+        assert_eq!(reported("20 ms"), "", "{edge}");
+        let longer = reported("40 ms");
         assert!(longer.contains("a little longer than its 20 ms"), "{edge} {longer}");
-        let shorter = told("10 ms");
+        let shorter = reported("10 ms");
         assert!(shorter.contains("and not"), "{edge} {shorter}");
     }
 }

@@ -4,8 +4,8 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
-use sensedsl_twin::bench::{Bench, Unasked};
-use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_twin::bench::{Bench, UncheckedIdentity};
+use sensedsl_twin::judge::{DeviceFindings, Judge};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene, World};
 use sensedsl_wire::{Decoder, Direction, Event, Scalar, encode_health_request};
@@ -16,16 +16,16 @@ pub(crate) type Values = Vec<(u8, Vec<Scalar>)>;
 pub(crate) struct Run {
     pub(crate) bytes: Vec<u8>,
     pub(crate) reports: Vec<(u64, Values)>,
-    pub(crate) judged: Vec<Judged>,
+    pub(crate) judged: Vec<DeviceFindings>,
     pub(crate) dropped: u64,
-    pub(crate) unasked: Vec<Unasked>,
+    pub(crate) unasked: Vec<UncheckedIdentity>,
     /// The parts on buses that the board has treated in a way that their drivers do not describe,
     /// each with what happened.
     pub(crate) odd: Vec<(String, String)>,
 }
 
 impl Run {
-    pub(crate) fn of(&self, name: &str) -> &Judged {
+    pub(crate) fn of(&self, name: &str) -> &DeviceFindings {
         self.judged.iter().find(|one| one.name == name).unwrap_or_else(|| panic!("no {name}"))
     }
 

@@ -6,7 +6,7 @@ use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, RuleId};
 
-use super::{Maker, Wanted};
+use super::{Maker, RequestedWires};
 use crate::formulate::{Chosen, GPIO};
 use crate::levels::{Tolerates, stands};
 use crate::names::{Group, Resource};
@@ -158,7 +158,12 @@ pub(super) enum Need<'n> {
 }
 
 /// Whether the pin is where the device must be.
-pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
+pub(super) fn pin_fits(
+    offer: &Offer<'_>,
+    wanted: &RequestedWires<'_>,
+    role: Role,
+    pin: &Pin,
+) -> bool {
     let same = |wanted: Option<&str>, has: Option<&str>| {
         wanted.is_none_or(|wanted| has.is_some_and(|has| has.eq_ignore_ascii_case(wanted)))
     };
@@ -168,7 +173,7 @@ pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: 
         && stands_level(offer, wanted, role, pin)
 }
 
-fn stands_level(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
+fn stands_level(offer: &Offer<'_>, wanted: &RequestedWires<'_>, role: Role, pin: &Pin) -> bool {
     let Some(mv) = wanted.level_mv.filter(|_| role.is_driven_by_device()) else { return true };
     !matches!(stands(offer.board, pin, wanted.kind, mv), Tolerates::No(_))
 }

@@ -16,7 +16,7 @@ impl Maker<'_, '_> {
         &mut self,
         unit: Option<&str>,
         claims: &[Claim],
-        roles: Vec<MadeRole>,
+        roles: Vec<RoleCandidates>,
     ) -> Vec<Alternatives> {
         let board = self.offer.index;
         let mut made = Vec::new();
@@ -44,7 +44,7 @@ impl Maker<'_, '_> {
     /// The same choices with no two wires of the device on one contact. Claims keep devices apart,
     /// not the wires of one device: if the first role may take a contact that a later one may take
     /// as well, each such contact makes a case of its own, so that no choice is in two cases.
-    pub(super) fn apart(&self, mut roles: Vec<MadeRole>) -> Vec<Vec<MadeRole>> {
+    pub(super) fn apart(&self, mut roles: Vec<RoleCandidates>) -> Vec<Vec<RoleCandidates>> {
         if roles.iter().any(|(role, _)| role.candidates.is_empty()) {
             return Vec::new();
         }
@@ -52,7 +52,7 @@ impl Maker<'_, '_> {
             return vec![roles];
         }
         let first = roles.remove(0);
-        let pads = |(_, chosen): &MadeRole| -> BTreeSet<&str> {
+        let pads = |(_, chosen): &RoleCandidates| -> BTreeSet<&str> {
             chosen.iter().filter_map(|at| self.offer.shared_pad(at.pin)).collect()
         };
         let later: BTreeSet<&str> = roles.iter().flat_map(pads).collect();
@@ -83,9 +83,9 @@ impl Maker<'_, '_> {
     /// for each combination of sets of blocks that have a block in common.
     pub(super) fn in_one_block(
         &self,
-        mut roles: Vec<MadeRole>,
+        mut roles: Vec<RoleCandidates>,
         common: Option<Blocks>,
-    ) -> Vec<Vec<MadeRole>> {
+    ) -> Vec<Vec<RoleCandidates>> {
         if roles.is_empty() {
             return vec![roles];
         }
@@ -115,10 +115,13 @@ impl Maker<'_, '_> {
 }
 
 /// A role's candidates and their meanings.
-pub(super) type MadeRole = (SolverRole, Vec<Chosen>);
+pub(super) type RoleCandidates = (SolverRole, Vec<Chosen>);
 
 /// The candidates for which the condition holds.
-pub(super) fn keep((role, chosen): &MadeRole, fits: impl Fn(&Chosen) -> bool) -> MadeRole {
+pub(super) fn keep(
+    (role, chosen): &RoleCandidates,
+    fits: impl Fn(&Chosen) -> bool,
+) -> RoleCandidates {
     let pairs = role.candidates.iter().zip(chosen).filter(|(_, at)| fits(at));
     let (candidates, chosen) = pairs.map(|(candidate, at)| (candidate.clone(), *at)).unzip();
     (SolverRole { candidates }, chosen)

@@ -9,7 +9,7 @@ use sensedsl_board::table::Usage;
 use sensedsl_model::kind::Role;
 
 use super::candidates::Need;
-use super::cases::MadeRole;
+use super::cases::RoleCandidates;
 use super::{Alternatives, Maker, served, unit_fits};
 use crate::names::{Group, Resource};
 use crate::wishes::Channels;
@@ -98,7 +98,7 @@ impl Maker<'_, '_> {
         self.finish(Some(unit), &claims, roles)
     }
 
-    fn push_gpios(&mut self, roles: &mut Vec<MadeRole>) {
+    fn push_gpios(&mut self, roles: &mut Vec<RoleCandidates>) {
         let all = self.wanted.kind.roles(self.wanted.direction);
         for role in all.into_iter().filter(|role| role.is_on_any_pin()) {
             roles.push(self.role(role, &Need::Gpio, None));

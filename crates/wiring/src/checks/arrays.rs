@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{e0322_array_too_long, w0604_unused_rule};
 use sensedsl_diagnostics::{Diagnostic, Span};
-use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together, WishFor};
+use sensedsl_model::design::{
+    BoardIndex, Connection, ConnectionIndex, Design, PreferenceSubject, Together,
+};
 use sensedsl_wire::Direction;
 
 use super::relaxed;
@@ -25,7 +27,8 @@ pub(super) fn without_unit(wires: &Connection) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let hard = wires.placement.together.iter().filter(|one| one.value == Together::Unit);
-    let soft = wires.wishes.iter().filter(|one| one.what == WishFor::Together(Together::Unit));
+    let soft =
+        wires.wishes.iter().filter(|one| one.what == PreferenceSubject::Together(Together::Unit));
     let report = |span: Span, rule: &str| {
         w0604_unused_rule::unused_rule(span, rule, "digital wires are of no peripheral")
     };

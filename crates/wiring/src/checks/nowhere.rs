@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sensedsl_diagnostics::codes::w0604_unused_rule;
 use sensedsl_diagnostics::{Diagnostic, nearest};
-use sensedsl_model::design::{Board, BoardIndex, Design, Wish, WishFor};
+use sensedsl_model::design::{Board, BoardIndex, Design, Preference, PreferenceSubject};
 
 /// Wishes for a pin, unit, side or header that is on none of the boards that they are for.
 pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
@@ -16,9 +16,9 @@ pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
         found.extend(of_board.1.wishes.iter().filter_map(|wish| useless(wish, on)));
     }
     // The connections of a part share their rules.
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for wires in &design.connections {
-        if told.insert(wires.part) {
+        if reported.insert(wires.part) {
             let may_be_on = |(index, _): &&(BoardIndex, &Board)| {
                 wires.board.is_none_or(|board| board == *index)
             };
@@ -29,23 +29,31 @@ pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
     found
 }
 
-fn useless(wish: &Wish, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
+fn useless(wish: &Preference, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
     let pins = || boards.iter().flat_map(|(_, board)| &board.table.pins);
     let (name, known): (&str, BTreeSet<&str>) = match &wish.what {
-        WishFor::Pin(_, pin) if boards.iter().any(|(index, _)| pin.on(*index).is_some()) => {
+        PreferenceSubject::Pin(_, pin)
+            if boards.iter().any(|(index, _)| pin.on(*index).is_some()) =>
+        {
             return None;
         }
-        WishFor::Pin(_, pin) => (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect()),
-        WishFor::Unit(unit) => return no_unit(wish, unit, boards),
-        WishFor::Side(side) => (side, pins().filter_map(|pin| pin.side.as_deref()).collect()),
-        WishFor::Header(name) => (name, pins().filter_map(|pin| pin.header.as_deref()).collect()),
-        WishFor::Together(_) | WishFor::Sequence => return None,
+        PreferenceSubject::Pin(_, pin) => {
+            (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect())
+        }
+        PreferenceSubject::Unit(unit) => return no_unit(wish, unit, boards),
+        PreferenceSubject::Side(side) => {
+            (side, pins().filter_map(|pin| pin.side.as_deref()).collect())
+        }
+        PreferenceSubject::Header(name) => {
+            (name, pins().filter_map(|pin| pin.header.as_deref()).collect())
+        }
+        PreferenceSubject::Together(_) | PreferenceSubject::Sequence => return None,
     };
     let exists = known.iter().any(|one| one.eq_ignore_ascii_case(name));
     (!exists).then(|| report(wish, name, nearest(name, known.iter().copied())))
 }
 
-fn no_unit(wish: &Wish, unit: &str, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
+fn no_unit(wish: &Preference, unit: &str, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
     let mut known = BTreeSet::new();
     for (_, board) in boards {
         let usages = board.table.pins.iter().flat_map(|pin| &pin.usages);
@@ -59,7 +67,7 @@ fn no_unit(wish: &Wish, unit: &str, boards: &[(BoardIndex, &Board)]) -> Option<D
     Some(report(wish, unit, nearest(unit, known.iter().map(String::as_str))))
 }
 
-fn report(wish: &Wish, name: &str, meant: Option<&str>) -> Diagnostic {
+fn report(wish: &Preference, name: &str, meant: Option<&str>) -> Diagnostic {
     let why = format!("no board that it is for has `{name}`");
     let rule = crate::labels::describe(wish);
     let unused = w0604_unused_rule::unused_rule(wish.span, &rule, &why);

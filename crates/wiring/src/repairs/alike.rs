@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_model::design::{BoardIndex, Design};
 
-use super::{Repair, Tried};
-use crate::formulate::{Asker, Formulation};
+use super::{Repair, TrialResult};
+use crate::formulate::{Formulation, Requester};
 use crate::solver;
 
 /// The properties that interchangeable devices have in common: their choices, and what decides on
@@ -20,7 +20,7 @@ pub(super) type Change = (Likeness, Option<BoardIndex>);
 pub(super) struct Alike {
     /// For each device of the problem, the first that is interchangeable with it.
     first: Vec<usize>,
-    tried: BTreeMap<Change, Tried>,
+    tried: BTreeMap<Change, TrialResult>,
     unknown: BTreeSet<Change>,
 }
 
@@ -46,8 +46,8 @@ impl Alike {
             | Repair::Release(..)
             | Repair::Relink(..) => return None,
         };
-        let of_part = |asker: &Asker| {
-            let Asker::Connection(connection) = asker else { return None };
+        let of_part = |asker: &Requester| {
+            let Requester::Connection(connection) = asker else { return None };
             design.connection(*connection).filter(|one| one.part == index)
         };
         let mut all = formulation.askers.iter().enumerate();
@@ -60,9 +60,9 @@ impl Alike {
         Some(((*self.first.get(number)?, device.delay_ms, device.prio), to))
     }
 
-    pub(super) fn known(&self, change: Change) -> Option<Tried> {
+    pub(super) fn known(&self, change: Change) -> Option<TrialResult> {
         if self.unknown.contains(&change) {
-            return Some(Tried::Unknown);
+            return Some(TrialResult::Unknown);
         }
         self.tried.get(&change).copied()
     }
@@ -72,8 +72,8 @@ impl Alike {
         self.unknown.clear();
     }
 
-    pub(super) fn learn(&mut self, change: Change, tried: Tried) {
-        if tried == Tried::Unknown {
+    pub(super) fn learn(&mut self, change: Change, tried: TrialResult) {
+        if tried == TrialResult::Unknown {
             self.unknown.insert(change);
         } else {
             self.tried.insert(change, tried);

@@ -16,7 +16,7 @@ const STEPS_MAX: u64 = 12_000;
 
 /// The result of trying a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tried {
+pub(super) enum TrialResult {
     /// There is a wiring after it that costs this much.
     Helps { cost: u32, is_best: bool },
     /// There is no wiring after it.
@@ -37,29 +37,36 @@ impl<'a> Budget<'a> {
         Self { steps: STEPS_MAX, cancel }
     }
 
-    pub(super) fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> Tried {
+    pub(super) fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> TrialResult {
         self.spend(&repair.applied(design), share, |wiring| match wiring.one_of_the_best() {
             Some(Solved::Wired(found)) => {
-                Tried::Helps { cost: found.cost, is_best: found.bound.is_none() }
+                TrialResult::Helps { cost: found.cost, is_best: found.bound.is_none() }
             }
-            Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => Tried::Unknown,
-            None | Some(Solved::Infeasible(_) | Solved::Failed(_)) => Tried::IsNoHelp,
+            Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => {
+                TrialResult::Unknown
+            }
+            None | Some(Solved::Infeasible(_) | Solved::Failed(_)) => TrialResult::IsNoHelp,
         })
     }
 
     /// Whether it is quickly known that the design has no wiring.
     pub(super) fn is_impossible(&mut self, design: &Design) -> bool {
         let tried = self.spend(design, SHARES[0], |wiring| {
-            if wiring.is_impossible() { Tried::IsNoHelp } else { Tried::Unknown }
+            if wiring.is_impossible() { TrialResult::IsNoHelp } else { TrialResult::Unknown }
         });
-        tried == Tried::IsNoHelp
+        tried == TrialResult::IsNoHelp
     }
 
     /// Asks within the share of the steps.
-    fn spend(&mut self, design: &Design, share: u64, ask: impl Fn(&Wiring<'_>) -> Tried) -> Tried {
+    fn spend(
+        &mut self,
+        design: &Design,
+        share: u64,
+        ask: impl Fn(&Wiring<'_>) -> TrialResult,
+    ) -> TrialResult {
         let share = share.min(self.steps);
         if share == 0 || self.cancel.is_over() {
-            return Tried::Unknown;
+            return TrialResult::Unknown;
         }
         let spent = AtomicU64::new(0);
         // Putting the problem does not count as a step.

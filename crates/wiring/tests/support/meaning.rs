@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::tied::{Case, Kind, Part, Rule, Wish};
+use super::tied::{Case, Kind, Part, Preference, Rule};
 
 /// A wire: board, pin and usage by their numbers in the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -256,7 +256,7 @@ impl<'c> World<'c> {
         }
     }
 
-    fn violates(&self, part: &Part, (prefer, rule): &Wish, ways: &[&Way]) -> bool {
+    fn violates(&self, part: &Part, (prefer, rule): &Preference, ways: &[&Way]) -> bool {
         if rule.is_tie() {
             return part.is_array && !self.ties(part, rule, ways);
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, resolve};
 
 /// A small generator (splitmix64), so that a seed always gives the same design.
 struct Rng(u64);
@@ -37,8 +37,8 @@ pub struct Text {
 }
 
 impl Files for Text {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        self.tables.get(wanted.path).cloned().ok_or(Unread::Missing)
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
+        self.tables.get(wanted.path).cloned().ok_or(ReadError::Missing)
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{FileRequest, Files, ReadError, Request, resolve};
 
 /// A small generator (splitmix64), so that a seed always gives the same case.
 pub struct Rng(u64);
@@ -84,7 +84,7 @@ impl Rule {
 }
 
 /// A soft rule: whether it is preferred, and what.
-pub type Wish = (bool, Rule);
+pub type Preference = (bool, Rule);
 
 #[derive(Clone, Debug)]
 pub struct Part {
@@ -95,14 +95,14 @@ pub struct Part {
     /// The driver of a chip.
     pub chip: Option<&'static str>,
     pub rules: Vec<Rule>,
-    pub wishes: Vec<Wish>,
+    pub wishes: Vec<Preference>,
 }
 
 #[derive(Clone, Debug)]
 pub struct Case {
     pub boards: Vec<Vec<Row>>,
     pub spare: bool,
-    pub board_wishes: Vec<Vec<Wish>>,
+    pub board_wishes: Vec<Vec<Preference>>,
     pub parts: Vec<Part>,
     /// Whether the limits of ChibiOS's drivers apply, on an STM32F407.
     pub chibios: bool,
@@ -222,7 +222,7 @@ fn table(rng: &mut Rng, pins: usize) -> Vec<Row> {
     rows
 }
 
-fn wish(rng: &mut Rng, is_array: bool, single: bool) -> Option<Wish> {
+fn wish(rng: &mut Rng, is_array: bool, single: bool) -> Option<Preference> {
     if is_array && rng.one_in(2) {
         return Some((true, tie(rng)));
     }
@@ -317,8 +317,8 @@ pub struct Text {
 }
 
 impl Files for Text {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        self.tables.get(wanted.path).cloned().ok_or(Unread::Missing)
+    fn read(&self, wanted: &FileRequest<'_>) -> Result<String, ReadError> {
+        self.tables.get(wanted.path).cloned().ok_or(ReadError::Missing)
     }
 }
 
@@ -391,7 +391,7 @@ fn csv(rows: &[Row]) -> String {
     csv
 }
 
-fn wish_text((prefer, rule): &Wish) -> String {
+fn wish_text((prefer, rule): &Preference) -> String {
     format!("{} {}", if *prefer { "prefer" } else { "avoid" }, rule.text())
 }
 

@@ -4,7 +4,7 @@ use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_files::FileEntry;
 use sensedsl_generate::host::HOSTS;
 use sensedsl_generate::{Selection, project};
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::{FileRequest, Files, ReadError};
 use sensedsl_session::{Ask, On, Workspace};
 
 use super::super::facts::Folder;
@@ -23,8 +23,8 @@ pub(super) enum Made {
 struct Alone;
 
 impl Files for Alone {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
+    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
+        Err(ReadError::Missing)
     }
 }
 

@@ -85,7 +85,7 @@ fn say_the_same(design: &str, link: &str, cycle_ms: u64) {
         let which = if link == UART { "uart" } else { "usb" };
         let image = system.image(&format!("both_{design}_{which}_{system:?}"), &text)?;
         let trial = run(system, (&text, &world), &image, SECONDS, &[]);
-        assert!(trial.halt.is_none() && trial.misled.is_empty(), "{:?}", trial.misled);
+        assert!(trial.halt.is_none() && trial.mismatches.is_empty(), "{:?}", trial.mismatches);
         assert!(trial.wrong().is_empty(), "{system:?}: {:#?}", trial.wrong());
         let silent = trial.judged.iter().filter(|one| one.reports == 0);
         assert_eq!(silent.map(|one| one.name.as_str()).collect::<Vec<_>>(), [""; 0]);

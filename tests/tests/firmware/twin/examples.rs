@@ -37,10 +37,10 @@ fn world(name: &str) -> String {
 #[track_caller]
 fn assert_agrees(what: &str, trial: &Trial) {
     assert!(
-        trial.halt.is_none() && trial.misled.is_empty(),
+        trial.halt.is_none() && trial.mismatches.is_empty(),
         "{what}: {:?} {:?}",
         trial.halt,
-        trial.misled
+        trial.mismatches
     );
     let told = trial.told.iter().filter(|one| !matches!(one, Event::Reset { .. }));
     let told: Vec<&Event> = told.collect();

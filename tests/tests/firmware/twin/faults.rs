@@ -23,7 +23,12 @@ fn with(system: System, fault: &str) -> Option<Trial> {
     let world = format!("{}\n[[fault]]\n{fault}\n", rover_world());
     let image = rover_image(system)?;
     let trial = run(system, (&rover(), &world), &image, 10, &[6_500, 9_900]);
-    assert!(trial.halt.is_none() && trial.misled.is_empty(), "{:?} {:?}", trial.halt, trial.misled);
+    assert!(
+        trial.halt.is_none() && trial.mismatches.is_empty(),
+        "{:?} {:?}",
+        trial.halt,
+        trial.mismatches
+    );
     assert!(trial.wrong().is_empty(), "{fault}: {:#?}", trial.wrong());
     Some(trial)
 }

@@ -2,7 +2,7 @@
 //! orders, multiplexed contents, repeated frames. The soft board and both images must agree with
 //! the judge's own reading of the design.
 
-use sensedsl_tests::{Scratch, is_thorough, sensedsl};
+use sensedsl_tests::{TempDir, is_thorough, sensedsl};
 
 use super::silent::judged;
 use super::trial::System;
@@ -22,7 +22,7 @@ fn assert_looked_at(name: &str, said: &str) {
 /// `Both` is in two contents of its frame; one of them is sent when it is set.
 #[test]
 fn the_soft_board_sends_them() {
-    let scratch = Scratch::new("frames-soft");
+    let scratch = TempDir::new("frames-soft");
     let file = scratch.write("frames.sense", FRAMES).display().to_string();
     let ran = sensedsl(["simulate", &file, "--judge"]).run().exits(0);
     assert_looked_at("soft board", &ran.stdout);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{Scratch, has, run, sensedsl};
+use sensedsl_tests::{TempDir, has, run, sensedsl};
 use sensedsl_wire::Scalar;
 
 use super::trial::Trial;
@@ -23,7 +23,7 @@ pub(super) struct Host {
     line: Line,
     program: Background,
     folder: PathBuf,
-    heard: Vec<u8>,
+    received: Vec<u8>,
 }
 
 impl Host {
@@ -43,16 +43,16 @@ impl Host {
         command.arg("--no-reconnect").arg(&line.device);
         let program = Background::start_apart(&mut command, &folder, NOTES);
         // By the time of its first request, it has set the terminal to raw mode.
-        let heard = line.hear(1, PATIENCE);
-        assert!(!heard.is_empty(), "the host asks nothing: {}", program.output());
-        Some(Self { line, program, folder, heard })
+        let received = line.hear(1, PATIENCE);
+        assert!(!received.is_empty(), "the host asks nothing: {}", program.output());
+        Some(Self { line, program, folder, received })
     }
 
     /// Passes one millisecond: sends the board's bytes to the host, and returns the host's bytes.
     pub(super) fn pass(&mut self, ms: u64, said: &[u8]) -> Vec<u8> {
         self.line.say_all(said);
-        self.heard.extend(self.line.heard());
-        if ms < GREETING_MS { Vec::new() } else { std::mem::take(&mut self.heard) }
+        self.received.extend(self.line.received());
+        if ms < GREETING_MS { Vec::new() } else { std::mem::take(&mut self.received) }
     }
 
     /// Pulls the cable. The host must have shown each value since the greeting, in order, and
@@ -95,7 +95,7 @@ fn text(value: &[Scalar]) -> String {
 /// Generates the host without middleware, and returns its folder.
 fn generated(name: &str, text: &str) -> PathBuf {
     let name = format!("{name}_host");
-    let designs = Scratch::new(&name);
+    let designs = TempDir::new(&name);
     let file = designs.write("design.sense", text).display().to_string();
     let folder = scratch(&name);
     let out = folder.display().to_string();

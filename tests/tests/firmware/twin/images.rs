@@ -4,7 +4,7 @@
 //!
 //! Runs only with `SENSEDSL_THOROUGH=2`: it builds and runs more than sixty programs.
 
-use sensedsl_tests::{Random, Scratch, is_exhaustive, sensedsl};
+use sensedsl_tests::{Random, TempDir, is_exhaustive, sensedsl};
 
 use super::examples::{UART, USB, on_discovery};
 use super::trial::System;
@@ -53,7 +53,7 @@ fn alarm(system: System, name: &str, text: &str) -> Option<String> {
 
 /// The complaint of the command about a given program.
 pub(super) fn alarm_of(system: System, name: &str, text: &str, image: &[u8]) -> Option<String> {
-    let scratch = Scratch::new(name);
+    let scratch = TempDir::new(name);
     let design = scratch.write("design.sense", text).display().to_string();
     let program = scratch.join("program.elf");
     std::fs::write(&program, image).unwrap();

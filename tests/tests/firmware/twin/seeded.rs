@@ -47,12 +47,12 @@ pub(super) fn noticed_in(trial: &Trial) -> String {
         return format!("the program stops: {}", halt.why);
     }
     let mut all = Vec::new();
-    let misled: Vec<String> =
-        trial.misled.iter().map(|one| format!("{} of {}", one.place, one.title)).collect();
-    if !misled.is_empty() {
-        all.push(format!("pads and ports ({})", misled.join(", ")));
+    let mismatches: Vec<String> =
+        trial.mismatches.iter().map(|one| format!("{} of {}", one.place, one.title)).collect();
+    if !mismatches.is_empty() {
+        all.push(format!("pads and ports ({})", mismatches.join(", ")));
     }
-    for one in &trial.misled {
+    for one in &trial.mismatches {
         eprintln!("    {} of {} is {}, not {}", one.place, one.title, one.found, one.expected);
     }
     trial.wrong().iter().chain(&trial.outputs).for_each(|one| eprintln!("    {one}"));

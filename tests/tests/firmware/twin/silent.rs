@@ -1,14 +1,14 @@
 //! Devices that stay silent, tested through the command that users run: an image that was built
 //! from another file than the one it is judged by must not agree with it.
 
-use sensedsl_tests::{Scratch, is_thorough, root, sensedsl};
+use sensedsl_tests::{TempDir, is_thorough, root, sensedsl};
 
 use super::trial::System;
 
 /// Judges an image built from one text by another text; returns the exit status and the output.
 pub(super) fn judged(system: System, name: &str, built: &str, text: &str) -> Option<(i32, String)> {
     let image = system.image(name, built)?;
-    let scratch = Scratch::new(name);
+    let scratch = TempDir::new(name);
     let image = scratch.write("image.elf", &*image).display().to_string();
     let file = scratch.write("board.sense", text).display().to_string();
     let call = ["simulate", &file, "--firmware", &image, "--judge", "--seconds", "6"];

@@ -12,7 +12,7 @@ use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::root;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
-use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_twin::judge::{DeviceFindings, Judge};
 use sensedsl_twin::pads::PadMismatch;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{
@@ -26,8 +26,8 @@ use crate::firmware::embassy;
 
 /// The results of a run.
 pub(super) struct Trial {
-    pub judged: Vec<Judged>,
-    pub misled: Vec<PadMismatch>,
+    pub judged: Vec<DeviceFindings>,
+    pub mismatches: Vec<PadMismatch>,
     pub halt: Option<Lockup>,
     pub told: Vec<Told>,
     /// The health that the board reported, with the time.
@@ -167,7 +167,7 @@ pub(super) fn run_job(
     let mut board = EmulatedBoard::new(job, bench, image).unwrap();
     let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
     let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut misled, mut outputs) = (Vec::new(), Vec::new());
+    let (mut mismatches, mut outputs) = (Vec::new(), Vec::new());
     let (mut said, mut greeted) = (Vec::new(), None);
     let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
     for ms in 1..=seconds * 1_000 {
@@ -206,7 +206,7 @@ pub(super) fn run_job(
             Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
         });
         told.extend(board.events());
-        misled.extend(board.misled());
+        mismatches.extend(board.mismatches());
         if board.halt().is_some() {
             break;
         }
@@ -215,7 +215,7 @@ pub(super) fn run_job(
     let _ = host(seconds * 1_000, &said, &job.schema);
     Trial {
         judged: judge.finish(board.now_ns()),
-        misled,
+        mismatches,
         halt: board.halt(),
         told,
         health,

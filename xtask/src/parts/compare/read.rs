@@ -10,7 +10,7 @@ use anyhow::{Context as _, Result, ensure};
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::Function;
 use sensedsl_board::table;
-use sensedsl_import::{Format, Importer, Source, Unread};
+use sensedsl_import::{Format, Importer, ReadError, Source};
 
 use super::super::sources::entries;
 
@@ -99,7 +99,7 @@ fn worked() -> Option<Duration> {
 fn one(importer: &Importer, folder: &Path, path: &Path) -> Result<String> {
     let name = path.display().to_string();
     let bytes = super::super::sources::read(path)?;
-    let beside = |path: &str| std::fs::read(folder.join(path)).map_err(|_| Unread::Missing);
+    let beside = |path: &str| std::fs::read(folder.join(path)).map_err(|_| ReadError::Missing);
     let imported = importer.import(&Source {
         name: &name,
         bytes: &bytes,

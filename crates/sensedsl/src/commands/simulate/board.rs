@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
-use sensedsl_twin::bench::{Bench, Unasked};
+use sensedsl_twin::bench::{Bench, UncheckedIdentity};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::soft::SoftBoard;
 
@@ -35,7 +35,7 @@ pub(super) trait Board {
         Vec::new()
     }
     /// The parts on buses that the board has read without asking for their identity.
-    fn unasked(&self) -> Vec<Unasked>;
+    fn unasked(&self) -> Vec<UncheckedIdentity>;
     /// The parts on buses that the board has treated in a way that their drivers do not describe, each with what
     /// happened.
     fn odd_transfers(&self) -> Vec<(String, String)>;
@@ -79,7 +79,7 @@ impl Board for SoftBoard {
         self.bench().outputs().clone()
     }
 
-    fn unasked(&self) -> Vec<Unasked> {
+    fn unasked(&self) -> Vec<UncheckedIdentity> {
         self.bench().unasked()
     }
 

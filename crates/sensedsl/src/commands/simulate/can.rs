@@ -47,8 +47,8 @@ impl Adapters {
                 *line = Slcan::default();
             }
             let mut bytes = Vec::new();
-            let heard = if is_connected { pty.read() } else { Vec::new() };
-            for frame in line.feed(&heard, &mut bytes) {
+            let received = if is_connected { pty.read() } else { Vec::new() };
+            for frame in line.feed(&received, &mut bytes) {
                 self.peer.send(*unit, frame);
             }
             for frame in self.peer.receive(*unit) {

@@ -3,24 +3,24 @@
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0552_command_not_done as not_done;
 use sensedsl_twin::bench::seconds;
-use sensedsl_twin::commands::{Amiss, Tried};
+use sensedsl_twin::commands::{ActuatorFindings, WireMismatch};
 
 use super::Simulation;
 use crate::commands::table::table;
 
 /// Prints the findings; returns false if there was a failure.
-pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool> {
+pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[ActuatorFindings]) -> Result<bool> {
     if tried.is_empty() {
         return Ok(true);
     }
     let rows: Vec<[String; 5]> = tried.iter().map(cells).collect();
     let heads = ["Output", ">Set", ">Looked at", ">Excused", ">Wrong"];
     let mut text = format!("\n{}", table(heads, &rows));
-    let mut amiss = Vec::new();
+    let mut mismatch = Vec::new();
     for one in tried {
         if let Some(first) = &one.first {
             text.push_str(&format!("  {}\n", words(first)));
-            amiss.push((one, first));
+            mismatch.push((one, first));
         }
     }
     scenery.terminal.result(&text)?;
@@ -28,7 +28,7 @@ pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool>
         scenery.terminal.aside(&left)?;
     }
     // A failure of an actuator that the host sets is more telling than one of a constant level.
-    let worst = amiss.iter().find(|(one, _)| one.is_set).or(amiss.first());
+    let worst = mismatch.iter().find(|(one, _)| one.is_set).or(mismatch.first());
     let Some((one, first)) = worst else {
         let commands: u64 = tried.iter().map(|one| one.commands).sum();
         let looks: u64 = tried.iter().map(|one| one.looks).sum();
@@ -49,21 +49,21 @@ pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool>
     Ok(false)
 }
 
-fn cells(one: &Tried) -> [String; 5] {
+fn cells(one: &ActuatorFindings) -> [String; 5] {
     let set = if one.is_set { one.commands.to_string() } else { "-".to_owned() };
     let [looks, excused, wrong] = [one.looks, one.excused, one.wrong].map(|one| one.to_string());
     [one.name.clone(), set, looks, excused, wrong]
 }
 
 /// A failure in words.
-fn words(one: &Amiss) -> String {
-    let Amiss { at_ns, wire, after, expected, got, .. } = one;
+fn words(one: &WireMismatch) -> String {
+    let WireMismatch { at_ns, wire, after, expected, got, .. } = one;
     format!("{wire}: at {:.3} s, {after}: {got} and not {expected}", seconds(*at_ns))
 }
 
 /// The values that there was no time for.
-fn left(tried: &[Tried]) -> Option<String> {
-    let short: Vec<&Tried> = tried.iter().filter(|one| one.left > 0).collect();
+fn left(tried: &[ActuatorFindings]) -> Option<String> {
+    let short: Vec<&ActuatorFindings> = tried.iter().filter(|one| one.left > 0).collect();
     let left: u64 = short.iter().map(|one| one.left).sum();
     let names: Vec<&str> = short.iter().take(4).map(|one| one.name.as_str()).collect();
     let more =

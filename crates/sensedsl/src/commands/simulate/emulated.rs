@@ -4,7 +4,7 @@ use sensedsl_diagnostics::codes::e0550_pad_not_as_planned::not_as_planned;
 use sensedsl_diagnostics::codes::e0553_no_watchdog::no_watchdog;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_machine::{Event, ResetCause};
-use sensedsl_twin::bench::{Unasked, seconds};
+use sensedsl_twin::bench::{UncheckedIdentity, seconds};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::emulated::EmulatedBoard;
 
@@ -35,7 +35,7 @@ impl Board for EmulatedBoard {
         self.halt().map(|lockup| (u64::from(lockup.pc), lockup.why))
     }
 
-    fn unasked(&self) -> Vec<Unasked> {
+    fn unasked(&self) -> Vec<UncheckedIdentity> {
         EmulatedBoard::unasked(self)
     }
 
@@ -57,15 +57,15 @@ impl Board for EmulatedBoard {
 
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
         let now = format!("{:.3}", seconds(self.now_ns()));
-        let told = self.misled().into_iter();
-        let told = told
+        let reported = self.mismatches().into_iter();
+        let reported = reported
             .map(|one| not_as_planned(at, &one.title, &one.place, &one.expected, &one.found, &now));
         let watchdog = self.unwatched().map(|found| no_watchdog(at, &found, &now));
-        told.chain(watchdog).collect()
+        reported.chain(watchdog).collect()
     }
 
     fn news(&mut self) -> Vec<String> {
-        let told = |event: Event| match event {
+        let reported = |event: Event| match event {
             Event::Reset { at_ns, cause } => {
                 let cause = match cause {
                     ResetCause::Power => "the supply is back",
@@ -83,6 +83,6 @@ impl Board for EmulatedBoard {
                 seconds(at_ns)
             ),
         };
-        self.events().into_iter().map(told).collect()
+        self.events().into_iter().map(reported).collect()
     }
 }

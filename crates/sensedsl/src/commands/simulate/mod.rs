@@ -26,7 +26,7 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_job::{BoardJob, jobs};
 #[cfg(feature = "twin")]
 use sensedsl_machine::Mcu;
-use sensedsl_model::What;
+use sensedsl_model::FileUse;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
@@ -118,7 +118,7 @@ fn simulate(
         let board = board::soft(job, bench.clone());
         return run::run(&scenery, &bench, board, peer);
     };
-    let image = read_bytes(firmware, What::Image)?;
+    let image = read_bytes(firmware, FileUse::Image)?;
     match machine(&scenery, bench.clone(), firmware, &image) {
         Ok(board) => {
             explain(&scenery, &EMULATED)?;
@@ -177,7 +177,7 @@ fn machine(
 fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
     let mut sources = SourceMap::default();
     let (name, text) = match &args.world {
-        Some(path) => (shown(path), read_text(path, What::World)?),
+        Some(path) => (shown(path), read_text(path, FileUse::World)?),
         None => ("--world".to_owned(), String::new()),
     };
     let path = args.world.as_deref().unwrap_or(Path::new(""));
@@ -185,7 +185,7 @@ fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let samples = |name: &str| -> Result<String, String> {
         let path: PathBuf = folder.join(name);
-        let bytes = disk.bytes(&path, What::World).map_err(|unread| unread.why())?;
+        let bytes = disk.bytes(&path, FileUse::World).map_err(|unread| unread.why())?;
         String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
     };
     let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();

@@ -10,9 +10,9 @@ use sensedsl_diagnostics::codes::{
     e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
 };
 use sensedsl_model::design::Transport;
-use sensedsl_twin::bench::{Bench, Peer, Unasked, seconds};
+use sensedsl_twin::bench::{Bench, Peer, UncheckedIdentity, seconds};
 use sensedsl_twin::commands::Commands;
-use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_twin::judge::{DeviceFindings, Judge};
 use sensedsl_wire::{
     Decoder, Direction, Event, Health, NEVER_MS, Scalar, Status as HealthStatus,
     encode_health_request, encode_hello_request,
@@ -107,7 +107,7 @@ pub(super) struct Session<'a> {
     pub(super) has_shell: bool,
     /// The bytes that came before the board identified itself.
     greeting: Vec<u8>,
-    is_stranger: bool,
+    is_other_design: bool,
     last: Option<Health>,
     reports: u64,
     /// Whether the firmware has done something that is not in the plan.
@@ -133,7 +133,7 @@ impl<'a> Session<'a> {
             is_known: false,
             has_shell: false,
             greeting: Vec::new(),
-            is_stranger: false,
+            is_other_design: false,
             last: None,
             reports: 0,
             is_wrong: false,
@@ -163,8 +163,8 @@ impl<'a> Session<'a> {
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
         let (reporters, is_judged) = (&mut self.reporters, self.is_judged);
         let hash = self.scenery.job.schema.hash();
-        let (is_known, is_stranger, last, reports) =
-            (&mut self.is_known, &mut self.is_stranger, &mut self.last, &mut self.reports);
+        let (is_known, is_other_design, last, reports) =
+            (&mut self.is_known, &mut self.is_other_design, &mut self.last, &mut self.reports);
         if is_judged {
             judge.worked(now_ns, self.board.worked_ns());
         }
@@ -180,9 +180,9 @@ impl<'a> Session<'a> {
                     line.push_str(&screen.line(now_ns, &values));
                 }
             }
-            Event::Hello(told) => {
+            Event::Hello(reported) => {
                 judge.answered();
-                (*is_known, *is_stranger) = (true, told != hash);
+                (*is_known, *is_other_design) = (true, reported != hash);
             }
             Event::Health(health) => {
                 judge.answered();
@@ -247,7 +247,7 @@ impl<'a> Session<'a> {
 
     /// The reason to end the run here; `None` if it goes on.
     pub(super) fn trouble(&self) -> Result<Option<Status>> {
-        if self.is_stranger {
+        if self.is_other_design {
             let name = self.scenery.args.firmware.as_deref().map(crate::files::shown);
             let why = "it was made from another file, or from an older state of this one";
             let name = name.unwrap_or_default();
@@ -360,7 +360,7 @@ impl<'a> Session<'a> {
                 self.step(None)?;
             }
         }
-        self.judge.told(&self.commands.as_ref().map(Commands::told).unwrap_or_default());
+        self.judge.reported(&self.commands.as_ref().map(Commands::reported).unwrap_or_default());
         match &self.last {
             Some(health) => self.judge.health(self.now_ns, health),
             None => self.judge.no_health(self.now_ns, &self.scenery.job.board.name.value),
@@ -417,7 +417,7 @@ impl<'a> Session<'a> {
         let is_asked = identities(scenery, &board.unasked())?;
         let all: u64 = judged.iter().map(|one| one.reports).sum();
         let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
-        let off = |one: &&Judged| one.worst.as_ref().map_or(0.0, |worst| worst.off);
+        let off = |one: &&DeviceFindings| one.worst.as_ref().map_or(0.0, |worst| worst.off);
         let worst = judged.iter().filter(|one| one.wrong > 0);
         let worst = worst.max_by(|one, other| off(one).total_cmp(&off(other)));
         if let Some(worst) = worst {
@@ -446,7 +446,7 @@ impl<'a> Session<'a> {
 }
 
 /// Names the parts whose identity the board has not read; returns false if it should have read one.
-fn identities(scenery: &Simulation<'_>, unasked: &[Unasked]) -> Result<bool> {
+fn identities(scenery: &Simulation<'_>, unasked: &[UncheckedIdentity]) -> Result<bool> {
     let names = |is_known: bool| -> Vec<&str> {
         let own = unasked.iter().filter(|one| one.is_known == is_known);
         own.map(|one| one.name.as_str()).collect()
@@ -474,7 +474,7 @@ fn status(of: HealthStatus) -> &'static str {
     }
 }
 
-fn cells(one: &Judged) -> [String; 6] {
+fn cells(one: &DeviceFindings) -> [String; 6] {
     let age = format!("{} ms", one.age_ns / MS);
     let every = one.every_ns.map_or_else(|| "-".to_owned(), |every| format!("{} ms", every / MS));
     let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());

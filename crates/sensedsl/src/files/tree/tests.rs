@@ -12,9 +12,9 @@ use super::*;
 use crate::files::fault::Fault;
 
 /// A folder for one test.
-struct Scratch(PathBuf);
+struct TempDir(PathBuf);
 
-impl Scratch {
+impl TempDir {
     fn new() -> Self {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -34,7 +34,7 @@ impl Scratch {
     }
 }
 
-impl Drop for Scratch {
+impl Drop for TempDir {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
@@ -108,8 +108,8 @@ fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bo
 }
 
 /// A folder with the old tree and some files of the user's.
-fn before() -> (Scratch, Tree) {
-    let scratch = Scratch::new();
+fn before() -> (TempDir, Tree) {
+    let scratch = TempDir::new();
     let out = scratch.out();
     assert!(write(&out, Fault::default(), OLD, &[OLD_ONCE]).0);
     fs::write(out.join(OLD_ONCE), "mine").unwrap();
@@ -153,7 +153,7 @@ fn identity(_: &Path) -> Vec<u8> {
     Vec::new()
 }
 
-fn clean(scratch: &Scratch) {
+fn clean(scratch: &TempDir) {
     let left: Vec<_> =
         fs::read_dir(&scratch.0).unwrap().map(|one| one.unwrap().file_name()).collect();
     assert_eq!(left, ["out"]);
@@ -316,7 +316,7 @@ fn a_journal_is_completed_by_the_next_run() {
 #[test]
 fn where_nothing_can_stand_beside_the_folder_there_is_a_journal() {
     // A name that cannot become any longer.
-    let scratch = Scratch::new();
+    let scratch = TempDir::new();
     let out = scratch.0.join("x".repeat(250));
     for _ in 0..2 {
         assert_eq!(write(&out, Fault::default(), OLD, &[OLD_ONCE]), (true, false));
@@ -331,7 +331,7 @@ fn where_nothing_can_stand_beside_the_folder_there_is_a_journal() {
 
 #[test]
 fn a_second_run_waits_and_gives_up() {
-    let scratch = Scratch::new();
+    let scratch = TempDir::new();
     let out = scratch.out();
     let first = take(&out, Duration::ZERO, &mut || {}).unwrap();
     let mut said = 0;
@@ -369,7 +369,7 @@ fn an_unfinished_tree_whose_folder_was_replaced_is_not_removed() {
 
 #[test]
 fn lines_of_a_list_that_leave_the_folder_are_not_believed() {
-    let scratch = Scratch::new();
+    let scratch = TempDir::new();
     let lies = "# head\n../a\n/etc/hostname\na/../../b\n\nfine/c\n";
     fs::write(scratch.0.join("list"), lies).unwrap();
     let found: Vec<String> = listed(&scratch.0.join("list")).unwrap().into_iter().collect();

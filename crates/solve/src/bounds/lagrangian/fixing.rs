@@ -2,7 +2,7 @@
 
 use super::Lagrangian;
 use crate::bounds::dualized::Dualized;
-use crate::bounds::subproblems::{Choosable, Group, Way};
+use crate::bounds::subproblems::{Choosable, Group, SlotChoice};
 use crate::domains::{Charge, Domains, Pruned};
 use crate::index::SlotId;
 use crate::model::{Holding, Model};
@@ -125,7 +125,7 @@ impl Lagrangian {
         Ok(())
     }
 
-    fn ways(&self, slot: SlotId) -> &[Way] {
+    fn ways(&self, slot: SlotId) -> &[SlotChoice] {
         self.subproblems.ways.of(self.subproblems.slots[slot])
     }
 }

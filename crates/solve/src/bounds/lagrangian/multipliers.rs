@@ -17,18 +17,18 @@ impl Lagrangian {
         model: &Model,
         limit: u64,
     ) -> Multipliers {
-        let mut rents = self.prices.clone();
+        let mut surcharges = self.prices.clone();
         let mut more: BTreeMap<PriceId, i64> = BTreeMap::new();
         let most = i64::try_from(limit).unwrap_or(i64::MAX >> 20).saturating_add(1);
         for group in self.subproblems.groups.ids() {
-            self.rents(dualized, model, group, most << dualized.shift, &mut more);
+            self.surcharges(dualized, model, group, most << dualized.shift, &mut more);
         }
         for (price, rent) in more {
-            rents[price] += rent;
+            surcharges[price] += rent;
         }
         let mut by = Multipliers { shift: dualized.shift, ..Multipliers::default() };
-        for price in dualized.held.iter().filter(|price| rents[*price] > 0) {
-            let rent = rents[price];
+        for price in dualized.held.iter().filter(|price| surcharges[*price] > 0) {
+            let rent = surcharges[price];
             if price.index() < model.pins.len() {
                 by.pins.push((PinId(price.0), rent));
             } else if let Some(stream) = dualized.stream_of(price) {
@@ -61,7 +61,7 @@ impl Lagrangian {
 
     /// Interchangeable devices cannot all take the cheapest way: a surcharge makes the cheap ways
     /// dearer until all cost what the last device pays.
-    fn rents(
+    fn surcharges(
         &self,
         dualized: &Dualized,
         model: &Model,

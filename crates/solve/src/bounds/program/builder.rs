@@ -18,7 +18,7 @@ const PERTURBATION: f64 = 2e-5;
 type Entries = Vec<(RowId, f64)>;
 
 /// One way to fill a role: its candidates, its cost and its entries.
-struct Way {
+struct RoleChoice {
     ids: Vec<CandId>,
     cost: u64,
     entries: Entries,
@@ -94,23 +94,23 @@ impl<'a> Builder<'a> {
     }
 
     /// The way that these candidates represent. They differ only in the device.
-    fn way(&mut self, ids: Vec<CandId>, prices: &[PriceId]) -> Option<Way> {
+    fn way(&mut self, ids: Vec<CandId>, prices: &[PriceId]) -> Option<RoleChoice> {
         let c = &self.model.cand[*ids.first()?];
         let mut entries = vec![self.priced(Dualized::pin(c.pin), 1.0)];
         entries.extend(prices.iter().map(|&price| self.priced(price, 1.0)));
-        Some(Way { ids, cost: c.extra + self.model.pin_weight[c.pin], entries })
+        Some(RoleChoice { ids, cost: c.extra + self.model.pin_weight[c.pin], entries })
     }
 
-    fn streams(&mut self, requests: &[Request]) -> Vec<Vec<Way>> {
+    fn streams(&mut self, requests: &[Request]) -> Vec<Vec<RoleChoice>> {
         let way = |b: &mut Self, &stream: &PriceId| {
             let entries = vec![b.priced(stream, 1.0)];
-            Way { ids: Vec::new(), cost: 0, entries }
+            RoleChoice { ids: Vec::new(), cost: 0, entries }
         };
         requests.iter().map(|r| r.iter().map(|stream| way(self, stream)).collect()).collect()
     }
 
     /// The column of something that fills these roles whenever it is taken.
-    fn owner(&mut self, mut entries: Entries, roles: Vec<Vec<Way>>) -> ColumnId {
+    fn owner(&mut self, mut entries: Entries, roles: Vec<Vec<RoleChoice>>) -> ColumnId {
         let mut cost = 0;
         for mut ways in roles {
             if ways.len() == 1
@@ -135,7 +135,7 @@ impl<'a> Builder<'a> {
         ids.into_iter().for_each(|id| self.cand_column[id] = Column::Merged);
     }
 
-    fn fill(&mut self, way: Way) -> ColumnId {
+    fn fill(&mut self, way: RoleChoice) -> ColumnId {
         let column = self.column(way.cost, &way.entries);
         if way.ids.is_empty() {
             self.loose.push(column);
@@ -197,7 +197,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The ways of a role that at least one of the interchangeable devices has left.
-    fn ways(&mut self, twins: &[AltId], role: RoleId) -> Vec<Way> {
+    fn ways(&mut self, twins: &[AltId], role: RoleId) -> Vec<RoleChoice> {
         let (model, dualized) = (self.model, self.dualized);
         let mut ways = Vec::new();
         for id in model.cands.of(role) {

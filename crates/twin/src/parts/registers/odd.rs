@@ -43,21 +43,23 @@ impl Registers {
         if let Some(missing) = writes.nth(self.begun) {
             let missing = hex(missing);
             drop(writes);
-            self.tell(|| format!("values are read before {missing} is written, which sets it up"));
+            self.record(|| {
+                format!("values are read before {missing} is written, which sets it up")
+            });
         }
     }
 
     /// The writes that set it up; none for a part that is read while it is written, where they cannot be told apart
     /// from reads.
     pub(super) fn init(&self) -> impl Iterator<Item = &[u8]> {
-        let is_told = self.readings.iter().all(|one| one.exchange.is_empty());
-        self.protocol.init.iter().filter(move |_| is_told).filter_map(|step| match step {
+        let is_reported = self.readings.iter().all(|one| one.exchange.is_empty());
+        self.protocol.init.iter().filter(move |_| is_reported).filter_map(|step| match step {
             InitStep::Write(bytes) => Some(bytes.as_slice()),
             InitStep::Wait { .. } => None,
         })
     }
 
-    fn tell(&mut self, what: impl FnOnce() -> String) {
+    fn record(&mut self, what: impl FnOnce() -> String) {
         if self.odd.is_none() {
             self.odd = Some(what());
         }
@@ -110,7 +112,7 @@ impl Registers {
         if let Some(end) = self.end_of(self.pointer).filter(|end| *end <= place) {
             let from = self.pointer.map(|at| format!(" from register 0x{at:02X} on"));
             let from = from.unwrap_or_default();
-            self.tell(|| format!("more is read{from} than {end} bytes, which is all there is"));
+            self.record(|| format!("more is read{from} than {end} bytes, which is all there is"));
         }
     }
 }

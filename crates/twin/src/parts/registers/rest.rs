@@ -12,14 +12,14 @@ const BYTE_NS: u64 = 100_000;
 
 /// The pause that a part is in.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Rest {
+pub(super) struct Pause {
     /// The start, the length in milliseconds, and the bytes written before it.
     now: Option<(u64, u64, Vec<u8>)>,
     /// The first pause that was not kept, in words.
     broken: Option<String>,
 }
 
-impl Rest {
+impl Pause {
     /// That many setup writes are done: the driver may require a pause after the last one.
     pub(super) fn begin(&mut self, init: &[InitStep], writes: usize, now_ns: u64) {
         self.now = pause(init, writes).map(|(ms, bytes)| (now_ns, ms, bytes.to_vec()));
@@ -76,7 +76,7 @@ mod tests {
             InitStep::Wait { ms: 4 },
             InitStep::Write(vec![0x0B, 0x01]),
         ];
-        let mut rest = Rest::default();
+        let mut rest = Pause::default();
         rest.begin(&init, 1, 5 * MS_NS);
         rest.touch(5 * MS_NS + 1_000 * waited_us);
         rest.begin(&init, 2, 20 * MS_NS);
@@ -86,8 +86,8 @@ mod tests {
 
     #[test]
     fn a_pause_that_is_left_out_is_told() {
-        let told = broken(200).unwrap();
-        assert_eq!(told, "it is asked 0.2 ms after 0A 80 is written, and needs 10 ms");
+        let reported = broken(200).unwrap();
+        assert_eq!(reported, "it is asked 0.2 ms after 0A 80 is written, and needs 10 ms");
         assert!(broken(5_000).is_some());
         assert_eq!(broken(9_900), None);
         assert_eq!(broken(20_000), None);
