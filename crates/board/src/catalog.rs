@@ -8,28 +8,12 @@ use std::collections::BTreeMap;
 use sensedsl_diagnostics::nearest;
 use serde::{Deserialize, Deserializer};
 
+pub use crate::entry::Entry;
 use crate::mcu;
 use crate::pin::PinName;
 use crate::profile::{Transport, pin, pins};
 use crate::registry::BOARDS;
 use crate::table::{Table, load};
-
-/// A board in the registry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Entry {
-    /// The name.
-    pub name: &'static str,
-    /// Other names.
-    pub aliases: &'static [&'static str],
-    /// The part number of the MCU.
-    pub mcu: &'static str,
-    /// A one-line description.
-    pub description: &'static str,
-    /// The text of `board.toml`.
-    pub(crate) facts: &'static str,
-    /// The text of `pins.csv`.
-    pub(crate) pins: &'static str,
-}
 
 /// All built-in boards, in natural order of their names.
 #[must_use]

@@ -24,6 +24,7 @@
 
 pub mod catalog;
 pub mod cells;
+mod entry;
 pub mod finding;
 mod load;
 pub mod mcu;

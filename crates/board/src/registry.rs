@@ -1,7 +1,7 @@
 //! The data that is part of the binary. The two lists are made from `boards/` and `targets/` by `tests/registry.rs`; do
 //! not edit them.
 
-use crate::catalog::Entry;
+use crate::entry::Entry;
 
 /// A target profile.
 pub(crate) struct Target {

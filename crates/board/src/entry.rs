@@ -1,0 +1,18 @@
+//! What the registry has of each built-in board.
+
+/// A board in the registry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The name.
+    pub name: &'static str,
+    /// Other names.
+    pub aliases: &'static [&'static str],
+    /// The part number of the MCU.
+    pub mcu: &'static str,
+    /// A one-line description.
+    pub description: &'static str,
+    /// The text of `board.toml`.
+    pub(crate) facts: &'static str,
+    /// The text of `pins.csv`.
+    pub(crate) pins: &'static str,
+}
