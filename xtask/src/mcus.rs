@@ -1,9 +1,9 @@
 //! `cargo xtask mcus [--check]`: writes the facts that the emulated machine needs about each MCU, or compares them.
 //!
 //! In: the metadata of the crate `stm32-metapac`, and [`MCUS`], which has the facts that they lack. Out: a file for
-//! each MCU in `crates/machine/mcus/`. It gives the core and the memories; block, version, address, clock and interrupts
-//! of each unit, the field that selects its kernel clock, and the field that moves its signals to other pads; and the
-//! units that use each channel of the DMA, or each request of its multiplexer.
+//! each MCU in `crates/machine/mcus/`. It gives the core and the memories; block, version, address, clock and
+//! interrupts of each unit, the field that selects its kernel clock, and the field that moves its signals to other
+//! pads; and the units that use each channel of the DMA, or each request of its multiplexer.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

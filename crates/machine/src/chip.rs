@@ -365,7 +365,12 @@ impl Chip {
             Device::Can(unit) => {
                 self.cans[unit].write(offset, value, mask, wires, &mut self.filters);
             }
-            Device::Fdcan(unit) => self.fdcans[unit].write(offset, value, mask, wires),
+            Device::Fdcan(unit) => {
+                self.fdcans[unit].write(offset, value, mask, wires);
+                // The first unit has the divider of all.
+                let divider = self.fdcans[0].shared();
+                self.fdcans.iter_mut().for_each(|can| can.share(divider));
+            }
             Device::FdcanMemory(unit) => self.fdcans[unit].write_memory(offset, value, mask),
             Device::Adc(unit) => self.adcs[unit].write(offset, value, mask, wires),
             Device::AdcCommon(first) => {

@@ -132,6 +132,15 @@ impl Fdcan {
         self.registers.get(index(offset)).copied().unwrap_or(0)
     }
 
+    /// The divider of the clock, which only the first unit has, for all of them.
+    pub(super) fn shared(&self) -> u32 {
+        self.register(CKDIV)
+    }
+
+    pub(super) fn share(&mut self, divider: u32) {
+        self.registers[index(CKDIV)] = divider;
+    }
+
     fn clock_hz(&self, wires: &Wires) -> u64 {
         let by = u64::from(self.register(CKDIV) & 15) * 2;
         wires.kernel_hz(&self.name).unwrap_or(wires.clocks.apb1) / by.max(1)

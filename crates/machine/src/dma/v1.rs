@@ -1,5 +1,5 @@
-//! The first version of the block (F0, F1, F3, G0, G4, L0, L1, L4): up to eight streams, which the manual calls channels,
-//! with fixed requests, or with those that a multiplexer selects.
+//! The first version of the block (F0, F1, F3, G0, G4, L0, L1, L4): up to eight streams, which the manual calls
+//! channels, with fixed requests, or with those that a multiplexer selects.
 //!
 //! All peripherals of a stream ask through one line. An item may have one size at the peripheral and another in memory.
 

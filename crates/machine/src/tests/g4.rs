@@ -1,8 +1,10 @@
 //! Tests of the blocks of STM32G4 through their registers.
 
+use std::sync::{Arc, Mutex};
+
 use super::{Rig, US, World};
-use crate::Mcu;
 use crate::transfer::SRAM_BASE;
+use crate::{LinkPort, Machine, Mcu, Settings};
 use sensedsl_surroundings::{I2cEvent, Pad};
 
 const RCC: u32 = 0x4002_1000;
@@ -52,6 +54,20 @@ impl Rig {
     fn start_stream(&mut self, stream: u32, ccr: u32) {
         self.put(DMA1 + 0x08 + 0x14 * (stream - 1), ON | ccr);
     }
+}
+
+/// A program that writes a word to the core-coupled memory, and waits.
+#[test]
+fn the_core_coupled_memory_of_g4_is_the_end_of_the_other_one() {
+    let mcu = Mcu::find("STM32G474RET6").unwrap();
+    let settings = Settings { crystal_hz: 8_000_000, link: LinkPort::Usb, mcu };
+    let mut machine = Machine::new(settings, Arc::new(Mutex::new(World::default())));
+    let code = [0x4902_4801, 0xE7FE_6008, 0x1234_5678, 0x1000_0004];
+    let words = [0x2002_0000_u32, 0x0800_0009].into_iter().chain(code);
+    machine.load(&words.flat_map(u32::to_le_bytes).collect::<Vec<u8>>()).unwrap();
+    machine.run_until(10_000);
+    assert_eq!((machine.pc(), machine.halt()), (0x0800_000E, None));
+    assert_eq!(machine.core.chip().memory.word(0x2001_8004), Some(0x1234_5678));
 }
 
 #[test]
@@ -355,7 +371,14 @@ fn frames_of_fdcan_go_where_filters_send_them() {
     rig.put(can + 0x9C, 0);
     assert_eq!(rig.get(can + 0x98), 1 << 8 | 1 << 16);
     assert_eq!((rig.get(can + 0xC4), rig.get(can + 0xD4)), (3 | 2 << 8 | 2 << 16, 0b11));
-    let states = rig.chip.ports();
-    assert_eq!(states[0].setting, crate::Setting::Can { bitrate_hz: 1_000_000 });
-    assert_eq!(states[0].unit, "FDCAN1");
+    let bitrates = |rig: &Rig| {
+        let states = rig.chip.ports().into_iter();
+        states.map(|state| (state.unit, state.setting)).collect::<Vec<_>>()
+    };
+    let at = |unit: &str, bitrate_hz| (unit.to_owned(), crate::Setting::Can { bitrate_hz });
+    assert_eq!(bitrates(&rig), [at("FDCAN1", 1_000_000)]);
+    // The first unit divides the clock of all. The second one has 16 steps after a reset.
+    rig.put(can + 0x100, 1);
+    rig.put(can + 0x418, 0);
+    assert_eq!(bitrates(&rig), [at("FDCAN1", 500_000), at("FDCAN2", 250_000)]);
 }

@@ -1,7 +1,7 @@
 //! Serial ports, with a file for the registers of each version of the block.
 //!
-//! In: accesses of the program, and bytes from the host or from a device, at the port's speed. Out: bytes at that speed,
-//! interrupts, requests to the DMA.
+//! In: accesses of the program, and bytes from the host or from a device, at the port's speed. Out: bytes at that
+//! speed, interrupts, requests to the DMA.
 
 mod v2;
 mod v4;

@@ -1,5 +1,5 @@
-//! The full-speed device of STM32F1 and G4 (and F0, F3, L0, L1, L4): eight endpoints, and a memory for packets between the
-//! program and the bus.
+//! The full-speed device of STM32F1 and G4 (and F0, F3, L0, L1, L4): eight endpoints, and a memory for packets between
+//! the program and the bus.
 //!
 //! A register of an endpoint has bits that a 1 turns over and bits that only a 0 clears (RM0008, 23.5). What is told
 //! apart by them, the two kinds of data packets too, is modelled: a packet of the wrong kind is acknowledged and lost,

@@ -1,8 +1,8 @@
 //! The numbers of a board's peripheral instances.
 //!
-//! Emulated MCUs know their units by number; the only unit of a kind may have none in its name (`CAN`) and is the first.
-//! Low-power serial ports have numbers behind all others. Boards that cannot be emulated may have two of a kind that end
-//! in the same number. The second one gets a number that no other unit has.
+//! Emulated MCUs know their units by number; the only unit of a kind may have none in its name (`CAN`) and is the
+//! first. Low-power serial ports have numbers behind all others. Boards that cannot be emulated may have two of a kind
+//! that end in the same number. The second one gets a number that no other unit has.
 
 use std::collections::BTreeMap;
 
