@@ -214,8 +214,10 @@ impl Registers {
             self.used();
             return bytes.get(place - first - 1).copied().unwrap_or(0);
         }
-        // A part that is only read gives its first byte at once, unless a measurement is started.
-        let is_only_read = self.readings.iter().all(Reading::is_only_read);
+        // A part that is only read gives its first byte at once, unless something is written to it.
+        let is_only_read = !self.readings.is_empty()
+            && self.readings.iter().all(Reading::is_only_read)
+            && self.sent.iter().all(|byte| *byte == 0);
         let is_trigger = |one: &Reading| one.trigger.starts_with(&self.sent);
         let width = if is_only_read { 0 } else { self.width() };
         if place <= width || (is_only_read && self.readings.iter().any(is_trigger)) {
