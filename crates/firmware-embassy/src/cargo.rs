@@ -17,7 +17,7 @@ use sensedsl_job::part::uses;
 
 /// What `sense-embassy` needs under any HAL, besides what its template has.
 const RUNTIME_NEEDS: [&str; 7] = [
-    "cortex-m = { version = \"=0.7.7\", features = [\"critical-section-single-core\", \"inline-asm\"] }",
+    "cortex-m = { version = \"=0.7.7\", features = [\"critical-section-single-core\"] }",
     "embassy-futures = \"=0.1.2\"",
     "embassy-sync = \"=0.8.0\"",
     "embassy-time = \"=0.5.1\"",

@@ -91,7 +91,7 @@ fn a_project_is_whole() {
     }
     let lock = text_of("Cargo.lock");
     versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &lock, 6);
-    versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 11);
+    versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 12);
     let wiring = text_of("src/wiring.rs");
     assert!(wiring.contains("ir_front: hal::adc::AdcChannel::degrade_adc(p.PB0),"), "{wiring}");
     assert!(
