@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use sensedsl_import::{Source, Unread, import};
+//! use sensedsl_import::{ReadError, Source, import};
 //!
 //! // A row for each pin and signal.
 //! let made = import(&Source {
@@ -16,7 +16,7 @@
 //!     format: None,
 //!     sheet: None,
 //!     table: "pins.csv",
-//!     beside: &|_| Err(Unread::Missing),
+//!     beside: &|_| Err(ReadError::Missing),
 //! });
 //! assert_eq!(made.table.as_deref(), Some("Pin,ADC,TIM\nPA1,ADC1_IN1,TIM2_CH2@1\n"));
 //! assert_eq!(made.diagnostics[0].code.name(), "W0804");
