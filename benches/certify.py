@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Solves, proves and verifies seeded designs as a user does, and times CP-SAT on the same problems in the same run.
 
-    cargo build --release -p sensedsl
+    cargo build --profile dist -p sensedsl
     cargo run --release -p sensedsl-wiring --features problems --example mixed -- "robots of 40 devices" > build/40.jsonl
     python3 -m venv build/venv && build/venv/bin/pip install ortools
     build/venv/bin/python3 benches/certify.py build/40.jsonl [target/release] > build/certified.jsonl

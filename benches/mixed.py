@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Measures the whole process on designs with boards of different size.
 
-    cargo build --release -p sensedsl
+    cargo build --profile dist -p sensedsl
     cargo run --release -p sensedsl-wiring --features problems --example mixed > build/mixed.jsonl
-    python3 benches/mixed.py build/mixed.jsonl [target/release/sensedsl]
+    python3 benches/mixed.py build/mixed.jsonl [target/dist/sensedsl]
 
 Each line of the input is a design as text, made by `crates/wiring/tests/support/mixed.rs` from a seed. The
 files are written to a folder of their own and solved for the design's target, explanation and repairs
@@ -32,7 +32,7 @@ def processor_s(command):
 
 
 def main():
-    binary = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else "target/release/sensedsl")
+    binary = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else "target/dist/sensedsl")
     families = {}
     with open(sys.argv[1], encoding="utf-8") as lines, tempfile.TemporaryDirectory() as folder:
         for number, text in enumerate(lines):

@@ -2,7 +2,7 @@
 """Checks our answers against a model of its own, written from the pages.
 
     python3 -m venv build/venv && build/venv/bin/pip install ortools
-    build/venv/bin/python3 benches/pages.py target/release/sensedsl [NUMBER [FIRST [chibios|none|units|parts|parts_none]]]
+    build/venv/bin/python3 benches/pages.py target/dist/sensedsl [NUMBER [FIRST [chibios|none|units|parts|parts_none]]]
 
 The model knows what docs/language.md and docs/board-tables.md say, reads the tables that `sensedsl boards` and
 `sensedsl parts --table` print, and the files of `silicon/` and `targets/`; it shares no code and no problem with the

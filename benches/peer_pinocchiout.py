@@ -2,7 +2,7 @@
 """Compares with pinocchiout, the one free pin solver for STM32 that can be called from a program.
 
     python3.13 -m venv build/venv313 && build/venv313/bin/pip install pinocchiout==0.3.0
-    cargo build --release && build/venv313/bin/python3 benches/peer_pinocchiout.py target/release/sensedsl
+    cargo build --profile dist && build/venv313/bin/python3 benches/peer_pinocchiout.py target/dist/sensedsl
 
 Seeded requests for the free pins of one board, the pins alone for both (`--target none`).
 pinocchiout gives any wiring; only its search is timed, its model is made beforehand from our table.
