@@ -155,8 +155,8 @@ fn shared_vectors_cut_at_every_place() {
         if !has(compiler[0]) {
             continue;
         }
-        for path in vector_files() {
-            let (schema, exchange) = read(&path);
+        for path in few(&vector_files(), 5) {
+            let (schema, exchange) = read(path);
             assert!(exchange.cases > 5, "{}: {} cases", path.display(), exchange.cases);
             run(compiler, path.file_stem().unwrap().to_str().unwrap(), &schema, &exchange);
         }
@@ -236,22 +236,25 @@ fn damaged(numbers: &mut Numbers, frames: &[Vec<u8>]) -> Vec<u8> {
     stream
 }
 
+/// The vector files whose frames are damaged.
+const DAMAGED: [&str; 9] = [
+    "arrays_crc32",
+    "stamp_checksum",
+    "health",
+    "fig2",
+    "checksum",
+    "crc32",
+    "arrays",
+    "arrays_checksum",
+    "stamp",
+];
+
 #[test]
 fn damaged_streams_are_read_as_by_the_reference() {
     if !has("g++") {
         return;
     }
-    for name in [
-        "fig2",
-        "checksum",
-        "crc32",
-        "arrays",
-        "arrays_checksum",
-        "arrays_crc32",
-        "stamp",
-        "stamp_checksum",
-        "health",
-    ] {
+    for name in few(&DAMAGED, 3) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
         let (schema, vectors) = read(&path);
         let frames: Vec<Vec<u8>> = vectors

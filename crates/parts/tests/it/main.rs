@@ -15,3 +15,8 @@ mod remap;
 mod requests;
 mod table;
 mod traps;
+
+/// The step through all parts: 1 in a thorough run, otherwise the one that is given.
+fn step(quick: usize) -> usize {
+    if std::env::var("SENSEDSL_THOROUGH").is_ok() { 1 } else { quick }
+}

@@ -116,6 +116,9 @@ fn every_driver_and_every_example_has_firmware_and_hosts() {
     }
     assert!(not_made.is_empty(), "{not_made:#?}");
     assert!(without_host.is_empty(), "{without_host:?}");
+    if !is_thorough() {
+        all = all.into_iter().step_by(4).collect();
+    }
     if is_here() {
         let (said, read) = compile_all("library", &all);
         eprintln!("{} firmwares, {read} files read", all.len());
