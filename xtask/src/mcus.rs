@@ -44,7 +44,7 @@ const F4: Mcu = Mcu {
     without: &[],
 };
 
-const MCUS: [Mcu; 7] = [
+const MCUS: [Mcu; 8] = [
     // Medium density.
     Mcu {
         parts: &[
@@ -72,6 +72,14 @@ const MCUS: [Mcu; 7] = [
         ..F4
     },
     Mcu { parts: &["STM32F411"], largest: "STM32F411VE", idcode: 0x1000_6431, ..F4 },
+    // Its USB unit senses the bus in a different way.
+    Mcu {
+        parts: &["STM32F412"],
+        largest: "STM32F412ZG",
+        idcode: 0x3000_6441,
+        without: &["USB_OTG_FS"],
+        ..F4
+    },
     Mcu {
         parts: &["STM32F427", "STM32F429", "STM32F437", "STM32F439"],
         largest: "STM32F429NI",
@@ -112,11 +120,13 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let chips = sources::fetch(&root)?.metapac;
     let folder = root.join("crates/machine/mcus");
     std::fs::create_dir_all(&folder)?;
+    let embeds = text(&root.join("crates/machine/src/mcu.rs"))?;
     let mut stale = Vec::new();
     for mcu in &MCUS {
         let printed = file(mcu, &chips).with_context(|| mcu.largest)?;
         let name = mcu.parts.first().context("no parts")?.to_lowercase();
         let path = folder.join(format!("{name}.toml"));
+        ensure!(embeds.contains(&format!("mcus/{name}.toml")), "mcu.rs does not embed {name}.toml");
         if !sources::is_fresh(&path, &printed, is_check)? {
             stale.push(name);
         }

@@ -14,11 +14,12 @@ use crate::rcc::Rcc;
 use crate::usart;
 use crate::wires::Request;
 
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     include_str!("../mcus/stm32f103c8.toml"),
     include_str!("../mcus/stm32f401.toml"),
     include_str!("../mcus/stm32f405.toml"),
     include_str!("../mcus/stm32f411.toml"),
+    include_str!("../mcus/stm32f412.toml"),
     include_str!("../mcus/stm32f427.toml"),
     include_str!("../mcus/stm32f446.toml"),
     include_str!("../mcus/stm32g473.toml"),

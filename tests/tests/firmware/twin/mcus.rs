@@ -13,12 +13,13 @@ use crate::false_alarms::is_wired;
 use crate::firmware::chibios::{build, tree};
 
 /// Boards that each have an MCU other than the F407.
-const BOARDS: [&str; 8] = [
+const BOARDS: [&str; 9] = [
     "BLACKPILL_F401CC",
     "BLACKPILL_F411CE",
     "BLUEPILL_F103C8",
     "NUCLEO_F103RB",
     "NUCLEO_F401RE",
+    "NUCLEO_F412ZG",
     "NUCLEO_F429ZI",
     "NUCLEO_F446RE",
     "NUCLEO_G474RE",
