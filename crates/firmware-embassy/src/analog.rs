@@ -10,7 +10,7 @@ use super::context::{Context, Wired, scalar};
 use super::hal::contract::Drivers;
 use super::hal::contract::inputs::{Analog, AnalogInput, SampleRoom};
 use super::item::{Item, Task};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
 use sensedsl_job::Cycle;
@@ -60,8 +60,8 @@ struct Converters<'a> {
 impl<'a> Converters<'a> {
     fn new(devices: &[Wired<'a>]) -> Printed<Self> {
         let wires = devices.iter().flat_map(|one| &one.wires);
-        let all: BTreeSet<&str> = wires.map(|wire| lack::unit(wire)).collect::<Printed<_>>()?;
-        let first = devices.first().map(|one| lack::unit(one.first)).transpose()?;
+        let all: BTreeSet<&str> = wires.map(|wire| missing::unit(wire)).collect::<Printed<_>>()?;
+        let first = devices.first().map(|one| missing::unit(one.first)).transpose()?;
         Ok(Self { first: first.unwrap_or_default(), all })
     }
 
@@ -122,8 +122,8 @@ fn task(
         SampleRoom::Interrupt => "",
     };
     for wire in &wires {
-        let pin = &lack::pad(wire, Role::In)?.pin.name;
-        let made = analog.input(context, lack::unit(wire)?, pin);
+        let pin = &missing::pad(wire, Role::In)?.pin.name;
+        let made = analog.input(context, missing::unit(wire)?, pin);
         task.parameters.push(format!("{mutable}{}: {}", wire.ident, made.type_));
         section.fields.push(Field::of(wire.ident.clone(), wire.place(), made));
     }
@@ -168,10 +168,10 @@ fn sample(
     wired: &Wired<'_>,
     section: &mut Section,
 ) -> Printed<Samples> {
-    let own = lack::kind(wired.first.connection.kind.analog())?;
+    let own = missing::kind(wired.first.connection.kind.analog())?;
     let samples = usize::from(own.samples.max(1)) * wired.wires.len();
     let inputs = wired.wires.iter().copied().map(|wire| {
-        let unit = lack::unit(wire)?;
+        let unit = missing::unit(wire)?;
         Ok(AnalogInput { wire, unit, converter: converters.own(unit) })
     });
     let inputs = inputs.collect::<Printed<Vec<_>>>()?;

@@ -8,7 +8,7 @@ use super::actuators::level_of;
 use super::context::{Context, Wired, scalar};
 use super::hal::contract::outputs::Pulses;
 use super::item::{BridgeItem, Constant, Item};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::pwm::pulse;
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
@@ -86,7 +86,7 @@ fn write(
     wire: &JobConnection<'_>,
 ) -> Printed<Vec<(String, String)>> {
     if let Some(own) = wire.connection.kind.digital() {
-        lack::pad(wire, Role::Out)?;
+        missing::pad(wire, Role::Out)?;
         let (high, low) = (level_of(own, true), level_of(own, false));
         let level = format!("if write.value != 0 {{ {high} }} else {{ {low} }}");
         return Ok(vec![(at.to_string(), format!("outputs.{}.set_level({level})", wire.ident))]);

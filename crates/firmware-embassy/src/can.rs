@@ -10,7 +10,7 @@ use super::filter;
 use super::hal::contract::Drivers;
 use super::hal::contract::buses::Can;
 use super::item::{Constant, Item, Task, beat};
-use super::lack::{self, Missing, Printed};
+use super::missing::{self, Missing, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
 use sensedsl_job::kinds::can::{Bus, Frame, Identifier, Value, buses};
 use sensedsl_job::snake;
@@ -23,7 +23,7 @@ pub(super) fn plan(
     let mut section = Section::default();
     let Some(can) = drivers.can() else { return section };
     for wire in context.connections(KindName::Can) {
-        context.report(wire.part, lack::unit(wire).map(drop), diagnostics);
+        context.report(wire.part, missing::unit(wire).map(drop), diagnostics);
     }
     for bus in buses(context.job, context.connections(KindName::Can), diagnostics) {
         let made = plan_bus(context, can, &bus, &mut section);
@@ -58,7 +58,7 @@ fn plan_bus(
     section: &mut Section,
 ) -> Printed<()> {
     let name = snake(bus.unit);
-    let (rx, tx) = (lack::pad(bus.first, Role::Rx)?, lack::pad(bus.first, Role::Tx)?);
+    let (rx, tx) = (missing::pad(bus.first, Role::Rx)?, missing::pad(bus.first, Role::Tx)?);
     let made = can.controller(context, bus, section)?;
     let who: Vec<&str> = bus.wires.iter().map(|one| one.title.as_str()).collect();
     let (rx, tx, who) = (&rx.pin.name, &tx.pin.name, who.join(", "));
@@ -80,14 +80,14 @@ fn start(
     section: &mut Section,
 ) -> Printed<()> {
     let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
-    let memory = format!("static {upper}_KEPT: rt::can::Memory = rt::can::Memory::new();");
+    let memory = format!("static {upper}_STATE: rt::can::Memory = rt::can::Memory::new();");
     section.items.push(Item::Line(memory));
     let filters = can.filters(context, bus, section)?;
     let wanted: Vec<String> =
         filters.wanted.unwrap_or_default().into_iter().map(identifier).collect();
     section.starts.push(Start::Make(format!(
         "let ({name}_tx, {name}_rx) = \
-         rt::can::start(wiring.{name}, hal::pac::{hal}, {}&{upper}_KEPT, {}, &[{}]);",
+         rt::can::start(wiring.{name}, hal::pac::{hal}, {}&{upper}_STATE, {}, &[{}]);",
         filters.place,
         bit(context, bus)?,
         wanted.join(", ")

@@ -5,7 +5,7 @@ use sensedsl_model::words::Code;
 
 use super::context::Context;
 use super::item::{Constant, Entry, Table};
-use super::lack::Printed;
+use super::missing::Printed;
 use sensedsl_job::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
 /// The table of a part on a register bus.

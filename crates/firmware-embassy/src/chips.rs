@@ -8,7 +8,7 @@ use sensedsl_model::kind::KindName;
 
 use super::context::Context;
 use super::item::{Item, Task, beat};
-use super::lack::{self, Missing, Printed};
+use super::missing::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
 use sensedsl_job::part::BusPlan;
@@ -36,7 +36,7 @@ pub(super) fn buses<'a>(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Bus<'a>> {
     for wire in context.connections(kind) {
-        context.report(wire.part, lack::unit(wire).map(drop), diagnostics);
+        context.report(wire.part, missing::unit(wire).map(drop), diagnostics);
     }
     let buses = by_unit(context.connections(kind)).into_iter();
     let bus = |(unit, all): (UnitName, Vec<&'a JobConnection<'a>>)| {

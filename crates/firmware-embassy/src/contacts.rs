@@ -12,8 +12,8 @@ use super::filter;
 use super::hal::contract::Drivers;
 use super::hal::contract::inputs::{EdgeInput, WatchedBy};
 use super::item::{Handler, Item, Task};
-use super::lack::{self, Missing, Printed};
-use super::section::{Field, Made, Section, Start};
+use super::missing::{self, Missing, Printed};
+use super::section::{Constructor, Field, Section, Start};
 use sensedsl_job::JobConnection;
 
 pub(super) fn plan(
@@ -51,7 +51,7 @@ pub(super) fn is_kept(own: &Digital) -> bool {
 
 /// The static of an input.
 pub(super) fn name(wire: &JobConnection<'_>) -> String {
-    format!("{}_KEPT", wire.ident.to_uppercase())
+    format!("{}_STATE", wire.ident.to_uppercase())
 }
 
 /// The resistor in the words of all HALs.
@@ -106,10 +106,10 @@ impl Input<'_> {
     }
 
     /// An input whose level the reporter reads in each cycle.
-    fn sampled(self, drivers: &dyn Drivers, section: &mut Section) -> Printed<Made> {
-        let pad = lack::pad(self.wire, Role::In)?;
+    fn sampled(self, drivers: &dyn Drivers, section: &mut Section) -> Printed<Constructor> {
+        let pad = missing::pad(self.wire, Role::In)?;
         section.begins.push(format!("{}.begin(wiring.{});", name(self.wire), self.wire.ident));
-        Ok(Made {
+        Ok(Constructor {
             type_: "Input<'static>".to_owned(),
             make: format!(
                 "Input::new(p.{}, {})",
@@ -126,9 +126,9 @@ impl Input<'_> {
         drivers: &dyn Drivers,
         shared: &mut BTreeMap<String, Vec<String>>,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let Self { wire, own, prio } = self;
-        let (pad, kept) = (lack::pad(wire, Role::In)?, name(wire));
+        let (pad, kept) = (missing::pad(wire, Role::In)?, name(wire));
         // A level that must last has to be seen when it comes and when it goes.
         let trigger = match own.edge {
             Some(Edge::Rising) if own.debounce_us == 0 => "Rising",

@@ -11,7 +11,7 @@ use sensedsl_model::design::Part;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
-use super::lack::{Missing, Printed};
+use super::missing::{Missing, Printed};
 use super::names::{Chip, Names};
 use sensedsl_job::{BoardJob, Cycle, JobConnection, JobDevice};
 

@@ -8,7 +8,7 @@ use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
 use super::hal::contract::Drivers;
 use super::hal::contract::buses::I2c;
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section};
 use sensedsl_job::snake;
 
@@ -45,7 +45,7 @@ fn hz(context: &Context<'_>, bus: &Bus<'_>) -> u32 {
 /// The bus with the tasks that serve its chips.
 fn bus(context: &Context<'_>, i2c: &dyn I2c, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
     let (unit, hz) = (bus.unit.as_str(), hz(context, bus));
-    let (scl, sda) = (lack::pad(bus.first, Role::Scl)?, lack::pad(bus.first, Role::Sda)?);
+    let (scl, sda) = (missing::pad(bus.first, Role::Scl)?, missing::pad(bus.first, Role::Sda)?);
     let made = i2c.unit(context, &bus.unit, bus.first, hz, section)?;
     let comment = format!("{unit} at {} and {}: {}", scl.pin.name, sda.pin.name, bus.titles());
     bus.share(Field::of(snake(unit), comment, made), section);

@@ -9,7 +9,7 @@ use super::context::{Context, Wired, scalar};
 use super::hal::contract::Drivers;
 use super::hal::contract::inputs::{Capture, CaptureInput};
 use super::item::{Item, Task};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section, Start};
 use super::{counters, filter};
 use sensedsl_job::JobConnection;
@@ -39,7 +39,7 @@ fn device(
     wired: &Wired<'_>,
     section: &mut Section,
 ) -> Printed<()> {
-    let icu = lack::kind(wired.first.connection.kind.icu())?;
+    let icu = missing::kind(wired.first.connection.kind.icu())?;
     let train = train(context, wired);
     let mut counts = Vec::new();
     for wire in &wired.wires {

@@ -9,7 +9,7 @@ use super::hal::contract::Drivers;
 use super::hal::contract::inputs::Encoder;
 use super::hal::contract::outputs::Pins;
 use super::item::{Item, Task};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{contacts, counters, filter};
 use sensedsl_job::Cycle;
@@ -59,7 +59,7 @@ fn digital(
         let mut levels = Vec::new();
         for wire in &wired.wires {
             let (pad, own) =
-                (lack::pad(wire, Role::In)?, lack::kind(wire.connection.kind.digital())?);
+                (missing::pad(wire, Role::In)?, missing::kind(wire.connection.kind.digital())?);
             if contacts::is_kept(own) {
                 let not = if own.active_low { "!" } else { "" };
                 levels.push(format!("{not}{}.level()", contacts::name(wire)));

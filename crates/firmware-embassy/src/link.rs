@@ -9,7 +9,7 @@ use super::context::Context;
 use super::hal::contract::Drivers;
 use super::hal::contract::link::{Link, LinkPads, UsbLink};
 use super::item::{Item, Task};
-use super::section::{Field, Keep, LinkPlan, Made, Section, Start};
+use super::section::{Constructor, Field, Keep, LinkPlan, Section, Start};
 
 pub(super) fn plan(
     context: &Context<'_>,
@@ -44,7 +44,7 @@ fn over_uart(context: &Context<'_>, driver: &dyn Link, section: &mut Section) ->
     let interrupt = context.names.interrupt(link.unit, "GLOBAL")?;
     let port = driver.port(context, &LinkPads { link, tx, rx }, section)?;
     section.bind(interrupt, port.handler);
-    let Made { type_, make } = port.made;
+    let Constructor { type_, make } = port.made;
     let type_ = format!("rt::link_uart::Port<{type_}>");
     section.fields.push(Field {
         name: "link".to_owned(),

@@ -6,7 +6,7 @@ use sensedsl_model::protocol::Format;
 use super::chip::{byte, bytes, coding, init};
 use super::context::Context;
 use super::item::{Constant, Entry, Table};
-use super::lack::Printed;
+use super::missing::Printed;
 use sensedsl_job::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
 /// The tables of a device: its messages, how it is set up, and what is sent to it.

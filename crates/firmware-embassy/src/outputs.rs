@@ -7,7 +7,7 @@ use super::actuators::{actuators, element, is_bridge, level, level_of};
 use super::context::{Context, Wired};
 use super::hal::contract::Drivers;
 use super::hal::contract::outputs::{Dac, Pins, Speed};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section};
 use super::{bridge, pwm};
 use sensedsl_job::JobConnection;
@@ -47,8 +47,8 @@ fn pin(pins: &dyn Pins, wire: &JobConnection<'_>, section: &mut Section) -> Prin
     if wire.pad(Role::In).is_some() {
         return Ok(());
     }
-    let pad = lack::pad(wire, Role::Out)?;
-    let own = lack::kind(wire.connection.kind.digital())?;
+    let pad = missing::pad(wire, Role::Out)?;
+    let own = missing::kind(wire.connection.kind.digital())?;
     let initial = level_of(own, own.initial);
     section.outputs.push(Field {
         name: wire.ident.clone(),
@@ -65,8 +65,8 @@ fn digital(wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
         return Ok(());
     }
     for (at, wire) in wired.wires.iter().enumerate() {
-        let own = lack::kind(wire.connection.kind.digital())?;
-        lack::pad(wire, Role::Out)?;
+        let own = missing::kind(wire.connection.kind.digital())?;
+        missing::pad(wire, Role::Out)?;
         let (scalar, bytes) = element(wired, at);
         section.sets.entry(wired.index).or_default().push(format!(
             "outputs.{}.set_level(if {scalar}.load({bytes}) != 0 {{ {} }} else {{ {} }});",
@@ -86,8 +86,8 @@ fn voltage(
     section: &mut Section,
 ) -> Printed<()> {
     for (at, wire) in wired.wires.iter().enumerate() {
-        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
-        let own = lack::kind(wire.connection.kind.dac())?;
+        let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::Out)?);
+        let own = missing::kind(wire.connection.kind.dac())?;
         let ident = &wire.ident;
         let made = dac.channel(context, unit, &pad.pin.name);
         section.outputs.push(Field::of(ident.clone(), wire.place(), made));

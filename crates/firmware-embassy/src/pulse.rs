@@ -7,7 +7,7 @@ use super::context::Context;
 use super::hal::contract::Drivers;
 use super::hal::contract::outputs::{Pins, Speed};
 use super::item::{Item, Task};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use sensedsl_job::kinds::pulse::{Pulses, pulses};
 
@@ -33,7 +33,7 @@ fn task(pins: &dyn Pins, pulses: &Pulses<'_>, section: &mut Section) -> Printed<
     let mut task = Task::in_turn(cycle.title("pulse"), ident.clone(), *cycle);
     let (mut arguments, mut statements) = (Vec::new(), Vec::new());
     for line in lines {
-        let pad = lack::pad(line.wire, Role::Trigger)?;
+        let pad = missing::pad(line.wire, Role::Trigger)?;
         let ident = format!("{}_trigger", line.wire.ident);
         section.fields.push(Field {
             name: ident.clone(),

@@ -9,7 +9,7 @@ use sensedsl_model::kind::{KindName, Role};
 use super::actuators::{actuators, element, is_bridge, level};
 use super::context::{Context, Wired};
 use super::hal::contract::outputs::{Hold, Output, Pulse, Pulses, Timer};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::Section;
 use sensedsl_job::JobConnection;
 use sensedsl_job::snake;
@@ -44,21 +44,21 @@ fn output<'a>(
     at: usize,
     wire: &'a JobConnection<'a>,
 ) -> Printed<(&'a str, Output<'a>)> {
-    let pwm = lack::kind(wire.connection.kind.pwm())?;
-    let (pulse, pin) = (pulse(context, wire)?, &lack::pad(wire, Role::Out)?.pin.name);
-    Ok((lack::unit(wire)?, Output { wired: wired.clone(), at, wire, pin, pwm, pulse }))
+    let pwm = missing::kind(wire.connection.kind.pwm())?;
+    let (pulse, pin) = (pulse(context, wire)?, &missing::pad(wire, Role::Out)?.pin.name);
+    Ok((missing::unit(wire)?, Output { wired: wired.clone(), at, wire, pin, pwm, pulse }))
 }
 
 /// The output of a timer that a wire is on.
 pub(super) fn pulse(context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Pulse> {
-    let own = lack::kind(wire.connection.kind.pwm())?;
-    let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
+    let own = missing::kind(wire.connection.kind.pwm())?;
+    let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::Out)?);
     let period_us = 1_000_000 / own.frequency_hz.max(1);
     let is_whole = own.min_us.is_none() && own.max_us.is_none();
     Ok(Pulse {
         name: snake(unit),
         timer: context.peripheral(unit),
-        channel: lack::channel(pad)?,
+        channel: missing::channel(pad)?,
         is_complement: matches!(
             pad.usage.map(|usage| usage.signal.function()),
             Some(Function::Timer { line: TimerLine::Inverted, .. })

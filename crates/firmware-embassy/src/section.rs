@@ -116,7 +116,7 @@ impl Watched {
 
 /// What a HAL's driver is made of.
 #[derive(Clone, Debug)]
-pub(super) struct Made {
+pub(super) struct Constructor {
     /// The type in `wiring.rs`.
     pub(super) type_: String,
     /// The expression that makes it of the peripherals `p`.
@@ -125,7 +125,7 @@ pub(super) struct Made {
 
 impl Field {
     /// A field that has a driver.
-    pub(super) fn of(name: String, comment: String, made: Made) -> Self {
+    pub(super) fn of(name: String, comment: String, made: Constructor) -> Self {
         Self { name, comment, type_: made.type_, make: made.make }
     }
 }

@@ -8,8 +8,8 @@ use super::context::Context;
 use super::hal::contract::Drivers;
 use super::hal::contract::buses::{self, Half, PortPins, Serial};
 use super::item::{Handler, Item, Task, beat};
-use super::lack::{self, Missing, Printed};
-use super::section::{Field, Made, Section, Start, Watched};
+use super::missing::{self, Missing, Printed};
+use super::section::{Constructor, Field, Section, Start, Watched};
 use super::{filter, message};
 use sensedsl_job::JobConnection;
 use sensedsl_job::kinds::serial::{self, QUEUE_BYTES};
@@ -22,7 +22,7 @@ struct Port<'a> {
     uart: &'a Uart,
     plan: &'a MessagePlan,
     /// The static that has what is to be sent; `None` if nothing is sent.
-    said: Option<String>,
+    tx_queue: Option<String>,
 }
 
 pub(super) fn plan(
@@ -47,7 +47,7 @@ fn port(
     section: &mut Section,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Printed<()> {
-    let (unit, uart) = (lack::unit(wire)?, lack::kind(wire.connection.kind.uart())?);
+    let (unit, uart) = (missing::unit(wire)?, missing::kind(wire.connection.kind.uart())?);
     let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
     let plan = plan.ok_or_else(|| Missing::table("messages"))?;
     if uart.is_inverted && !driver.can_invert() {
@@ -55,14 +55,14 @@ fn port(
         return Ok(());
     }
     if !plan.fields.is_empty() {
-        lack::pad(wire, Role::Rx)?;
+        missing::pad(wire, Role::Rx)?;
     }
     if !plan.commands.is_empty() {
-        lack::pad(wire, Role::Tx)?;
+        missing::pad(wire, Role::Tx)?;
     }
     let says = wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
-    let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
-    let port = Port { wire, unit, uart, plan, said };
+    let tx_queue = says.then(|| format!("{}_TX", wire.ident.to_uppercase()));
+    let port = Port { wire, unit, uart, plan, tx_queue };
     section.tables.extend(message::tables(context, plan)?);
     port.wiring(context, driver, section)?;
     port.say(context, driver, section)?;
@@ -103,7 +103,7 @@ impl<'a> Port<'a> {
         };
         let port = buses::Port { unit: self.unit, uart: self.uart, pins };
         let make = serial.port(context, &port, section);
-        let made = Made { type_: serial.half_type(half), make };
+        let made = Constructor { type_: serial.half_type(half), make };
         section.fields.push(Field::of(self.wire.ident.clone(), self.wire.place(), made));
         // A task that has a half keeps its pin. If nothing is sent, the listening task has both halves.
         let ident = &self.wire.ident;
@@ -117,7 +117,7 @@ impl<'a> Port<'a> {
 
     /// Whether different tasks have the directions.
     fn is_split(&self) -> bool {
-        self.said.is_some() && self.hears() && self.wire.pad(Role::Tx).is_some()
+        self.tx_queue.is_some() && self.hears() && self.wire.pad(Role::Tx).is_some()
     }
 
     /// Whether anything is taken of what the device sends.
@@ -149,7 +149,7 @@ impl<'a> Port<'a> {
         serial: &dyn Serial,
         section: &mut Section,
     ) -> Printed<()> {
-        let Some(said) = &self.said else { return Ok(()) };
+        let Some(tx_queue) = &self.tx_queue else { return Ok(()) };
         let ident = &self.wire.ident;
         let (half, place) = self.half(false);
         let port = if half == Half::Tx { "port" } else { "port.split().0" };
@@ -157,13 +157,13 @@ impl<'a> Port<'a> {
         let told = self.plan.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
         let queue = (2 * longest).max(u32::try_from(told).unwrap_or(0)).max(16);
         section.items.push(Item::Line(format!(
-            "static {said}: rt::serial::TxQueue<{queue}> = rt::serial::TxQueue::new();"
+            "static {tx_queue}: rt::serial::TxQueue<{queue}> = rt::serial::TxQueue::new();"
         )));
         let doc = format!("{}: what it is sent", self.wire.place());
         let mut task = Task::new(doc, format!("{ident}_say"));
         task.parameters.push(format!("port: {}", serial.half_type(half)));
         task.before.push(format!(
-            "rt::{}::transmit({port}, &{said}, {}).await;",
+            "rt::{}::transmit({port}, &{tx_queue}, {}).await;",
             serial.module(),
             self.uart.baud
         ));
@@ -173,7 +173,7 @@ impl<'a> Port<'a> {
         for command in &self.plan.commands {
             let index = context.item(&command.field)?;
             section.sets.entry(index).or_default().push(format!(
-                "rt::serial::send(&{said}, &tables::{}, &SCHEMA, {index}, value, &mut [0; {}], &BOARD);",
+                "rt::serial::send(&{tx_queue}, &tables::{}, &SCHEMA, {index}, value, &mut [0; {}], &BOARD);",
                 message::compose_name(context, command)?,
                 command.bytes
             ));
@@ -231,7 +231,7 @@ impl<'a> Port<'a> {
         let queue = serial::waiting_bytes(self.uart);
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
         let interrupt = context.interrupt(self.unit, "GLOBAL")?;
-        section.bind(interrupt, format!("crate::{upper}Heard"));
+        section.bind(interrupt, format!("crate::{upper}Rx"));
         let registers = serial.registers(&context.peripheral(self.unit));
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
         let module = serial.module();
@@ -241,16 +241,14 @@ impl<'a> Port<'a> {
             format!("unsafe {{ interrupt::{interrupt}.enable() }};"),
         ]);
         section.items.push(Item::Line(format!(
-            "static {upper}_HEARD: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();"
+            "static {upper}_RX: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();"
         )));
         section.items.push(Item::Handler(Handler {
             doc: format!("The bytes of {}", self.wire.place()),
-            name: format!("{upper}Heard"),
+            name: format!("{upper}Rx"),
             named_as: "the device",
             interrupt: interrupt.to_owned(),
-            calls: vec![format!(
-                "rt::{module}::on_interrupt(&{upper}_HEARD, {registers}, {mask});"
-            )],
+            calls: vec![format!("rt::{module}::on_interrupt(&{upper}_RX, {registers}, {mask});")],
         }));
         Ok(())
     }
@@ -267,7 +265,7 @@ impl<'a> Port<'a> {
                  sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);"
             ),
             format!(
-                "let mut device = rt::serial::Device::new(&{upper}_HEARD, &mut stream, {gap_ms}, &{own:?});"
+                "let mut device = rt::serial::Device::new(&{upper}_RX, &mut stream, {gap_ms}, &{own:?});"
             ),
         ])
     }
@@ -276,7 +274,7 @@ impl<'a> Port<'a> {
     /// faults.
     fn cycle(&self, has_fields: bool, pass: &str) -> Vec<String> {
         let mut statements = Vec::new();
-        if let (Some(said), false) = (&self.said, self.plan.init.is_empty()) {
+        if let (Some(tx_queue), false) = (&self.tx_queue, self.plan.init.is_empty()) {
             if has_fields {
                 statements.push(format!(
                     "if device.is_forgotten({}) {{ start = sense_rt::MessageStart::NEW; }}",
@@ -284,7 +282,7 @@ impl<'a> Port<'a> {
                 ));
             }
             statements.push(format!(
-                "rt::serial::set_up(&{said}, &mut start, tables::{}_INIT).await;",
+                "rt::serial::set_up(&{tx_queue}, &mut start, tables::{}_INIT).await;",
                 self.plan.prefix.to_uppercase()
             ));
         }

@@ -11,7 +11,7 @@ use super::context::Context;
 use super::hal::contract::Drivers;
 use super::hal::contract::buses::Spi;
 use super::hal::contract::outputs::{Pins, Speed};
-use super::lack::{self, Printed};
+use super::missing::{self, Printed};
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
 use sensedsl_job::snake;
@@ -33,7 +33,7 @@ pub(super) fn plan(
 
 /// A chip select, which is high before it is an output.
 fn select(pins: &dyn Pins, wire: &JobConnection<'_>) -> Printed<Field> {
-    let pin = &lack::pad(wire, Role::Cs)?.pin.name;
+    let pin = &missing::pad(wire, Role::Cs)?.pin.name;
     Ok(Field {
         name: format!("{}_select", wire.ident),
         comment: format!("{}, selected by {pin}", wire.title),
@@ -46,7 +46,7 @@ fn select(pins: &dyn Pins, wire: &JobConnection<'_>) -> Printed<Field> {
 fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Reach> {
     let mut reach = Reach::default();
     for Served { plan, wire } in served {
-        let spi = lack::kind(wire.connection.kind.spi())?;
+        let spi = missing::kind(wire.connection.kind.spi())?;
         let select = format!("{}_select", wire.ident);
         reach.parameters.push(format!("{select}: Output<'static>"));
         reach.arguments.push(format!("wiring.{select}"));
@@ -69,7 +69,7 @@ fn bus(
 ) -> Printed<()> {
     let ((spi, pins), unit) = (drivers, bus.unit.as_str());
     let made = spi.unit(context, &bus.unit, bus.first, section)?;
-    let pin = |role| Ok(&lack::pad(bus.first, role)?.pin.name);
+    let pin = |role| Ok(&missing::pad(bus.first, role)?.pin.name);
     let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
     let comment =
         format!("{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}", bus.titles());

@@ -3,7 +3,7 @@
 use sensedsl_job::{JobConnection, JobStream};
 
 use crate::context::Context;
-use crate::lack::{Missing, Printed};
+use crate::missing::{Missing, Printed};
 use crate::section::Section;
 
 /// The channel that serves a request of a connection's unit, `_TX` or `_RX`, with its handler bound in the section.

@@ -9,9 +9,9 @@ use crate::hal::contract::inputs::{Analog, AnalogInput, each_round};
 use crate::hal::contract::link::{Link, LinkPads, PortLink, UsbLink};
 use crate::hal::contract::outputs::{Pins, Speed};
 use crate::hal::contract::{Begin, Drivers, Hal, Package, Project, Watchdog};
-use crate::lack::Printed;
+use crate::missing::Printed;
 use crate::names::Names;
-use crate::section::{Made, Section};
+use crate::section::{Constructor, Section};
 
 pub(super) struct Nrf;
 
@@ -99,11 +99,16 @@ impl Pins for Settings {
 }
 
 impl Analog for Settings {
-    fn converter(&self, context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<Made> {
+    fn converter(
+        &self,
+        context: &Context<'_>,
+        unit: &str,
+        section: &mut Section,
+    ) -> Printed<Constructor> {
         let (hal, interrupt) = (context.peripheral(unit), context.interrupt(unit, "GLOBAL")?);
         section.bind(interrupt, "hal::saadc::InterruptHandler".to_owned());
         let bits = self.saadc_bits;
-        Ok(Made {
+        Ok(Constructor {
             type_: "hal::saadc::Saadc<'static, 1>".to_owned(),
             make: format!(
                 "hal::saadc::Saadc::new(p.{hal}, Irqs, hal::saadc::Resolution::_{bits}BIT)"
@@ -111,8 +116,8 @@ impl Analog for Settings {
         })
     }
 
-    fn input(&self, _context: &Context<'_>, _unit: &str, pin: &PinName) -> Made {
-        Made {
+    fn input(&self, _context: &Context<'_>, _unit: &str, pin: &PinName) -> Constructor {
+        Constructor {
             type_: "hal::saadc::AnyInput<'static>".to_owned(),
             make: format!("hal::saadc::Input::degrade_saadc(p.{})", self.pin(pin)),
         }
@@ -133,7 +138,7 @@ impl Link for Settings {
         section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
         Some(UsbLink {
             comment: "the link at the USB socket".to_owned(),
-            made: Made {
+            made: Constructor {
                 type_: format!("hal::usb::Driver<'static, {hal}>"),
                 make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
             },

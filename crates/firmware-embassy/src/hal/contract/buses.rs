@@ -6,8 +6,8 @@ use sensedsl_job::{JobConnection, Pad};
 use sensedsl_model::kind::uart::Uart;
 
 use crate::context::Context;
-use crate::lack::Printed;
-use crate::section::{Made, Section};
+use crate::missing::Printed;
+use crate::section::{Constructor, Section};
 
 /// I²C buses.
 pub(crate) trait I2c {
@@ -23,7 +23,7 @@ pub(crate) trait I2c {
         wire: &JobConnection<'_>,
         hz: u32,
         section: &mut Section,
-    ) -> Printed<Made>;
+    ) -> Printed<Constructor>;
 }
 
 /// SPI buses.
@@ -38,7 +38,7 @@ pub(crate) trait Spi {
         unit: &UnitName,
         wire: &JobConnection<'_>,
         section: &mut Section,
-    ) -> Printed<Made>;
+    ) -> Printed<Constructor>;
 }
 
 /// Serial ports of devices. The project has the handler of their interrupts.
@@ -104,7 +104,7 @@ pub(crate) trait Can {
         context: &Context<'_>,
         bus: &can::Bus<'_>,
         section: &mut Section,
-    ) -> Printed<Made>;
+    ) -> Printed<Constructor>;
 
     /// Which frames the controller lets through. What must be turned on for that is a start of the section.
     fn filters(

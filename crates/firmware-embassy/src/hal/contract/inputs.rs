@@ -6,8 +6,8 @@ use sensedsl_job::{JobConnection, Pad};
 use sensedsl_model::kind::icu::Icu;
 
 use crate::context::Context;
-use crate::lack::Printed;
-use crate::section::{Made, Section};
+use crate::missing::Printed;
+use crate::section::{Constructor, Section};
 
 /// Digital inputs whose edges interrupt.
 pub(crate) trait Edges {
@@ -30,7 +30,7 @@ pub(crate) struct EdgeInput<'a> {
 /// How an input sees its edges.
 pub(crate) struct Watch {
     /// What the wiring hands over.
-    pub(crate) made: Made,
+    pub(crate) made: Constructor,
     /// The pin whose level the static reads: what it begins with.
     pub(crate) begin: String,
     pub(crate) by: WatchedBy,
@@ -47,10 +47,15 @@ pub(crate) enum WatchedBy {
 /// Analog inputs.
 pub(crate) trait Analog {
     /// A converter, with its interrupt bound in the section where it has one.
-    fn converter(&self, context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<Made>;
+    fn converter(
+        &self,
+        context: &Context<'_>,
+        unit: &str,
+        section: &mut Section,
+    ) -> Printed<Constructor>;
 
     /// What a pin becomes so that a converter can read it.
-    fn input(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made;
+    fn input(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor;
 
     /// Where samples are while the task waits for them.
     fn room(&self) -> SampleRoom {
@@ -133,7 +138,7 @@ pub(crate) struct CaptureInput<'a> {
 /// A driver that a task waits with.
 pub(crate) struct Waiting {
     /// What the wiring hands over.
-    pub(crate) made: Made,
+    pub(crate) made: Constructor,
     /// The task's parameter, and its type in `main.rs`.
     pub(crate) parameter: &'static str,
     pub(crate) type_: String,
@@ -150,7 +155,7 @@ pub(crate) trait Encoder {
 /// Hardware that counts by itself in 16 bits. Its driver has the method `count`.
 pub(crate) struct Counter {
     /// What the wiring hands over.
-    pub(crate) made: Made,
+    pub(crate) made: Constructor,
     /// What the driver is called behind the name of its wire: `qei`.
     pub(crate) suffix: &'static str,
     /// Its type in `main.rs`.

@@ -3,7 +3,7 @@
 use sensedsl_job::{Pad, SerialLink};
 
 use crate::context::Context;
-use crate::section::{Made, Section};
+use crate::section::{Constructor, Section};
 
 /// The link to the host.
 pub(crate) trait Link {
@@ -31,7 +31,7 @@ pub(crate) struct UsbLink {
     /// Where it is: `the link at the USB socket`.
     pub(crate) comment: String,
     /// The driver, which is an `embassy_usb` one.
-    pub(crate) made: Made,
+    pub(crate) made: Constructor,
     /// Whether the peripheral can be a host as well: then it needs a buffer, `rx` of the wiring.
     pub(crate) is_otg: bool,
 }
@@ -41,5 +41,5 @@ pub(crate) struct PortLink {
     /// The handler of the port's interrupt.
     pub(crate) handler: String,
     /// The driver, which reads and writes through queues.
-    pub(crate) made: Made,
+    pub(crate) made: Constructor,
 }

@@ -5,8 +5,8 @@ use sensedsl_job::JobConnection;
 use sensedsl_model::kind::pwm::Pwm;
 
 use crate::context::{Context, Wired};
-use crate::lack::Printed;
-use crate::section::{Field, Made};
+use crate::missing::Printed;
+use crate::section::{Constructor, Field};
 
 /// Pins and outputs of GPIO.
 pub(crate) trait Pins {
@@ -86,7 +86,7 @@ pub(crate) struct Hold {
 /// Analog outputs of 12 bits.
 pub(crate) trait Dac {
     /// A channel of a converter with its pin.
-    fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made;
+    fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor;
 
     /// The expression that sets it, in a scope with `outputs`. `field` is that of `Outputs`, `value` has at most 12
     /// bits.

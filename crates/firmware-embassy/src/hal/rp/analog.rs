@@ -7,21 +7,26 @@ use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{Analog, AnalogInput, each_round};
 use crate::hal::contract::outputs::Pins as _;
-use crate::lack::Printed;
-use crate::section::{Made, Section};
+use crate::missing::Printed;
+use crate::section::{Constructor, Section};
 
 impl Analog for Settings {
-    fn converter(&self, context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<Made> {
+    fn converter(
+        &self,
+        context: &Context<'_>,
+        unit: &str,
+        section: &mut Section,
+    ) -> Printed<Constructor> {
         let (hal, interrupt) = (context.peripheral(unit), context.interrupt(unit, "GLOBAL")?);
         section.bind(interrupt, "hal::adc::InterruptHandler".to_owned());
-        Ok(Made {
+        Ok(Constructor {
             type_: "hal::adc::Adc<'static, hal::adc::Async>".to_owned(),
             make: format!("hal::adc::Adc::new(p.{hal}, Irqs, hal::adc::Config::default())"),
         })
     }
 
-    fn input(&self, _context: &Context<'_>, _unit: &str, pin: &PinName) -> Made {
-        Made {
+    fn input(&self, _context: &Context<'_>, _unit: &str, pin: &PinName) -> Constructor {
+        Constructor {
             type_: "hal::adc::Channel<'static>".to_owned(),
             make: format!("hal::adc::Channel::new_pin(p.{}, Pull::None)", self.pin(pin)),
         }

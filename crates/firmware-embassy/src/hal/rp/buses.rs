@@ -9,8 +9,8 @@ use crate::context::Context;
 use crate::hal::contract::buses::{I2c, Spi};
 use crate::hal::contract::outputs::Pins as _;
 use crate::hal::dma::channel;
-use crate::lack::{self, Printed};
-use crate::section::{Made, Section};
+use crate::missing::{self, Printed};
+use crate::section::{Constructor, Section};
 
 impl I2c for Settings {
     fn bus_type(&self, unit: &UnitName) -> String {
@@ -24,12 +24,12 @@ impl I2c for Settings {
         wire: &JobConnection<'_>,
         hz: u32,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let hal = context.peripheral(unit.as_str());
-        let (scl, sda) = (lack::pad(wire, Role::Scl)?, lack::pad(wire, Role::Sda)?);
+        let (scl, sda) = (missing::pad(wire, Role::Scl)?, missing::pad(wire, Role::Sda)?);
         let interrupt = context.interrupt(unit.as_str(), "EV")?;
         section.bind(interrupt, format!("hal::i2c::InterruptHandler<{hal}>"));
-        Ok(Made {
+        Ok(Constructor {
             type_: format!("hal::i2c::I2c<'static, {hal}, hal::i2c::Async>"),
             make: format!(
                 "hal::i2c::I2c::new_async(p.{hal}, p.{}, p.{}, Irqs, crate::rt::i2c::config({hz}))",
@@ -51,13 +51,13 @@ impl Spi for Settings {
         unit: &UnitName,
         wire: &JobConnection<'_>,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let hal = context.peripheral(unit.as_str());
         let tx = channel(context, wire, "_TX", section)?;
         let rx = channel(context, wire, "_RX", section)?;
-        let pin = |role| Ok(self.pin(&lack::pad(wire, role)?.pin.name));
+        let pin = |role| Ok(self.pin(&missing::pad(wire, role)?.pin.name));
         let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
-        Ok(Made {
+        Ok(Constructor {
             type_: format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
             make: format!(
                 "hal::spi::Spi::new(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())"

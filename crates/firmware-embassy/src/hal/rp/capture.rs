@@ -8,8 +8,8 @@ use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{Capture, CaptureInput, Counter, Waiting};
 use crate::hal::contract::outputs::Pins as _;
-use crate::lack::{self, Missing, Printed};
-use crate::section::{Made, Section};
+use crate::missing::{self, Missing, Printed};
+use crate::section::{Constructor, Section};
 
 /// The range of a slice's divider in sixteenths: it has eight bits, and four after the point.
 const SIXTEENTHS: std::ops::RangeInclusive<u32> = 16..=0xFFF;
@@ -25,7 +25,7 @@ impl Capture for Settings {
             Edge::Rising | Edge::Both => "RisingEdge",
             Edge::Falling => "FallingEdge",
         };
-        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
+        let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::In)?);
         let type_ = "rt::gate::Edges";
         let make = format!(
             "crate::{type_}::new(p.{}, p.{}, hal::pwm::InputMode::{edge})",
@@ -33,7 +33,7 @@ impl Capture for Settings {
             self.pin(&pad.pin.name)
         );
         Ok(Some(Counter {
-            made: Made { type_: format!("crate::{type_}"), make },
+            made: Constructor { type_: format!("crate::{type_}"), make },
             suffix: "slice",
             type_: type_.to_owned(),
         }))
@@ -47,7 +47,7 @@ impl Capture for Settings {
         _section: &mut Section,
     ) -> Printed<Waiting> {
         let CaptureInput { wire, icu, statics, .. } = input;
-        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
+        let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::In)?);
         let sixteenths = sixteenths(context, unit, icu.tick_hz)?;
         let type_ = "rt::gate::Gate";
         let make = format!(
@@ -57,7 +57,7 @@ impl Capture for Settings {
             icu.edge != Edge::Falling
         );
         Ok(Waiting {
-            made: Made { type_: format!("crate::{type_}"), make },
+            made: Constructor { type_: format!("crate::{type_}"), make },
             parameter: "gate",
             type_: type_.to_owned(),
             runs: format!("rt::gate::measure(gate, &{statics}_SEEN)"),

@@ -4,8 +4,8 @@ use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{EdgeInput, Edges, Watch, WatchedBy};
 use crate::hal::contract::outputs::Pins as _;
-use crate::lack::Printed;
-use crate::section::Made;
+use crate::missing::Printed;
+use crate::section::Constructor;
 
 impl Edges for Settings {
     fn watch(&self, _context: &Context<'_>, input: &EdgeInput<'_>) -> Printed<Watch> {
@@ -13,7 +13,7 @@ impl Edges for Settings {
         let pin = self.pin(&pad.pin.name);
         Ok(Watch {
             begin: format!("rt::edges::Pad({})", pin.trim_start_matches("PIN_")),
-            made: Made {
+            made: Constructor {
                 type_: "Input<'static>".to_owned(),
                 make: format!("Input::new(p.{pin}, {pull})"),
             },

@@ -4,7 +4,7 @@ use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::link::{Link, LinkPads, PortLink, UsbLink};
 use crate::hal::contract::outputs::Pins as _;
-use crate::section::{Made, Section};
+use crate::section::{Constructor, Section};
 
 impl Link for Settings {
     /// The USB device, whose data lines are not pins of the board table.
@@ -15,7 +15,7 @@ impl Link for Settings {
         section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
         Some(UsbLink {
             comment: "the link at the USB socket".to_owned(),
-            made: Made {
+            made: Constructor {
                 type_: format!("hal::usb::Driver<'static, {hal}>"),
                 make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
             },
@@ -42,7 +42,7 @@ impl Link for Settings {
         }
         Some(PortLink {
             handler: format!("hal::uart::BufferedInterruptHandler<{hal}>"),
-            made: Made {
+            made: Constructor {
                 type_: "hal::uart::BufferedUart".to_owned(),
                 make: format!(
                     "hal::uart::BufferedUart::new(p.{hal}, p.{}, p.{}, Irqs, tx, rx, \

@@ -5,7 +5,7 @@ use sensedsl_job::snake;
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::outputs::{Output, Pins as _, Pulse, Pulses, Timer};
-use crate::lack::{Missing, Printed};
+use crate::missing::{Missing, Printed};
 use crate::section::Field;
 
 /// The most steps that a slice counts in a period.

@@ -7,11 +7,16 @@ use super::settings::{AdcNew, AdcRead, Settings};
 use crate::context::Context;
 use crate::hal::contract::inputs::{Analog, AnalogInput, SampleRoom, each_round};
 use crate::item::{Handler, Item};
-use crate::lack::Printed;
-use crate::section::{Made, Section};
+use crate::missing::Printed;
+use crate::section::{Constructor, Section};
 
 impl Analog for Settings {
-    fn converter(&self, context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<Made> {
+    fn converter(
+        &self,
+        context: &Context<'_>,
+        unit: &str,
+        section: &mut Section,
+    ) -> Printed<Constructor> {
         let hal = context.peripheral(unit);
         if self.file.adc.read == AdcRead::Async {
             // The HAL turns the interrupt on whether or not it asks for the handler.
@@ -27,21 +32,21 @@ impl Analog for Settings {
         if self.file.adc.read == AdcRead::Sampler {
             sampler(context, unit, section)?;
         }
-        Ok(Made {
+        Ok(Constructor {
             type_: format!("hal::adc::Adc<'static, {hal}>"),
             make: format!("hal::adc::Adc::new(p.{hal}{arguments})"),
         })
     }
 
-    fn input(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made {
-        let plain = |make| Made { type_: format!("Peri<'static, {pin}>"), make };
+    fn input(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor {
+        let plain = |make| Constructor { type_: format!("Peri<'static, {pin}>"), make };
         match self.file.adc.read {
             AdcRead::Blocking => plain(format!("p.{pin}")),
             // The HAL leaves the pin as it was after the reset; a `Flex` leaves it analog.
             AdcRead::Async => plain(format!(
                 "{{ let mut pin = p.{pin}; drop(hal::gpio::Flex::new(pin.reborrow())); pin }}"
             )),
-            AdcRead::Sampler => Made {
+            AdcRead::Sampler => Constructor {
                 type_: format!("hal::adc::AnyAdcChannel<'static, {}>", context.peripheral(unit)),
                 make: format!("hal::adc::AdcChannel::degrade_adc(p.{pin})"),
             },

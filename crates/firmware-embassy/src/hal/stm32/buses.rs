@@ -8,8 +8,8 @@ use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::buses::{I2c, Spi};
 use crate::hal::dma::channel;
-use crate::lack::{self, Printed};
-use crate::section::{Made, Section};
+use crate::missing::{self, Printed};
+use crate::section::{Constructor, Section};
 
 impl I2c for Settings {
     fn bus_type(&self, _unit: &UnitName) -> String {
@@ -23,10 +23,10 @@ impl I2c for Settings {
         wire: &JobConnection<'_>,
         hz: u32,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let unit = unit.as_str();
         let hal = context.peripheral(unit);
-        let (scl, sda) = (lack::pad(wire, Role::Scl)?, lack::pad(wire, Role::Sda)?);
+        let (scl, sda) = (missing::pad(wire, Role::Scl)?, missing::pad(wire, Role::Sda)?);
         let tx = channel(context, wire, "_TX", section)?;
         let rx = channel(context, wire, "_RX", section)?;
         for (signal, handler) in [("EV", "EventInterruptHandler"), ("ER", "ErrorInterruptHandler")]
@@ -39,7 +39,7 @@ impl I2c for Settings {
         if self.has_pulls() {
             section.features.insert("gpio-v2");
         }
-        Ok(Made {
+        Ok(Constructor {
             type_: "hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>".to_owned(),
             make: format!(
                 "hal::i2c::I2c::new{}(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, crate::rt::i2c::config({hz}))",
@@ -62,14 +62,14 @@ impl Spi for Settings {
         unit: &UnitName,
         wire: &JobConnection<'_>,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let unit = unit.as_str();
         let hal = context.peripheral(unit);
         let tx = channel(context, wire, "_TX", section)?;
         let rx = channel(context, wire, "_RX", section)?;
-        let pin = |role| Ok(&lack::pad(wire, role)?.pin.name);
+        let pin = |role| Ok(&missing::pad(wire, role)?.pin.name);
         let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
-        Ok(Made {
+        Ok(Constructor {
             type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
             make: format!(
                 "hal::spi::Spi::new{}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())",

@@ -7,8 +7,8 @@ use sensedsl_model::kind::Role;
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::buses::{Can, Filters};
-use crate::lack::{self, Missing, Printed};
-use crate::section::{Made, Section, Start};
+use crate::missing::{self, Missing, Printed};
+use crate::section::{Constructor, Section, Start};
 
 /// Controllers with banks of filters are alone, or two share them; a third one has banks of its own.
 const FIRST: &str = "CAN1";
@@ -20,9 +20,9 @@ impl Can for Settings {
         context: &Context<'_>,
         bus: &Bus<'_>,
         section: &mut Section,
-    ) -> Printed<Made> {
+    ) -> Printed<Constructor> {
         let hal = context.peripheral(bus.unit);
-        let (rx, tx) = (lack::pad(bus.first, Role::Rx)?, lack::pad(bus.first, Role::Tx)?);
+        let (rx, tx) = (missing::pad(bus.first, Role::Rx)?, missing::pad(bus.first, Role::Tx)?);
         let handlers: &[(&str, &str)] = if self.has_can_banks() {
             &[("TX", "Tx"), ("RX0", "Rx0"), ("RX1", "Rx1"), ("SCE", "Sce")]
         } else {
@@ -35,8 +35,8 @@ impl Can for Settings {
         section.features.insert(if self.has_can_banks() { "can-banks" } else { "can-fd" });
         let maker = if self.has_can_banks() { "Can" } else { "CanConfigurator" };
         // The unit as the pins spell it: `CAN`, where there is only one.
-        let moved = self.generics(context, lack::unit(bus.first)?, &["_"]);
-        Ok(Made {
+        let moved = self.generics(context, missing::unit(bus.first)?, &["_"]);
+        Ok(Constructor {
             type_: format!("hal::can::{maker}<'static>"),
             make: format!(
                 "hal::can::{maker}::new{moved}(p.{hal}, p.{}, p.{}, Irqs)",

@@ -7,8 +7,8 @@ use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{Capture, CaptureInput, Counter, Encoder, Waiting};
-use crate::lack::{self, Printed};
-use crate::section::{Made, Section};
+use crate::missing::{self, Printed};
+use crate::section::{Constructor, Section};
 
 impl Capture for Settings {
     fn waiting(
@@ -18,8 +18,8 @@ impl Capture for Settings {
         section: &mut Section,
     ) -> Printed<Waiting> {
         let CaptureInput { wire, icu, statics, is_train } = input;
-        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
-        let (channel, hal) = (lack::channel(pad)?, context.peripheral(unit));
+        let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::In)?);
+        let (channel, hal) = (missing::channel(pad)?, context.peripheral(unit));
         let interrupt = context.interrupt(unit, "CC")?;
         section.bind(interrupt, format!("hal::timer::CaptureCompareInterruptHandler<{hal}>"));
         let (pin, moved) = (pad.pin.name.as_str(), self.generics(context, unit, &[]));
@@ -43,7 +43,7 @@ impl Capture for Settings {
 }
 
 /// A timer that keeps the counts of the edges on one channel.
-fn counter(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Made {
+fn counter(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Constructor {
     let slots = (1..=4).map(|slot| {
         if slot == channel {
             format!("Some(hal::timer::input_capture::CapturePin::new(p.{pin}, Pull::None))")
@@ -52,7 +52,7 @@ fn counter(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Made {
         }
     });
     let slots: Vec<String> = slots.collect();
-    Made {
+    Constructor {
         type_: format!("hal::timer::input_capture::InputCapture<'static, {hal}>"),
         make: format!(
             "hal::timer::input_capture::InputCapture::new{moved}(p.{hal}, {}, Irqs, hz({}), CountingMode::EdgeAlignedUp)",
@@ -63,8 +63,8 @@ fn counter(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Made {
 }
 
 /// A timer that measures width and period of pulses with two channels.
-fn pulses(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Made {
-    Made {
+fn pulses(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> Constructor {
+    Constructor {
         type_: format!("hal::timer::pwm_input::PwmInput<'static, {hal}>"),
         make: format!(
             "hal::timer::pwm_input::PwmInput::new_ch{channel}{moved}(p.{hal}, p.{pin}, Irqs, Pull::None, hz({}))",
@@ -100,12 +100,12 @@ fn run(icu: &Icu, channel: u8, statics: &str) -> String {
 
 impl Encoder for Settings {
     fn counter(&self, context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Counter> {
-        let unit = lack::unit(wire)?;
-        let (a, b) = (lack::pad(wire, Role::A)?, lack::pad(wire, Role::B)?);
+        let unit = missing::unit(wire)?;
+        let (a, b) = (missing::pad(wire, Role::A)?, missing::pad(wire, Role::B)?);
         let hal = context.peripheral(unit);
         // The HAL takes the channels in either order.
         let type_of = |channel| format!("hal::timer::Ch{channel}");
-        let (first, second) = (type_of(lack::channel(a)?), type_of(lack::channel(b)?));
+        let (first, second) = (type_of(missing::channel(a)?), type_of(missing::channel(b)?));
         let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
         let make = format!(
             "hal::timer::qei::Qei::new{}(p.{hal}, p.{}, p.{}, Default::default())",
@@ -113,6 +113,6 @@ impl Encoder for Settings {
             a.pin.name,
             b.pin.name
         );
-        Ok(Counter { made: Made { type_: type_.clone(), make }, suffix: "qei", type_ })
+        Ok(Counter { made: Constructor { type_: type_.clone(), make }, suffix: "qei", type_ })
     }
 }

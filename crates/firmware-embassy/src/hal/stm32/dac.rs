@@ -5,12 +5,12 @@ use sensedsl_board::pin::PinName;
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::outputs::Dac;
-use crate::section::Made;
+use crate::section::Constructor;
 
 impl Dac for Settings {
-    fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Made {
+    fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor {
         let hal = context.peripheral(unit);
-        Made {
+        Constructor {
             type_: "hal::dac::DacChannel<'static, hal::mode::Blocking>".to_owned(),
             make: format!("hal::dac::DacChannel::new_blocking(p.{hal}, p.{pin})"),
         }

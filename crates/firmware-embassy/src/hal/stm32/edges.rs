@@ -3,8 +3,8 @@
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{EdgeInput, Edges, Watch, WatchedBy};
-use crate::lack::{Missing, Printed};
-use crate::section::Made;
+use crate::missing::{Missing, Printed};
+use crate::section::Constructor;
 
 impl Edges for Settings {
     fn watch(&self, context: &Context<'_>, input: &EdgeInput<'_>) -> Printed<Watch> {
@@ -14,7 +14,7 @@ impl Edges for Settings {
         let line = format!("EXTI{line}");
         let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
         Ok(Watch {
-            made: Made {
+            made: Constructor {
                 type_: "hal::exti::ExtiInput<'static, hal::mode::Blocking>".to_owned(),
                 make: format!(
                     "hal::exti::ExtiInput::new_blocking(p.{pin}, p.{line}, {pull}, hal::exti::TriggerEdge::{trigger})"

@@ -3,7 +3,7 @@
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::link::{Link, LinkPads, PortLink, UsbLink};
-use crate::section::{Made, Section};
+use crate::section::{Constructor, Section};
 
 impl Link for Settings {
     fn usb(&self, context: &Context<'_>, section: &mut Section) -> Option<UsbLink> {
@@ -32,7 +32,7 @@ impl Link for Settings {
         };
         Some(UsbLink {
             comment: format!("the link at {dm} (D-) and {dp} (D+)"),
-            made: Made { type_: format!("hal::usb::Driver<'static, {hal}>"), make },
+            made: Constructor { type_: format!("hal::usb::Driver<'static, {hal}>"), make },
             is_otg,
         })
     }
@@ -48,7 +48,7 @@ impl Link for Settings {
         section.features.insert(self.port_feature());
         Some(PortLink {
             handler: format!("hal::usart::BufferedInterruptHandler<{hal}>"),
-            made: Made {
+            made: Constructor {
                 type_: "hal::usart::BufferedUart<'static>".to_owned(),
                 make: format!(
                     "crate::rt::usart::port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, tx, rx, Irqs, crate::rt::usart::link({})))",
