@@ -10,24 +10,24 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
 use sensedsl_syntax::{Parse, ast};
 
-use crate::boards::{self, Context, RemainingBudget};
-use crate::checks;
-use crate::chips;
-use crate::constants::{self, Constants};
+use crate::board::link;
+use crate::board::pins;
+use crate::board::{self, Context, RemainingBudget};
+use crate::design::sound::{Partial, broken_drivers};
 use crate::design::{Board, BoardIndex, Design, Spanned};
-use crate::devices::{self, Known};
-use crate::drivers::{self, Drivers};
-use crate::files::Files;
-use crate::frames;
-use crate::ids;
-use crate::links;
-use crate::names;
-use crate::parts::{Next, ReadPart, assemble};
-use crate::pins;
-use crate::registers;
-use crate::sound::{Partial, broken_drivers};
-use crate::sources::{Items, Reader};
-use crate::syntax_errors;
+use crate::driver::{self, Drivers};
+use crate::part::block::{Next, ReadPart, assemble};
+use crate::part::chip;
+use crate::part::device::{self, Known};
+use crate::part::frames;
+use crate::part::ids;
+use crate::part::registers;
+use crate::rule::checks;
+use crate::rule::names;
+use crate::source::files::Files;
+use crate::source::reader::{Items, Reader};
+use crate::source::syntax_errors;
+use crate::value::constants::{self, Constants};
 
 /// What a caller asks for.
 #[derive(Clone, Copy, Debug, Default)]
@@ -77,7 +77,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let known = Known { constants: &constants, drivers: &drivers };
     let (mut parts, unread) = read_parts(&items, known, &mut diagnostics);
     ids::complete(&mut parts, &mut diagnostics);
-    drivers::check(known, &mut diagnostics);
+    driver::check(known, &mut diagnostics);
     let constant_names = constants::names(&items.constants);
     names::check("constant", &constant_names.iter().collect::<Vec<_>>(), &mut diagnostics);
     let board_names = board_names(&items);
@@ -93,7 +93,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     frames::settle(&mut design, &mut diagnostics);
     registers::settle(&mut design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
-    links::settle_silence(&mut design, &mut diagnostics);
+    link::settle_silence(&mut design, &mut diagnostics);
     if items.broken {
         // An item that seems missing may be in the text that could not be read.
         let missing = e0206_missing_property::CODE;
@@ -162,7 +162,7 @@ fn read_boards(
         built_in: BTreeMap::new(),
         left: RemainingBudget::default(),
     };
-    let read = |(file, node): &(FileId, _)| boards::read(&mut context, *file, node);
+    let read = |(file, node): &(FileId, _)| board::read(&mut context, *file, node);
     let boards = items.boards.iter().map(read).collect();
     (boards, context.tables.into_keys().collect())
 }
@@ -180,11 +180,9 @@ fn read_parts(
         let board = board.map(BoardIndex);
         let (read, name) = match node {
             ast::Item::Device(node) => {
-                (devices::read(at, node, board, known, diagnostics), node.name())
+                (device::read(at, node, board, known, diagnostics), node.name())
             }
-            ast::Item::Chip(node) => {
-                (chips::read(at, node, board, known, diagnostics), node.name())
-            }
+            ast::Item::Chip(node) => (chip::read(at, node, board, known, diagnostics), node.name()),
         };
         match read {
             Some(part) => {

@@ -3,8 +3,8 @@
 use sensedsl_diagnostics::Span;
 
 use super::Spanned;
+use crate::board::pins::PinRef;
 use crate::kind::Role;
-use crate::pins::PinRef;
 
 /// The fixed parts of a device's wiring.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -8,9 +8,9 @@ use sensedsl_diagnostics::codes::{e0234_value_does_not_fit as misfit, h0707_of_t
 use sensedsl_syntax::Unit;
 
 use super::{Field, Fields, plain_number};
-use crate::coding;
 use crate::design::{Presentation, Spanned};
-use crate::reach::rounded;
+use crate::part::coding;
+use crate::part::reach::rounded;
 use crate::value::{Dimension, Measure, Number, Value, power_of_ten, shifted};
 
 /// Codes per percent of a pwm output's range.

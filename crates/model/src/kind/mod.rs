@@ -179,7 +179,7 @@ mod tests {
         let file = sources.add("x.sense", "");
         let mut all = BTreeSet::new();
         for direction in kind.spec().directions {
-            let constants = crate::constants::Constants::default();
+            let constants = crate::value::constants::Constants::default();
             let (mut said, at) = (Vec::new(), Span::new(file, 0..0));
             let mut fields =
                 Fields::new(std::iter::empty(), file, "a device", at, (&constants, &mut said));

@@ -1,0 +1,23 @@
+//! The library of drivers that ships with the tool.
+
+/// The files of the library: name and text.
+pub const LIBRARY: &[(&str, &str)] = &[
+    ("drivers/environment.sense", include_str!("../../drivers/environment.sense")),
+    ("drivers/expanders.sense", include_str!("../../drivers/expanders.sense")),
+    ("drivers/field_bus.sense", include_str!("../../drivers/field_bus.sense")),
+    ("drivers/input.sense", include_str!("../../drivers/input.sense")),
+    ("drivers/light.sense", include_str!("../../drivers/light.sense")),
+    ("drivers/magnetic.sense", include_str!("../../drivers/magnetic.sense")),
+    ("drivers/motion.sense", include_str!("../../drivers/motion.sense")),
+    ("drivers/motors.sense", include_str!("../../drivers/motors.sense")),
+    ("drivers/navigation.sense", include_str!("../../drivers/navigation.sense")),
+    ("drivers/output.sense", include_str!("../../drivers/output.sense")),
+    ("drivers/position.sense", include_str!("../../drivers/position.sense")),
+    ("drivers/power.sense", include_str!("../../drivers/power.sense")),
+    ("drivers/radio_control.sense", include_str!("../../drivers/radio_control.sense")),
+    ("drivers/rangers.sense", include_str!("../../drivers/rangers.sense")),
+    ("drivers/ranging_optical.sense", include_str!("../../drivers/ranging_optical.sense")),
+];
+
+/// Search terms, and the drivers that they mean: lines of words and names.
+pub(crate) const SEARCH: &str = include_str!("../../drivers/search.csv");

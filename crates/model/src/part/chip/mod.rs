@@ -1,0 +1,498 @@
+//! Chips: from a block and the driver it names to a part with connections and values.
+//!
+//! What one value needs can be given in several places. From nearest to farthest: the device, the
+//! chip, the chip's `connection` block, the driver's reading or command, the driver's connection,
+//! the driver. The nearest wins.
+
+mod sockets;
+mod values;
+
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0217_driver_of_other_kind, e0220_impossible_type, e0229_wrong_driver,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _, Property};
+use sensedsl_wire::ValueType;
+
+use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, Spanned};
+use crate::driver::Driver;
+use crate::driver::bounds::Bounds;
+use crate::fields::{Fields, name_or_text, span};
+use crate::kind::uart::Uart;
+use crate::kind::{Kind, KindName, Values};
+use crate::part::block::{Next, ReadPart};
+use crate::part::coding::{self, CODING, FILTER, PROTOCOL};
+use crate::part::device::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
+use crate::part::ids::ID_MAX;
+use crate::part::protocol::Protocol;
+use crate::part::words;
+use crate::rule;
+use crate::value::Evaluator;
+use sockets::Socket;
+use values::RequestedValue;
+
+use values::DriverValue;
+
+/// The properties of a chip, besides those of its connections.
+const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
+/// The properties of a chip's devices.
+const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
+
+/// A chip, or a device that is a chip's only value, with its driver.
+struct ChipReader<'a> {
+    file: FileId,
+    /// The numbers of the part, its first device and its first wires.
+    next: Next,
+    name: Spanned<String>,
+    block: Span,
+    driver: &'a Driver,
+    known: Known<'a>,
+    /// The properties of the chip as a whole.
+    properties: Vec<Property>,
+    protocol: Protocol,
+    /// The driver's named values.
+    given: Vec<DriverValue>,
+}
+
+/// Reads a chip; none when too little of it is understood.
+pub(crate) fn read(
+    (file, next): (FileId, Next),
+    node: &ast::Chip,
+    board: Option<BoardIndex>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<ReadPart> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let rest = (known.constants, &mut *diagnostics);
+    let (mut wishes, mut allows) = rule::of_device(file, node.rules(), node.range(), rest);
+    for device in node.devices() {
+        let rest = (known.constants, &mut *diagnostics);
+        let (more, others) = rule::of_device(file, device.rules(), device.range(), rest);
+        wishes.extend(more);
+        allows.extend(others);
+    }
+    let said = (known.constants, &mut *diagnostics);
+    let owner = format!("the chip `{}`", name.value);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let Some(wanted) = fields.name("driver", "the name of a driver") else {
+        if !fields.has("driver") {
+            fields.missing("driver", "driver = mpu6050;");
+        }
+        return None;
+    };
+    let first_id = fields.integer("id", 1..=254).and_then(|id| u8::try_from(id.value).ok());
+    drop(fields);
+    let driver = known.drivers.find(&wanted, diagnostics)?;
+    let properties: Vec<Property> = node.properties().collect();
+    let block = span(file, node.range());
+    let protocol = protocol(file, driver, &properties, known, diagnostics);
+    let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
+    let whole = ChipReader { file, next, name, block, driver, known, properties, protocol, given };
+    sockets::describe(&mut sockets, &whole, node.connections().collect(), diagnostics);
+    whole.check_properties(&sockets, CHIP, diagnostics);
+    for device in node.devices() {
+        whole.check_device(&device, &sockets, diagnostics);
+    }
+    let asked: Vec<RequestedValue> = if node.devices().next().is_some() {
+        let devices = node.devices();
+        devices.filter_map(|one| values::stated(&whole, &one, diagnostics)).collect()
+    } else {
+        values::all(&whole, diagnostics)
+    };
+    let devices = whole.devices(asked, first_id, &mut sockets, diagnostics);
+    let connections = whole.connections(&devices, &sockets, board, &wishes, diagnostics);
+    whole.part(board, allows, devices, connections)
+}
+
+/// Reads a device whose driver names several values: a chip of which one value is wanted.
+pub(crate) fn of_device(
+    (file, next): (FileId, Next),
+    node: &ast::Device,
+    driver: &Driver,
+    board: Option<BoardIndex>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<ReadPart> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let rest = (known.constants, &mut *diagnostics);
+    let (wishes, allows) = rule::of_device(file, node.rules(), node.range(), rest);
+    let block = span(file, node.range());
+    let of_value = |one: &Property| {
+        let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
+        let name = name.as_str();
+        OF_DEVICE.contains(&name) || PRESENTATION.contains(&name) || FILTER.contains(&name)
+    };
+    let properties: Vec<Property> = node.properties().filter(|one| !of_value(one)).collect();
+    let protocol = protocol(file, driver, &properties, known, diagnostics);
+    let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
+    let whole = ChipReader { file, next, name, block, driver, known, properties, protocol, given };
+    whole.check_type(diagnostics);
+    let own: Vec<&str> = CHIP.iter().chain(&["type"]).copied().collect();
+    whole.check_properties(&sockets, &own, diagnostics);
+    let mut asked = values::stated(&whole, node, diagnostics)?;
+    asked.own.retain(of_value);
+    let devices = whole.devices(vec![asked], None, &mut sockets, diagnostics);
+    let connections = whole.connections(&devices, &sockets, board, &wishes, diagnostics);
+    whole.part(board, allows, devices, connections)
+}
+
+/// A driver's values, and the connections that it has for them.
+fn values_and_sockets(
+    driver: &Driver,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<(Vec<DriverValue>, Vec<Socket>)> {
+    let mut sockets = sockets::of_driver(driver, diagnostics)?;
+    let names: Vec<Option<&str>> = sockets.iter().map(|one| one.name.as_deref()).collect();
+    let given = values::given(driver, &names, (known.constants, diagnostics));
+    for number in given.iter().flat_map(|one| &one.via) {
+        if let Some(socket) = sockets.get_mut(*number) {
+            socket.is_of_a_value = true;
+        }
+    }
+    Some((given, sockets))
+}
+
+/// Reports mistakes in a driver of the file.
+pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
+    protocol(driver.file, driver, &[], known, diagnostics);
+    Bounds::of_driver(driver, known, diagnostics);
+    let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
+    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let of_part = driver.node.properties().map(|one| (one, true));
+    let of_values = given.iter().flat_map(|one| one.properties.iter().cloned());
+    let all = of_part.chain(blocks.chain(of_values).map(|one| (one, false)));
+    for (property, is_of_part) in all {
+        let Some(name) = property.name() else { continue };
+        let known = || {
+            let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
+            let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
+            let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
+            of_kinds.chain(shared).chain(PROTOCOL).chain(about).copied()
+        };
+        if known().all(|one| one != name.text()) {
+            let at = span(driver.file, name.range());
+            let unknown = e0201_unknown_property::unknown_property;
+            diagnostics.push(unknown(
+                at,
+                name.text(),
+                &driver.what(),
+                nearest(name.text(), known()),
+            ));
+        }
+    }
+    twice(driver, &given, diagnostics);
+}
+
+/// Reports readings of the same bits of the same register.
+fn twice(driver: &Driver, given: &[DriverValue], diagnostics: &mut Vec<Diagnostic>) {
+    const PLACE: [&str; 9] =
+        ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
+    let place = |one: &DriverValue| {
+        let words = one.properties.iter().filter_map(|property| {
+            let (name, value) = (property.name()?, property.value()?);
+            PLACE
+                .contains(&name.text())
+                .then(|| format!("{} {}", name.text(), value.syntax().text()))
+        });
+        let mut words: Vec<String> = words.collect();
+        words.sort();
+        (one.direction, words)
+    };
+    for (at, one) in given.iter().enumerate() {
+        let own = place(one);
+        let has_register = own.1.iter().any(|word| word.starts_with("register "));
+        let before = given.iter().take(at).find(|other| place(other) == own);
+        if let Some(before) = before.filter(|_| has_register) {
+            let message = format!("`{}` and `{}` are the same register", before.name, one.name);
+            diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
+        }
+    }
+}
+
+/// How the chip is started, according to the driver; the chip can override it.
+fn protocol(
+    file: FileId,
+    driver: &Driver,
+    properties: &[Property],
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Protocol {
+    let of_protocol =
+        |one: &Property| one.name().is_some_and(|name| PROTOCOL.contains(&name.text()));
+    let at = span(driver.file, driver.node.range());
+    let own = properties.iter().filter(|one| of_protocol(one)).cloned();
+    let said = (known.constants, diagnostics);
+    let mut fields = Fields::new(own, file, "a driver", at, said);
+    fields.drivers_follow();
+    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let all = driver.node.properties().chain(blocks);
+    fields.inherit(all.filter(of_protocol), driver.file);
+    coding::protocol(&mut fields)
+}
+
+impl ChipReader<'_> {
+    /// The properties of the chip that apply to a connection of that kind.
+    fn properties_for(&self, kind: KindName) -> impl Iterator<Item = Property> {
+        let concerns = move |one: &Property| {
+            one.name().is_some_and(|name| {
+                let name = name.text();
+                let common = COMMON_PROPERTIES.contains(&name);
+                let own = matches!(name, "id" | "driver" | "type");
+                (common && !own) || kind.spec().properties.contains(&name)
+            })
+        };
+        self.properties.iter().filter(move |one| concerns(one)).cloned()
+    }
+
+    /// Reports properties of the chip that none of its parts has.
+    fn check_properties(
+        &self,
+        sockets: &[Socket],
+        own: &[&str],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let known = || {
+            let of_kinds = sockets.iter().flat_map(|socket| socket.kind.spec().properties);
+            let placed = ["unit", "level", "divider"];
+            let wires = sockets.iter().filter_map(|socket| socket.name.as_deref());
+            let own = own.iter().chain(PROTOCOL).copied().chain(placed);
+            of_kinds.copied().chain(own).chain(wires)
+        };
+        for property in &self.properties {
+            let Some(name) = property.name() else { continue };
+            if known().all(|one| one != name.text()) {
+                let at = span(self.file, name.range());
+                let meant = nearest(name.text(), known());
+                let unknown = e0201_unknown_property::unknown_property;
+                let of = format!("a chip of `{}`", self.driver.name.value);
+                diagnostics.push(unknown(at, name.text(), &of, meant));
+            }
+        }
+    }
+
+    /// Reports properties of a device of the chip that are not its own.
+    fn check_device(
+        &self,
+        node: &ast::Device,
+        sockets: &[Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let own = || OF_DEVICE.iter().chain(PRESENTATION).chain(FILTER).copied();
+        for property in node.properties() {
+            let Some(name) = property.name().filter(|name| own().all(|one| one != name.text()))
+            else {
+                continue;
+            };
+            let at = span(self.file, name.range());
+            let of_chip = COMMON_PROPERTIES.contains(&name.text())
+                || sockets.iter().any(|one| one.kind.spec().properties.contains(&name.text()));
+            diagnostics.push(if of_chip {
+                let (property, chip) = (name.text(), &self.name.value);
+                e0201_unknown_property::property_of_chip(at, property, chip)
+            } else {
+                let meant = nearest(name.text(), own());
+                let of = "a device of a chip";
+                e0201_unknown_property::unknown_property(at, name.text(), of, meant)
+            });
+        }
+    }
+
+    /// Reports a `type` that differs from the driver's.
+    fn check_type(&self, diagnostics: &mut Vec<Diagnostic>) {
+        let is_type = |one: &&Property| one.name().is_some_and(|name| name.text() == "type");
+        let Some(value) = self.properties.iter().find(is_type).and_then(Property::value) else {
+            return;
+        };
+        let (file, constants) = (self.file, self.known.constants);
+        let found = Evaluator::new(file, constants, diagnostics).value(&value);
+        let written = name_or_text(&found).unwrap_or_default();
+        let of_driver = self.driver.kind.map(KindName::name);
+        if of_driver != Some(written.as_str()) {
+            let (at, name) = (span(file, value.range()), &self.driver.name.value);
+            let wrong = e0217_driver_of_other_kind::driver_of_other_kind;
+            diagnostics.push(wrong(at, name, &self.driver.what(), &written));
+        }
+    }
+
+    /// The requested values as devices. Marks their connections as used.
+    fn devices(
+        &self,
+        asked: Vec<RequestedValue>,
+        first_id: Option<u8>,
+        sockets: &mut [Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Device> {
+        for (asked, index) in asked.iter().zip((self.next.device.0..).map(DeviceIndex)) {
+            for number in &asked.given.via {
+                if let Some(socket) = sockets.get_mut(*number) {
+                    socket.take(index, &asked.given);
+                }
+            }
+        }
+        for socket in sockets.iter_mut().filter(|socket| !socket.is_of_a_value) {
+            socket.is_used = true;
+        }
+        let mut devices = Vec::new();
+        for (asked, at) in asked.into_iter().zip(0_u8..) {
+            let id = first_id.and_then(|first| first.checked_add(at)).filter(|id| *id <= ID_MAX);
+            devices.extend(self.device(&asked, id, sockets, diagnostics));
+        }
+        devices
+    }
+
+    fn device(
+        &self,
+        asked: &RequestedValue,
+        id: Option<u8>,
+        sockets: &[Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Device> {
+        let RequestedValue { name, block, own, value, given } = asked;
+        let direction = given.direction;
+        let main = sockets.get(*given.via.first()?)?;
+        let said = (self.known.constants, &mut *diagnostics);
+        let owner = format!("`{}`", name.value);
+        let mut fields = Fields::new(own.iter().cloned(), self.file, &owner, name.span, said);
+        // On a bus, each value has its own register. Other wires are the same for all values, and
+        // the `min` of a pwm output is not that of the value.
+        let is_bus = main.kind.spec().values == Values::Any;
+        let of_wires = |one: &Property| {
+            let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
+            main.kind.spec().properties.contains(&name.as_str())
+        };
+        // The bytes of a message are not those of a value in it.
+        let of_part = |one: &Property| {
+            let of_part = main.kind.spec().of_part;
+            one.name().is_some_and(|name| of_part.contains(&name.text()))
+        };
+        let of_value = |one: &Property| if is_bus { !of_part(one) } else { !of_wires(one) };
+        fields.inherit(self.properties_for(main.kind).filter(of_value), self.file);
+        fields.inherit(main.block_properties().filter(of_value), self.file);
+        fields.drivers_follow();
+        fields.inherit(given.properties.iter().cloned(), self.driver.file);
+        fields.inherit(main.driver_properties().filter(of_value), self.driver.file);
+        fields.inherit(values::shared(self.driver).filter(of_value), self.driver.file);
+        fields.set_reading(&given.name);
+        fields.set_register_bytes(self.protocol.register_bytes);
+        fields.set_addresses(Bounds::of(Some(self.driver), self.known).addresses);
+        let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
+        let own = device::own(&mut fields);
+        let formula = self.protocol.formula.filter(|_| values::is_computed(given));
+        let mut coding = coding::coding(&mut fields, given.value, formula);
+        coding.reading = Some(given.name.clone());
+        let kind = (main.kind, of_bus.as_ref());
+        coding::commanded(&mut fields, &mut coding, direction, value.value, kind);
+        let level = device::level(&mut fields);
+        let mut shown = device::divided(own.shown, level.as_ref());
+        shown.bare = fields.take_bare();
+        drop(fields);
+        let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);
+        if let Err(message) = words::check(&kind, &coding, value.value, &self.protocol) {
+            let driver = &self.driver.name.value;
+            let message = format!("`{}` of `{driver}`: {message}", given.name);
+            diagnostics.push(e0229_wrong_driver::wrong_driver(name.span, &message));
+        }
+        self.accept(&kind, value, given, diagnostics);
+        let id = own.id.or(id.map(|value| Spanned { value, span: name.span }));
+        // Unused connections are not among the part's connections.
+        let place =
+            |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
+        let numbers = given.via.iter().map(|wanted| self.next.connection.0 + place(wanted));
+        let connections = numbers.map(ConnectionIndex).collect();
+        Some(Device {
+            part: self.next.part,
+            name: name.clone(),
+            block: *block,
+            id: id.unwrap_or(Spanned { value: 0, span: name.span }),
+            direction,
+            value: *value,
+            kind,
+            kind_span: name.span,
+            delay_ms: own.delay_ms,
+            delay_span: own.delay_span,
+            prio: own.prio,
+            prio_span: own.prio_span,
+            group: own.group,
+            shown,
+            coding,
+            filter: own.filter,
+            connections,
+        })
+    }
+
+    /// Reports an array that has the wires of only one number.
+    fn accept(
+        &self,
+        kind: &Kind,
+        value: &Spanned<ValueType>,
+        given: &DriverValue,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let has_wires = kind.name().spec().values.wires(value.value).is_some();
+        if has_wires && !kind.is_train() && given.via.len() == 1 {
+            let what = format!("a value of `{}`", self.driver.name.value);
+            let can = "one number: an array of wires is a sensor or an actuator by itself";
+            let found = value.value.to_string();
+            let report = e0220_impossible_type::impossible_type(value.span, &what, &found, can);
+            diagnostics.push(report);
+        }
+    }
+
+    /// The wires of the connections in use, in the driver's order.
+    fn connections(
+        &self,
+        devices: &[Device],
+        sockets: &[Socket],
+        board: Option<BoardIndex>,
+        wishes: &[crate::design::Preference],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Connection> {
+        if devices.is_empty() {
+            return Vec::new();
+        }
+        let used = sockets.iter().filter(|socket| socket.is_used);
+        used.map(|socket| {
+            let (kind, placement, level) = socket.read(self, diagnostics);
+            if !self.given.is_empty() && kind.uart().is_some_and(Uart::is_endless) {
+                let message = "a message needs a `length`, or an `end`";
+                let at = self.driver.name.span;
+                diagnostics.push(e0229_wrong_driver::wrong_driver(at, message));
+            }
+            Connection {
+                part: self.next.part,
+                name: socket.name.clone(),
+                element: None,
+                device: socket.device.unwrap_or(self.next.device),
+                kind,
+                direction: socket.direction,
+                board,
+                placement,
+                wishes: wishes.to_vec(),
+                level,
+            }
+        })
+        .collect()
+    }
+
+    fn part(
+        self,
+        board: Option<BoardIndex>,
+        allows: Vec<crate::design::Allow>,
+        devices: Vec<Device>,
+        connections: Vec<Connection>,
+    ) -> Option<ReadPart> {
+        if devices.is_empty() {
+            return None;
+        }
+        let (name, block) = (self.name, self.block);
+        let driver = Some(self.driver.name.value.clone());
+        let bounds = Bounds::of(Some(self.driver), self.known);
+        let chip = Some(self.protocol);
+        let part = Part { name, block, board, driver, allows, chip, bounds };
+        Some(ReadPart { part, devices, connections })
+    }
+}

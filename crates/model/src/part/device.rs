@@ -1,0 +1,449 @@
+//! A device on its own: from its block to a part with one value.
+
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0207_unknown_kind, e0211_out_of_range, e0213_property_of_other_kind,
+    e0214_wrong_direction, e0220_impossible_type, e0229_wrong_driver, h0703_default_protocol,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _};
+use sensedsl_wire::{Direction, ValueType};
+
+use crate::design::{
+    BoardIndex, Connection, ConnectionIndex, Device, Group, Level, Part, Presentation, Spanned,
+};
+use crate::driver::bounds::Bounds;
+use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES};
+use crate::fields::{Field, Fields, name_or_text, span};
+use crate::kind::{KindName, Role, i2c};
+use crate::part::block::{Next, ReadPart};
+use crate::part::chip;
+use crate::part::coding::{self, CODING, FILTER};
+use crate::part::placement;
+use crate::part::protocol::{Filter, Protocol};
+use crate::part::reach;
+use crate::part::words;
+use crate::rule;
+use crate::value::constants::Constants;
+use crate::value::types;
+
+/// The properties of every device, except those that show its value.
+pub(crate) const COMMON_PROPERTIES: &[&str] = &[
+    "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "together",
+    "sequence", "level", "divider",
+];
+/// The properties for how a host shows a value.
+pub(crate) const PRESENTATION: &[&str] =
+    &["label", "quantity", "scale", "offset", "min", "max", "curve"];
+
+/// Cycle time if the file gives none (the paper, section 3.2).
+const DELAY_DEFAULT_MS: u32 = 1_000;
+/// Longest cycle time: an hour.
+const DELAY_MAX_MS: u32 = 3_600_000;
+/// The highest voltage allowed in a file.
+const LEVEL_MAX_MV: u32 = 1_000_000;
+/// Most elements of an array with a wire each, which is more than any part has of one kind.
+const WIRES_MAX: u16 = 128;
+
+/// What blocks can refer to.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub(crate) constants: &'a Constants,
+    pub(crate) drivers: &'a Drivers,
+}
+
+/// Reads the device `node` of `file`; none when too little of it is understood. A device without an
+/// identifier has 0 until all are known.
+pub(crate) fn read(
+    (file, next): (FileId, Next),
+    node: &ast::Device,
+    board: Option<BoardIndex>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<ReadPart> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let direction = direction(node)?;
+    if let Some(driver) = driver_with_values(file, node, known) {
+        return chip::of_device((file, next), node, driver, board, known, diagnostics);
+    }
+    let value = types::read(file, node.ty(), (known.constants, diagnostics));
+    let owner = format!("the {} `{}`", direction.name(), name.value);
+    let (wishes, allows) =
+        rule::of_device(file, node.rules(), node.range(), (known.constants, diagnostics));
+    let said = (known.constants, &mut *diagnostics);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let kind_name = kind_name(&mut fields, direction, known.drivers)?;
+    fields.rename_owner(kind_name.value.with_article());
+    let driver = take_driver(&mut fields, kind_name.value, known, &name.value);
+    let value = value?;
+    accept(&mut fields, kind_name.value, value)?;
+    let kind = kind_name.value.read(&mut fields, direction, value.value);
+    let own = own(&mut fields);
+    let placements = placement::read(&mut fields, &kind, direction, value.value);
+    let mut coding = coding::coding(&mut fields, value.value, None);
+    let range = reach::of_codes(kind_name.value, &coding, value.value);
+    coding.failsafe = coding::failsafe(&mut fields, direction, value.value, range);
+    let level = level(&mut fields);
+    let mut shown = divided(own.shown, level.as_ref());
+    shown.bare = fields.take_bare();
+    if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
+        fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));
+    }
+    leftovers(&mut fields, kind_name.value);
+    let block = span(file, node.range());
+    let is_array = kind_name.value.spec().values.wires(value.value).is_some();
+    let connections = placements.into_iter().zip(0..).map(|(placement, element)| Connection {
+        part: next.part,
+        name: None,
+        element: is_array.then_some(element),
+        device: next.device,
+        kind: kind.clone(),
+        direction,
+        board,
+        placement,
+        wishes: wishes.clone(),
+        level,
+    });
+    let connections: Vec<Connection> = connections.collect();
+    let device = Device {
+        part: next.part,
+        name: name.clone(),
+        block,
+        id: own.id.unwrap_or(Spanned { value: 0, span: name.span }),
+        direction,
+        value,
+        kind,
+        kind_span: kind_name.span,
+        delay_ms: own.delay_ms,
+        delay_span: own.delay_span,
+        prio: own.prio,
+        prio_span: own.prio_span,
+        group: own.group,
+        shown,
+        coding,
+        filter: own.filter,
+        connections: (next.connection.0..).take(connections.len()).map(ConnectionIndex).collect(),
+    };
+    let bounds = Bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
+    let part = Part { name, block, board, driver, allows, chip: None, bounds };
+    Some(ReadPart { part, devices: vec![device], connections })
+}
+
+/// The direction of a device.
+pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
+    Some(match node.direction()? {
+        ast::Direction::Sensor => Direction::Sensor,
+        ast::Direction::Actuator => Direction::Actuator,
+    })
+}
+
+/// The driver that the device names, if that driver names several values.
+fn driver_with_values<'d>(
+    file: FileId,
+    node: &ast::Device,
+    known: Known<'d>,
+) -> Option<&'d Driver> {
+    let named = node.properties().find(|one| one.name().is_some_and(|n| n.text() == "driver"))?;
+    let (constants, said) = (known.constants, &mut Vec::new());
+    let value = crate::value::Evaluator::new(file, constants, said).value(&named.value()?);
+    let driver = known.drivers.look_up(&name_or_text(&value)?)?;
+    driver.has_values().then_some(driver)
+}
+
+/// The properties that a device has whatever it is connected to.
+pub(crate) struct Own {
+    pub(crate) id: Option<Spanned<u8>>,
+    pub(crate) delay_ms: u32,
+    pub(crate) delay_span: Option<Span>,
+    pub(crate) prio: i8,
+    pub(crate) prio_span: Option<Span>,
+    pub(crate) group: Option<Group>,
+    pub(crate) shown: Presentation,
+    pub(crate) filter: Filter,
+}
+
+/// Reads the properties that a device has whatever it is connected to.
+pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
+    let id = fields.integer("id", 1..=254);
+    let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
+    let prio_span = fields.own_span("prio");
+    let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
+    Own {
+        id: id.and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })),
+        delay_ms: delay.map_or(DELAY_DEFAULT_MS, |delay| delay.value),
+        delay_span,
+        prio: prio.unwrap_or(0),
+        prio_span,
+        group: group(fields),
+        shown: presentation(fields),
+        filter: coding::filter(fields),
+    }
+}
+
+/// Adjusts the scale so that the host undoes the voltage divider.
+pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Presentation {
+    if let Some([upper, lower]) = level.and_then(|level| level.divider) {
+        let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
+        shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
+    }
+    shown
+}
+
+/// Whether devices of the kind can have the type; if not, that is reported.
+fn accept(fields: &mut Fields<'_>, kind: KindName, value: Spanned<ValueType>) -> Option<()> {
+    let wires = kind.spec().values.wires(value.value);
+    if wires.is_some_and(|wires| wires > WIRES_MAX) {
+        let range = format!("1 to {WIRES_MAX}, because each element has a wire of its own");
+        let length = wires.unwrap_or_default().to_string();
+        fields.say(e0211_out_of_range::out_of_range(value.span, "array length", &length, &range));
+        return None;
+    }
+    if let Err(can) = kind.spec().values.accept(value.value) {
+        let (kind, found) = (kind.with_article(), value.value.to_string());
+        fields.say(e0220_impossible_type::impossible_type(value.span, &kind, &found, can));
+    }
+    Some(())
+}
+
+/// The kind that `type`, or otherwise the driver, states.
+fn kind_name(
+    fields: &mut Fields<'_>,
+    direction: Direction,
+    drivers: &Drivers,
+) -> Option<Spanned<KindName>> {
+    let Some(written) = fields.name("type", "a kind of device") else {
+        if fields.has("type") {
+            return None;
+        }
+        return of_driver(fields, direction, drivers);
+    };
+    let Some(kind) = KindName::from_name(&written.value) else {
+        let report = match drivers.look_up(&written.value) {
+            Some(driver) => {
+                let (at, part) = (written.span, &driver.name.value);
+                e0207_unknown_kind::driver_as_kind(at, &written.value, part)
+            }
+            None => {
+                let meant = nearest(&written.value, KindName::ALL.map(KindName::name));
+                let list = KindName::list();
+                e0207_unknown_kind::unknown_kind(written.span, &written.value, &list, meant)
+            }
+        };
+        fields.say(report);
+        return None;
+    };
+    check_direction(fields, Spanned { value: kind, span: written.span }, direction);
+    Some(Spanned { value: kind, span: written.span })
+}
+
+/// The kind that the driver is for, if the device does not state one.
+fn of_driver(
+    fields: &mut Fields<'_>,
+    direction: Direction,
+    drivers: &Drivers,
+) -> Option<Spanned<KindName>> {
+    let Some(at) = fields.value_span("driver") else {
+        fields.missing("type", "type = analog;");
+        return None;
+    };
+    let wanted = Spanned { value: fields.peek_name("driver")?, span: at };
+    let mut reports = Vec::new();
+    let kind = drivers.find(&wanted, &mut reports).and_then(|driver| driver.kind);
+    reports.into_iter().for_each(|report| fields.say(report));
+    let kind = Spanned { value: kind?, span: at };
+    check_direction(fields, kind, direction);
+    Some(kind)
+}
+
+fn check_direction(fields: &mut Fields<'_>, written: Spanned<KindName>, direction: Direction) {
+    let kind = written.value;
+    if !kind.spec().directions.contains(&direction) {
+        let can: Vec<&str> = kind
+            .spec()
+            .directions
+            .iter()
+            .map(|direction| match direction {
+                Direction::Sensor => "a sensor",
+                Direction::Actuator => "an actuator",
+            })
+            .collect();
+        let can = can.join(" or ");
+        fields.say(e0214_wrong_direction::wrong_direction(
+            written.span,
+            &kind.with_article(),
+            &can,
+        ));
+    }
+}
+
+/// Inherits the properties of the driver that the device names, or of the one its address implies.
+fn take_driver(
+    fields: &mut Fields<'_>,
+    kind: KindName,
+    known: Known<'_>,
+    device: &str,
+) -> Option<String> {
+    let driver = if fields.has("driver") {
+        let wanted = fields.name("driver", "the name of a driver")?;
+        let mut reports = Vec::new();
+        let driver = known.drivers.find_for(&wanted, kind, &mut reports);
+        reports.into_iter().for_each(|report| fields.say(report));
+        driver?
+    } else if kind == KindName::I2c && is_bare_ranger(fields) {
+        let driver = known.drivers.library(DEFAULT_RANGER)?;
+        let at = fields.value_span("address")?;
+        fields.say(h0703_default_protocol::default_protocol(at, device, DEFAULT_RANGER));
+        driver
+    } else {
+        return None;
+    };
+    // Properties that describe the part are for its page.
+    let about = |one: &ast::Property| one.name().is_some_and(|name| is_about_part(name.text()));
+    let properties = driver.node.properties().filter(|one| !about(one));
+    fields.drivers_follow();
+    fields.inherit(properties, driver.file);
+    fields.set_addresses(Bounds::of(Some(driver), known).addresses);
+    Some(driver.name.value.clone())
+}
+
+/// Whether this is an i2c device at the address of a Devantech ranger, without any protocol.
+fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
+    if i2c::PROTOCOL.iter().any(|name| fields.has(name)) {
+        return false;
+    }
+    fields
+        .peek_integer("address")
+        .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
+}
+
+/// The group of devices that never measure at the same time; `none` overrides a driver's group.
+fn group(fields: &mut Fields<'_>) -> Option<Group> {
+    let own = fields.own_span("group").is_some();
+    let name = fields.name("group", "the name of a group, or none")?;
+    (name.value != "none").then_some(Group { name: name.value, span: name.span, own })
+}
+
+/// The voltage that the device puts on its wires.
+pub(crate) fn level(fields: &mut Fields<'_>) -> Option<Level> {
+    let divider = fields.resistances_ohm("divider");
+    let level = fields.voltage_mv("level", 1..=LEVEL_MAX_MV);
+    if let (Some(divider), None) = (&divider, &level) {
+        let what = "a divider needs the voltage that it divides: `level = 5 V;`";
+        fields.contradiction(divider.span, "level", what);
+    }
+    let Spanned { value: mv, span } = level?;
+    Some(Level { mv, divider: divider.map(|divider| divider.value), span })
+}
+
+/// Words that people write for properties, each with the property that is meant.
+const OTHER_WORDS: &[(&str, &str)] = &[
+    ("addr", "address"),
+    ("baudrate", "baud"),
+    ("baud_rate", "baud"),
+    ("echo", "pin"),
+    ("freq", "frequency"),
+    ("gpio", "pin"),
+    ("interval", "delay"),
+    ("kind", "type"),
+    ("name", "label"),
+    ("period", "delay"),
+    ("port", "pin"),
+    ("priority", "prio"),
+    ("pull_up", "pull"),
+    ("pullup", "pull"),
+    ("rate", "delay"),
+    ("trig", "trigger"),
+];
+
+/// Whether a property of a driver describes the part and is only for its page. For some kinds,
+/// `pull` is a resistor in the MCU.
+pub(crate) fn is_about_part(name: &str) -> bool {
+    ABOUT_PART.contains(&name)
+}
+
+/// The properties with which a driver describes its part.
+pub(crate) const ABOUT_PART: &[&str] = &[
+    "part",
+    "about",
+    "aliases",
+    "sheet",
+    "checked",
+    "supply",
+    "connector",
+    "note",
+    "addresses",
+    "speed_max",
+    "clock_max",
+];
+
+fn presentation(fields: &mut Fields<'_>) -> Presentation {
+    let (min, max) = (unless_taken(fields, "min"), unless_taken(fields, "max"));
+    if let (Some(min), Some(max)) = (min, max)
+        && min.value >= max.value
+    {
+        fields.contradiction(min.span, "max", "`min` is not below `max`");
+    }
+    Presentation {
+        label: fields.text("label").map(|text| text.value),
+        quantity: fields.text("quantity").map(|text| text.value),
+        scale: fields.number("scale").map(|number| number.value),
+        offset: fields.number("offset").map(|number| number.value),
+        min: min.map(|one| one.value),
+        max: max.map(|one| one.value),
+        bare: None,
+        bounds: [min.map(|one| one.span), max.map(|one| one.span)],
+        curve: coding::curve(fields),
+    }
+}
+
+/// For a pwm device, `min` and `max` are pulses, which its kind has already read.
+fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<Spanned<f64>> {
+    let free = fields.rest().iter().any(|field| field.name == name);
+    if free { fields.bound(name) } else { None }
+}
+
+/// Reports properties that nothing of the device has read.
+fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
+    for field in fields.rest() {
+        if fields.is_inherited(&field) {
+            continue;
+        }
+        let Field { name, name_span, .. } = field;
+        let report = unknown(&name, name_span, kind);
+        fields.say(report);
+    }
+}
+
+pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
+    let others: Vec<&str> = KindName::ALL
+        .into_iter()
+        .filter(|other| *other != kind && other.spec().properties.contains(&name))
+        .map(KindName::name)
+        .collect();
+    let own = kind.spec().properties;
+    let meant = OTHER_WORDS.iter().find(|(word, _)| *word == name).map(|(_, meant)| *meant);
+    let meant = meant.filter(|word| {
+        own.contains(word) || COMMON_PROPERTIES.contains(word) || PRESENTATION.contains(word)
+    });
+    if let Some(meant) = meant {
+        let unknown = e0201_unknown_property::unknown_property;
+        return unknown(at, name, &kind.with_article(), Some(meant));
+    }
+    if others.is_empty() {
+        let common = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
+        let known = kind.spec().properties.iter().chain(common).copied();
+        let meant = nearest(name, known);
+        return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
+    }
+    // A user who fixes `pin` for a kind with several wires means one of these.
+    let is_wire =
+        |word: &&str| name == "pin" && Role::ALL.iter().any(|role| role.property() == *word);
+    let instead: Vec<&str> = own.iter().copied().filter(is_wire).collect();
+    e0213_property_of_other_kind::property_of_other_kind(
+        at,
+        name,
+        &kind.with_article(),
+        &others.join(", "),
+        &instead,
+    )
+}

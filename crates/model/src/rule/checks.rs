@@ -1,0 +1,144 @@
+//! Warnings where the hardware will not do what the reader expects.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::{
+    e0506_hardware_limit, w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
+};
+
+use sensedsl_wire::Direction;
+
+use crate::design::{Design, Device};
+use crate::driver::bounds;
+use crate::kind::Interface;
+use crate::part::reach;
+
+/// Bits of one ADC conversion on all profiles; the driver scales wider ones.
+const ADC_BITS: u32 = 12;
+
+/// The widest number that the runtime takes from a device, in bytes.
+const ELEMENT_BYTES_MAX: usize = 8;
+
+/// Adds the warnings for all devices.
+pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
+    for device in &design.devices {
+        diagnostics.extend(unused_pace(device));
+        diagnostics.extend(too_slow(device));
+        diagnostics.extend(narrow(device));
+        diagnostics.extend(impossible_length(device));
+    }
+    bounds::check(design, diagnostics);
+    reach::check(design, diagnostics);
+}
+
+/// Warns of a cycle time or priority for a device that the hardware measures on its own.
+fn unused_pace(device: &Device) -> Vec<Diagnostic> {
+    if !device.kind.measures_itself() {
+        return Vec::new();
+    }
+    let written = [("delay", device.delay_span), ("prio", device.prio_span)];
+    let why = "the timer sees every edge by itself";
+    let kind = device.kind.name().name();
+    let unused = |(name, at): (&str, Option<_>)| {
+        Some(w0601_unused_property::unused_property(at?, name, kind, why))
+    };
+    written.into_iter().filter_map(unused).collect()
+}
+
+fn too_slow(device: &Device) -> Option<Diagnostic> {
+    let i2c = device.kind.i2c()?;
+    if u64::from(i2c.wait_us) <= u64::from(device.delay_ms) * 1_000 {
+        return None;
+    }
+    let at = device.delay_span.or(i2c.wait_span)?;
+    let needs_ms = i2c.wait_us.div_ceil(1_000).to_string();
+    let name = &device.name.value;
+    let delay_ms = device.delay_ms.to_string();
+    let source = i2c.wait_span.filter(|wait| Some(*wait) != Some(at));
+    Some(w0602_slower_than_asked::slower_than_asked(at, name, &needs_ms, &delay_ms, source))
+}
+
+/// Reports an I2C device whose bytes are not whole elements that a value can hold.
+fn impossible_length(device: &Device) -> Option<Diagnostic> {
+    let i2c = device.kind.i2c()?;
+    if !device.coding.is_plain() {
+        return None;
+    }
+    let value = device.coding.of.unwrap_or(device.value.value);
+    let length = usize::from(i2c.length_bytes);
+    let element = length.checked_div(value.count()).unwrap_or_default();
+    let element_max = match device.direction {
+        Direction::Sensor => ELEMENT_BYTES_MAX,
+        Direction::Actuator => value.scalar.size_bytes(),
+    };
+    if element > 0 && element <= element_max && element * value.count() == length {
+        return None;
+    }
+    let name = &device.name.value;
+    let message = format!("{length} bytes of {name} do not make a {value}");
+    let help = format!("each element takes 1 to {element_max} bytes: change `length` or the type");
+    Some(e0506_hardware_limit::hardware_limit(device.value.span, &message, &help))
+}
+
+fn narrow(device: &Device) -> Option<Diagnostic> {
+    let value = device.value.value;
+    if device.kind.name().spec().values.accept(value).is_err() {
+        return None;
+    }
+    if device.coding.reading.is_some() {
+        return narrower_than_reading(device);
+    }
+    let (_, most) = value.scalar.integer_range()?;
+    let (bits, wider) = match device.kind.interface() {
+        Interface::Analog(_) => (ADC_BITS, "uint16".to_owned()),
+        Interface::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
+        // Other bytes are compared with the value's type where their words are read.
+        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
+            return None;
+        }
+        Interface::Icu(_) | Interface::Encoder(_) | Interface::Digital(_) => return None,
+        Interface::Pwm(_) | Interface::Dac(_) => return None,
+    };
+    let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
+    if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)
+    {
+        return None;
+    }
+    let range = if bits <= MANY_BITS {
+        format!("0 to {}", (1_u64 << bits) - 1)
+    } else {
+        format!("{} bytes", bits / 8)
+    };
+    let found = value.to_string();
+    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+}
+
+/// Warns of a value of a chip with fewer bits than its driver's reading.
+fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
+    let (own, of) = (device.value.value, device.coding.of?);
+    let ((least, most), (of_least, of_most)) =
+        (own.scalar.integer_range()?, of.scalar.integer_range()?);
+    if (least <= of_least && most >= of_most) || device.direction == Direction::Actuator {
+        return None;
+    }
+    let (found, range) = (own.to_string(), format!("{of_least} to {of_most}"));
+    let wider = of.to_string();
+    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+}
+
+/// Ranges of more bits than this are reported in bytes.
+const MANY_BITS: u32 = 32;
+
+/// The bits of a register of that many bytes, and a type that holds them: a number if one has that
+/// size, otherwise an array, because that many bytes are several numbers.
+fn of_bytes(length_bytes: u16) -> Option<(u32, String)> {
+    let bits = u32::from(length_bytes) * 8;
+    let wider = match length_bytes {
+        0 | 1 => return None,
+        2 => "uint16".to_owned(),
+        3 | 4 => "uint32".to_owned(),
+        8 => "uint64".to_owned(),
+        even if even % 2 == 0 => format!("an array such as int16[{}]", even / 2),
+        odd => format!("an array such as uint8[{odd}]"),
+    };
+    Some((bits, wider))
+}
