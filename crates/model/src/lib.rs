@@ -32,14 +32,14 @@ mod part;
 mod resolve;
 mod rule;
 mod source;
+mod spanned;
 mod value;
 
-pub use board::pins;
 pub use board::table_findings::diagnostic as table_diagnostic;
 pub use design::sound::Partial;
+pub use driver::facts;
 pub use driver::facts::all as part_facts;
 pub use driver::library::LIBRARY;
-pub use driver::{bounds, facts};
 pub use part::{given, protocol, reach, registers, words};
 pub use resolve::{Request, Resolved, resolve, sort};
 pub use rule::{apply_allows, drop_allowed};
@@ -48,4 +48,4 @@ pub use source::files::{FileRequest, FileUse, Files, NoFiles, ReadError, stays_i
 pub use source::numbered::with_ids;
 pub use source::reader::normal as normal_path;
 pub use source::syntax_errors::diagnostic as syntax_diagnostic;
-pub use value::volts;
+pub use value::written;

@@ -10,23 +10,19 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
 use sensedsl_syntax::{Parse, ast};
 
-use crate::board::link;
-use crate::board::pins;
-use crate::board::{self, Context, RemainingBudget};
+use crate::board::{self, Context, RemainingBudget, link, pins};
 use crate::design::sound::{Partial, broken_drivers};
-use crate::design::{Board, BoardIndex, Design, Spanned};
+use crate::design::{Board, BoardIndex, Design};
+use crate::driver::known::Known;
 use crate::driver::{self, Drivers};
 use crate::part::block::{Next, ReadPart, assemble};
-use crate::part::chip;
-use crate::part::device::{self, Known};
-use crate::part::frames;
-use crate::part::ids;
-use crate::part::registers;
-use crate::rule::checks;
-use crate::rule::names;
+use crate::part::device::{self};
+use crate::part::{chip, frames, ids, registers};
+use crate::rule::{checks, names};
 use crate::source::files::Files;
 use crate::source::reader::{Items, Reader};
 use crate::source::syntax_errors;
+use crate::spanned::Spanned;
 use crate::value::constants::{self, Constants};
 
 /// What a caller asks for.
@@ -196,7 +192,7 @@ fn read_parts(
             }
             None => unread.extend(name.map(|name| Spanned {
                 value: name.text().to_owned(),
-                span: crate::fields::span(*file, name.range()),
+                span: crate::spanned::span(*file, name.range()),
             })),
         }
     }
@@ -227,7 +223,7 @@ impl Room {
 fn board_names(items: &Items) -> Vec<Option<Spanned<String>>> {
     let name = |(file, node): &(FileId, ast::Board)| {
         let name = node.name()?;
-        let span = crate::fields::span(*file, name.range());
+        let span = crate::spanned::span(*file, name.range());
         Some(Spanned { value: name.text().to_owned(), span })
     };
     items.boards.iter().map(name).collect()

@@ -21,9 +21,10 @@ mod uart;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::silicon::Ability;
-use sensedsl_model::design::{Board, BoardIndex, Connection, PartIndex, Placement, Preference};
+use sensedsl_model::design::{
+    Board, BoardIndex, Connection, PartIndex, PinRef, Placement, Preference,
+};
 use sensedsl_model::kind::{Kind, Role};
-use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
 use sensedsl_wire::Direction;
 

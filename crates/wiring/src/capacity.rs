@@ -4,13 +4,11 @@
 //! only one kind are added until there is no wiring.
 
 use sensedsl_diagnostics::Span;
-use sensedsl_model::bounds::Bounds;
 use sensedsl_model::design::{
-    BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
-    Placement, Presentation, Spanned,
+    BoardIndex, Bounds, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
+    PinRef, Placement, Presentation, Spanned,
 };
 use sensedsl_model::kind::{Kind, KindName, Sharing};
-use sensedsl_model::pins::PinRef;
 use sensedsl_model::protocol::{Coding, Filter};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 

@@ -18,11 +18,10 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, visible};
 use sensedsl_model::design::{
-    Board, BoardIndex, Connection, Design, Level, PreferenceSubject, Spanned,
+    Board, BoardIndex, Connection, Design, Level, PinRef, PreferenceSubject, Spanned,
 };
 use sensedsl_model::kind::{Role, Sharing};
-use sensedsl_model::pins::PinRef;
-use sensedsl_model::volts::{divider, shown_mv, shown_ohm};
+use sensedsl_model::written::{divider, shown_mv, shown_ohm};
 
 use crate::alternatives::{RequestedWires, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};

@@ -10,8 +10,9 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::Checksum;
 
-use crate::design::{BoardIndex, Design, Device, Link, Spanned, Transport};
-use crate::fields::{Fields, span};
+use crate::design::{BoardIndex, Design, Device, Link, Transport};
+use crate::fields::Fields;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 
 /// The properties of a link.

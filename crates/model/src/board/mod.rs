@@ -1,7 +1,7 @@
 //! One board: its table, its MCU, its target, its link, its rules.
 
 pub(crate) mod link;
-pub mod pins;
+pub(crate) mod pins;
 pub(crate) mod table_findings;
 pub(crate) mod target;
 
@@ -18,12 +18,12 @@ use sensedsl_limits::{BOARDS_MAX, PLACES_MAX, TABLES_BYTES_MAX};
 use sensedsl_parts::Completion;
 use sensedsl_syntax::ast::{self, BoardSource};
 
-use crate::design::{Board, Spanned};
-use crate::fields::span;
+use crate::design::Board;
 use crate::resolve::Request;
 use crate::rule;
 use crate::source::files::{FileRequest, FileUse, Files, ReadError};
 use crate::source::reader::beside;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 
 /// What is needed to read boards, besides the syntax node.

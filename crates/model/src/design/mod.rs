@@ -1,7 +1,11 @@
 //! The checked design: what to connect to which boards, with names bound, defaults filled in and
 //! units converted. How it is wired is the job of crate `wiring`.
 
+mod bounds;
+mod index;
+mod pin_ref;
 mod placement;
+mod presentation;
 pub(crate) mod sound;
 
 use sensedsl_board::catalog;
@@ -12,38 +16,16 @@ use sensedsl_board::table::Table;
 use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
-use crate::driver::bounds::Bounds;
-pub use crate::fields::Bare;
 use crate::kind::{Kind, Role};
 use crate::part::protocol::{Coding, Filter, Protocol};
-use crate::value::volts::{shown_mv, shown_ohm};
+pub use crate::spanned::Spanned;
+use crate::value::written::{shown_mv, shown_ohm};
 
+pub use bounds::Bounds;
+pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
+pub use pin_ref::PinRef;
 pub use placement::{Placement, Preference, PreferenceSubject, Together};
-
-/// Index into [`Design::boards`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct BoardIndex(pub usize);
-
-/// Index into [`Design::devices`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct DeviceIndex(pub usize);
-
-/// Index into [`Design::parts`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PartIndex(pub usize);
-
-/// Index into [`Design::connections`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ConnectionIndex(pub usize);
-
-/// A value and where it was written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Spanned<T> {
-    /// The value.
-    pub value: T,
-    /// The place of the value.
-    pub span: Span,
-}
+pub use presentation::{Bare, Presentation};
 
 /// All boards and devices of a file and the files it uses.
 #[derive(Clone, Debug)]
@@ -315,29 +297,6 @@ pub struct Allow {
     pub span: Span,
     /// The block that contains the rule, which is what the rule applies to.
     pub scope: Span,
-}
-
-/// How a host shows a value: `scale * raw + offset`, in `quantity`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Presentation {
-    /// A text for people.
-    pub label: Option<String>,
-    /// The name of the unit (`cm`, `V`).
-    pub quantity: Option<String>,
-    /// The factor; none for 1.
-    pub scale: Option<f64>,
-    /// The offset added after scaling; none for 0.
-    pub offset: Option<f64>,
-    /// The least value to expect, scaled.
-    pub min: Option<f64>,
-    /// The greatest value to expect, scaled.
-    pub max: Option<f64>,
-    /// Where `min` and `max` are stated.
-    pub bounds: [Option<Span>; 2],
-    /// Points between which `scale * raw + offset` is interpolated; empty for no curve.
-    pub curve: Vec<(f64, f64)>,
-    /// A bare number given as a shown value, if its code is a different number.
-    pub bare: Option<Bare>,
 }
 
 impl Connection {

@@ -2,9 +2,9 @@
 
 use sensedsl_diagnostics::Span;
 
-use super::Spanned;
-use crate::board::pins::PinRef;
+use super::pin_ref::PinRef;
 use crate::kind::Role;
+use crate::spanned::Spanned;
 
 /// The fixed parts of a device's wiring.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

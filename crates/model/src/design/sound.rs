@@ -9,8 +9,9 @@ use std::collections::BTreeSet;
 
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, Span};
 
-use crate::design::{Board, Design, Part, Spanned};
+use crate::design::{Board, Design, Part};
 use crate::driver::Drivers;
+use crate::spanned::Spanned;
 
 /// A design without the parts in error.
 #[derive(Clone, Debug)]

@@ -1,7 +1,8 @@
 //! Drivers: those of the file, and the library that ships with the tool (`drivers/`).
 
-pub mod bounds;
+pub(crate) mod bounds;
 pub mod facts;
+pub(crate) mod known;
 pub(crate) mod library;
 
 use std::cell::OnceCell;
@@ -13,12 +14,11 @@ use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 
-use crate::design::Spanned;
-use crate::fields::span;
+use crate::driver::known::Known;
 use crate::kind::KindName;
 use crate::part::chip;
-use crate::part::device::Known;
 use crate::rule::names::folded;
+use crate::spanned::{Spanned, span};
 
 /// The driver that an i2c device without a protocol gets because of its address, as in the paper's
 /// example.

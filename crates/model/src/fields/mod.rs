@@ -15,22 +15,16 @@ use sensedsl_diagnostics::codes::{
     e0212_unknown_word, e0222_contradiction,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
-use sensedsl_syntax::TextRange;
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::Direction;
 
-use crate::design::Spanned;
+use crate::design::Bare;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::{Evaluator, Value};
 use plain::{byte_list, describe};
-pub(crate) use plain::{name_or_text, plain_integer, plain_number};
-pub use shown::Bare;
+pub(crate) use plain::{name_or_text, plain_integer, plain_number, points};
 pub(crate) use shown::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
-
-/// The span of a syntax range.
-pub(crate) fn span(file: FileId, range: TextRange) -> Span {
-    Span::new(file, range.start().into()..range.end().into())
-}
 
 /// A property as it was written.
 #[derive(Clone, Debug)]

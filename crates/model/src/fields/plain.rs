@@ -1,5 +1,6 @@
 //! Values that are not quantities: numbers without a unit, names, texts, bytes.
 
+use crate::spanned::Spanned;
 use crate::value::{Measure, Value};
 
 /// A number without a unit.
@@ -29,6 +30,21 @@ pub(crate) fn name_or_text(value: &Value) -> Option<String> {
         Value::Name(text) | Value::Text(text) => Some(text.clone()),
         Value::Number(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
     }
+}
+
+/// The points of a curve; none unless they are pairs whose first numbers ascend.
+pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
+    let point = |value: &Spanned<Value>| match value.value.list()? {
+        [x, y] => Some((plain_number(&x.value)?, plain_number(&y.value)?)),
+        _ => None,
+    };
+    let points: Option<Vec<(f64, f64)>> =
+        value.list().and_then(|list| list.iter().map(point).collect());
+    let rises = |points: &Vec<(f64, f64)>| {
+        points.len() >= 2
+            && points.iter().zip(points.iter().skip(1)).all(|(one, next)| one.0 < next.0)
+    };
+    points.filter(rises)
 }
 
 pub(super) fn byte_list(value: &Value) -> Option<Vec<i128>> {

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::codes::{e0210_wrong_unit, e0211_out_of_range};
 use sensedsl_syntax::Unit;
 
 use super::{Field, Fields};
-use crate::design::Spanned;
+use crate::spanned::Spanned;
 use crate::value::{Dimension, Measure, Number, Value};
 
 impl Fields<'_> {

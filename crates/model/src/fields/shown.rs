@@ -3,14 +3,13 @@
 //! A bare number is in the unit that the device shows, `raw 307` is a code, and a number with a
 //! unit is converted if the units fit.
 
-use sensedsl_diagnostics::Span;
 use sensedsl_diagnostics::codes::{e0234_value_does_not_fit as misfit, h0707_of_ten_thousand};
 use sensedsl_syntax::Unit;
 
-use super::{Field, Fields, plain_number};
-use crate::design::{Presentation, Spanned};
-use crate::part::coding;
-use crate::part::reach::rounded;
+use super::{Field, Fields, plain_number, points};
+use crate::design::{Bare, Presentation};
+use crate::spanned::Spanned;
+use crate::value::written::rounded;
 use crate::value::{Dimension, Measure, Number, Value, power_of_ten, shifted};
 
 /// Codes per percent of a pwm output's range.
@@ -28,19 +27,6 @@ pub(crate) struct Codes {
     pub(crate) is_whole: bool,
     /// The pulses of the least and the greatest code, in microseconds, of a pwm output on its own.
     pub(crate) pulses_us: Option<(f64, f64)>,
-}
-
-/// A number without a unit, given for a device whose shown value is not the code.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bare {
-    /// Its place.
-    pub span: Span,
-    /// The number.
-    pub number: f64,
-    /// The code that it stands for now.
-    pub code: f64,
-    /// The number with its unit, if the language has that unit.
-    pub with_unit: Option<String>,
 }
 
 /// Why a number is not a value of the device: what is wrong, and what to write.
@@ -68,7 +54,7 @@ impl Fields<'_> {
     /// How the block shows its value, without taking the properties.
     fn peek_shown(&self, is_pwm: bool) -> Presentation {
         let number = |name: &str| plain_number(&self.field(name)?.value);
-        let curve = self.field("curve").and_then(|field| coding::points(&field.value));
+        let curve = self.field("curve").and_then(|field| points(&field.value));
         let shown = Presentation {
             quantity: self.peek_name("quantity"),
             scale: number("scale"),
@@ -140,34 +126,6 @@ impl Fields<'_> {
             let (span, number) = (code.span, number.value);
             self.bare = Some(Bare { span, number, code: code.value, with_unit });
         }
-    }
-}
-
-impl Presentation {
-    /// Whether the shown value is the code.
-    #[must_use]
-    pub fn is_plain(&self) -> bool {
-        let is_one = self.scale.is_none_or(|scale| scale.to_bits() == 1.0_f64.to_bits());
-        let is_zero = self.offset.is_none_or(|offset| offset == 0.0);
-        is_one && is_zero && self.curve.is_empty()
-    }
-
-    /// The raw value, with a fraction, that is shown like this; none if there is none.
-    #[must_use]
-    pub fn raw_of(&self, shown: f64) -> Option<f64> {
-        let pairs = self.curve.iter().zip(self.curve.iter().skip(1));
-        let on_curve = |(from, to): (&(f64, f64), &(f64, f64))| {
-            let (low, high) = (from.1.min(to.1), from.1.max(to.1));
-            let rise = to.1 - from.1;
-            let is_here = shown >= low && shown <= high;
-            let part = if rise == 0.0 { 0.0 } else { (shown - from.1) / rise };
-            is_here.then_some(from.0 + (to.0 - from.0) * part)
-        };
-        let x =
-            if self.curve.is_empty() { Some(shown) } else { pairs.into_iter().find_map(on_curve) };
-        let scale = self.scale.unwrap_or(1.0);
-        let raw = (x? - self.offset.unwrap_or(0.0)) / scale;
-        raw.is_finite().then_some(raw)
     }
 }
 

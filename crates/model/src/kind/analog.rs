@@ -1,7 +1,7 @@
 //! `analog`: a voltage on an ADC input.
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -65,10 +65,6 @@ impl Properties for Analog {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::In]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Analog(self)
     }
 }
 

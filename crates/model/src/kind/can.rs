@@ -3,10 +3,10 @@
 mod place;
 
 use super::i2c::{self, ByteOrder};
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
-use crate::design::Spanned;
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Fields, name_or_text, plain_integer};
+use crate::spanned::Spanned;
 use sensedsl_board::signal::{CanLine, Function};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -120,10 +120,6 @@ impl Properties for Can {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Tx, Role::Rx]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Can(self)
     }
 }
 

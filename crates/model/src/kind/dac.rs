@@ -3,8 +3,8 @@
 use sensedsl_board::signal::Function;
 
 use super::analog::CONVERTED_MAX;
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -53,9 +53,5 @@ impl Properties for Dac {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Out]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Dac(self)
     }
 }

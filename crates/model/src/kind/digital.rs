@@ -1,7 +1,7 @@
 //! `digital`: a level on a GPIO, in or out.
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -104,9 +104,5 @@ impl Properties for Digital {
             Direction::Sensor => vec![Role::In],
             Direction::Actuator => vec![Role::Out],
         }
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Digital(self)
     }
 }

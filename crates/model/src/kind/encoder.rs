@@ -1,7 +1,7 @@
 //! `encoder`: a quadrature encoder, counted by a timer.
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -50,9 +50,5 @@ impl Properties for Encoder {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::A, Role::B]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Encoder(self)
     }
 }

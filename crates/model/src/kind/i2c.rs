@@ -6,10 +6,10 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
-use crate::design::Spanned;
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::spanned::Spanned;
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -131,10 +131,6 @@ impl Properties for I2c {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Scl, Role::Sda]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::I2c(self)
     }
 
     fn measuring_us(&self) -> u32 {

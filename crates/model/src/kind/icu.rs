@@ -5,8 +5,8 @@ use sensedsl_board::signal::Function;
 use sensedsl_syntax::Unit;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 
 /// The properties that all devices of this kind share.
@@ -138,10 +138,6 @@ impl Properties for Icu {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         if self.pulse_us.is_some() { vec![Role::In, Role::Trigger] } else { vec![Role::In] }
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Icu(self)
     }
 
     fn measuring_us(&self) -> u32 {

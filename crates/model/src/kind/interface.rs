@@ -88,6 +88,23 @@ pub struct Bytes {
 }
 
 impl Kind {
+    /// The signals by which its value travels. A kind that builds on another has that one's.
+    #[must_use]
+    pub const fn interface(&self) -> Interface<'_> {
+        match self {
+            Self::Analog(own) => Interface::Analog(own),
+            Self::I2c(own) => Interface::I2c(own),
+            Self::Icu(own) => Interface::Icu(own),
+            Self::Encoder(own) => Interface::Encoder(own),
+            Self::Digital(own) => Interface::Digital(own),
+            Self::Uart(own) => Interface::Uart(own),
+            Self::Spi(own) => Interface::Spi(own),
+            Self::Pwm(own) => Interface::Pwm(own),
+            Self::Dac(own) => Interface::Dac(own),
+            Self::Can(own) => Interface::Can(own),
+        }
+    }
+
     /// The access to a value on a register bus; none if it is on none.
     #[must_use]
     pub fn register_access(&self) -> Option<RegisterAccess<'_>> {

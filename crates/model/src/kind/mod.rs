@@ -90,12 +90,6 @@ macro_rules! kinds {
             pub fn plain(kind: KindName, address: u8) -> Self {
                 match kind { $(KindName::$Kind => Self::$Kind(Properties::plain(address)),)* }
             }
-
-            /// The signals by which its value travels.
-            #[must_use]
-            pub fn interface(&self) -> Interface<'_> {
-                match self { $(Self::$Kind(properties) => properties.interface(),)* }
-            }
         }
     };
 }

@@ -1,8 +1,8 @@
 //! `pwm`: a pulse width on a timer output; values from 0 to 10,000 map to pulses from `min` to
 //! `max`.
 
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -81,10 +81,6 @@ impl Properties for Pwm {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Out]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Pwm(self)
     }
 }
 

@@ -3,7 +3,7 @@
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::{Interface, Role};
+use super::role::Role;
 use crate::fields::Fields;
 
 /// A kind of device.
@@ -130,9 +130,6 @@ pub(crate) trait Properties: Sized {
 
     /// The wires, in the order of the tie-break.
     fn roles(&self, direction: Direction) -> Vec<Role>;
-
-    /// How its value travels: an interface of its own, or that of the kind that it builds on.
-    fn interface(&self) -> Interface<'_>;
 
     /// How long a measurement lasts once it has begun, in microseconds.
     fn measuring_us(&self) -> u32 {

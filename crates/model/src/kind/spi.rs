@@ -1,8 +1,8 @@
 //! `spi`: a device on an SPI bus, with its own chip select.
 
 use super::i2c::{self, ByteOrder};
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_board::signal::{Function, SpiLine};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -96,10 +96,6 @@ impl Properties for Spi {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs]
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Spi(self)
     }
 
     fn measuring_us(&self) -> u32 {

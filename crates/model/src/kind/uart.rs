@@ -2,8 +2,8 @@
 //! `tx = none` takes only the receiving wire.
 
 use super::i2c::{self, ByteOrder};
-use super::spec::Properties;
-use super::{Interface, KindSpec, Role, Serves, Sharing, Values};
+use super::role::Role;
+use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
 use sensedsl_board::signal::{Function, UartLine};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -162,10 +162,6 @@ impl Properties for Uart {
 
     fn roles(&self, _: Direction) -> Vec<Role> {
         if self.receive_only { vec![Role::Rx] } else { vec![Role::Tx, Role::Rx] }
-    }
-
-    fn interface(&self) -> Interface<'_> {
-        Interface::Uart(self)
     }
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use crate::design::{
     Board, BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
-    Spanned,
 };
+use crate::spanned::Spanned;
 use sensedsl_diagnostics::FileId;
 
 /// The numbers that the next block's part, its first device and its first wires have in the design.

@@ -5,13 +5,13 @@ use sensedsl_diagnostics::Span;
 use sensedsl_diagnostics::codes::{e0211_out_of_range, e0229_wrong_driver};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::design::Spanned;
-use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number};
+use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number, points};
 use crate::kind::{Kind, KindName};
 use crate::part::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Output, Protocol, TextField,
 };
 use crate::part::reach;
+use crate::spanned::Spanned;
 use crate::value::{Dimension, Value};
 
 /// The properties that filter a value.
@@ -304,21 +304,6 @@ pub(crate) fn curve(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
         fields.wrong(&field, TAKES);
         Vec::new()
     })
-}
-
-/// The points of a curve; none unless they are pairs whose first numbers ascend.
-pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
-    let point = |value: &Spanned<Value>| match value.value.list()? {
-        [x, y] => Some((plain_number(&x.value)?, plain_number(&y.value)?)),
-        _ => None,
-    };
-    let points: Option<Vec<(f64, f64)>> =
-        value.list().and_then(|list| list.iter().map(point).collect());
-    let rises = |points: &Vec<(f64, f64)>| {
-        points.len() >= 2
-            && points.iter().zip(points.iter().skip(1)).all(|(one, next)| one.0 < next.0)
-    };
-    points.filter(rises)
 }
 
 /// Reads how a chip is started and how its values are computed.

@@ -9,21 +9,18 @@ use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
 use crate::design::{
-    BoardIndex, Connection, ConnectionIndex, Device, Group, Level, Part, Presentation, Spanned,
+    BoardIndex, Connection, ConnectionIndex, Device, Group, Level, Part, Presentation,
 };
-use crate::driver::bounds::Bounds;
-use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES};
-use crate::fields::{Field, Fields, name_or_text, span};
+use crate::driver::known::Known;
+use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds};
+use crate::fields::{Field, Fields, name_or_text};
 use crate::kind::{KindName, Role, i2c};
 use crate::part::block::{Next, ReadPart};
-use crate::part::chip;
 use crate::part::coding::{self, CODING, FILTER};
-use crate::part::placement;
 use crate::part::protocol::{Filter, Protocol};
-use crate::part::reach;
-use crate::part::words;
+use crate::part::{chip, placement, reach, words};
 use crate::rule;
-use crate::value::constants::Constants;
+use crate::spanned::{Spanned, span};
 use crate::value::types;
 
 /// The properties of every device, except those that show its value.
@@ -43,13 +40,6 @@ const DELAY_MAX_MS: u32 = 3_600_000;
 const LEVEL_MAX_MV: u32 = 1_000_000;
 /// Most elements of an array with a wire each, which is more than any part has of one kind.
 const WIRES_MAX: u16 = 128;
-
-/// What blocks can refer to.
-#[derive(Clone, Copy)]
-pub(crate) struct Known<'a> {
-    pub(crate) constants: &'a Constants,
-    pub(crate) drivers: &'a Drivers,
-}
 
 /// Reads the device `node` of `file`; none when too little of it is understood. A device without an
 /// identifier has 0 until all are known.
@@ -124,7 +114,7 @@ pub(crate) fn read(
         filter: own.filter,
         connections: (next.connection.0..).take(connections.len()).map(ConnectionIndex).collect(),
     };
-    let bounds = Bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
+    let bounds = bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
     let part = Part { name, block, board, driver, allows, chip: None, bounds };
     Some(ReadPart { part, devices: vec![device], connections })
 }
@@ -302,7 +292,7 @@ fn take_driver(
     let properties = driver.node.properties().filter(|one| !about(one));
     fields.drivers_follow();
     fields.inherit(properties, driver.file);
-    fields.set_addresses(Bounds::of(Some(driver), known).addresses);
+    fields.set_addresses(bounds::of(Some(driver), known).addresses);
     Some(driver.name.value.clone())
 }
 

@@ -4,10 +4,10 @@
 use sensedsl_diagnostics::codes::{e0209_wrong_value, e0211_out_of_range};
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::board::pins::PinRef;
-use crate::design::{Placement, Spanned, Together};
+use crate::design::{PinRef, Placement, Together};
 use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, Role};
+use crate::spanned::Spanned;
 use crate::value::Value;
 
 /// The words after `together`.

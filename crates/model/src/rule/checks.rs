@@ -7,10 +7,9 @@ use sensedsl_diagnostics::codes::{
 
 use sensedsl_wire::Direction;
 
+use super::{bounds, ranges};
 use crate::design::{Design, Device};
-use crate::driver::bounds;
 use crate::kind::Interface;
-use crate::part::reach;
 
 /// Bits of one ADC conversion on all profiles; the driver scales wider ones.
 const ADC_BITS: u32 = 12;
@@ -27,7 +26,7 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(impossible_length(device));
     }
     bounds::check(design, diagnostics);
-    reach::check(design, diagnostics);
+    ranges::check(design, diagnostics);
 }
 
 /// Warns of a cycle time or priority for a device that the hardware measures on its own.

@@ -1,7 +1,9 @@
 //! Rules: `prefer`, `avoid`, `reserve`, `release`, `allow`.
 
+mod bounds;
 pub(crate) mod checks;
 pub(crate) mod names;
+mod ranges;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -14,10 +16,10 @@ use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
 use sensedsl_syntax::TextRange;
 use sensedsl_syntax::ast::{self, AstNode as _, Rule};
 
-use crate::board::pins::PinRef;
-use crate::design::{Allow, Design, Preference, PreferenceSubject, Spanned, Together};
-use crate::fields::{name_or_text, span};
+use crate::design::{Allow, Design, PinRef, Preference, PreferenceSubject, Together};
+use crate::fields::name_or_text;
 use crate::kind::Role;
+use crate::spanned::{Spanned, span};
 use crate::value::Evaluator;
 use crate::value::constants::Constants;
 

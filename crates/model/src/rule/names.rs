@@ -1,13 +1,12 @@
 //! Which names can be used together once they are spelled as code.
 
+use crate::spanned::Spanned;
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
     e0204_duplicate_name, e0205_clashing_names, e0221_identifier_reserved,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
-
-use crate::design::Spanned;
 
 /// The longest name; C compilers distinguish at least that many letters.
 const LETTERS_MAX: usize = 63;

@@ -10,9 +10,9 @@ use sensedsl_limits::{ITEMS_MAX, STATEMENTS_MAX, TOKENS_MAX, USE_DEPTH_MAX, USED
 use sensedsl_syntax::ast::{self, AstNode as _, FileItem};
 use sensedsl_syntax::{Parse, SyntaxKind, SyntaxNode, parse_within};
 
-use crate::fields::span;
 use crate::source::files::{FileRequest, FileUse, Files};
 use crate::source::syntax_errors;
+use crate::spanned::span;
 
 /// The items of a file and of the files it uses, in order, each with its file.
 #[derive(Debug, Default)]

@@ -13,7 +13,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_limits::TOKENS_MAX;
 use sensedsl_syntax::{Block, Item, Parse, SyntaxError, SyntaxErrorKind, SyntaxKind, TextRange};
 
-use crate::fields::span;
+use crate::spanned::span;
 use crate::value::other_types;
 
 /// The diagnostic for a syntax error in `file`.

@@ -6,8 +6,7 @@ use sensedsl_diagnostics::codes::e0228_constants_in_a_circle;
 use sensedsl_diagnostics::{Diagnostic, FileId};
 use sensedsl_syntax::ast::{self, AstNode as _};
 
-use crate::design::Spanned;
-use crate::fields::span;
+use crate::spanned::{Spanned, span};
 use crate::value::{Evaluator, Value};
 
 /// All constants by name.

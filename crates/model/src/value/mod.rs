@@ -7,7 +7,7 @@ pub(crate) mod constants;
 mod dimension;
 pub(crate) mod other_types;
 pub(crate) mod types;
-pub mod volts;
+pub mod written;
 
 use sensedsl_diagnostics::codes::{e0211_out_of_range, e0227_cannot_compute as cannot};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
@@ -15,8 +15,7 @@ use sensedsl_limits::{CONSTANT_PARTS_MAX, TEXT_BYTES_MAX};
 use sensedsl_syntax::Unit;
 use sensedsl_syntax::ast::{self, AstNode as _, Magnitude, Operator, Sign};
 
-use crate::design::Spanned;
-use crate::fields::span;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 
 pub(crate) use dimension::{Dimension, power_of_ten, shifted};

@@ -7,8 +7,8 @@ use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{ScalarType, ValueType};
 
-use crate::design::Spanned;
-use crate::fields::{plain_integer, span};
+use crate::fields::plain_integer;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::other_types;
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_model::bounds::shown_hz;
 use sensedsl_model::facts::{PartFacts, ValueFacts, example};
+use sensedsl_model::written::shown_hz;
 use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};

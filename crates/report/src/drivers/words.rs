@@ -4,7 +4,7 @@ use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts};
 use sensedsl_model::kind::digital::Pull;
 use sensedsl_model::kind::uart::Parity;
 use sensedsl_model::kind::{Interface, Kind, Role};
-use sensedsl_model::volts::{shown_mv, shown_ohm};
+use sensedsl_model::written::{shown_mv, shown_ohm};
 use sensedsl_wire::Direction;
 
 /// A field's name as a title: `radio_control` as `Radio control`.

@@ -3,9 +3,8 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
-use sensedsl_model::design::{Connection, Design, Spanned};
+use sensedsl_model::design::{Connection, Design, PinRef, Spanned};
 use sensedsl_model::kind::Role;
-use sensedsl_model::pins::PinRef;
 
 use super::needs_and_pins;
 use crate::alternatives::served;

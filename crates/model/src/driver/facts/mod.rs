@@ -11,18 +11,18 @@ use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::design::{Level, Presentation};
-use crate::driver::bounds::Bounds;
+use crate::design::{Bounds, Level, Presentation};
+use crate::driver::known::Known;
 use crate::driver::library::SEARCH;
-use crate::driver::{Driver, Drivers};
-use crate::fields::{Fields, name_or_text, span};
+use crate::driver::{Driver, Drivers, bounds};
+use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, KindName, Role};
 use crate::part::block::{Next, ReadPart};
-use crate::part::chip;
 use crate::part::coding::{self, CODING, PROTOCOL};
-use crate::part::device::{self, Known};
+use crate::part::device::{self};
 use crate::part::protocol::{Coding, Filter, Formula, Protocol};
-use crate::part::reach;
+use crate::part::{chip, reach};
+use crate::spanned::span;
 use crate::value::constants::Constants;
 
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
@@ -239,7 +239,7 @@ impl Library {
         let (sheet, checked) = (text("sheet"), text("checked"));
         let [aliases, connector, notes] =
             ["aliases", "connector", "note"].map(|name| texts(&mut fields, name));
-        let Bounds { addresses, clock_max_hz, supply_mv } = Bounds::read(&mut fields);
+        let Bounds { addresses, clock_max_hz, supply_mv } = bounds::read(&mut fields);
         let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
         let pull = fields.peek_name("pull");
         drop(fields);

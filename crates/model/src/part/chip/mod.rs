@@ -14,19 +14,20 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::ValueType;
 
-use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, Spanned};
-use crate::driver::Driver;
-use crate::driver::bounds::Bounds;
-use crate::fields::{Fields, name_or_text, span};
+use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part};
+use crate::driver::known::Known;
+use crate::driver::{Driver, bounds};
+use crate::fields::{Fields, name_or_text};
 use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, FILTER, PROTOCOL};
-use crate::part::device::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
+use crate::part::device::{self, ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
 use crate::part::ids::ID_MAX;
 use crate::part::protocol::Protocol;
 use crate::part::words;
 use crate::rule;
+use crate::spanned::{Spanned, span};
 use crate::value::Evaluator;
 use sockets::Socket;
 use values::RequestedValue;
@@ -159,7 +160,7 @@ fn values_and_sockets(
 pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
     protocol(driver.file, driver, &[], known, diagnostics);
-    Bounds::of_driver(driver, known, diagnostics);
+    bounds::of_driver(driver, known, diagnostics);
     let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
     let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
     let of_part = driver.node.properties().map(|one| (one, true));
@@ -378,7 +379,7 @@ impl ChipReader<'_> {
         fields.inherit(values::shared(self.driver).filter(of_value), self.driver.file);
         fields.set_reading(&given.name);
         fields.set_register_bytes(self.protocol.register_bytes);
-        fields.set_addresses(Bounds::of(Some(self.driver), self.known).addresses);
+        fields.set_addresses(bounds::of(Some(self.driver), self.known).addresses);
         let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
         let own = device::own(&mut fields);
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
@@ -490,7 +491,7 @@ impl ChipReader<'_> {
         }
         let (name, block) = (self.name, self.block);
         let driver = Some(self.driver.name.value.clone());
-        let bounds = Bounds::of(Some(self.driver), self.known);
+        let bounds = bounds::of(Some(self.driver), self.known);
         let chip = Some(self.protocol);
         let part = Part { name, block, board, driver, allows, chip, bounds };
         Some(ReadPart { part, devices, connections })

@@ -8,14 +8,12 @@ use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::{ChipReader, DriverValue};
-use crate::board::pins::PinRef;
-use crate::design::{DeviceIndex, Level, Placement, Spanned};
-use crate::driver::bounds::Bounds;
-use crate::driver::{Driver, kind_of};
-use crate::fields::{Fields, name_or_text, span};
+use crate::design::{DeviceIndex, Level, PinRef, Placement};
+use crate::driver::{Driver, bounds, kind_of};
+use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, KindName};
-use crate::part::device;
-use crate::part::placement;
+use crate::part::{device, placement};
+use crate::spanned::{Spanned, span};
 
 /// A connection that a driver has.
 pub(super) struct Socket {
@@ -151,7 +149,7 @@ impl Socket {
             fields.set_reading("value");
         }
         fields.set_register_bytes(whole.protocol.register_bytes);
-        fields.set_addresses(Bounds::of(Some(whole.driver), whole.known).addresses);
+        fields.set_addresses(bounds::of(Some(whole.driver), whole.known).addresses);
         let kind = self.kind.read(&mut fields, self.direction, self.value);
         let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
         let level = device::level(&mut fields);

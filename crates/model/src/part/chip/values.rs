@@ -9,12 +9,12 @@ use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ValueType};
 
 use super::ChipReader;
-use crate::design::Spanned;
 use crate::driver::Driver;
-use crate::fields::{Fields, span};
+use crate::fields::Fields;
 use crate::part::coding::PROTOCOL;
 use crate::part::device::{direction, is_about_part};
 use crate::rule::names::folded;
+use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::types;
 

@@ -1,4 +1,5 @@
-//! Voltages and resistances as people write them.
+//! Numbers in base units in, quantities as people write them out: volts, ohms, hertz. And the resistors that divide a
+//! voltage, which a message proposes.
 
 /// Millivolts as people write volts: `5 V`, `3.3 V`.
 #[must_use]
@@ -15,6 +16,25 @@ pub fn shown_ohm(ohm: u32) -> String {
     }
     let text = format!("{}.{:03}", ohm / 1_000, ohm % 1_000);
     format!("{} kOhm", text.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// Formats a frequency for people: `400 kHz`.
+#[must_use]
+pub fn shown_hz(hz: u32) -> String {
+    if hz >= 1_000_000 && hz.is_multiple_of(1_000_000) {
+        return format!("{} MHz", hz / 1_000_000);
+    }
+    if hz >= 1_000 && hz.is_multiple_of(1_000) {
+        return format!("{} kHz", hz / 1_000);
+    }
+    format!("{hz} Hz")
+}
+
+/// Formats a number for people, with six significant digits.
+#[must_use]
+pub fn rounded(number: f64) -> String {
+    let text = format!("{number:.6e}");
+    text.parse::<f64>().map_or(text, |number| format!("{number}"))
 }
 
 /// The proposed resistor to ground, in ohms.
@@ -43,6 +63,11 @@ mod tests {
     #[test]
     fn voltages_are_written_as_people_do() {
         assert_eq!([5_000, 3_300, 12_650, 90].map(shown_mv), ["5 V", "3.3 V", "12.65 V", "0.09 V"]);
+    }
+
+    #[test]
+    fn frequencies_are_written_in_whole_units() {
+        assert_eq!([3_400_000, 2_000_000, 1_234].map(shown_hz), ["3400 kHz", "2 MHz", "1234 Hz"]);
     }
 
     #[test]

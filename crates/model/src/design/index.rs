@@ -1,0 +1,17 @@
+//! Numbers of boards, parts, devices and connections: what the items of a design name each other by.
+
+/// Index into [`crate::design::Design::boards`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BoardIndex(pub usize);
+
+/// Index into [`crate::design::Design::devices`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct DeviceIndex(pub usize);
+
+/// Index into [`crate::design::Design::parts`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PartIndex(pub usize);
+
+/// Index into [`crate::design::Design::connections`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ConnectionIndex(pub usize);
