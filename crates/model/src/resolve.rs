@@ -10,33 +10,22 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
 use sensedsl_syntax::{Parse, ast};
 
-use crate::board::{self, Context, RemainingBudget, link, pins};
+use crate::board::context::{Context, RemainingBudget};
+use crate::board::{self, link, pins};
 use crate::design::sound::{Partial, broken_drivers};
 use crate::design::{Board, BoardIndex, Design};
+use crate::driver::Drivers;
 use crate::driver::known::Known;
-use crate::driver::{self, Drivers};
 use crate::part::block::{Next, ReadPart, assemble};
-use crate::part::device::{self};
-use crate::part::{chip, frames, ids, registers};
+use crate::part::{chip, device, frames, ids, registers};
+use crate::request::Request;
 use crate::rule::{checks, names};
 use crate::source::files::Files;
 use crate::source::reader::{Items, Reader};
 use crate::source::syntax_errors;
 use crate::spanned::Spanned;
-use crate::value::constants::{self, Constants};
-
-/// What a caller asks for.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Request<'a> {
-    /// Path of the file, as people see it.
-    pub path: &'a str,
-    /// The text of the file.
-    pub text: &'a str,
-    /// A table or a built-in board that overrides the file's.
-    pub board: Option<&'a str>,
-    /// The target; none for the default.
-    pub target: Option<&'a str>,
-}
+use crate::value::constants::Constants;
+use crate::value::definitions;
 
 /// The result of resolving a file.
 #[derive(Debug, Default)]
@@ -65,7 +54,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let items = std::mem::take(&mut reader.items);
     let trees = std::mem::take(&mut reader.trees);
     let mut read: Vec<FileId> = trees.iter().map(|(file, _)| *file).collect();
-    let constants = Constants::new(&items.constants, &mut diagnostics);
+    let constants = definitions::computed(&items.constants, &mut diagnostics);
     let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
     let (boards, tables) =
         read_boards(request, files, &items, &constants, &mut sources, &mut diagnostics);
@@ -73,8 +62,8 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let known = Known { constants: &constants, drivers: &drivers };
     let (mut parts, unread) = read_parts(&items, known, &mut diagnostics);
     ids::complete(&mut parts, &mut diagnostics);
-    driver::check(known, &mut diagnostics);
-    let constant_names = constants::names(&items.constants);
+    chip::check::drivers(known, &mut diagnostics);
+    let constant_names = definitions::names(&items.constants);
     names::check("constant", &constant_names.iter().collect::<Vec<_>>(), &mut diagnostics);
     let board_names = board_names(&items);
     check_names(&board_names, &parts, &drivers, &mut diagnostics);

@@ -1,11 +1,10 @@
 //! One board: its table, its MCU, its target, its link, its rules.
 
+pub(crate) mod context;
 pub(crate) mod link;
 pub(crate) mod pins;
 pub(crate) mod table_findings;
 pub(crate) mod target;
-
-use std::collections::BTreeMap;
 
 use sensedsl_board::catalog;
 use sensedsl_board::table::{self, Table};
@@ -13,61 +12,17 @@ use sensedsl_diagnostics::codes::{
     e0225_too_many_items, e0301_unknown_board, e0302_table_unreadable, w0607_part_not_certain,
     w0608_usages_unknown,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_limits::{BOARDS_MAX, PLACES_MAX, TABLES_BYTES_MAX};
 use sensedsl_parts::Completion;
 use sensedsl_syntax::ast::{self, BoardSource};
 
 use crate::design::Board;
-use crate::resolve::Request;
 use crate::rule;
-use crate::source::files::{FileRequest, FileUse, Files, ReadError};
+use crate::source::files::{FileRequest, FileUse, ReadError};
 use crate::source::reader::beside;
 use crate::spanned::{Spanned, span};
-use crate::value::constants::Constants;
-
-/// What is needed to read boards, besides the syntax node.
-pub(crate) struct Context<'a> {
-    pub(crate) request: &'a Request<'a>,
-    pub(crate) files: &'a dyn Files,
-    pub(crate) sources: &'a mut SourceMap,
-    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
-    pub(crate) constants: &'a Constants,
-    /// The tables already completed, each with its MCU.
-    pub(crate) completed: BTreeMap<(FileId, Option<String>), Table>,
-    /// The tables already read from files.
-    pub(crate) tables: BTreeMap<FileId, Table>,
-    /// The built-in tables already read.
-    pub(crate) built_in: BTreeMap<FileId, Table>,
-    pub(crate) left: RemainingBudget,
-}
-
-/// The part of the budgets for all boards that is not yet used.
-pub(crate) struct RemainingBudget {
-    boards: usize,
-    places: usize,
-    bytes: usize,
-}
-
-impl Default for RemainingBudget {
-    fn default() -> Self {
-        Self { boards: BOARDS_MAX, places: PLACES_MAX, bytes: TABLES_BYTES_MAX }
-    }
-}
-
-impl RemainingBudget {
-    /// Takes from a budget. If less than `taken` is left of it, the error names the budget and its
-    /// full size.
-    fn take(
-        left: &mut usize,
-        taken: usize,
-        what: &'static str,
-        most: usize,
-    ) -> Result<(), (&'static str, usize)> {
-        *left = left.checked_sub(taken).ok_or((what, most))?;
-        Ok(())
-    }
-}
+use context::{Context, RemainingBudget};
 
 /// The pins of a board, with their origin.
 struct Pins {

@@ -7,7 +7,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast;
 
-use crate::board::Context;
+use super::context::Context;
 use crate::fields::Fields;
 
 /// The properties of a board.

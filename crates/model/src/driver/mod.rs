@@ -14,9 +14,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 
-use crate::driver::known::Known;
 use crate::kind::KindName;
-use crate::part::chip;
 use crate::rule::names::folded;
 use crate::spanned::{Spanned, span};
 
@@ -246,11 +244,4 @@ pub(crate) fn kind_of(
         diagnostics.push(e0207_unknown_kind::unknown_kind(at, kind.text(), &list, meant));
     }
     found
-}
-
-/// Reports mistakes in the drivers of the file, whether anything names them or not.
-pub(crate) fn check(known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    for driver in known.drivers.own() {
-        chip::check_driver(driver, known, diagnostics);
-    }
 }

@@ -8,36 +8,22 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::design::{
-    BoardIndex, Connection, ConnectionIndex, Device, Group, Level, Part, Presentation,
-};
+use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, Part};
 use crate::driver::known::Known;
 use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds};
 use crate::fields::{Field, Fields, name_or_text};
 use crate::kind::{KindName, Role, i2c};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, FILTER};
-use crate::part::protocol::{Filter, Protocol};
+use crate::part::properties::{
+    COMMON_PROPERTIES, PRESENTATION, direction, divided, is_about_part, level, own,
+};
+use crate::part::protocol::Protocol;
 use crate::part::{chip, placement, reach, words};
 use crate::rule;
 use crate::spanned::{Spanned, span};
 use crate::value::types;
 
-/// The properties of every device, except those that show its value.
-pub(crate) const COMMON_PROPERTIES: &[&str] = &[
-    "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "together",
-    "sequence", "level", "divider",
-];
-/// The properties for how a host shows a value.
-pub(crate) const PRESENTATION: &[&str] =
-    &["label", "quantity", "scale", "offset", "min", "max", "curve"];
-
-/// Cycle time if the file gives none (the paper, section 3.2).
-const DELAY_DEFAULT_MS: u32 = 1_000;
-/// Longest cycle time: an hour.
-const DELAY_MAX_MS: u32 = 3_600_000;
-/// The highest voltage allowed in a file.
-const LEVEL_MAX_MV: u32 = 1_000_000;
 /// Most elements of an array with a wire each, which is more than any part has of one kind.
 const WIRES_MAX: u16 = 128;
 
@@ -119,14 +105,6 @@ pub(crate) fn read(
     Some(ReadPart { part, devices: vec![device], connections })
 }
 
-/// The direction of a device.
-pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
-    Some(match node.direction()? {
-        ast::Direction::Sensor => Direction::Sensor,
-        ast::Direction::Actuator => Direction::Actuator,
-    })
-}
-
 /// The driver that the device names, if that driver names several values.
 fn driver_with_values<'d>(
     file: FileId,
@@ -138,45 +116,6 @@ fn driver_with_values<'d>(
     let value = crate::value::Evaluator::new(file, constants, said).value(&named.value()?);
     let driver = known.drivers.look_up(&name_or_text(&value)?)?;
     driver.has_values().then_some(driver)
-}
-
-/// The properties that a device has whatever it is connected to.
-pub(crate) struct Own {
-    pub(crate) id: Option<Spanned<u8>>,
-    pub(crate) delay_ms: u32,
-    pub(crate) delay_span: Option<Span>,
-    pub(crate) prio: i8,
-    pub(crate) prio_span: Option<Span>,
-    pub(crate) group: Option<Group>,
-    pub(crate) shown: Presentation,
-    pub(crate) filter: Filter,
-}
-
-/// Reads the properties that a device has whatever it is connected to.
-pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
-    let id = fields.integer("id", 1..=254);
-    let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
-    let prio_span = fields.own_span("prio");
-    let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
-    Own {
-        id: id.and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })),
-        delay_ms: delay.map_or(DELAY_DEFAULT_MS, |delay| delay.value),
-        delay_span,
-        prio: prio.unwrap_or(0),
-        prio_span,
-        group: group(fields),
-        shown: presentation(fields),
-        filter: coding::filter(fields),
-    }
-}
-
-/// Adjusts the scale so that the host undoes the voltage divider.
-pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Presentation {
-    if let Some([upper, lower]) = level.and_then(|level| level.divider) {
-        let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
-        shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
-    }
-    shown
 }
 
 /// Whether devices of the kind can have the type; if not, that is reported.
@@ -306,25 +245,6 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
 }
 
-/// The group of devices that never measure at the same time; `none` overrides a driver's group.
-fn group(fields: &mut Fields<'_>) -> Option<Group> {
-    let own = fields.own_span("group").is_some();
-    let name = fields.name("group", "the name of a group, or none")?;
-    (name.value != "none").then_some(Group { name: name.value, span: name.span, own })
-}
-
-/// The voltage that the device puts on its wires.
-pub(crate) fn level(fields: &mut Fields<'_>) -> Option<Level> {
-    let divider = fields.resistances_ohm("divider");
-    let level = fields.voltage_mv("level", 1..=LEVEL_MAX_MV);
-    if let (Some(divider), None) = (&divider, &level) {
-        let what = "a divider needs the voltage that it divides: `level = 5 V;`";
-        fields.contradiction(divider.span, "level", what);
-    }
-    let Spanned { value: mv, span } = level?;
-    Some(Level { mv, divider: divider.map(|divider| divider.value), span })
-}
-
 /// Words that people write for properties, each with the property that is meant.
 const OTHER_WORDS: &[(&str, &str)] = &[
     ("addr", "address"),
@@ -344,53 +264,6 @@ const OTHER_WORDS: &[(&str, &str)] = &[
     ("rate", "delay"),
     ("trig", "trigger"),
 ];
-
-/// Whether a property of a driver describes the part and is only for its page. For some kinds,
-/// `pull` is a resistor in the MCU.
-pub(crate) fn is_about_part(name: &str) -> bool {
-    ABOUT_PART.contains(&name)
-}
-
-/// The properties with which a driver describes its part.
-pub(crate) const ABOUT_PART: &[&str] = &[
-    "part",
-    "about",
-    "aliases",
-    "sheet",
-    "checked",
-    "supply",
-    "connector",
-    "note",
-    "addresses",
-    "speed_max",
-    "clock_max",
-];
-
-fn presentation(fields: &mut Fields<'_>) -> Presentation {
-    let (min, max) = (unless_taken(fields, "min"), unless_taken(fields, "max"));
-    if let (Some(min), Some(max)) = (min, max)
-        && min.value >= max.value
-    {
-        fields.contradiction(min.span, "max", "`min` is not below `max`");
-    }
-    Presentation {
-        label: fields.text("label").map(|text| text.value),
-        quantity: fields.text("quantity").map(|text| text.value),
-        scale: fields.number("scale").map(|number| number.value),
-        offset: fields.number("offset").map(|number| number.value),
-        min: min.map(|one| one.value),
-        max: max.map(|one| one.value),
-        bare: None,
-        bounds: [min.map(|one| one.span), max.map(|one| one.span)],
-        curve: coding::curve(fields),
-    }
-}
-
-/// For a pwm device, `min` and `max` are pulses, which its kind has already read.
-fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<Spanned<f64>> {
-    let free = fields.rest().iter().any(|field| field.name == name);
-    if free { fields.bound(name) } else { None }
-}
 
 /// Reports properties that nothing of the device has read.
 fn leftovers(fields: &mut Fields<'_>, kind: KindName) {

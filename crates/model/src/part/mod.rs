@@ -8,6 +8,7 @@ pub(crate) mod frames;
 pub mod given;
 pub(crate) mod ids;
 pub(crate) mod placement;
+pub(crate) mod properties;
 pub mod protocol;
 pub mod reach;
 pub mod registers;

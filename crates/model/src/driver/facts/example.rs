@@ -1,9 +1,9 @@
 //! An example of a part: what is known about it in, a few lines that use it in a typical way out.
 
-use sensedsl_wire::{Direction, ScalarType, ValueType};
+use sensedsl_wire::Direction;
 
 use super::{PartFacts, ValueFacts, head_of_device};
-use crate::kind::{Interface, KindName, Sharing, Values};
+use crate::kind::{Interface, Sharing};
 
 /// The board of most examples, because many people have it.
 pub const EXAMPLE_BOARD: &str = "NUCLEO_F446RE";
@@ -116,20 +116,4 @@ fn camel(name: &str) -> String {
         first.into_iter().chain(letters).collect::<String>()
     });
     words.collect()
-}
-
-/// The type that suits a part's only value; where bytes are counted, it has that many.
-pub(super) fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {
-    let word = kind.spec().natural;
-    if kind.spec().values != Values::Any {
-        return ValueType::scalar(word);
-    }
-    let word = if signed { ScalarType::Int16 } else { word };
-    match length {
-        None | Some(2) => ValueType::scalar(word),
-        Some(1) => ValueType::scalar(ScalarType::Uint8),
-        Some(4) => ValueType::scalar(ScalarType::Uint32),
-        Some(even) if even % 2 == 0 => ValueType { scalar: word, length: Some(even / 2) },
-        Some(bytes) => ValueType { scalar: ScalarType::Uint8, length: Some(bytes) },
-    }
 }

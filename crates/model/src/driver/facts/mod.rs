@@ -9,19 +9,18 @@ mod example;
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
-use sensedsl_wire::{Direction, ValueType};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::{Bounds, Level, Presentation};
 use crate::driver::known::Known;
 use crate::driver::library::SEARCH;
 use crate::driver::{Driver, Drivers, bounds};
 use crate::fields::{Fields, name_or_text};
-use crate::kind::{Kind, KindName, Role};
+use crate::kind::{Kind, KindName, Role, Values};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, PROTOCOL};
-use crate::part::device::{self};
 use crate::part::protocol::{Coding, Filter, Formula, Protocol};
-use crate::part::{chip, reach};
+use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
 use crate::value::constants::Constants;
 
@@ -171,7 +170,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// All words of the driver language: the properties of a driver, its readings and its commands, and
 /// the words that they take. Those of a kind are listed with the kind.
 pub fn words_of_drivers() -> impl Iterator<Item = &'static str> {
-    let properties = CODING.iter().chain(PROTOCOL).chain(device::ABOUT_PART).copied();
+    let properties = CODING.iter().chain(PROTOCOL).chain(properties::ABOUT_PART).copied();
     properties.chain(coding::WORDS.iter().copied()).chain(Formula::ALL.map(Formula::name))
 }
 
@@ -316,7 +315,23 @@ impl Library {
         };
         let signed = fields.peek_name("quantity").is_some_and(|unit| SIGNED.contains(&&*unit));
         let length = fields.peek_integer("length").and_then(|n| u16::try_from(n).ok());
-        Some((direction, example::natural_type(kind, length, signed)))
+        Some((direction, natural_type(kind, length, signed)))
+    }
+}
+
+/// The type that suits a part's only value; where bytes are counted, it has that many.
+fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {
+    let word = kind.spec().natural;
+    if kind.spec().values != Values::Any {
+        return ValueType::scalar(word);
+    }
+    let word = if signed { ScalarType::Int16 } else { word };
+    match length {
+        None | Some(2) => ValueType::scalar(word),
+        Some(1) => ValueType::scalar(ScalarType::Uint8),
+        Some(4) => ValueType::scalar(ScalarType::Uint32),
+        Some(even) if even % 2 == 0 => ValueType { scalar: word, length: Some(even / 2) },
+        Some(bytes) => ValueType { scalar: ScalarType::Uint8, length: Some(bytes) },
     }
 }
 

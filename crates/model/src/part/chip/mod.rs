@@ -4,13 +4,15 @@
 //! chip, the chip's `connection` block, the driver's reading or command, the driver's connection,
 //! the driver. The nearest wins.
 
+pub(crate) mod check;
+mod reader;
 mod sockets;
 mod values;
 
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0217_driver_of_other_kind, e0220_impossible_type, e0229_wrong_driver,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::ValueType;
 
@@ -21,39 +23,22 @@ use crate::fields::{Fields, name_or_text};
 use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
 use crate::part::block::{Next, ReadPart};
-use crate::part::coding::{self, CODING, FILTER, PROTOCOL};
-use crate::part::device::{self, ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
+use crate::part::coding::{self, FILTER, PROTOCOL};
 use crate::part::ids::ID_MAX;
+use crate::part::properties::{self, COMMON_PROPERTIES, PRESENTATION};
 use crate::part::protocol::Protocol;
 use crate::part::words;
 use crate::rule;
 use crate::spanned::{Spanned, span};
 use crate::value::Evaluator;
+use reader::{ChipReader, DriverValue};
 use sockets::Socket;
 use values::RequestedValue;
-
-use values::DriverValue;
 
 /// The properties of a chip, besides those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
 const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
-
-/// A chip, or a device that is a chip's only value, with its driver.
-struct ChipReader<'a> {
-    file: FileId,
-    /// The numbers of the part, its first device and its first wires.
-    next: Next,
-    name: Spanned<String>,
-    block: Span,
-    driver: &'a Driver,
-    known: Known<'a>,
-    /// The properties of the chip as a whole.
-    properties: Vec<Property>,
-    protocol: Protocol,
-    /// The driver's named values.
-    given: Vec<DriverValue>,
-}
 
 /// Reads a chip; none when too little of it is understood.
 pub(crate) fn read(
@@ -156,64 +141,6 @@ fn values_and_sockets(
     Some((given, sockets))
 }
 
-/// Reports mistakes in a driver of the file.
-pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
-    protocol(driver.file, driver, &[], known, diagnostics);
-    bounds::of_driver(driver, known, diagnostics);
-    let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
-    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
-    let of_part = driver.node.properties().map(|one| (one, true));
-    let of_values = given.iter().flat_map(|one| one.properties.iter().cloned());
-    let all = of_part.chain(blocks.chain(of_values).map(|one| (one, false)));
-    for (property, is_of_part) in all {
-        let Some(name) = property.name() else { continue };
-        let known = || {
-            let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
-            let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
-            let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
-            of_kinds.chain(shared).chain(PROTOCOL).chain(about).copied()
-        };
-        if known().all(|one| one != name.text()) {
-            let at = span(driver.file, name.range());
-            let unknown = e0201_unknown_property::unknown_property;
-            diagnostics.push(unknown(
-                at,
-                name.text(),
-                &driver.what(),
-                nearest(name.text(), known()),
-            ));
-        }
-    }
-    twice(driver, &given, diagnostics);
-}
-
-/// Reports readings of the same bits of the same register.
-fn twice(driver: &Driver, given: &[DriverValue], diagnostics: &mut Vec<Diagnostic>) {
-    const PLACE: [&str; 9] =
-        ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
-    let place = |one: &DriverValue| {
-        let words = one.properties.iter().filter_map(|property| {
-            let (name, value) = (property.name()?, property.value()?);
-            PLACE
-                .contains(&name.text())
-                .then(|| format!("{} {}", name.text(), value.syntax().text()))
-        });
-        let mut words: Vec<String> = words.collect();
-        words.sort();
-        (one.direction, words)
-    };
-    for (at, one) in given.iter().enumerate() {
-        let own = place(one);
-        let has_register = own.1.iter().any(|word| word.starts_with("register "));
-        let before = given.iter().take(at).find(|other| place(other) == own);
-        if let Some(before) = before.filter(|_| has_register) {
-            let message = format!("`{}` and `{}` are the same register", before.name, one.name);
-            diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
-        }
-    }
-}
-
 /// How the chip is started, according to the driver; the chip can override it.
 fn protocol(
     file: FileId,
@@ -236,19 +163,6 @@ fn protocol(
 }
 
 impl ChipReader<'_> {
-    /// The properties of the chip that apply to a connection of that kind.
-    fn properties_for(&self, kind: KindName) -> impl Iterator<Item = Property> {
-        let concerns = move |one: &Property| {
-            one.name().is_some_and(|name| {
-                let name = name.text();
-                let common = COMMON_PROPERTIES.contains(&name);
-                let own = matches!(name, "id" | "driver" | "type");
-                (common && !own) || kind.spec().properties.contains(&name)
-            })
-        };
-        self.properties.iter().filter(move |one| concerns(one)).cloned()
-    }
-
     /// Reports properties of the chip that none of its parts has.
     fn check_properties(
         &self,
@@ -381,14 +295,14 @@ impl ChipReader<'_> {
         fields.set_register_bytes(self.protocol.register_bytes);
         fields.set_addresses(bounds::of(Some(self.driver), self.known).addresses);
         let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
-        let own = device::own(&mut fields);
+        let own = properties::own(&mut fields);
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
         let mut coding = coding::coding(&mut fields, given.value, formula);
         coding.reading = Some(given.name.clone());
         let kind = (main.kind, of_bus.as_ref());
         coding::commanded(&mut fields, &mut coding, direction, value.value, kind);
-        let level = device::level(&mut fields);
-        let mut shown = device::divided(own.shown, level.as_ref());
+        let level = properties::level(&mut fields);
+        let mut shown = properties::divided(own.shown, level.as_ref());
         shown.bare = fields.take_bare();
         drop(fields);
         let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);

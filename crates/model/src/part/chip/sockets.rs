@@ -7,12 +7,13 @@ use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::{ChipReader, DriverValue};
+use super::reader::{ChipReader, DriverValue};
+use super::values;
 use crate::design::{DeviceIndex, Level, PinRef, Placement};
 use crate::driver::{Driver, bounds, kind_of};
 use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, KindName};
-use crate::part::{device, placement};
+use crate::part::{placement, properties};
 use crate::spanned::{Spanned, span};
 
 /// A connection that a driver has.
@@ -144,7 +145,7 @@ impl Socket {
         fields.inherit(whole.properties_for(self.kind), whole.file);
         fields.drivers_follow();
         fields.inherit(self.driver_properties(), whole.driver.file);
-        fields.inherit(super::values::shared(whole.driver), whole.driver.file);
+        fields.inherit(values::shared(whole.driver), whole.driver.file);
         if !whole.given.is_empty() {
             fields.set_reading("value");
         }
@@ -152,7 +153,7 @@ impl Socket {
         fields.set_addresses(bounds::of(Some(whole.driver), whole.known).addresses);
         let kind = self.kind.read(&mut fields, self.direction, self.value);
         let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
-        let level = device::level(&mut fields);
+        let level = properties::level(&mut fields);
         let mut placement = placements.into_iter().next().unwrap_or_default();
         self.short_pin(whole, &kind, &mut placement, diagnostics);
         (kind, placement, level)

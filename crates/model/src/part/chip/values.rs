@@ -8,26 +8,15 @@ use sensedsl_limits::DRIVER_VALUES_MAX;
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ValueType};
 
-use super::ChipReader;
+use super::reader::{ChipReader, DriverValue};
 use crate::driver::Driver;
 use crate::fields::Fields;
 use crate::part::coding::PROTOCOL;
-use crate::part::device::{direction, is_about_part};
+use crate::part::properties::{direction, is_about_part};
 use crate::rule::names::folded;
 use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::types;
-
-/// A reading or command of a driver.
-#[derive(Clone, Debug)]
-pub(super) struct DriverValue {
-    pub(crate) name: String,
-    pub(crate) direction: Direction,
-    pub(crate) value: ValueType,
-    pub(crate) properties: Vec<Property>,
-    /// Indices of the connections that it goes over.
-    pub(crate) via: Vec<usize>,
-}
 
 /// A device of a chip, and the driver's value that it is.
 pub(super) struct RequestedValue {

@@ -1,0 +1,79 @@
+//! Mistakes in the drivers of a file: drivers in, reports out, whether anything names the drivers or not.
+
+use sensedsl_diagnostics::codes::{e0201_unknown_property, e0229_wrong_driver};
+use sensedsl_diagnostics::{Diagnostic, nearest};
+use sensedsl_syntax::ast::AstNode as _;
+
+use super::reader::DriverValue;
+use super::{protocol, values_and_sockets};
+use crate::driver::known::Known;
+use crate::driver::{Driver, bounds};
+use crate::kind::KindName;
+use crate::part::coding::{CODING, FILTER, PROTOCOL};
+use crate::part::properties::{ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
+use crate::spanned::span;
+
+/// Reports mistakes in the drivers of the file.
+pub(crate) fn drivers(known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    for driver in known.drivers.own() {
+        check_driver(driver, known, diagnostics);
+    }
+}
+
+/// Reports mistakes in a driver of the file.
+fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
+    protocol(driver.file, driver, &[], known, diagnostics);
+    bounds::of_driver(driver, known, diagnostics);
+    let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
+    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let of_part = driver.node.properties().map(|one| (one, true));
+    let of_values = given.iter().flat_map(|one| one.properties.iter().cloned());
+    let all = of_part.chain(blocks.chain(of_values).map(|one| (one, false)));
+    for (property, is_of_part) in all {
+        let Some(name) = property.name() else { continue };
+        let known = || {
+            let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
+            let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
+            let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
+            of_kinds.chain(shared).chain(PROTOCOL).chain(about).copied()
+        };
+        if known().all(|one| one != name.text()) {
+            let at = span(driver.file, name.range());
+            let unknown = e0201_unknown_property::unknown_property;
+            diagnostics.push(unknown(
+                at,
+                name.text(),
+                &driver.what(),
+                nearest(name.text(), known()),
+            ));
+        }
+    }
+    twice(driver, &given, diagnostics);
+}
+
+/// Reports readings of the same bits of the same register.
+fn twice(driver: &Driver, given: &[DriverValue], diagnostics: &mut Vec<Diagnostic>) {
+    const PLACE: [&str; 9] =
+        ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
+    let place = |one: &DriverValue| {
+        let words = one.properties.iter().filter_map(|property| {
+            let (name, value) = (property.name()?, property.value()?);
+            PLACE
+                .contains(&name.text())
+                .then(|| format!("{} {}", name.text(), value.syntax().text()))
+        });
+        let mut words: Vec<String> = words.collect();
+        words.sort();
+        (one.direction, words)
+    };
+    for (at, one) in given.iter().enumerate() {
+        let own = place(one);
+        let has_register = own.1.iter().any(|word| word.starts_with("register "));
+        let before = given.iter().take(at).find(|other| place(other) == own);
+        if let Some(before) = before.filter(|_| has_register) {
+            let message = format!("`{}` and `{}` are the same register", before.name, one.name);
+            diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
+        }
+    }
+}
