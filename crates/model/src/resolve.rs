@@ -1,4 +1,4 @@
-//! From the text of a file to a checked design.
+//! From the text of a file to a checked design: calls the readers and the checks in their order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,6 @@ use sensedsl_syntax::{Parse, ast};
 
 use crate::board::context::{Context, RemainingBudget};
 use crate::board::{self, link, pins};
-use crate::design::sound::{Partial, broken_drivers};
 use crate::design::{Board, BoardIndex, Design};
 use crate::driver::Drivers;
 use crate::driver::known::Known;
@@ -20,6 +19,7 @@ use crate::part::block::{Next, ReadPart, assemble};
 use crate::part::{chip, device, frames, ids, registers};
 use crate::request::Request;
 use crate::rule::{checks, names};
+use crate::sound::{Partial, broken_drivers};
 use crate::source::files::Files;
 use crate::source::reader::{Items, Reader};
 use crate::source::syntax_errors;

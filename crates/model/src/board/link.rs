@@ -1,4 +1,4 @@
-//! A board's link to the host.
+//! A board's link to the host: its block and its target in, medium, rate and pins of the link out.
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target, TargetProfile};

@@ -1,4 +1,4 @@
-//! One board: its table, its MCU, its target, its link, its rules.
+//! A board: its block in; its table, its MCU, its target, its link and its rules out.
 
 pub(crate) mod context;
 pub(crate) mod link;

@@ -1,4 +1,4 @@
-//! Findings in a board table, as diagnostics.
+//! Findings in a board table in, diagnostics out. Crate `board` reads tables without knowing of diagnostics.
 
 use sensedsl_board::finding::{Finding, FindingKind};
 use sensedsl_diagnostics::codes::{

@@ -1,4 +1,4 @@
-//! The system that a board's firmware runs on.
+//! The system that a board's firmware runs on: what the file or the caller asks for and the MCU in, its profile out.
 
 use sensedsl_board::profile::{self, NoProfile, Target};
 use sensedsl_diagnostics::codes::{

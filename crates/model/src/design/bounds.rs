@@ -1,4 +1,4 @@
-//! The limits that a part's data sheet states, as drivers give them and checks compare them.
+//! The limits of a part's data sheet: drivers state them, and checks compare a design with them.
 
 /// The limits from a part's data sheet; empty where its driver gives none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

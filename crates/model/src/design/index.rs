@@ -1,4 +1,4 @@
-//! Numbers of boards, parts, devices and connections: what the items of a design name each other by.
+//! Numbers of boards, parts, devices and connections: the items of a design refer to each other by them.
 
 /// Index into [`crate::design::Design::boards`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

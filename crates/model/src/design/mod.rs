@@ -6,7 +6,7 @@ mod index;
 mod pin_ref;
 mod placement;
 mod presentation;
-pub(crate) mod sound;
+pub mod protocol;
 
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
@@ -17,9 +17,9 @@ use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 use crate::kind::{Kind, Role};
-use crate::part::protocol::{Coding, Filter, Protocol};
 pub use crate::spanned::Spanned;
 use crate::value::written::{shown_mv, shown_ohm};
+use protocol::{Coding, Filter, Protocol};
 
 pub use bounds::Bounds;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};

@@ -1,4 +1,4 @@
-//! The library of drivers that ships with the tool.
+//! The library of drivers that ships with the tool: the texts of `drivers/`, embedded, so that no file has to be found.
 
 /// The files of the library: name and text.
 pub const LIBRARY: &[(&str, &str)] = &[

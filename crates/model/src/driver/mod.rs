@@ -1,4 +1,5 @@
-//! Drivers: those of the file, and the library that ships with the tool (`drivers/`).
+//! Drivers: the blocks of the file and the library that ships with the tool (`drivers/`) in, the driver that a name
+//! means out.
 
 pub(crate) mod bounds;
 pub mod facts;

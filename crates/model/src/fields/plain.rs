@@ -1,4 +1,4 @@
-//! Values that are not quantities: numbers without a unit, names, texts, bytes.
+//! Values that are not quantities: a value in; a number without a unit, a name, a text, bytes or points out.
 
 use crate::spanned::Spanned;
 use crate::value::{Measure, Value};

@@ -1,4 +1,4 @@
-//! Parts as they are read, block by block, before they are assembled into a design.
+//! Parts as they are read, block by block: boards and parts in, the design that they are assembled into out.
 
 use std::collections::BTreeSet;
 

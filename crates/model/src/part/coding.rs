@@ -5,11 +5,11 @@ use sensedsl_diagnostics::Span;
 use sensedsl_diagnostics::codes::{e0211_out_of_range, e0229_wrong_driver};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number, points};
-use crate::kind::{Kind, KindName};
-use crate::part::protocol::{
+use crate::design::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Output, Protocol, TextField,
 };
+use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number, points};
+use crate::kind::{Kind, KindName};
 use crate::part::reach;
 use crate::spanned::Spanned;
 use crate::value::{Dimension, Value};

@@ -8,6 +8,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
+use crate::design::protocol::Protocol;
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, Part};
 use crate::driver::known::Known;
 use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds};
@@ -18,7 +19,6 @@ use crate::part::coding::{self, CODING, FILTER};
 use crate::part::properties::{
     COMMON_PROPERTIES, PRESENTATION, direction, divided, is_about_part, level, own,
 };
-use crate::part::protocol::Protocol;
 use crate::part::{chip, placement, reach, words};
 use crate::rule;
 use crate::spanned::{Spanned, span};

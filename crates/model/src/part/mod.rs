@@ -1,4 +1,5 @@
-//! Parts: the blocks of a file in, what is bought with its devices and its wires out, with what is said about its bytes.
+//! Parts: the blocks of devices and chips in; what is bought, with its devices, its wires and the bytes of its values,
+//! out.
 
 pub(crate) mod block;
 pub(crate) mod chip;
@@ -9,7 +10,6 @@ pub mod given;
 pub(crate) mod ids;
 pub(crate) mod placement;
 pub(crate) mod properties;
-pub mod protocol;
 pub mod reach;
 pub mod registers;
 pub mod words;

@@ -1,4 +1,4 @@
-//! The properties that devices and chips have in common: a block's fields in; identifier, pace, group, level and
+//! The properties that devices and chips have in common: the fields of a block in; identifier, pace, group, level and
 //! presentation out.
 
 use sensedsl_diagnostics::Span;
@@ -6,7 +6,7 @@ use sensedsl_syntax::ast;
 use sensedsl_wire::Direction;
 
 use super::coding;
-use super::protocol::Filter;
+use crate::design::protocol::Filter;
 use crate::design::{Group, Level, Presentation};
 use crate::fields::Fields;
 use crate::spanned::Spanned;
@@ -19,18 +19,6 @@ pub(crate) const COMMON_PROPERTIES: &[&str] = &[
 /// The properties for how a host shows a value.
 pub(crate) const PRESENTATION: &[&str] =
     &["label", "quantity", "scale", "offset", "min", "max", "curve"];
-
-/// Cycle time if the file gives none (the paper, section 3.2).
-const DELAY_DEFAULT_MS: u32 = 1_000;
-/// Longest cycle time: an hour.
-const DELAY_MAX_MS: u32 = 3_600_000;
-/// The highest voltage allowed in a file.
-const LEVEL_MAX_MV: u32 = 1_000_000;
-/// Whether a property of a driver describes the part and is only for its page. For some kinds,
-/// `pull` is a resistor in the MCU.
-pub(crate) fn is_about_part(name: &str) -> bool {
-    ABOUT_PART.contains(&name)
-}
 
 /// The properties with which a driver describes its part.
 pub(crate) const ABOUT_PART: &[&str] = &[
@@ -46,6 +34,19 @@ pub(crate) const ABOUT_PART: &[&str] = &[
     "speed_max",
     "clock_max",
 ];
+
+/// Cycle time if the file gives none (the paper, section 3.2).
+const DELAY_DEFAULT_MS: u32 = 1_000;
+/// Longest cycle time: an hour.
+const DELAY_MAX_MS: u32 = 3_600_000;
+/// The highest voltage allowed in a file.
+const LEVEL_MAX_MV: u32 = 1_000_000;
+
+/// Whether a property of a driver describes the part and is only for its page. For some kinds,
+/// `pull` is a resistor in the MCU.
+pub(crate) fn is_about_part(name: &str) -> bool {
+    ABOUT_PART.contains(&name)
+}
 
 /// The direction of a device.
 pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {

@@ -3,8 +3,8 @@
 
 use sensedsl_wire::{ScalarType, ValueType};
 
-use super::protocol::Coding;
 use crate::design::Device;
+use crate::design::protocol::Coding;
 use crate::kind::icu::Mode;
 use crate::kind::pwm::FULL;
 use crate::kind::{Kind, KindName};

@@ -8,8 +8,8 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0240_overlap_in_register;
 use sensedsl_wire::Direction;
 
+use crate::design::protocol::{InitStep, Protocol};
 use crate::design::{ConnectionIndex, Design, Device, PartIndex};
-use crate::part::protocol::{InitStep, Protocol};
 use crate::part::words::Words;
 
 /// Most bytes of a register that commands share.

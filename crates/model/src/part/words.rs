@@ -5,10 +5,10 @@
 use sensedsl_wire::{ScalarType, ValueType};
 
 use crate::design::Device;
+use crate::design::protocol::{Coding, Crc, Protocol};
 use crate::kind::Kind;
 use crate::kind::can::BitField;
 use crate::kind::i2c::ByteOrder;
-use crate::part::protocol::{Coding, Crc, Protocol};
 
 /// How to read or write the bytes of a value; a word is an element.
 #[derive(Clone, Debug, PartialEq, Eq)]

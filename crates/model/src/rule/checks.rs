@@ -1,4 +1,4 @@
-//! Warnings where the hardware will not do what the reader expects.
+//! What the hardware will not do although the file asks for it: a design in, reports out.
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{

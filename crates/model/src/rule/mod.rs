@@ -1,4 +1,5 @@
-//! Rules: `prefer`, `avoid`, `reserve`, `release`, `allow`.
+//! Rules: the statements `prefer`, `avoid`, `reserve`, `release` and `allow` in; wishes, what stays free, and the
+//! diagnostics without those that are allowed out. Beside it are the rules that a design has to keep.
 
 mod bounds;
 pub(crate) mod checks;

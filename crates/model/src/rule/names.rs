@@ -1,4 +1,4 @@
-//! Which names can be used together once they are spelled as code.
+//! Which names can be used together once they are spelled as code: names in, reports out.
 
 use crate::spanned::Spanned;
 use std::collections::BTreeMap;

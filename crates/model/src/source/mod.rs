@@ -1,4 +1,4 @@
-//! Texts: the file that is asked for in, its syntax trees and those of the files it uses out, and changed texts.
+//! Texts: the file that is asked for in; its syntax tree and those of the files it uses out.
 
 pub(crate) mod files;
 pub(crate) mod numbered;

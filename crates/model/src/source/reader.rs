@@ -1,4 +1,4 @@
-//! Reads a file and all files it uses, in the order of their items.
+//! A file in; its items and those of all files it uses out, in their order.
 
 use std::collections::BTreeSet;
 

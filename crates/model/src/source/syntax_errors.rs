@@ -1,4 +1,4 @@
-//! Syntax errors as diagnostics.
+//! Syntax errors in, diagnostics out: the parser says what it found, and people are told what to write.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Computed values: names of constants are replaced, and operations are done.
+//! Expressions in, computed values out: names of constants are replaced, and operations are done.
 //!
 //! A number may have a unit. Numbers with units are multiplied and divided as in physics, and added
 //! only to numbers of the same dimension.

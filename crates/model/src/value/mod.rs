@@ -1,4 +1,5 @@
-//! Values: what a file writes after `=`, computed. Numbers keep their units, so whoever takes one knows what it measures.
+//! Values: what a file writes after `=`, computed. Numbers keep their units, so that whoever takes one knows what it
+//! measures.
 
 pub(crate) mod constants;
 pub(crate) mod definitions;

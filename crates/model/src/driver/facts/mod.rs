@@ -11,6 +11,7 @@ use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
+use crate::design::protocol::{Coding, Filter, Formula, Protocol};
 use crate::design::{Bounds, Level, Presentation};
 use crate::driver::known::Known;
 use crate::driver::library::SEARCH;
@@ -19,7 +20,6 @@ use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, KindName, Role, Values};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, PROTOCOL};
-use crate::part::protocol::{Coding, Filter, Formula, Protocol};
 use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
 use crate::value::constants::Constants;

@@ -16,6 +16,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::ValueType;
 
+use crate::design::protocol::Protocol;
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part};
 use crate::driver::known::Known;
 use crate::driver::{Driver, bounds};
@@ -26,7 +27,6 @@ use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, FILTER, PROTOCOL};
 use crate::part::ids::ID_MAX;
 use crate::part::properties::{self, COMMON_PROPERTIES, PRESENTATION};
-use crate::part::protocol::Protocol;
 use crate::part::words;
 use crate::rule;
 use crate::spanned::{Spanned, span};

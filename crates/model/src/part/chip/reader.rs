@@ -5,12 +5,12 @@ use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_syntax::ast::Property;
 use sensedsl_wire::{Direction, ValueType};
 
+use crate::design::protocol::Protocol;
 use crate::driver::Driver;
 use crate::driver::known::Known;
 use crate::kind::KindName;
 use crate::part::block::Next;
 use crate::part::properties::COMMON_PROPERTIES;
-use crate::part::protocol::Protocol;
 use crate::spanned::Spanned;
 
 /// A chip, or a device that is a chip's only value, with its driver.
