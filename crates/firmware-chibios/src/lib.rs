@@ -1,9 +1,10 @@
 //! ChibiOS firmware: tables for the hand-written runtime, and configuration as changes to the user's tree.
 //!
 //! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime. Each
-//! driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` combines the sections without
-//! looking into any; the templates only print. Names of the system are in the `[system]` part of a profile
-//! (`names.rs`). What the hardware or the system cannot do is returned as diagnostics, and then there are no files.
+//! driver of the system is a folder here and adds a section (`section.rs`); `peripherals.rs` lists them; `plan.rs`
+//! combines the sections without looking into any; the templates only print. Names of the system are in the `[system]`
+//! part of a profile (`names.rs`). What the hardware or the system cannot do is returned as diagnostics, and then there
+//! are no files.
 //!
 //! # Example
 //!
@@ -45,6 +46,7 @@ mod link;
 mod missed;
 mod names;
 mod parts;
+mod peripherals;
 mod plan;
 mod pulse;
 mod pwm;
@@ -65,26 +67,10 @@ use sensedsl_model::kind::KindName;
 use context::Context;
 pub use facts::Facts;
 pub use names::Names;
-use section::Peripheral;
+use peripherals::PERIPHERALS;
 use sensedsl_files::FileSet;
 use sensedsl_job::Target;
 use sensedsl_job::{BoardJob, JobConnection};
-
-/// All drivers, in the order in which their sections are printed and their threads are numbered.
-const PERIPHERALS: &[&Peripheral] = &[
-    &gpio::PERIPHERAL,
-    &adc::PERIPHERAL,
-    &dac::PERIPHERAL,
-    &i2c::PERIPHERAL,
-    &spi::PERIPHERAL,
-    &uart::PERIPHERAL,
-    &can::PERIPHERAL,
-    &icu::PERIPHERAL,
-    &encoder::PERIPHERAL,
-    &digital::PERIPHERAL,
-    &pwm::PERIPHERAL,
-    &pulse::PERIPHERAL,
-];
 
 /// The name of the target.
 const NAME: &str = "chibios";
@@ -114,7 +100,7 @@ impl Target for Chibios {
     }
 
     fn kinds(&self, profile: &TargetProfile) -> Vec<KindName> {
-        Names::of(profile).map(|names| section::kinds(&names.drivers)).unwrap_or_default()
+        Names::of(profile).map(|names| peripherals::kinds(&names.drivers)).unwrap_or_default()
     }
 
     fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
@@ -141,7 +127,7 @@ impl Target for Chibios {
 /// A driver of the profile's MCUs that has no code here, in words.
 fn unserved(profile: &TargetProfile) -> Option<String> {
     match Names::of(profile) {
-        Ok(names) => section::unserved(&names.drivers),
+        Ok(names) => peripherals::unserved(&names.drivers),
         Err(message) => Some(format!("its profile is damaged: {message}")),
     }
 }

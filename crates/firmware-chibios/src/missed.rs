@@ -7,6 +7,7 @@ use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_timing::refusals_of;
 
 use super::context::{Context, PadPlan};
+use super::peripherals::{self, PERIPHERALS};
 use super::section::Section;
 use sensedsl_job::JobConnection;
 
@@ -43,8 +44,8 @@ fn missed(
 ) -> Option<String> {
     let kind = one.connection.kind.name();
     let drivers = context.names.drivers.clone();
-    let peripheral = super::PERIPHERALS.iter().find(|peripheral| peripheral.kind == Some(kind))?;
-    let is_told = !super::section::kinds(&drivers).contains(&kind)
+    let peripheral = PERIPHERALS.iter().find(|peripheral| peripheral.kind == Some(kind))?;
+    let is_told = !peripherals::kinds(&drivers).contains(&kind)
         || (peripheral.lacks)(context.job, one).is_some();
     if is_told {
         return None;

@@ -10,7 +10,8 @@ use super::fallback::{self, FallBackPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::missed;
 use super::parts::{self, PartsPlan};
-use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
+use super::peripherals;
+use super::section::{Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
 use sensedsl_firmware_c::{Role, SchemaPlan};
 use sensedsl_job::part::uses;
@@ -61,7 +62,7 @@ pub(super) struct TaskPlan {
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<BoardPlan> {
     let mut pads = Vec::new();
     let link = link::plan(context, &mut pads, diagnostics)?;
-    let sections = section::sections(context, diagnostics);
+    let sections = peripherals::sections(context, diagnostics);
     pads.extend(sections.iter().flat_map(|section| section.pads.iter().cloned()));
     pads.sort();
     pads.dedup();

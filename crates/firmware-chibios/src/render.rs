@@ -2,7 +2,7 @@
 
 use askama::Template;
 
-use super::PERIPHERALS;
+use super::peripherals::PERIPHERALS;
 use super::plan::BoardPlan;
 use super::runtime;
 use sensedsl_files::FileSet;

@@ -1,7 +1,7 @@
 //! The section of a board's firmware that one driver adds. A driver is a folder here, a version of it a file.
 //!
 //! In: a [`Context`]. Out: a [`Section`]. The code common to all drivers combines the sections without looking into
-//! any: firmware for another kind is a folder and a line in [`PERIPHERALS`].
+//! any: firmware for another kind is a folder and a line in `peripherals.rs`.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,6 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_firmware_c::runtime::File;
 use sensedsl_model::kind::KindName;
 
-use super::PERIPHERALS;
 use super::context::{Context, PadPlan};
 use super::names::{Drivers, Setting};
 use super::stacks::Depth;
@@ -68,7 +67,7 @@ pub(super) struct Section {
     pub(super) guards: Vec<GuardPlan>,
     /// The clocks whose frequencies the computations used.
     pub(super) clocks: BTreeSet<String>,
-    /// The headers that its tables need; [`sections`] fills them in.
+    /// The headers that its tables need; `peripherals.rs` fills them in.
     pub(super) headers: Vec<&'static str>,
     /// The C code of its tables.
     pub(super) tables: String,
@@ -152,42 +151,7 @@ impl Peripheral {
     }
 }
 
-/// The kinds of devices that have code here.
-pub(super) fn kinds(drivers: &Drivers) -> Vec<KindName> {
-    let served = PERIPHERALS.iter().filter(|one| one.serving(drivers).is_some());
-    served.filter_map(|one| one.kind).collect()
-}
-
-/// The driver of an MCU's pins, in words, if it has no code here.
-pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
-    let is_missing = |one: &&&Peripheral| one.kind.is_none() && one.serving(drivers).is_none();
-    let missing = PERIPHERALS.iter().find(is_missing)?;
-    let known: Vec<&str> = missing.versions.iter().map(|version| version.name).collect();
-    Some(format!(
-        "its {} driver is {}, code is made for {} only",
-        missing.name,
-        (missing.version)(drivers),
-        known.join(" and ")
-    ))
-}
-
 /// The `lacks` of a driver that serves everything that the language has.
 pub(super) fn nothing(_: &BoardJob<'_>, _: &JobConnection<'_>) -> Option<&'static str> {
     None
-}
-
-/// The sections of a board.
-pub(super) fn sections(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Section> {
-    let drivers = &context.names.drivers;
-    let serving = PERIPHERALS.iter().filter_map(|one| Some((one, one.serving(drivers)?)));
-    let section = |(peripheral, version): (&&Peripheral, &Version)| {
-        let mut section = (version.plan)(context, diagnostics);
-        if !section.tables.is_empty() {
-            let files = peripheral.runtime.iter();
-            let names = files.filter_map(|(path, _)| path.strip_prefix("chibios/"));
-            section.headers = names.filter(|name| name.ends_with(".h")).collect();
-        }
-        section
-    };
-    serving.map(section).collect()
 }
