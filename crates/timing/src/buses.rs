@@ -17,10 +17,11 @@ use sensedsl_wire::Direction;
 
 use crate::can_bit::can_bit;
 use crate::clocks::{at_most, unit_hz};
+use crate::context::{Context, Wired};
+use crate::groups::i2c_period_ms;
 use crate::i2c_clock::{self, BusClock};
 use crate::processor::{Transfers, Work};
 use crate::rows::{Count, Part, Row, clocks_ns, shortest};
-use crate::{Context, Wired};
 
 /// Clocks of a byte with its acknowledge.
 const I2C_BYTE_CLOCKS: u64 = 9;
@@ -48,13 +49,6 @@ impl Transfers {
         let elements = device.value.value.count() as u64;
         Self { count: 1, phases: 1, bytes: 0, elements, value_bytes }
     }
-}
-
-/// The time from one measurement of an I2C device to the next: it is polled each cycle, and answers
-/// once its waiting time is over.
-pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
-    let delay_ms = delay_ms.max(1);
-    wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1).saturating_mul(delay_ms)
 }
 
 pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) -> Script {

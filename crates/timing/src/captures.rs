@@ -4,8 +4,8 @@ use sensedsl_model::design::Device;
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
-use crate::Context;
 use crate::clocks::timer_hz;
+use crate::context::Context;
 use crate::rows::{Count, Part, Row};
 
 /// Ticks of a timer from one overflow to the next.

@@ -2,7 +2,7 @@
 
 use sensedsl_board::profile::{Adcs, Cycles, Dividers, TargetProfile, Timer, Unit};
 
-use crate::Context;
+use crate::context::Context;
 
 /// The greatest prescaler of a timer, which has 16 bits.
 pub(crate) const PRESCALER_MAX: u32 = 65_536;

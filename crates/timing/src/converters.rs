@@ -3,8 +3,8 @@
 use sensedsl_board::profile::Cycles;
 use sensedsl_model::kind::analog::Analog;
 
-use crate::Context;
 use crate::clocks::{converter_hz, sampling};
+use crate::context::{Context, Wired};
 use crate::processor::Work;
 use crate::rows::{Count, Part, Row, clocks_ns, per_second, shortest};
 
@@ -36,7 +36,7 @@ fn sampling_times(most: Option<u8>, mut asked: Vec<Cycles>) -> Vec<Cycles> {
 pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     let Some(profile) = context.board.profile() else { return Vec::new() };
     let hz = converter_hz(context);
-    let of = |wired: &crate::Wired<'_>| wired.device.kind.analog().cloned();
+    let of = |wired: &Wired<'_>| wired.device.kind.analog().cloned();
     let mut rows = Vec::new();
     let (mut unit_rows, mut own_ns, mut last) = (Vec::new(), Vec::new(), None);
     let classes = context.classes(of);

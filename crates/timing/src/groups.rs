@@ -10,12 +10,27 @@ use sensedsl_model::design::{Design, Device, DeviceIndex};
 use sensedsl_model::kind::Interface;
 use sensedsl_wiring::assignment::BoardAssignment;
 
-use crate::Turn;
-use crate::buses::i2c_period_ms;
-
 /// Milliseconds after the board's start at which each device begins; 0 for devices that are not
 /// listed.
 pub type Starts = BTreeMap<DeviceIndex, u32>;
+
+/// The times at which a device of a group measures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Turn {
+    /// The group.
+    pub group: String,
+    /// The device.
+    pub device: DeviceIndex,
+    /// The first measurement, in milliseconds after the board's start.
+    pub start_ms: u32,
+    /// The time from one measurement to the next.
+    pub period_ms: u32,
+    /// The duration of a measurement.
+    pub measuring_ms: u32,
+    /// True if another device of the group measures at the same time, because there is no time for
+    /// turns.
+    pub overlaps: bool,
+}
 
 /// Most places tried for a device: more than there can be devices, even if each is moved past
 /// several times.
@@ -70,6 +85,13 @@ fn period_ms(device: &Device) -> Option<u32> {
         | Interface::Dac(_)
         | Interface::Can(_) => None,
     }
+}
+
+/// The time from one measurement of an I2C device to the next: it is polled each cycle, and answers
+/// once its waiting time is over.
+pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
+    let delay_ms = delay_ms.max(1);
+    wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1).saturating_mul(delay_ms)
 }
 
 /// How long a device's turn takes: for an array that measures on demand, the elements one after the

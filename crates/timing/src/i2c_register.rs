@@ -10,7 +10,7 @@
 
 use sensedsl_board::profile::I2cTiming;
 
-use crate::SECOND_NS;
+use crate::units::SECOND_NS;
 
 /// The fields of the register, as they are written to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

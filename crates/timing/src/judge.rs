@@ -11,8 +11,11 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{Design, Device, DeviceIndex, Transport};
 use sensedsl_wiring::assignment::Assignment;
 
+use crate::context::{Context, Wired};
+use crate::load::{BoardTiming, Timing};
 use crate::rows::{Part, Row, per_second};
-use crate::{BoardTiming, Context, MILLISECOND_NS, SECOND_NS, Timing, groups, link};
+use crate::units::{MILLISECOND_NS, SECOND_NS};
+use crate::{groups, link};
 
 /// The load from which there is a warning.
 const WARN_NS: u64 = SECOND_NS / 100 * 70;
@@ -171,8 +174,8 @@ pub(crate) fn of_link(context: &Context<'_>) -> Option<Diagnostic> {
         (Transport::Uart, Some(link)) => link.unit.clone(),
         (Transport::Uart | Transport::Usb | Transport::None, _) => "the USB link".to_owned(),
     };
-    let cyclic = |wired: &&crate::Wired<'_>| !wired.device.kind.name().spec().triggers_itself;
-    let rate = |wired: &&crate::Wired<'_>| {
+    let cyclic = |wired: &&Wired<'_>| !wired.device.kind.name().spec().triggers_itself;
+    let rate = |wired: &&Wired<'_>| {
         per_second(wired.device.value.value.size_bytes() as u64 + 1, wired.device.delay_ms)
     };
     let sensors = context

@@ -30,6 +30,7 @@ mod buses;
 mod can_bit;
 mod captures;
 mod clocks;
+mod context;
 mod converters;
 mod groups;
 pub mod i2c_clock;
@@ -37,150 +38,28 @@ mod i2c_register;
 mod judge;
 mod limits;
 mod link;
+mod load;
 mod memory;
 mod ports;
 mod processor;
 mod rows;
+mod units;
 
-use std::collections::BTreeMap;
-
-use sensedsl_board::catalog::SystemFacts;
-use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
+use sensedsl_model::design::{Board, Design};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
 pub use can_bit::{CanBit, can_bit};
 pub use clocks::{Tick, power_of_two, sampling, spi_divider};
 pub use converters::depth;
-pub use groups::{Starts, starts};
+pub use groups::{Starts, Turn, starts};
 pub use judge::shown_time;
 pub use link::finish_ms;
+pub use load::{BoardTiming, Timing};
 pub use rows::{Count, Cycle, Part, Row};
+pub use units::SECOND_NS;
 
-/// Nanoseconds per second.
-pub const SECOND_NS: u64 = 1_000_000_000;
-/// Nanoseconds per millisecond.
-const MILLISECOND_NS: u64 = 1_000_000;
-/// The reporter's cycle, unless something requires another.
-const REPORT_MS: u32 = 10;
-
-/// The load of all boards.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Timing {
-    /// The load of each board that carries a device.
-    pub boards: Vec<BoardTiming>,
-}
-
-/// The load of one board.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BoardTiming {
-    /// The board.
-    pub board: BoardIndex,
-    /// The clock of its processor.
-    pub core_hz: Option<u32>,
-    /// The rows by part: converters, buses and ports, the link, captures, threads, the processor as
-    /// a whole.
-    pub rows: Vec<Row>,
-    /// The devices of groups, each with its first measurement in milliseconds after the start.
-    pub turns: Vec<Turn>,
-}
-
-/// The times at which a device of a group measures.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Turn {
-    /// The group.
-    pub group: String,
-    /// The device.
-    pub device: DeviceIndex,
-    /// The first measurement, in milliseconds after the board's start.
-    pub start_ms: u32,
-    /// The time from one measurement to the next.
-    pub period_ms: u32,
-    /// The duration of a measurement.
-    pub measuring_ms: u32,
-    /// True if another device of the group measures at the same time, because there is no time for
-    /// turns.
-    pub overlaps: bool,
-}
-
-/// A device with the wires of its kind; for an array, with those of one element.
-#[derive(Clone, Copy)]
-pub(crate) struct Wired<'a> {
-    pub(crate) index: DeviceIndex,
-    pub(crate) device: &'a Device,
-    pub(crate) wiring: &'a ConnectionWiring,
-}
-
-/// A board with everything that its parts are computed from.
-pub(crate) struct Context<'a> {
-    pub(crate) board: &'a Board,
-    pub(crate) wiring: &'a BoardAssignment,
-    /// Each device once, with its first element.
-    pub(crate) devices: Vec<Wired<'a>>,
-    /// Each element of each device.
-    pub(crate) elements: Vec<Wired<'a>>,
-    pub(crate) starts: Starts,
-}
-
-impl<'a> Context<'a> {
-    fn new(design: &'a Design, board: &'a Board, wiring: &'a BoardAssignment) -> Self {
-        let (mut devices, mut elements) = (Vec::new(), Vec::new());
-        for index in wiring.devices.iter().map(|one| one.device) {
-            let Some(device) = design.device(index) else { continue };
-            let of_kind = |one: &&ConnectionWiring| {
-                let connection = design.connection(one.connection);
-                connection.is_some_and(|one| one.kind.name() == device.kind.name())
-            };
-            let all = device.connections.iter().filter_map(|one| wiring.connection(*one));
-            let all = all.filter(of_kind).map(|wiring| Wired { index, device, wiring });
-            let all: Vec<Wired<'_>> = all.collect();
-            devices.extend(all.first());
-            elements.extend(all);
-        }
-        let starts = starts(design, wiring);
-        Self { board, wiring, devices, elements, starts }
-    }
-
-    /// A clock of the clock tree, by name: the system's own, or else the board's.
-    pub(crate) fn clock_hz(&self, name: &str) -> Option<u32> {
-        if let Some(hz) = self.board.profile().and_then(|profile| profile.clocks_hz.get(name)) {
-            return Some(*hz);
-        }
-        self.system()?.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
-    }
-
-    /// The facts that the board's system has for it.
-    pub(crate) fn system(&self) -> Option<&SystemFacts> {
-        let system = self.board.profile().map(TargetProfile::system);
-        self.board.facts.as_ref()?.facts_of(system)
-    }
-
-    /// What devices served by one thread have in common.
-    pub(crate) fn cycle(&self, wired: &Wired<'_>) -> Cycle {
-        let Wired { index, device, .. } = wired;
-        Cycle {
-            delay_ms: device.delay_ms,
-            prio: device.prio,
-            start_ms: self.starts.get(index).copied().unwrap_or_default(),
-        }
-    }
-
-    /// Devices of a kind, by unit and cycle.
-    pub(crate) fn classes<'c, T>(
-        &'c self,
-        of: impl Fn(&'c Wired<'a>) -> Option<T>,
-    ) -> BTreeMap<(sensedsl_board::signal::UnitName, Cycle), Vec<(&'c Wired<'a>, T)>> {
-        let mut classes: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        for wired in &self.elements {
-            let Some(what) = of(wired) else { continue };
-            let Some(unit) = wired.wiring.unit.as_deref() else { continue };
-            let key = (sensedsl_board::signal::UnitName::new(unit), self.cycle(wired));
-            classes.entry(key).or_default().push((wired, what));
-        }
-        classes
-    }
-}
+use context::Context;
 
 /// Computes the load of every board that carries a device.
 #[must_use]

@@ -14,7 +14,8 @@ use sensedsl_model::kind::{Interface, Sharing};
 
 use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
-use crate::{Context, Wired, buses, i2c_clock, ports};
+use crate::context::{Context, Wired};
+use crate::{buses, i2c_clock, ports};
 
 /// How far off a serial port may be: half a bit after ten bits, shared by both ends and the slopes
 /// of the edges.

@@ -6,11 +6,14 @@ use sensedsl_model::design::{Device, Transport};
 use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, STAMP_BYTES};
 
-use crate::buses::i2c_period_ms;
+use crate::context::Context;
+use crate::groups::i2c_period_ms;
 use crate::ports::exact_baud;
 use crate::rows::{Count, Part, Row};
-use crate::{Context, REPORT_MS, SECOND_NS};
+use crate::units::SECOND_NS;
 
+/// The reporter's cycle, unless something requires another.
+const REPORT_MS: u32 = 10;
 /// Bits of a byte on a serial line: a start bit, eight data bits, a stop bit.
 const SERIAL_BYTE_BITS: u32 = 10;
 /// Most bytes that a full-speed device can send in bulk transfers: 19 packets of 64 bytes in a

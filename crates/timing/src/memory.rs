@@ -7,7 +7,7 @@ use sensedsl_model::design::Design;
 use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_wire::{Direction, ScalarType};
 
-use crate::Context;
+use crate::context::Context;
 use crate::converters::depth;
 
 /// Kernel, drivers, shell, and the stacks for startup and interrupts, with a reserve: 5 to 6 KiB

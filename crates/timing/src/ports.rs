@@ -7,8 +7,9 @@ use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::uart::{Parity, Uart};
 
 use crate::clocks::{nearest, unit_hz};
+use crate::context::{Context, Wired};
 use crate::rows::{Count, Part, Row, clocks_ns, per_second};
-use crate::{Context, Wired};
+use crate::units::MILLISECOND_NS;
 
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
@@ -53,7 +54,7 @@ fn port(context: &Context<'_>, wired: &Wired<'_>, unit: &str, uart: &Uart) -> Ro
     row.cycle_ns = row.clock_hz.map(|hz| clocks_ns(bytes * byte_bits(uart), hz));
     row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
     row.shortest_ms =
-        row.cycle_ns.and_then(|ns| u32::try_from(ns.div_ceil(crate::MILLISECOND_NS).max(1)).ok());
+        row.cycle_ns.and_then(|ns| u32::try_from(ns.div_ceil(MILLISECOND_NS).max(1)).ok());
     row
 }
 

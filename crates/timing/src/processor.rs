@@ -10,9 +10,10 @@ use sensedsl_model::kind::{Interface, Kind};
 
 use crate::buses::script;
 use crate::captures::interrupts;
+use crate::context::Context;
 use crate::link::reports;
 use crate::rows::{Count, Cycle, Part, Row, clocks_ns};
-use crate::{Context, MILLISECOND_NS};
+use crate::units::MILLISECOND_NS;
 
 /// For pulses of at least this length, the thread sleeps.
 const SLEEP_US: u32 = 1_000;

@@ -2,7 +2,7 @@
 
 use sensedsl_model::design::DeviceIndex;
 
-use crate::{MILLISECOND_NS, SECOND_NS};
+use crate::units::{MILLISECOND_NS, SECOND_NS};
 
 /// A kind of hardware part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
