@@ -8,8 +8,9 @@ use sensedsl_model::registers::{self, Register};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
+use super::source::Source;
 use super::transfers::{self, Place, TransferPlan, register_to_read};
-use super::{Source, ValuePlan};
+use super::value::ValuePlan;
 use crate::snake;
 
 /// An `up_chip_t`.

@@ -7,7 +7,8 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::bus::{self, InitPlan};
-use super::{Source, ValuePlan};
+use super::source::Source;
+use super::value::ValuePlan;
 use crate::snake;
 
 /// The longest message with start and end if its length is not given: a line of NMEA 0183 has 82 characters, and

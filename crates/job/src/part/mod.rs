@@ -8,12 +8,12 @@ mod bus;
 mod filter;
 mod message;
 mod simple;
+mod source;
 mod transfers;
 mod uses;
 mod value;
 
 use sensedsl_model::design::{Design, Device, Part, PartIndex};
-use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_wire::Direction;
 
@@ -24,6 +24,7 @@ pub use bus::{
 pub use filter::{FilterPlan, Number};
 pub use message::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
+use source::Source;
 pub use transfers::TransferPlan;
 pub use uses::uses;
 pub use value::ValuePlan;
@@ -47,23 +48,6 @@ pub struct PartPlan {
     pub bridges: Vec<BridgePlan>,
     /// Filters of values before they are reported.
     pub filters: Vec<FilterPlan>,
-}
-
-/// A part with the sources of its tables.
-#[derive(Clone, Copy)]
-struct Source<'a> {
-    part: &'a Part,
-    protocol: &'a Protocol,
-    design: &'a Design,
-    index: PartIndex,
-}
-
-impl<'a> Source<'a> {
-    /// The devices of the part that are of the wanted kinds, in the file's order.
-    fn devices(self, is_wanted: fn(&Kind) -> bool) -> impl Iterator<Item = &'a Device> {
-        let own = self.design.devices.iter().filter(move |device| device.part == self.index);
-        own.filter(move |device| is_wanted(&device.kind))
-    }
 }
 
 impl PartPlan {

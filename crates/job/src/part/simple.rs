@@ -4,7 +4,7 @@ use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::{Drive, Formula};
 
-use super::Source;
+use super::source::Source;
 use crate::snake;
 
 /// An interval longer than this starts a pulse train.

@@ -4,7 +4,7 @@ use sensedsl_model::design::Device;
 use sensedsl_model::words::{Code, Words};
 use sensedsl_wire::{Checksum, ScalarType};
 
-use super::BusPlan;
+use super::bus::BusPlan;
 use crate::BoardJob;
 
 /// The optional parts of the runtime, named after the features of `sense-rt`, and whether any value needs them;
