@@ -28,27 +28,10 @@ pub mod format;
 mod listing;
 pub mod rp;
 mod sheet;
-
-use std::sync::OnceLock;
+mod shipped;
 
 pub use complete::{Completion, complete};
 pub use find::{Found, find, nearest_name};
 pub use listing::{Part, all};
 pub use sheet::{Sheet, Usage};
-
-use format::Data;
-
-/// The table as it is shipped.
-const PACKED: &[u8] = include_bytes!("../data/parts.bin");
-
-/// The unpacked table; empty should the shipped one be damaged, which tests rule out.
-pub(crate) fn data() -> &'static Data {
-    static DATA: OnceLock<Data> = OnceLock::new();
-    DATA.get_or_init(|| format::unpack(PACKED).unwrap_or_default())
-}
-
-/// Bytes of the table in the binary.
-#[must_use]
-pub const fn packed_bytes() -> usize {
-    PACKED.len()
-}
+pub use shipped::packed_bytes;

@@ -3,7 +3,8 @@
 use std::sync::OnceLock;
 
 use crate::format::{Layout, PartData};
-use crate::{data, rp};
+use crate::rp;
+use crate::shipped::data;
 
 /// A part: one die in one package. Its part numbers differ only in grade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

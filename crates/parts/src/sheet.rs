@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use sensedsl_board::pin::{PinName, natural};
 
-use crate::data;
 use crate::listing::{Origin, Part};
+use crate::shipped::data;
 
 /// A usage and its alternate function.
 pub type Usage = (String, Option<u8>);
