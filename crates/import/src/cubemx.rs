@@ -19,7 +19,7 @@ use sensedsl_model::ReadError;
 use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::package::{Refused as Refusal, check_xml};
-use crate::{Source, Texts};
+use crate::source::{Source, Texts};
 
 /// The alternate functions of the GPIO files read so far, by path. About ninety files serve two
 /// thousand MCUs, and reading one takes longer than everything else.

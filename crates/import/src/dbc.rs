@@ -10,8 +10,8 @@ mod write;
 use sensedsl_diagnostics::codes::e0811_dbc_no_node;
 use sensedsl_diagnostics::{FileId, Span};
 
-use crate::Texts;
 use crate::log::Log;
+use crate::source::Texts;
 
 /// Imports a DBC file for a node.
 pub(crate) fn import(

@@ -17,7 +17,7 @@ use sensedsl_model::ReadError;
 
 use crate::log::Log;
 use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
-use crate::{Source, Texts};
+use crate::source::{Source, Texts};
 
 /// The first words of lines about sensors.
 const SENSORS: [&str; 5] = ["IMU", "BARO", "COMPASS", "AIRSPEED", "RANGEFINDER"];

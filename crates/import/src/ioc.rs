@@ -13,7 +13,7 @@ use sensedsl_diagnostics::{FileId, Span};
 
 use crate::log::Log;
 use crate::project::{self, Project, TimerMode, Using, Wire};
-use crate::{Source, Texts};
+use crate::source::{Source, Texts};
 
 /// Imports a project.
 pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {

@@ -35,6 +35,7 @@ mod ods;
 mod package;
 mod place;
 mod project;
+mod source;
 mod tabular;
 mod workbook;
 
@@ -42,24 +43,10 @@ use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
 
 pub use detect::{Format, detect};
 pub use sensedsl_model::ReadError;
+pub use source::Source;
 
 use log::Log;
-
-/// A file to import.
-pub struct Source<'a> {
-    /// The file's name, as people see it.
-    pub name: &'a str,
-    /// The content of the file.
-    pub bytes: &'a [u8],
-    /// Its format; none to detect it from the content.
-    pub format: Option<Format>,
-    /// The sheet of a workbook.
-    pub sheet: Option<&'a str>,
-    /// The name under which the `.sense` file finds its table.
-    pub table: &'a str,
-    /// The content of a file by its path relative to the source, or why it was not read.
-    pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, ReadError> + 'a),
-}
+use source::Texts;
 
 /// The result of an import.
 #[derive(Clone, Debug)]
@@ -81,13 +68,6 @@ impl Imported {
     pub fn failed(&self) -> bool {
         self.diagnostics.iter().any(|one| one.severity == Severity::Error)
     }
-}
-
-/// The result of one importer.
-#[derive(Debug, Default)]
-struct Texts {
-    table: Option<String>,
-    program: Option<String>,
 }
 
 /// Imports many sources of one folder, from any number of threads. Files that several of them refer

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::Span;
 use crate::assemble::{self, Row};
 use crate::devices::{self, Device};
 use crate::log::Log;
-use crate::{Source, Texts};
+use crate::source::{Source, Texts};
 
 /// A project.
 #[derive(Debug, Default)]

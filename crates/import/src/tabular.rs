@@ -13,10 +13,10 @@ use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::{PIN_USAGES_MAX, USAGES_MAX};
 use sensedsl_model::table_diagnostic;
 
-use crate::Texts;
 use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::place::a1;
+use crate::source::Texts;
 
 /// Headers of the pin column, in lower case, letters only.
 const PIN_HEADS: [&str; 11] = [

@@ -13,10 +13,12 @@ use sensedsl_board::table::Role;
 use sensedsl_diagnostics::Span;
 use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, INFLATED_BYTES_MAX, MERGED_MAX, SHEETS_MAX};
 
+use crate::detect::{Format, detect};
 use crate::log::Log;
 use crate::package::{self, Contents, Refused};
 use crate::place::a1;
-use crate::{Format, Source, Texts, ods, tabular};
+use crate::source::{Source, Texts};
+use crate::{ods, tabular};
 
 /// Sheets of pins are far smaller; cells beyond these limits are strays.
 const ROWS_MAX: u32 = 20_000;
@@ -46,7 +48,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let is_ods = match source.format {
         Some(Format::Ods) => true,
         Some(Format::Xlsx) => false,
-        _ => crate::detect(source.bytes) == Some(Format::Ods),
+        _ => detect(source.bytes) == Some(Format::Ods),
     };
     let read = package::check(source.bytes).and_then(|contents| {
         if is_ods { ods::sheets(source.bytes) } else { xlsx(source.bytes, &contents) }
