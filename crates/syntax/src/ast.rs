@@ -3,60 +3,24 @@
 //! A view is a cheap handle. If the text is incomplete, the accessors return `None` or leave the
 //! broken part out; callers that need everything first check the parse for errors.
 
+mod node;
 mod parts;
 mod rules;
 mod values;
 
+pub use node::AstNode;
 pub use parts::{Chip, ChipItem, Command, Connection, Driver, DriverItem, Reading};
 pub use rules::{Allow, Avoid, Prefer, Release, Reserve, Rule};
 pub use values::{
-    Binary, List, Magnitude, Name, NameValue, Number, Operator, Paren, Range, Sign, Signed,
-    StringLiteral, StringValue, Value,
+    Binary, List, Magnitude, Name, NameValue, Number, Operator, Paren, Property, Range, Sign,
+    Signed, StringLiteral, StringValue, Value,
 };
 
-use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::literal;
+use node::{children, choice, nodes, token};
 use rowan::TextRange;
-
-/// A view over one or several kinds of nodes.
-pub trait AstNode: Sized {
-    /// The view over `node`, if the node is of this kind.
-    fn cast(node: SyntaxNode) -> Option<Self>;
-    /// The node.
-    fn syntax(&self) -> &SyntaxNode;
-    /// The range of the node, without the trivia around it.
-    fn range(&self) -> TextRange {
-        self.syntax().text_range()
-    }
-}
-
-/// Declares views, each over one kind of node, and the methods that list all children of a kind.
-macro_rules! nodes {
-    ($($(#[$doc:meta])* $name:ident = $kind:ident
-        $({ $($(#[$all_doc:meta])* $all:ident: $child:ty,)+ })?;)+) => { $(
-        $(#[$doc])*
-        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-        pub struct $name(SyntaxNode);
-
-        impl AstNode for $name {
-            fn cast(node: SyntaxNode) -> Option<Self> {
-                (node.kind() == SyntaxKind::$kind).then_some(Self(node))
-            }
-            fn syntax(&self) -> &SyntaxNode {
-                &self.0
-            }
-        }
-
-        $(impl $name {
-            $($(#[$all_doc])*
-            pub fn $all(&self) -> impl Iterator<Item = $child> + use<> {
-                children(&self.0)
-            })+
-        })?
-    )+ };
-}
-
-use nodes;
+use values::{name, names, string};
 
 /// Gives views the name that stands in their head.
 macro_rules! named {
@@ -83,33 +47,6 @@ macro_rules! typed {
         }
     )+ };
 }
-
-/// Declares a view that is one of several views.
-macro_rules! choice {
-    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident($view:ty)),+ $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-        pub enum $name {
-            $($(#[$variant_doc])* $variant($view),)+
-        }
-
-        impl AstNode for $name {
-            fn cast(node: SyntaxNode) -> Option<Self> {
-                $(if let Some(view) = <$view>::cast(node.clone()) {
-                    return Some(Self::$variant(view));
-                })+
-                None
-            }
-            fn syntax(&self) -> &SyntaxNode {
-                match self {
-                    $(Self::$variant(view) => view.syntax(),)+
-                }
-            }
-        }
-    };
-}
-
-use choice;
 
 nodes! {
     /// A whole file.
@@ -168,8 +105,6 @@ nodes! {
     };
     /// The data type of a device.
     Type = Type;
-    /// `NAME = VALUE;`
-    Property = Property;
 }
 choice!(
     /// An item of a file.
@@ -328,39 +263,4 @@ impl Type {
     pub fn length_name(&self) -> Option<Name> {
         names(&self.0).nth(1)
     }
-}
-
-impl Property {
-    /// The value.
-    #[must_use]
-    pub fn value(&self) -> Option<Value> {
-        children(&self.0).next()
-    }
-}
-
-fn children<N: AstNode>(node: &SyntaxNode) -> impl Iterator<Item = N> + use<N> {
-    node.children().filter_map(N::cast)
-}
-
-fn tokens(node: &SyntaxNode, kind: SyntaxKind) -> impl Iterator<Item = SyntaxToken> + use<> {
-    node.children_with_tokens()
-        .filter_map(SyntaxElement::into_token)
-        .filter(move |token| token.kind() == kind)
-}
-
-fn token(node: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxToken> {
-    tokens(node, kind).next()
-}
-
-/// The identifiers of a node are names; keywords and units have other token kinds.
-fn names(node: &SyntaxNode) -> impl Iterator<Item = Name> + use<> {
-    tokens(node, SyntaxKind::Ident).map(Name)
-}
-
-fn name(node: &SyntaxNode) -> Option<Name> {
-    names(node).next()
-}
-
-fn string(node: &SyntaxNode) -> Option<StringLiteral> {
-    token(node, SyntaxKind::Str).map(StringLiteral)
 }

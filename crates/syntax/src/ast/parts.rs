@@ -1,6 +1,9 @@
 //! Views over parts with several values: chips, and the drivers that describe them.
 
-use super::{AstNode, Device, Name, Property, Rule, children, choice, name, nodes};
+use super::Device;
+use super::node::{AstNode, children, choice, nodes};
+use super::rules::Rule;
+use super::values::{Name, Property, name};
 use crate::kind::{SyntaxKind, SyntaxNode};
 
 nodes! {

@@ -1,6 +1,7 @@
 //! Views over rules.
 
-use super::{AstNode, Name, Property, StringLiteral, children, choice, name, names, nodes, string};
+use super::node::{AstNode, children, choice, nodes};
+use super::values::{Name, Property, StringLiteral, name, names, string};
 use crate::kind::{SyntaxKind, SyntaxNode};
 
 nodes! {

@@ -1,6 +1,6 @@
-//! Views over names, strings, numbers, lists and expressions.
+//! Views over names, strings, numbers, lists, expressions, and the properties that have them.
 
-use super::{AstNode, children, choice, nodes, string, token};
+use super::node::{AstNode, children, choice, nodes, token, tokens};
 use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::{literal, unit::Unit};
 use rowan::TextRange;
@@ -25,6 +25,8 @@ nodes! {
     Binary = Binary;
     /// `FIRST..LAST`
     Range = Range;
+    /// `NAME = VALUE;`
+    Property = Property;
 }
 
 choice!(
@@ -261,4 +263,25 @@ fn operand(node: &SyntaxNode, middle: &SyntaxToken, before: bool) -> Option<Valu
 fn sign(node: &SyntaxNode) -> Option<Sign> {
     let plus = token(node, SyntaxKind::Plus).map(|_| Sign::Plus);
     plus.or_else(|| token(node, SyntaxKind::Minus).map(|_| Sign::Minus))
+}
+
+impl Property {
+    /// The value.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        children(&self.0).next()
+    }
+}
+
+/// The identifiers of a node are names; keywords and units have other token kinds.
+pub(super) fn names(node: &SyntaxNode) -> impl Iterator<Item = Name> + use<> {
+    tokens(node, SyntaxKind::Ident).map(Name)
+}
+
+pub(super) fn name(node: &SyntaxNode) -> Option<Name> {
+    names(node).next()
+}
+
+pub(super) fn string(node: &SyntaxNode) -> Option<StringLiteral> {
+    token(node, SyntaxKind::Str).map(StringLiteral)
 }
