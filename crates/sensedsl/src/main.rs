@@ -9,6 +9,7 @@ mod cli;
 mod commands;
 mod files;
 mod firmware;
+mod status;
 mod terminal;
 
 use std::process::ExitCode;
@@ -19,40 +20,8 @@ use sensedsl_diagnostics::visible;
 
 use cli::{Cli, Command};
 use files::Refused;
+use status::{Reported, Status};
 use terminal::Terminal;
-
-/// The result of a command, if nothing went wrong with the machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Status {
-    /// Exit status 0.
-    Done,
-    /// Exit status 1.
-    Wrong,
-    /// Exit status 2.
-    Misused,
-}
-
-/// A command has ended early, and has reported the reason.
-#[derive(Debug)]
-pub(crate) struct Reported(pub(crate) Status);
-
-impl std::fmt::Display for Reported {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("what is wrong was told before")
-    }
-}
-
-impl std::error::Error for Reported {}
-
-impl From<Status> for ExitCode {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::Done => Self::SUCCESS,
-            Status::Wrong => Self::from(1),
-            Status::Misused => Self::from(2),
-        }
-    }
-}
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| refused(&error));

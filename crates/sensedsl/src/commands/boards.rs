@@ -8,8 +8,8 @@ use sensedsl_generate::target;
 use sensedsl_session::printed_board;
 
 use super::table::{INDENT, table};
-use crate::Status;
 use crate::cli::BoardsArgs;
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> {

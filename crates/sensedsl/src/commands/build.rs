@@ -16,8 +16,8 @@ use crate::cli::{BuildArgs, GenerateArgs, On, Place};
 use crate::files::{files_below, shown};
 use crate::firmware::cargo::{self, Cargo};
 use crate::firmware::{self, Build, Make, Program};
+use crate::status::{Reported, Status};
 use crate::terminal::Terminal;
-use crate::{Reported, Status};
 
 pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
     built(&args.place, terminal, &mut |_| Ok(()), &mut |job| {

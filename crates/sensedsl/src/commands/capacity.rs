@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::deadline::Deadline;
 use super::input;
 use super::table::table;
-use crate::Status;
 use crate::cli::{CapacityArgs, TableFormat};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 /// The number of blockers named in one line.

@@ -7,9 +7,9 @@ use sensedsl_session::Answer;
 use sensedsl_wiring::Solved;
 
 use super::input;
-use crate::Status;
 use crate::cli::{CheckArgs, CheckFormat};
 use crate::files::shown;
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -13,9 +13,9 @@ use serde_json::{Value, json};
 
 use super::input;
 use super::table::table;
-use crate::Status;
 use crate::cli::{DiffArgs, On, TableFormat};
 use crate::files::read_text;
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &DiffArgs, terminal: &mut Terminal) -> Result<Status> {

@@ -5,8 +5,8 @@ use sensedsl_diagnostics::{render, visible};
 use sensedsl_model::facts::{self, PartFacts};
 use sensedsl_report::drivers;
 
-use crate::Status;
 use crate::cli::{DriversArgs, TableFormat};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &DriversArgs, terminal: &Terminal) -> Result<Status> {

@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::deadline::Deadline;
 use super::input;
 use super::why;
-use crate::Status;
 use crate::cli::{ExplainArgs, TableFormat};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ExplainArgs, terminal: &mut Terminal) -> Result<Status> {

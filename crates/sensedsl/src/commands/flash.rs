@@ -8,9 +8,9 @@ use sensedsl_diagnostics::codes::{e0519_which_board, e0522_not_flashed};
 use sensedsl_diagnostics::{Diagnostic, visible};
 
 use super::build::{Job, built};
-use crate::Status;
 use crate::cli::FlashArgs;
 use crate::firmware::{Build, ending, probe, raw};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {

@@ -10,9 +10,9 @@ use sensedsl_model::{FileUse, syntax_diagnostic, with_ids};
 use sensedsl_session::Snapshot;
 
 use super::input;
-use crate::Status;
 use crate::cli::{FmtArgs, On, Reach};
 use crate::files::{read_text, shown, write_whole};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {

@@ -21,10 +21,10 @@ use sensedsl_wiring::assignment::Assignment;
 
 use super::input;
 use super::output::{self, Changes};
-use crate::Status;
 use crate::cli::{GenerateArgs, LeftOut};
 use crate::files::tree::{Away, Failure, Output, Trouble};
 use crate::files::{lock, shown};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 /// The number of files named in one message.

@@ -3,9 +3,9 @@
 use anyhow::Result;
 use clap::CommandFactory as _;
 
-use crate::Status;
 use crate::cli::{Cli, CompletionsArgs, ManArgs};
 use crate::files::write_together;
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn completions(args: &CompletionsArgs, terminal: &mut Terminal) -> Result<Status> {

@@ -8,9 +8,9 @@ use sensedsl_import::{Format, Imported, Importer, Source, detect};
 use sensedsl_model::FileUse;
 
 use super::in_the_way;
-use crate::Status;
 use crate::cli::{ImportArgs, ImportFormat};
 use crate::files::{Disk, is_stream, read_bytes, real_folder, shown, write_together};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> {

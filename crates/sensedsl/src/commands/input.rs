@@ -17,8 +17,8 @@ use sensedsl_wiring::{Cancel, Keep, Solved};
 
 use crate::cli::On;
 use crate::files::{Disk, Refused, read_text, shown};
+use crate::status::{Reported, Status};
 use crate::terminal::Terminal;
-use crate::{Reported, Status};
 
 /// How long `check` searches for the best wiring.
 const BEST: Duration = Duration::from_secs(2);

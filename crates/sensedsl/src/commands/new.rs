@@ -7,9 +7,9 @@ use sensedsl_board::{catalog, profile};
 use sensedsl_diagnostics::visible;
 
 use super::{boards, in_the_way, output, starter};
-use crate::Status;
 use crate::cli::NewArgs;
 use crate::files::{files_below, is_part_of, shown, write_together};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 const README: &str = include_str!("../../templates/project-readme.md");

@@ -8,8 +8,8 @@ use serde_json::json;
 use super::facts::{Facts, Filter, units};
 use super::sweep::sweep;
 use super::table::table;
-use crate::Status;
 use crate::cli::{PartsArgs, PartsOrder, TableFormat};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {

@@ -16,9 +16,9 @@ use sensedsl_wiring::{Cancel, Keep, Solved, Wiring};
 use super::deadline::Deadline;
 use super::in_the_way;
 use super::input;
-use crate::Status;
 use crate::cli::{On, SolveArgs, SolveFormat};
 use crate::files::{begins_with, is_in_the_way, read_text, shown, write_whole};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 /// The program with its version.

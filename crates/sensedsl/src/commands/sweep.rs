@@ -18,9 +18,9 @@ use super::deadline::{Deadline, interruption};
 use super::facts::{Facts, Filter, units};
 use super::parts::{parts, rank};
 use super::table::table;
-use crate::Status;
 use crate::cli::{PartsArgs, TableFormat};
 use crate::files::{Disk, read_text, shown};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 /// A part or a board that may carry the devices.

@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::deadline::Deadline;
 use super::input;
 use super::table::{INDENT, table};
-use crate::Status;
 use crate::cli::{ExplainArgs, TableFormat};
+use crate::status::Status;
 use crate::terminal::Terminal;
 
 /// The meanings of the columns.

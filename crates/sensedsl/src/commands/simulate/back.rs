@@ -7,7 +7,7 @@ use anyhow::Result;
 use sensedsl_model::design::Transport;
 
 use super::run::{MS, Session};
-use crate::Status;
+use crate::status::Status;
 
 /// A device that reported in such a time before the host left must report in such a time after its return.
 const LOOK_NS: u64 = 1_000 * MS;

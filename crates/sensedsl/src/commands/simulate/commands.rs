@@ -5,7 +5,7 @@ use sensedsl_diagnostics::codes::e0552_command_not_done as not_done;
 use sensedsl_twin::bench::seconds;
 use sensedsl_twin::commands::{ActuatorFindings, WireMismatch};
 
-use super::Simulation;
+use super::simulation::Simulation;
 use crate::commands::table::table;
 
 /// Prints the findings; returns false if there was a failure.

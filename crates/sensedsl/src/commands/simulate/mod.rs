@@ -11,6 +11,7 @@ mod emulated;
 mod pty;
 mod run;
 mod screen;
+mod simulation;
 #[cfg(unix)]
 mod slcan;
 
@@ -22,7 +23,7 @@ use sensedsl_diagnostics::codes::e0519_which_board;
 use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
 use sensedsl_diagnostics::codes::e0547_no_machine;
-use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
+use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_job::{BoardJob, jobs};
 #[cfg(feature = "twin")]
 use sensedsl_machine::Mcu;
@@ -34,11 +35,12 @@ use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::world::{self, Scene, World};
 
 use super::input;
-use crate::Status;
 use crate::cli::{On, SimulateArgs};
 use crate::files::{Disk, read_bytes, read_text, shown};
+use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
+use simulation::Simulation;
 
 /// The seed of the random numbers if none is given.
 const SEED: u64 = 1;
@@ -81,22 +83,6 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
         terminal.aside(&format!("`--board` simulates another one: {}", others.join(", ")))?;
     }
     simulate(args, terminal, job, snapshot.sources())
-}
-
-/// The context of the simulation.
-struct Simulation<'a> {
-    args: &'a SimulateArgs,
-    terminal: &'a Terminal,
-    job: &'a BoardJob<'a>,
-    /// The place for diagnostics that concern the whole, and its text.
-    at: Span,
-    sources: &'a SourceMap,
-}
-
-impl Simulation<'_> {
-    fn say(&self, why: Diagnostic) -> Result<()> {
-        Ok(self.terminal.diagnostics(&[why], self.sources)?)
-    }
 }
 
 fn simulate(

@@ -18,7 +18,6 @@ use sensedsl_wire::{
     encode_health_request, encode_hello_request,
 };
 
-use super::Simulation;
 use super::back::Reporters;
 use super::board::Board;
 #[cfg(unix)]
@@ -27,11 +26,12 @@ use super::commands;
 #[cfg(unix)]
 use super::pty::Pty;
 use super::screen::Screen;
-use crate::Status;
+use super::simulation::Simulation;
 #[cfg(unix)]
 use crate::commands::deadline::interruption;
 use crate::commands::table::table;
 use crate::files::write_whole;
+use crate::status::Status;
 
 pub(super) const MS: u64 = 1_000_000;
 /// The length of a run with a judge or with lines, unless a time is given.
