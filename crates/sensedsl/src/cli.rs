@@ -1,6 +1,7 @@
 //! The arguments of all commands.
 
 mod build;
+mod common;
 mod parts;
 mod simulate;
 
@@ -12,6 +13,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
+pub(crate) use common::{On, Reach, TableFormat, seconds};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 
@@ -80,34 +82,6 @@ pub(crate) struct NewArgs {
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]
     pub(crate) force: bool,
-}
-
-/// Which files may be read beside the one that is named.
-#[derive(Clone, Debug, Default, Args)]
-pub(crate) struct Reach {
-    /// Let files name others in this folder, too, not only in their project's folder
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) allow_outside: Vec<PathBuf>,
-}
-
-/// Which board and target to solve for.
-#[derive(Clone, Debug, Default, Args)]
-pub(crate) struct On {
-    /// A board table or built-in board that wins over what the file says
-    #[arg(long, value_name = "TABLE")]
-    pub(crate) board: Option<String>,
-    /// What the wiring is for: chibios, embassy, one with its version, or none for the pins alone
-    #[arg(long, value_name = "NAME")]
-    pub(crate) target: Option<String>,
-    #[command(flatten)]
-    pub(crate) reach: Reach,
-}
-
-impl On {
-    /// The board and the target in the session's form.
-    pub(crate) fn asked(&self) -> sensedsl_session::On<'_> {
-        sensedsl_session::On { board: self.board.as_deref(), target: self.target.as_deref() }
-    }
 }
 
 #[derive(Debug, Args)]
@@ -254,16 +228,6 @@ pub(crate) struct ExplainArgs {
     /// With `wiring` and `timing`: stop after that time with what is known by then
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "file")]
     pub(crate) timeout: Option<f64>,
-}
-
-/// For people or for scripts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TableFormat {
-    /// A table for people
-    #[default]
-    Human,
-    /// For scripts
-    Json,
 }
 
 #[derive(Debug, Args)]
@@ -433,13 +397,4 @@ impl TypedValueParser for Name {
 fn kind() -> impl TypedValueParser<Value = KindName> {
     PossibleValuesParser::new(KindName::ALL.map(KindName::name))
         .try_map(|word| KindName::from_name(&word).ok_or("not a kind"))
-}
-
-/// A number of seconds that a clock can be set to.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    const SECONDS_MAX: f64 = 1e6;
-    match text.parse::<f64>() {
-        Ok(seconds) if (0.0..=SECONDS_MAX).contains(&seconds) => Ok(seconds),
-        Ok(_) | Err(_) => Err("a time in seconds from 0 to 1000000, such as 2.5".into()),
-    }
 }

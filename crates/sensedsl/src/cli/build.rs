@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Reach;
+use super::common::Reach;
 
 /// What is built, from what, and with what.
 #[derive(Clone, Debug, Args)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Reach, TableFormat, seconds};
+use super::common::{Reach, TableFormat, seconds};
 
 #[derive(Debug, Args)]
 pub(crate) struct PartsArgs {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Reach, seconds};
+use super::common::{Reach, seconds};
 
 #[derive(Debug, Args)]
 pub(crate) struct SimulateArgs {
