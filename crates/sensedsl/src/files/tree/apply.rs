@@ -5,8 +5,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::NewTree;
 use super::layout::{self, Kind, LIST, is_there, link_above, listed, not_ours_above, walk};
+use super::new_tree::NewTree;
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 

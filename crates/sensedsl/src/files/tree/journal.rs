@@ -8,8 +8,9 @@ use std::io;
 use std::path::Path;
 
 use super::apply::{apply, clear, stage};
+use super::failure::Failure;
 use super::layout::is_there;
-use super::{Failure, NewTree};
+use super::new_tree::NewTree;
 use crate::files::ops::{self, Ops};
 
 /// The name of the mark: once it is there, the run can only go forward.

@@ -21,8 +21,10 @@
 
 mod apply;
 mod away;
+mod failure;
 mod journal;
 pub(crate) mod layout;
+mod new_tree;
 mod seal;
 #[cfg(target_os = "linux")]
 mod switch;
@@ -39,73 +41,9 @@ use anyhow::{Context as _, Result, bail};
 use super::lock::{Lock, NoLock};
 use super::ops::{self, Ops};
 pub(crate) use away::Away;
+pub(crate) use failure::{Failure, Trouble};
 use layout::{Siblings, WORK, is_there};
-
-/// The new contents of a folder.
-pub(crate) struct NewTree<'a> {
-    /// All files.
-    pub(crate) files: Vec<NewFile<'a>>,
-    /// The text of the list of generated files.
-    pub(crate) list: String,
-    /// Generated files that are no longer needed.
-    pub(crate) stale: Vec<String>,
-}
-
-/// One file of a [`NewTree`].
-pub(crate) struct NewFile<'a> {
-    /// The path, with `/`.
-    pub(crate) path: &'a str,
-    /// The contents.
-    pub(crate) bytes: &'a [u8],
-    /// Whether it belongs to the user once it is there.
-    pub(crate) once: bool,
-    /// Whether it is missing or has different bytes.
-    pub(crate) changes: bool,
-}
-
-/// The reason why a tree was not written, or not completely.
-#[derive(Debug)]
-pub(crate) enum Failure {
-    /// The folder is as it was.
-    Before(io::Error),
-    /// The next run completes it.
-    After(io::Error),
-}
-
-/// The reason why a folder cannot be written at all.
-#[derive(Debug)]
-pub(crate) enum Trouble {
-    /// Another run is writing it.
-    Busy,
-    /// The disk is full, or does not allow writing there.
-    Unwritten(io::Error),
-    /// An earlier run left something here that no longer belongs to anything.
-    Orphan(PathBuf),
-    /// It looks like an unfinished run, but not one of this machine.
-    Strange(PathBuf),
-    /// The folder is reached through a link that leads elsewhere.
-    Linked(Away),
-    /// Something that an earlier run left can be neither completed nor removed now.
-    Unrecovered(io::Error),
-    /// Something is wrong with the machine.
-    Failed(anyhow::Error),
-}
-
-impl From<NoLock> for Trouble {
-    fn from(why: NoLock) -> Self {
-        match why {
-            NoLock::Busy => Self::Busy,
-            NoLock::Failed(error) => Self::Unwritten(error),
-            NoLock::Strange(what) => Self::Strange(what),
-        }
-    }
-}
-
-impl From<anyhow::Error> for Trouble {
-    fn from(error: anyhow::Error) -> Self {
-        Self::Failed(error)
-    }
-}
+pub(crate) use new_tree::{NewFile, NewTree};
 
 /// An output folder that only this run may write to.
 #[derive(Debug)]

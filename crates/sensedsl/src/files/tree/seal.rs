@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::Trouble;
+use super::failure::Trouble;
 use super::layout::is_there;
 use crate::files::lock;
 use crate::files::ops::{self, Ops};

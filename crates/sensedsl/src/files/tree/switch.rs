@@ -14,11 +14,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::apply::{NEW_LIST, apply, clear, never_through_a_link, stage, staged, sync_folders};
+use super::failure::Failure;
 use super::layout::{
     self, Kind, LIST, Siblings, is_not_ours, is_there, link_above, listed, not_ours_above, slashed,
     walk,
 };
-use super::{Failure, NewTree, seal};
+use super::new_tree::NewTree;
+use super::seal;
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 
