@@ -4,7 +4,7 @@
 //! Every step of a record goes through all choices that are left in its case, so the length of the
 //! text alone does not bound the time.
 
-use crate::{Refuted, Unusable, ensure};
+use crate::verdict::{Refuted, Unusable, ensure};
 
 /// The most bytes in a certificate; one for a hundred devices on eight boards has two MiB.
 pub const BYTES_MAX: usize = 8 << 20;

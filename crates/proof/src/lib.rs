@@ -40,56 +40,16 @@ pub mod budget;
 pub mod format;
 mod search;
 pub mod subject;
+mod verdict;
 mod wiring;
 
 use budget::Budget;
-use format::{Alternative, Certificate, Objective, Problem};
+use format::{Alternative, Certificate, Problem};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::fmt;
+use verdict::ensure;
 
-/// The claim that a certificate was found to prove.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verified {
-    /// The wiring is valid and none is better.
-    Best(Objective),
-    /// There is no wiring.
-    NoWiring,
-}
-
-impl fmt::Display for Verified {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Best(objective) => {
-                write!(f, "the wiring is valid and none is better: {objective}")
-            }
-            Self::NoWiring => f.write_str("there is no wiring"),
-        }
-    }
-}
-
-/// Why a text is not a certificate of this format.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unusable(pub String);
-
-/// Why a certificate does not prove what it claims.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refuted(pub String);
-
-impl fmt::Display for Unusable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl fmt::Display for Refuted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Unusable {}
-impl std::error::Error for Refuted {}
+pub use verdict::{Refuted, Unusable, Verified};
 
 /// Reads a certificate.
 ///
@@ -147,9 +107,4 @@ fn named(problem: &Problem) -> Result<(), Refuted> {
 /// Checks that there is a thing with that name.
 fn known<T>(things: &BTreeMap<String, T>, kind: &str, name: &str) -> Result<(), Refuted> {
     ensure(things.contains_key(name), || format!("there is no {kind} {name:?}"))
-}
-
-/// Returns [`Refuted`] if a condition does not hold.
-fn ensure(holds: bool, otherwise: impl FnOnce() -> String) -> Result<(), Refuted> {
-    if holds { Ok(()) } else { Err(Refuted(otherwise())) }
 }

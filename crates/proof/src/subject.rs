@@ -4,7 +4,7 @@
 //! signature: whoever can change the certificate can change the hashes in it.
 
 use crate::format::Subject;
-use crate::{Refuted, ensure};
+use crate::verdict::{Refuted, ensure};
 use sha2::{Digest as _, Sha256};
 use std::collections::BTreeSet;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Checks that a wiring keeps all rules, and computes its objective.
 
 use crate::format::{Alternative, Answer, Candidate, OWN, Objective, Problem};
-use crate::{Refuted, ensure};
+use crate::verdict::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The holders of a thing: the devices, and on whose behalf. Each device's own behalf is a

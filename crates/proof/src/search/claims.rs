@@ -1,11 +1,10 @@
 //! Checks what a record says besides its steps: facilities, covers and swaps.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
-use super::Asked;
 use super::state::State;
-use super::statement::{Claim, Part, Statement};
+use super::statement::{Asked, Claim, Part, Statement};
 use crate::format::{self, Row};
-use crate::{Refuted, ensure};
+use crate::verdict::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Checks that a number is below another one.

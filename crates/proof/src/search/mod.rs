@@ -22,24 +22,12 @@ mod statement;
 
 use crate::budget::Budget;
 use crate::format::{Cover, Facility, Objective, Problem, Question, Row, Search, Step};
-use crate::{Refuted, ensure};
+use crate::verdict::{Refuted, ensure};
 use claims::{Facilities, Swap, below, way_of};
 use price::{Market, Weights};
 use state::State;
-use statement::Statement;
+use statement::{Asked, Statement};
 use std::collections::BTreeSet;
-
-/// A question in numbers of the statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Asked {
-    Way(usize),
-    Wire(usize),
-    Kept(usize),
-    Unused(usize),
-    Open(usize),
-    /// An alternative that is refused alone: the image of a member of a facility.
-    Member(usize),
-}
 
 /// The cost of examining a choice that may be removed, in units of examining one that may not.
 const NARROWING: usize = 8;

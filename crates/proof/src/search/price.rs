@@ -19,7 +19,7 @@ use super::claims::{Facilities, below, groups, violators};
 use super::state::{Charge, State};
 use super::statement::{Claim, Part, Statement};
 use crate::format::By;
-use crate::{Refuted, ensure};
+use crate::verdict::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Multipliers and scales stay below this, so that no sum overflows.

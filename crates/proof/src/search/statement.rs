@@ -5,6 +5,18 @@ use crate::format::{Alternative, Candidate, Map, OWN, Problem};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+/// A question in numbers of the statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Asked {
+    Way(usize),
+    Wire(usize),
+    Kept(usize),
+    Unused(usize),
+    Open(usize),
+    /// An alternative that is refused alone: the image of a member of a facility.
+    Member(usize),
+}
+
 /// On whose behalf something is held: 0 for the device alone, else the number of a group.
 pub(crate) type Holder = usize;
 
