@@ -1,8 +1,9 @@
 //! The next transfer of a step.
 
 use super::memory::{Memory, due_ms, ready_ms};
+use super::table::NextTransfer;
 use super::time::{early_ms, is_reached};
-use super::{Chip, NextTransfer, Pending, Stage, Step};
+use super::{Chip, Pending, Stage, Step};
 use crate::bytes::{copy, part_mut, split};
 
 impl Chip {
@@ -80,7 +81,7 @@ impl Chip {
     }
 
     fn is_due(&self, transfer: usize) -> bool {
-        let soon_ms = self.now_ms.wrapping_add(early_ms(self.table));
+        let soon_ms = self.now_ms.wrapping_add(early_ms(self.table.cycle_ms));
         is_reached(soon_ms, due_ms(&self.memory, transfer))
     }
 

@@ -99,14 +99,6 @@ enum Begun {
     Conversion(usize),
 }
 
-/// The transfer to make on the bus.
-#[derive(Clone, Copy)]
-enum NextTransfer {
-    Write(&'static [u8]),
-    Read(&'static [u8], usize),
-    Exchange(&'static [u8], usize),
-}
-
 /// A chip, with its memory in `[u8; TABLE.chip_bytes(&SCHEMA)]`.
 #[derive(Debug)]
 pub struct Chip<M: ?Sized = [u8]> {
@@ -320,7 +312,7 @@ impl Chip {
                 self.say_values(transfer, sink);
                 self.set_next(transfer);
                 let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
-                let early_ms = early_ms(self.table);
+                let early_ms = early_ms(self.table.cycle_ms);
                 let ready_ms = self.now_ms.wrapping_add(wait_ms).wrapping_sub(early_ms);
                 set_ready_ms(&mut self.memory, transfer, ready_ms);
                 self.stage = Stage::Free(transfer + 1);

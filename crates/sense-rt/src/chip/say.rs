@@ -4,12 +4,8 @@ use super::Chip;
 use super::memory::Memory;
 use crate::bytes::{part, part_mut};
 use crate::convert::store_signed;
-use crate::formula::Outputs;
 use crate::outcome::{Outcome, Sink};
 use crate::uses;
-
-/// The formula's outputs of one raw block, computed once for all readings in it.
-pub(super) type Computed = Option<(u16, Option<Outputs>)>;
 
 impl Chip {
     /// Reports the fault for all readings of one transfer, or of all.

@@ -1,9 +1,7 @@
 //! The tables that describe a chip.
 
-use super::NextTransfer;
-use super::say::Computed;
 use crate::coding::Coding;
-use crate::formula::Formula;
+use crate::formula::{Formula, Outputs};
 use crate::schema::Schema;
 use crate::uses;
 
@@ -69,6 +67,14 @@ impl Transfer {
     }
 }
 
+/// The transfer to make on the bus.
+#[derive(Clone, Copy)]
+pub(super) enum NextTransfer {
+    Write(&'static [u8]),
+    Read(&'static [u8], usize),
+    Exchange(&'static [u8], usize),
+}
+
 /// A value in a transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
@@ -120,6 +126,9 @@ impl Command {
         }
     }
 }
+
+/// The formula's outputs of one raw block, computed once for all readings in it.
+pub(super) type Computed = Option<(u16, Option<Outputs>)>;
 
 /// A chip.
 #[derive(Clone, Copy, Debug)]

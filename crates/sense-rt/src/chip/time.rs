@@ -1,7 +1,5 @@
 //! Times on a clock that wraps.
 
-use super::ChipTable;
-
 /// Whole milliseconds make a cycle look shorter than it is, so a transfer may be made early by this
 /// fraction of a cycle.
 const EARLY_PARTS: u32 = 8;
@@ -21,7 +19,7 @@ pub(super) const fn after(now_ms: u32, wait_ms: u32) -> u32 {
     if wait_ms == 0 { now_ms } else { now_ms.wrapping_add(wait_ms).wrapping_add(1) }
 }
 
-/// How early a transfer may be made.
-pub(super) const fn early_ms(table: &ChipTable) -> u32 {
-    table.cycle_ms.div_ceil(EARLY_PARTS)
+/// How early a transfer of a chip with this cycle may be made.
+pub(super) const fn early_ms(cycle_ms: u32) -> u32 {
+    cycle_ms.div_ceil(EARLY_PARTS)
 }

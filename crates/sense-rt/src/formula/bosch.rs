@@ -1,8 +1,28 @@
 //! BMP280 and BME280: the integer formulas of their data sheets, with pressure in 64 bits. Results
 //! that no working part and no air on earth can produce are rejected before they could overflow.
 
-use super::Outputs;
+use super::{Formula, Outputs};
 use crate::bytes::at;
+
+/// BMP280. Outputs: 0 temperature in 0.01 degC, 1 pressure in Pa/256. Calibration: 0x88, 24 bytes.
+/// Raw: 0xF7, 6 bytes.
+pub const BMP280: Formula = Formula {
+    calibration_bytes: 24,
+    raw_bytes: 6,
+    parameters_count: 0,
+    outputs_count: 2,
+    compute: bmp280,
+};
+
+/// BME280. Outputs: 0 and 1 as for BMP280, 2 relative humidity in %/1024. Calibration: 0x88, 24
+/// bytes; 0xA1, 1; 0xE1, 7. Raw: 0xF7, 8 bytes.
+pub const BME280: Formula = Formula {
+    calibration_bytes: 32,
+    raw_bytes: 8,
+    parameters_count: 0,
+    outputs_count: 3,
+    compute: bme280,
+};
 
 /// The fine temperature has 5120 units per degree; the parts measure -40 to 85 degC.
 const FINE_MIN: i64 = -60 * 5120;
@@ -92,12 +112,12 @@ fn humidity(calibration: &[u8], raw: &[u8], fine: i64) -> i64 {
     result.clamp(0, HUMIDITY_FULL) >> 12
 }
 
-pub(super) fn bmp280(calibration: &[u8], _: &[i32], raw: &[u8]) -> Option<Outputs> {
+fn bmp280(calibration: &[u8], _: &[i32], raw: &[u8]) -> Option<Outputs> {
     let fine = fine_temperature(calibration, raw)?;
     Some([(fine * 5 + 128) >> 8, pressure(calibration, raw, fine)?, 0])
 }
 
-pub(super) fn bme280(calibration: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
+fn bme280(calibration: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
     let [temperature, pressure, _] = bmp280(calibration, parameters, raw)?;
     let fine = fine_temperature(calibration, raw)?;
     let is_skipped = i64::from(u16::from_be_bytes([at(raw, 6), at(raw, 7)])) == SKIPPED_HUMIDITY;

@@ -7,6 +7,10 @@ mod bosch;
 mod ntc;
 mod tsl2561;
 
+pub use self::bosch::{BME280, BMP280};
+pub use self::ntc::NTC;
+pub use self::tsl2561::TSL2561;
+
 /// The most outputs that any formula has.
 pub const OUTPUTS_MAX: usize = 3;
 
@@ -39,46 +43,3 @@ impl Formula {
         (self.compute)(calibration, parameters, raw.get(..self.raw_bytes.into())?)
     }
 }
-
-/// BMP280. Outputs: 0 temperature in 0.01 degC, 1 pressure in Pa/256. Calibration: 0x88, 24 bytes.
-/// Raw: 0xF7, 6 bytes.
-pub const BMP280: Formula = Formula {
-    calibration_bytes: 24,
-    raw_bytes: 6,
-    parameters_count: 0,
-    outputs_count: 2,
-    compute: bosch::bmp280,
-};
-
-/// BME280. Outputs: 0 and 1 as for BMP280, 2 relative humidity in %/1024. Calibration: 0x88, 24
-/// bytes; 0xA1, 1; 0xE1, 7. Raw: 0xF7, 8 bytes.
-pub const BME280: Formula = Formula {
-    calibration_bytes: 32,
-    raw_bytes: 8,
-    parameters_count: 0,
-    outputs_count: 3,
-    compute: bosch::bme280,
-};
-
-/// A thermistor from the pin to ground, with a series resistor to the supply. Output: 0 temperature
-/// in 0.01 degC. Parameters: beta in K (1 to 20000), resistance at 25 degC in ohms, series
-/// resistance in ohms (both 1 to 100000000). Raw: the analog value 0 to 4095, 2 bytes, most
-/// significant first; 0 and 4095 mean a short circuit and an open circuit.
-pub const NTC: Formula = Formula {
-    calibration_bytes: 0,
-    raw_bytes: 2,
-    parameters_count: 3,
-    outputs_count: 1,
-    compute: ntc::compute,
-};
-
-/// TSL2561 in the T, FN and CL packages. Output: 0 illuminance in mlx. Parameters: integration time
-/// in ms (13, 101 or 402), gain (1 or 16); none: 402 and 16. Raw: both channels from 0x8C, 4 bytes,
-/// each least significant first; a saturated channel is not a measurement.
-pub const TSL2561: Formula = Formula {
-    calibration_bytes: 0,
-    raw_bytes: 4,
-    parameters_count: 2,
-    outputs_count: 1,
-    compute: tsl2561::compute,
-};

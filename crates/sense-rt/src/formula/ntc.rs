@@ -1,7 +1,14 @@
 //! A thermistor by its beta formula, 1/T = 1/T25 + ln(R/R25)/beta, in integers.
 
-use super::Outputs;
+use super::{Formula, Outputs};
 use crate::bytes::at;
+
+/// A thermistor from the pin to ground, with a series resistor to the supply. Output: 0 temperature
+/// in 0.01 degC. Parameters: beta in K (1 to 20000), resistance at 25 degC in ohms, series
+/// resistance in ohms (both 1 to 100000000). Raw: the analog value 0 to 4095, 2 bytes, most
+/// significant first; 0 and 4095 mean a short circuit and an open circuit.
+pub const NTC: Formula =
+    Formula { calibration_bytes: 0, raw_bytes: 2, parameters_count: 3, outputs_count: 1, compute };
 
 const FULL: u64 = 4095;
 const T25_CENTI: i64 = 29_815;
@@ -29,7 +36,7 @@ fn log2_q24(number: u64) -> i64 {
     result
 }
 
-pub(super) fn compute(_: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
+fn compute(_: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
     let [beta, r25, series, ..] = *parameters else { return None };
     let (beta, r25, series) = (i64::from(beta), i64::from(r25), i64::from(series));
     let level = u64::from(u16::from_be_bytes([at(raw, 0), at(raw, 1)]));

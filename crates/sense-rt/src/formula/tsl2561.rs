@@ -1,9 +1,15 @@
 //! TSL2561: the piecewise linear formula of the data sheet for the T, FN and CL packages, in
 //! integers, but in millilux instead of rounded to lux.
 
-use super::Outputs;
+use super::{Formula, Outputs};
 use crate::bytes::at;
 use crate::convert::divide;
+
+/// TSL2561 in the T, FN and CL packages. Output: 0 illuminance in mlx. Parameters: integration time
+/// in ms (13, 101 or 402), gain (1 or 16); none: 402 and 16. Raw: both channels from 0x8C, 4 bytes,
+/// each least significant first; a saturated channel is not a measurement.
+pub const TSL2561: Formula =
+    Formula { calibration_bytes: 0, raw_bytes: 4, parameters_count: 2, outputs_count: 1, compute };
 
 /// The integration time and gain that the constants are for.
 const NOMINAL_MS: i32 = 402;
@@ -36,7 +42,7 @@ fn millilux(channel0: u64, channel1: u64) -> i64 {
     if sum <= 0 { 0 } else { (sum * 1000 + 8192) >> 14 }
 }
 
-pub(super) fn compute(_: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
+fn compute(_: &[u8], parameters: &[i32], raw: &[u8]) -> Option<Outputs> {
     let (time_ms, gain) = match *parameters {
         [time_ms, gain, ..] => (time_ms, gain),
         _ => (NOMINAL_MS, NOMINAL_GAIN),
