@@ -46,6 +46,7 @@ mod cancel;
 mod check;
 mod domains;
 mod index;
+mod matching;
 mod model;
 pub mod problem;
 mod questions;

@@ -9,13 +9,15 @@ mod board_symmetry;
 pub(crate) mod bundles;
 mod flatten;
 mod validate;
+mod weights;
 mod wires;
 
 use self::board_symmetry::BoardSymmetry;
 use self::bundles::Bundles;
-use crate::answer::{Choice, Fault, Objective};
-use crate::domains::streams;
+pub(crate) use self::weights::Weights;
+use crate::answer::{Choice, Fault};
 use crate::index::{AltId, Blocks, CandId, DemandId, GateId, Id, IdVec, Ids, RoleId, Rows, WireId};
+use crate::matching;
 use crate::problem::{
     BoardId, Claim, DeviceId, DmaUserId, Holder, Pin, PinId, Problem, ResourceId, RuleId, SignalId,
 };
@@ -37,27 +39,6 @@ pub(crate) enum Holding {
 pub(crate) enum Part {
     Alt(AltId),
     Cand(CandId),
-}
-
-/// The weights that pack an [`Objective`] into one number.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Weights {
-    pub(crate) moved: u64,
-    pub(crate) rule: u64,
-    pub(crate) shared: u64,
-    pub(crate) cost: u64,
-}
-
-impl Weights {
-    pub(crate) fn unpack(self, weight: u64) -> Objective {
-        Objective {
-            moved: (weight / self.moved) as u32,
-            violated: (weight % self.moved / self.rule) as u32,
-            shared: (weight % self.rule / self.shared) as u32,
-            cost: (weight % self.shared / self.cost) as u32,
-            spares: (weight % self.cost) as u32,
-        }
-    }
 }
 
 /// One candidate, flat.
@@ -152,7 +133,7 @@ pub(crate) fn agree(one: Holder, other: Holder) -> bool {
 impl Model {
     pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
         validate::validate(problem)?;
-        let weights = validate::weights(problem)?;
+        let weights = Weights::new(problem)?;
         let weight =
             |p: &Pin| u64::from(p.cost) * weights.cost + u64::from(p.shared) * weights.shared;
         let mut model = Self {
@@ -161,7 +142,7 @@ impl Model {
             weights,
             pin_weight: problem.pins.iter().map(weight).collect(),
             spare: problem.boards.iter().map(|b| b.spare).collect(),
-            dma_matters: !streams::all_fit(problem),
+            dma_matters: !matching::all_fit(problem),
             ..Self::default()
         };
         model.flatten(problem);

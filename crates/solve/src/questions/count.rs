@@ -7,8 +7,9 @@
 use super::placements::{Class, Counter, Place};
 use crate::answer::{Count, Fault};
 use crate::cancel::Cancel;
-use crate::domains::{Domains, Pruned, streams};
+use crate::domains::{Domains, Pruned};
 use crate::index::{AltId, IdVec, RoleId, WireId};
+use crate::matching;
 use crate::model::{Holding, Model, agree};
 use crate::problem::{Claim, DeviceId, Holder, Problem, ResourceId};
 use num_bigint::BigUint;
@@ -105,7 +106,7 @@ impl Census<'_> {
     fn dma_fits(&self) -> bool {
         let decided = self.order.iter().filter_map(|&d| self.domains.decided(d));
         let users = decided.flat_map(|alt| &self.model.alt_dma[alt]).copied().collect();
-        streams::users_fit(self.problem, &users)
+        matching::users_fit(self.problem, &users)
     }
 
     /// Tries every candidate of the roles that share in a way that the count of placements does not

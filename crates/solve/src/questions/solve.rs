@@ -4,8 +4,9 @@ use super::conflict;
 use crate::answer::{Answer, Fault, Objective, Optimality, Outcome};
 use crate::cancel::Cancel;
 use crate::check::check;
-use crate::domains::{Pruned, streams};
+use crate::domains::Pruned;
 use crate::index::Id;
+use crate::matching;
 use crate::model::{Choices, Model};
 use crate::problem::{DeviceId, DmaUserId, Problem};
 use crate::search::{Effort, Engine, PseudoCosts};
@@ -171,7 +172,7 @@ pub(crate) fn finish(
         .collect();
     let answer = Answer {
         choices: choice,
-        dma: streams::assign(problem, &users).unwrap_or_default(),
+        dma: matching::assign(problem, &users).unwrap_or_default(),
         objective: model.weights.unpack(model.evaluate(choices)),
         optimality,
     };

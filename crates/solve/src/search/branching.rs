@@ -7,27 +7,13 @@
 //! during search (I. P. Gent and B. M. Smith, *Symmetry breaking in constraint programming*, 2000).
 
 use super::Engine;
+use super::branch::Branch;
 use crate::domains::{Charge, Pruned};
 use crate::index::{AltId, CandId, FacilityId};
 use crate::model::bundles::Bundle;
 use crate::model::{Choices, Chosen};
 use crate::problem::{BoardId, DeviceId, RuleId};
 use std::collections::BTreeSet;
-
-/// A choice that a node splits on: taken first, then refused.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Branch {
-    /// The device takes the alternative.
-    Alt(AltId),
-    /// The role takes the candidate.
-    Cand(CandId),
-    /// No device violates the rule.
-    Rule(RuleId),
-    /// No device uses the spare board.
-    Board(BoardId),
-    /// At least one device uses the facility.
-    Facility(FacilityId),
-}
 
 impl Engine<'_> {
     pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Pruned> {

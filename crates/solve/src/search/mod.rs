@@ -10,7 +10,8 @@
 //! farther up from there, with limits that grow as in iterative deepening (R. E. Korf, *Depth-first
 //! iterative-deepening*, 1985).
 
-pub(crate) mod branching;
+pub(crate) mod branch;
+mod branching;
 pub(crate) mod canonical;
 mod node;
 mod progress;
@@ -23,7 +24,7 @@ pub(crate) mod tie_break;
 #[cfg(test)]
 mod worked_example;
 
-pub(crate) use self::progress::{Budget, Effort, Goal, Progress};
+pub(crate) use self::progress::{Budget, Effort, Found, Goal, Progress};
 
 pub(crate) use self::pseudo_costs::PseudoCosts;
 use self::read_off::Holders;
@@ -94,9 +95,6 @@ const LEAP: u64 = 64;
 
 /// The most steps of the simplex method at one node.
 const LP_STEPS: usize = 5_000;
-
-/// A weight, and the choices that have it.
-pub(crate) type Found = (u64, Choices);
 
 impl<'a> Engine<'a> {
     /// # Errors

@@ -2,7 +2,7 @@
 //! one.
 
 use super::Engine;
-use super::branching::Branch;
+use super::branch::Branch;
 use crate::domains::{Pruned, streams};
 
 /// Nodes that a search for any answer spends on the flow alone.

@@ -1,6 +1,5 @@
 //! The goal of a search, what it has found, and how far it has got.
 
-use super::Found;
 use crate::model::Choices;
 
 /// The cost of a node without the simplex method, in units of its work: a row of one step takes
@@ -46,6 +45,9 @@ impl Budget {
         self.left = self.left.saturating_sub(work);
     }
 }
+
+/// A weight, and the choices that have it.
+pub(crate) type Found = (u64, Choices);
 
 /// The goal of a search, and the best answer found so far.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 //!
 //! The idea is from M. Bénichou et al., *Experiments in mixed-integer linear programming*, 1971.
 
-use super::branching::Branch;
+use super::branch::Branch;
 use crate::index::{AltId, FacilityId, PenaltyId};
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@
 //! If the relaxation already gives an answer, no search is needed.
 
 use super::Engine;
-use super::branching::Branch;
+use super::branch::Branch;
 use crate::domains::streams;
 use crate::index::{AltId, CandId, IdVec, RoleId, WireId};
 use crate::model::{Choices, Chosen, Holding, Model, agree};

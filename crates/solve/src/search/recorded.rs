@@ -5,7 +5,7 @@
 //! that prove something are left: propagation, the prices that close or narrow it, and the split.
 //! The flow only suggests what to split on; whatever it would prune, the prices prune too.
 
-use super::branching::Branch;
+use super::branch::Branch;
 use super::{Engine, LP_STEPS};
 use crate::answer::Fault;
 use crate::bounds::dualized::Dualized;

@@ -6,7 +6,7 @@
 //! ([`super::pseudo_costs`]).
 
 use super::Engine;
-use super::branching::Branch;
+use super::branch::Branch;
 use super::pseudo_costs::{Fractional, Key};
 use super::rounding::WHOLE;
 use crate::domains::{Charge, Pruned};
