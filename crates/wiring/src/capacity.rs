@@ -12,8 +12,10 @@ use sensedsl_model::kind::{Kind, KindName, Sharing};
 use sensedsl_model::protocol::{Coding, Filter};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
+use crate::Cancel;
+use crate::answers::{Found, Solved};
 use crate::assignment::Assignment;
-use crate::{Cancel, Found, Solved, Wiring};
+use crate::wiring::Wiring;
 
 /// The number of identifiers for devices.
 const DEVICES_MAX: usize = 254;

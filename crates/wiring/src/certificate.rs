@@ -5,8 +5,8 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0403_no_certificate;
 use sensedsl_solve::{Experience, Fault, Outcome};
 
-use crate::Wiring;
 use crate::labels::labels;
+use crate::wiring::Wiring;
 
 impl Wiring<'_> {
     /// The certificate of what the solver found; `None` if it failed.

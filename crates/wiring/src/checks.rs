@@ -23,11 +23,13 @@ use sensedsl_model::design::{
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::written::{divider, shown_mv, shown_ohm};
 
-use crate::alternatives::{RequestedWires, alternatives};
+use crate::alternatives::alternatives;
 use crate::assignment::{Assignment, BoardAssignment};
-use crate::formulate::{Builder, Converters, Formulation, wanted};
+use crate::builder::{Builder, Converters, Meaning};
+use crate::formulate::{Formulation, wanted};
 use crate::levels::{Tolerates, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
+use crate::requested::{RequestedWires, free};
 use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
@@ -286,7 +288,7 @@ fn relaxed(
     offers: &[&Offer<'_>],
     wires: &Connection,
     relax: impl Fn(&mut RequestedWires<'_>),
-) -> Vec<crate::formulate::Meaning> {
+) -> Vec<Meaning> {
     let fresh: Vec<Offer<'_>> =
         offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
     relaxed_on(design, &fresh, wires, relax)
@@ -297,19 +299,12 @@ fn relaxed_on(
     offers: &[Offer<'_>],
     wires: &Connection,
     relax: impl Fn(&mut RequestedWires<'_>),
-) -> Vec<crate::formulate::Meaning> {
+) -> Vec<Meaning> {
     let mut wanted = wanted(design, wires);
     relax(&mut wanted);
     let mut builder = Builder::new(design, Converters::Later, sensedsl_solve::Cancel::NEVER);
     wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
     alternatives(&mut builder, offers, &wanted).1
-}
-
-fn free(wanted: &mut RequestedWires<'_>) {
-    wanted.pins.clear();
-    wanted.unit = None;
-    wanted.side = None;
-    wanted.header = None;
 }
 
 fn units(design: &Design, offers: &[&Offer<'_>], wires: &Connection) -> Vec<String> {

@@ -1,16 +1,18 @@
-//! The reason why there is no wiring, in names, with repairs that were tried.
+//! The reason why there is no wiring, in names.
+//!
+//! In: the solver's conflict. Out: the devices, and what they compete for, as a diagnostic. The
+//! rules and repairs in it are found in `explain.rs`, with more questions to the solver.
 
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
 use sensedsl_model::design::{BoardIndex, Design, PartIndex};
-use sensedsl_solve::{Cancel, Conflict};
+use sensedsl_solve::Conflict;
 
-use crate::blame::{self, Rule};
 use crate::formulate::{Formulation, Requester};
 use crate::names::list;
-use crate::repairs::{self, Repair, Repaired};
-use crate::{Solved, Wiring};
+use crate::repairs::{Repair, Repaired};
+use crate::rule::Rule;
 
 /// The most repairs in one message; all are in the JSON output.
 const REPAIRS_NAMED_MAX: usize = 4;
@@ -51,52 +53,6 @@ pub struct Contested {
     pub board: BoardIndex,
     /// The pins that offer it, as indices into the board's table; empty if no pin shows it.
     pub pins: Vec<usize>,
-}
-
-/// The solver's conflict in names, with repairs.
-pub(crate) fn read(
-    design: &Design,
-    formulation: &Formulation<'_>,
-    conflict: &Conflict,
-    cancel: Cancel<'_>,
-) -> NoWiring {
-    let mut named = named(design, formulation, conflict);
-    if !named.minimal {
-        named.explained = false;
-        return named;
-    }
-    if named.links.is_empty() && named.parts.iter().any(|part| has_several(design, *part)) {
-        needed(design, &mut named.parts, cancel);
-    }
-    if named.links.is_empty() {
-        named.rules = blame::rules(design, &named.parts, cancel);
-    }
-    let repairs = repairs::find(design, formulation, &named.parts, cancel);
-    (named.repairs, named.others_remain) = (repairs.found, repairs.others_remain);
-    named.explained = !cancel.is_over();
-    named
-}
-
-fn has_several(design: &Design, part: PartIndex) -> bool {
-    design.connections_of(part).nth(1).is_some()
-}
-
-/// Keeps only the parts that are needed for the conflict. Of a part with several sets of wires, the
-/// solver has named only some; with all of them, another part may not be needed.
-fn needed(design: &Design, parts: &mut Vec<PartIndex>, cancel: Cancel<'_>) {
-    let mut at = 0;
-    while at < parts.len() && parts.len() > 1 {
-        let mut without = parts.clone();
-        without.remove(at);
-        let mut left = design.clone();
-        left.retain_parts(|part, _| without.contains(&part));
-        let wiring = Wiring::within(&left, None, cancel);
-        if wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_)) {
-            *parts = without;
-        } else {
-            at += 1;
-        }
-    }
 }
 
 /// The solver's conflict in names, without repairs.

@@ -14,7 +14,7 @@ use sensedsl_model::design::{
 };
 
 use crate::assignment::ConnectionWiring;
-use crate::formulate::Converters;
+use crate::builder::Converters;
 
 /// An analog input and the converters that can sample it.
 type Input = (ConnectionIndex, BTreeSet<u8>);

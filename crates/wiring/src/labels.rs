@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use sensedsl_certify::{AlternativeLabels, Labels, distinct};
 use sensedsl_model::design::{BoardIndex, Design, Preference, PreferenceSubject};
 
-use crate::formulate::{Formulation, GPIO, Requester, wanted};
+use crate::builder::GPIO;
+use crate::formulate::{Formulation, Requester, wanted};
 use crate::names::{Group, Resource};
 use crate::read_back;
 
@@ -112,7 +113,7 @@ impl Namer<'_> {
                 .iter()
                 .map(|role| role.name().to_owned())
                 .collect();
-            let names = meanings.iter().map(|meaning: &crate::formulate::Meaning| {
+            let names = meanings.iter().map(|meaning: &crate::builder::Meaning| {
                 self.on(meaning.board, meaning.unit.as_deref().unwrap_or("any pin"))
             });
             let names = distinct(names).into_iter();

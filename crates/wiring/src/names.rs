@@ -5,11 +5,9 @@ use std::collections::BTreeMap;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::Pin;
-use sensedsl_model::design::{BoardIndex, PartIndex};
+use sensedsl_model::design::{BoardIndex, PartIndex, Together};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Claim, Holder, ResourceId};
-
-use crate::ties::Tied;
 
 /// A resource other than a pin.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,6 +31,22 @@ pub(crate) enum Resource {
     /// Something that the elements of an array have in common; the number is that of the wish for
     /// it.
     Tie(PartIndex, Option<u32>, Tied),
+}
+
+/// The meaning of a resource of a tie.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Tied {
+    /// Whether a wish is kept.
+    Kept,
+    /// The unit, header or side.
+    Same(Together),
+    /// Whether a unit is among these, or among those: no unit is among both.
+    Units(String, String),
+    /// The units that serve all elements up to this one.
+    Common(u16),
+    /// A place of a header: claimed by this element if it is there or after, or by the next one if
+    /// it is there or before.
+    Place(u16, BoardIndex, String, usize),
 }
 
 impl Resource {

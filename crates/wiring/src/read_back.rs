@@ -11,8 +11,9 @@ use crate::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, DmaAssignment, LinkWiring,
     SharedPin, Status, Wire,
 };
+use crate::builder::Converters;
 use crate::converters::{self, Choice};
-use crate::formulate::{Converters, Formulation, Requester};
+use crate::formulate::{Formulation, Requester};
 use crate::streams;
 
 /// The answer in names. `None` if a board's DMA requests, including those of its converters, cannot

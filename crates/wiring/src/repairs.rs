@@ -5,7 +5,7 @@ mod budget;
 mod proposals;
 mod repair;
 
-pub use repair::Repair;
+pub use repair::{Repair, Repaired};
 
 use sensedsl_model::design::{Design, PartIndex};
 
@@ -14,17 +14,6 @@ use self::budget::{Budget, SHARES, TrialResult};
 use self::proposals::{is_exclusive, proposals};
 use crate::Cancel;
 use crate::formulate::Formulation;
-
-/// A repair that gives a wiring.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Repaired {
-    /// The change.
-    pub repair: Repair,
-    /// The opportunity cost of that wiring.
-    pub cost: u32,
-    /// Whether that is known to be the least possible after the change.
-    pub is_best: bool,
-}
 
 /// The results of trying changes that could help.
 #[derive(Debug)]

@@ -25,9 +25,9 @@ use sensedsl_model::design::{
 };
 use sensedsl_solve::problem::{self as solver, Alternative, Claim, RuleId};
 
+use crate::builder::{Builder, Chosen, Meaning};
 use crate::converters::units_of;
-use crate::formulate::{Builder, Chosen, Meaning};
-use crate::names::{Group, Resource};
+use crate::names::{Group, Resource, Tied};
 use crate::wishes;
 
 /// A property that all connections of a part share, or their order.
@@ -35,22 +35,6 @@ use crate::wishes;
 pub(crate) enum Tie {
     Together(Together),
     Sequence,
-}
-
-/// The meaning of a resource of a tie.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Tied {
-    /// Whether a wish is kept.
-    Kept,
-    /// The unit, header or side.
-    Same(Together),
-    /// Whether a unit is among these, or among those: no unit is among both.
-    Units(String, String),
-    /// The units that serve all elements up to this one.
-    Common(u16),
-    /// A place of a header: claimed by this element if it is there or after, or by the next one if
-    /// it is there or before.
-    Place(u16, BoardIndex, String, usize),
 }
 
 /// The connections of one part as the solver gets them.

@@ -5,7 +5,7 @@ use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Problem, Role as SolverRole};
 use sensedsl_solve::{Cancel, Objective, Options, Outcome, solve};
 
-use crate::Found;
+use crate::answers::Found;
 use crate::assignment::Assignment;
 use crate::formulate::{Formulation, Requester};
 use crate::read_back::roles;

@@ -11,12 +11,9 @@ use sensedsl_model::design::{BoardIndex, Design, PartIndex, Preference, Preferen
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Device, RuleId};
 
-use crate::alternatives::RequestedWires;
-use crate::formulate::{Builder, Meaning};
+use crate::builder::{Builder, Meaning, Rule};
 use crate::offer::Offer;
-
-/// A soft rule, with the board that it is bound to if it is written in one.
-pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Preference);
+use crate::requested::RequestedWires;
 
 /// The soft rules for one device.
 pub(crate) struct Rules<'a> {

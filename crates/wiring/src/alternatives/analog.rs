@@ -8,7 +8,7 @@ use sensedsl_model::kind::analog::Analog;
 
 use super::candidates::Need;
 use super::{Alternatives, Maker, Served, unit_fits};
-use crate::formulate::Converters;
+use crate::builder::Converters;
 
 impl Served for Analog {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {

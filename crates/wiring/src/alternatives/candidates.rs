@@ -6,11 +6,12 @@ use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, RuleId};
 
-use super::{Maker, RequestedWires};
-use crate::formulate::{Chosen, GPIO};
+use super::Maker;
+use crate::builder::{Chosen, GPIO};
 use crate::levels::{Tolerates, stands};
 use crate::names::{Group, Resource};
 use crate::offer::Offer;
+use crate::requested::RequestedWires;
 
 impl Maker<'_, '_> {
     /// The candidates of one role. `bus` is set for a wire that devices share.

@@ -7,7 +7,7 @@ use sensedsl_board::remap::Blocks;
 use sensedsl_solve::problem::{Alternative, Claim, Role as SolverRole};
 
 use super::{Alternatives, Maker};
-use crate::formulate::{Chosen, Meaning, board_id};
+use crate::builder::{Chosen, Meaning, board_id};
 
 impl Maker<'_, '_> {
     /// The alternative, unless one of its roles has no candidate; several if roles could meet on

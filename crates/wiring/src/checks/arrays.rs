@@ -11,8 +11,9 @@ use sensedsl_model::design::{
 use sensedsl_wire::Direction;
 
 use super::relaxed;
+use crate::builder::Meaning;
 use crate::converters::units_of;
-use crate::formulate::{Formulation, Meaning};
+use crate::formulate::Formulation;
 
 /// Reports the arrays that cannot have a wire for each element, whatever else is on the board.
 pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_model::design::{BoardIndex, Design};
 
-use super::{Repair, TrialResult};
+use super::budget::TrialResult;
+use super::repair::Repair;
 use crate::formulate::{Formulation, Requester};
-use crate::solver;
 
 /// The properties that interchangeable devices have in common: their choices, and what decides on
 /// their converters.
@@ -26,7 +26,7 @@ pub(super) struct Alike {
 
 impl Alike {
     pub(super) fn new(formulation: &Formulation<'_>) -> Self {
-        let first = solver::alike(&formulation.problem).unwrap_or_default();
+        let first = sensedsl_solve::alike(&formulation.problem).unwrap_or_default();
         Self { first, tried: BTreeMap::new(), unknown: BTreeSet::new() }
     }
 

@@ -5,8 +5,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use sensedsl_diagnostics::codes::e0404_out_of_time;
 use sensedsl_model::design::Design;
 
-use super::Repair;
-use crate::{Cancel, Solved, Wiring};
+use super::repair::Repair;
+use crate::Cancel;
+use crate::answers::Solved;
+use crate::wiring::Wiring;
 
 /// Steps of the search that a change may take, in the first round and in the second.
 pub(super) const SHARES: [u64; 2] = [400, 3_000];

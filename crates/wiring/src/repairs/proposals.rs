@@ -6,7 +6,7 @@ use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::Occupation;
 use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex, Placement, Transport};
 
-use super::Repair;
+use super::repair::Repair;
 use crate::alternatives::served;
 use crate::offer::roles;
 

@@ -30,6 +30,17 @@ pub enum Repair {
     Drop(PartIndex),
 }
 
+/// A repair that gives a wiring.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Repaired {
+    /// The change.
+    pub repair: Repair,
+    /// The opportunity cost of that wiring.
+    pub cost: u32,
+    /// Whether that is known to be the least possible after the change.
+    pub is_best: bool,
+}
+
 impl Repair {
     /// The word in the JSON output.
     #[must_use]

@@ -11,9 +11,9 @@ use std::collections::BTreeSet;
 use sensedsl_model::design::{Board, BoardIndex};
 use sensedsl_solve::problem::Alternative;
 
-use super::{Tied, Tier, Tight, Units, only, words};
-use crate::formulate::{Builder, Meaning};
-use crate::names::Group;
+use super::{Tier, Tight, Units, only, words};
+use crate::builder::{Builder, Meaning};
+use crate::names::{Group, Tied};
 
 impl Tier<'_> {
     /// Whether the sets of a board meet in one unit wherever they meet in pairs.
