@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
-use super::wires::{NEVER, Wires, merge, periods_ns};
+use super::registers::merge;
+use super::wires::{NEVER, Wires, periods_ns};
 use sensedsl_surroundings::CanFrame;
 
 /// Bits of MCR and MSR.

@@ -12,17 +12,18 @@ use super::exti::Exti;
 use super::fdcan::Fdcan;
 use super::i2c::{self, I2c};
 use super::iwdg::Iwdg;
-use super::map::{Device, Row};
+use super::map::{Device, Request, Row};
 use super::mcu::Mcu;
 use super::plain::{Plain, next_random};
 use super::ports::PortState;
-use super::rcc::Rcc;
+use super::rcc::{self, Rcc};
+use super::registers::merge;
 use super::spi::{self, Spi};
 use super::timer::Timer;
 use super::transfer::{Memory, left_of};
 use super::usart::Usart;
 use super::usb::{self, Usb};
-use super::wires::{Event, NEVER, Request, ResetCause, Wires, merge};
+use super::wires::{Event, NEVER, ResetCause, Wires};
 
 /// Everything on the chip but the core and its memory.
 pub(super) struct Chip {
@@ -88,7 +89,7 @@ impl Chip {
             adc_irqs: numbers(&["ADC"])
                 .map(|unit| mcu.irq(&format!("ADC{unit}"), "GLOBAL"))
                 .collect(),
-            adc_commons: mcu.adc_commons(),
+            adc_commons: adc::commons(mcu),
             cans: numbers(&["CAN"]).map(|unit| Can::new(unit, mcu)).collect(),
             fdcans: numbers(&["FDCAN"]).map(|unit| Fdcan::new(unit, mcu)).collect(),
             filters: Filters::new(mcu.last(&["CAN"]) > 1),
@@ -117,7 +118,7 @@ impl Chip {
     /// Takes the frequencies after a change of the clock tree.
     fn take_clocks(&mut self) {
         self.wires.clocks = self.rcc.clocks();
-        self.wires.kernels = self.mcu.kernels(&*self.rcc);
+        self.wires.kernels = rcc::kernels(self.mcu, &*self.rcc);
     }
 
     pub(super) fn memory(&self) -> Memory {

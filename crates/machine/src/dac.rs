@@ -1,7 +1,8 @@
 //! A DAC's two channels, set by software or by a trigger.
 
 use super::mcu::Mcu;
-use super::wires::{SUPPLY_MV, Wires, merge};
+use super::registers::merge;
+use super::wires::{SUPPLY_MV, Wires};
 
 /// The bits of SR that report the channels of the later version ready.
 const READY: [u32; 2] = [1 << 11, 1 << 27];

@@ -1,7 +1,8 @@
 //! External interrupts of pads, and the port that each line belongs to (SYSCFG).
 
 use super::mcu::Mcu;
-use super::wires::{NEVER, Wires, merge};
+use super::registers::merge;
+use super::wires::{NEVER, Wires};
 use sensedsl_surroundings::Pad;
 
 /// A line, with the pad that it watches.

@@ -5,7 +5,8 @@
 
 use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
-use super::wires::{NEVER, Wires, merge, periods_ns};
+use super::registers::merge;
+use super::wires::{NEVER, Wires, periods_ns};
 use sensedsl_surroundings::CanFrame;
 
 /// The message memory in words: filters, then two queues, events, and what is to be sent. Elements of the last three

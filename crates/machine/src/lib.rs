@@ -73,6 +73,7 @@ mod mcu;
 mod plain;
 mod ports;
 mod rcc;
+mod registers;
 mod spi;
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-//! The devices in the address space, and the clocks that they need. The MCU determines their
+//! The devices in the address space, the clocks that they need, and what they ask the DMA for. The MCU determines their
 //! addresses (`mcu.rs`).
 
 /// A peripheral; units count from 0.
@@ -56,3 +56,18 @@ pub(super) struct Row {
 
 /// The address of the debugger's registers, which are apart from the others.
 pub(super) const DEBUG_BASE: u32 = 0xE004_2000;
+
+/// The requests to the DMA controllers, by peripheral.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Request {
+    Adc(usize),
+    I2cRx(usize),
+    I2cTx(usize),
+    SpiRx(usize),
+    SpiTx(usize),
+    UsartRx(usize),
+    UsartTx(usize),
+    Dac(usize),
+    /// Timer and channel; channel 0 is its update.
+    Timer(usize, usize),
+}

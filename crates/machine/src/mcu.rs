@@ -8,11 +8,8 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::adc::Common;
-use crate::map::{DEBUG_BASE, Device, Row};
-use crate::rcc::Rcc;
-use crate::usart;
-use crate::wires::Request;
+use crate::map::{DEBUG_BASE, Device, Request, Row};
+use crate::usart::place;
 
 const FILES: [&str; 8] = [
     include_str!("../mcus/stm32f103c8.toml"),
@@ -80,11 +77,11 @@ struct Unit {
 /// The choice among clocks that a unit has.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Kernel {
+pub(crate) struct Kernel {
     /// The field of the RCC: offset, lowest bit, bits.
-    field: (u32, u32, u32),
+    pub(crate) field: (u32, u32, u32),
     /// The names of the clocks, by the value of the field.
-    clocks: Vec<String>,
+    pub(crate) clocks: Vec<String>,
 }
 
 /// The properties of an MCU that the machine must know.
@@ -237,13 +234,12 @@ impl Mcu {
         places.max().unwrap_or(0)
     }
 
-    /// The registers that converters share, by the first of these.
-    pub(crate) fn adc_commons(&self) -> BTreeMap<usize, Common> {
-        let own = |(name, unit): (&String, &Unit)| match device(name, &unit.block) {
-            Some(Device::AdcCommon(first)) => Some((first, Common::new(name, &unit.block))),
+    /// The registers that converters share: the first of these, and the registers' name and block.
+    pub(crate) fn adc_commons(&self) -> impl Iterator<Item = (usize, &str, &str)> {
+        self.units.iter().filter_map(|(name, unit)| match device(name, &unit.block) {
+            Some(Device::AdcCommon(first)) => Some((first, name.as_str(), unit.block.as_str())),
             _ => None,
-        };
-        self.units.iter().filter_map(own).collect()
+        })
     }
 
     /// The number of ports up to the last one.
@@ -262,15 +258,9 @@ impl Mcu {
         self.block("GPIOA") != "gpio_v1"
     }
 
-    /// The frequencies of the units that select their kernel clock.
-    pub(crate) fn kernels(&self, rcc: &dyn Rcc) -> BTreeMap<&str, u64> {
-        let selected = |unit: &Unit| {
-            let Kernel { field: (register, bit, bits), clocks } = unit.kernel.as_ref()?;
-            let code = rcc.read(*register) >> bit & ((1 << bits) - 1);
-            Some(clocks.get(code as usize).map_or(0, |clock| rcc.named_hz(clock)))
-        };
-        let units = self.units.iter();
-        units.filter_map(|(name, unit)| Some((name.as_str(), selected(unit)?))).collect()
+    /// The choices of the units that select their kernel clock, with the units' names.
+    pub(crate) fn kernels(&self) -> impl Iterator<Item = (&str, &Kernel)> {
+        self.units.iter().filter_map(|(name, unit)| Some((name.as_str(), unit.kernel.as_ref()?)))
     }
 
     /// The stream that a channel of the multiplexer serves.
@@ -347,7 +337,7 @@ fn device(name: &str, block: &str) -> Option<Device> {
         }
         "timer_v1" | "timer_v2" => Device::Timer(index(name)?),
         // The first two versions differ in oversampling, which no firmware of this generator uses.
-        "usart_v1" | "usart_v2" | "usart_v4" => Device::Usart(usart::place(name)?),
+        "usart_v1" | "usart_v2" | "usart_v4" => Device::Usart(place(name)?),
         "spi_v1" | "spi_v2_i2s" | "spi_v3_i2s" => Device::Spi(index(name)?),
         // The fast-mode I2C is a different block.
         "i2c_v1" | "i2c_v2" => Device::I2c(index(name)?),
@@ -414,8 +404,8 @@ fn request(name: &str) -> Option<Request> {
         ("I2C", "TX") => Request::I2cTx(at),
         ("SPI", "RX") => Request::SpiRx(at),
         ("SPI", "TX") => Request::SpiTx(at),
-        ("USART" | "UART" | "LPUART", "RX") => Request::UsartRx(usart::place(unit)?),
-        ("USART" | "UART" | "LPUART", "TX") => Request::UsartTx(usart::place(unit)?),
+        ("USART" | "UART" | "LPUART", "RX") => Request::UsartRx(place(unit)?),
+        ("USART" | "UART" | "LPUART", "TX") => Request::UsartTx(place(unit)?),
         ("DAC", _) => Request::Dac(index(signal)?),
         ("TIM", "UP") => Request::Timer(at, 0),
         ("TIM", _) => Request::Timer(at, signal.strip_prefix("CH")?.parse().ok()?),
@@ -426,8 +416,7 @@ fn request(name: &str) -> Option<Request> {
 #[cfg(test)]
 mod tests {
     use super::{FILES, Mcu};
-    use crate::map::Device;
-    use crate::wires::Request;
+    use crate::map::{Device, Request};
 
     #[test]
     fn every_file_is_read() {

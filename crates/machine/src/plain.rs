@@ -1,6 +1,6 @@
 //! Peripherals that firmware sets up or reads, and that do little more than store what is written.
 
-use super::wires::merge;
+use super::registers::merge;
 
 /// The size of a block.
 const BYTES: u32 = 0x400;

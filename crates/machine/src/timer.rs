@@ -4,7 +4,8 @@
 
 use super::capture::Inputs;
 use super::mcu::Mcu;
-use super::wires::{NEVER, Wires, merge, periods_in, periods_ns};
+use super::registers::merge;
+use super::wires::{NEVER, Wires, periods_in, periods_ns};
 use sensedsl_surroundings::TimerOutput;
 
 /// Bits of SR and DIER.

@@ -6,8 +6,8 @@ use rsemu::core::space::RamStore;
 
 use super::chip::Chip;
 use super::dma::{Direction, Dma, Item, STREAMS};
+use super::map::Request;
 use super::mcu::Mcu;
-use super::wires::Request;
 
 /// The most items that one request moves at once; a request that never ends is a mistake in a model.
 const ITEMS_MAX: usize = 70_000;

@@ -48,21 +48,6 @@ pub(super) struct Link {
     pub is_open: bool,
 }
 
-/// The requests to the DMA controllers, by peripheral.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Request {
-    Adc(usize),
-    I2cRx(usize),
-    I2cTx(usize),
-    SpiRx(usize),
-    SpiTx(usize),
-    UsartRx(usize),
-    UsartTx(usize),
-    Dac(usize),
-    /// Timer and channel; channel 0 is its update.
-    Timer(usize, usize),
-}
-
 /// Events and mistakes that matter to a user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
@@ -215,11 +200,6 @@ impl Wires {
             self.version += 1;
         }
     }
-}
-
-/// The value of a register after a write to the bits in `mask`.
-pub(super) fn merge(old: u32, value: u32, mask: u32) -> u32 {
-    (old & !mask) | (value & mask)
 }
 
 /// The time that `count` periods of `hz` take, rounded up.

@@ -1,8 +1,9 @@
 //! The converters of STM32F1: started by setting ADON a second time, by SWSTART or by a timer's trigger. Their clock is
 //! divided in the RCC, they have no overrun, and a calibration is over at once.
 
-use super::{Adc, channel_at, code_of, injected, input_mv, sampling};
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use super::unit::{Adc, channel_at, code_of, injected, input_mv, sampling};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 /// Bits of SR.
 const WATCHDOG: u32 = 1;

@@ -3,8 +3,9 @@
 //!
 //! Calibrations are over at once. Not modelled are injected sequences, oversampling, offsets and pairs of converters.
 
-use super::{Adc, code_of, input_mv};
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use super::unit::{Adc, code_of, input_mv};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 /// Bits of ISR, which IER has at the same places.
 const READY: u32 = 1;

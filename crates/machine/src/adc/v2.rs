@@ -1,7 +1,8 @@
 //! The converters of STM32F2, F4 and F7: started by software or by a timer's trigger; up to three share a divider.
 
-use super::{Adc, channel_at, code_of, injected, input_mv, sampling};
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use super::unit::{Adc, channel_at, code_of, injected, input_mv, sampling};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 /// Bits of SR.
 const WATCHDOG: u32 = 1;

@@ -9,8 +9,9 @@ use crate::exti::Exti;
 use crate::iwdg::Iwdg;
 use crate::map::Device;
 use crate::plain::Plain;
+use crate::registers::merge;
 use crate::timer::Timer;
-use crate::wires::{ResetCause, merge};
+use crate::wires::ResetCause;
 
 impl Chip {
     /// Puts all peripherals into their state after a reset; the backup domain keeps its contents unless power was lost.

@@ -4,7 +4,7 @@
 //! All peripherals of a stream ask through one line. An item may have one size at the peripheral and another in memory.
 
 use super::{Direction, Dma, End, Item, STREAMS};
-use crate::wires::merge;
+use crate::registers::merge;
 
 /// Bits of CCR.
 const ENABLE: u32 = 1;

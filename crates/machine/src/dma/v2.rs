@@ -3,7 +3,7 @@
 //! A stream moves an item whenever the peripheral of its channel requests it.
 
 use super::{Direction, Dma, End, Item};
-use crate::wires::merge;
+use crate::registers::merge;
 
 const STREAMS: usize = 8;
 

@@ -3,38 +3,17 @@
 //! In: writes to the registers, and the signals that the parts table gives each pad. Out: the level that the program
 //! gives a pad, the pad that each signal is on, and the settings of all pads.
 
+mod port;
 mod v1;
 mod v2;
 
 use std::collections::BTreeMap;
 
+use self::port::Port;
+pub use self::port::{Mode, Pull};
 use self::v1::{Afio, Field};
 use crate::mcu::Mcu;
 use sensedsl_surroundings::Pad;
-
-/// The mode of a pad.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Its level can be read.
-    Input,
-    /// The program sets its level.
-    Output,
-    /// A peripheral controls the pad; with the number that selects it, unless it selects its pads itself.
-    Alternate(Option<u8>),
-    /// For converters and the DAC. After a reset, all pads except the debugger's are [`Mode::Input`].
-    Analog,
-}
-
-/// The internal pull resistor of a pad.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pull {
-    /// No resistor.
-    None,
-    /// A pull-up.
-    Up,
-    /// A pull-down.
-    Down,
-}
 
 /// The settings of a pad.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,23 +32,6 @@ pub struct PadState {
     pub pull: Pull,
     /// Its speed, from 0 (slow) to 3 (fast).
     pub speed: u8,
-}
-
-/// A port, in one of the block's versions.
-trait Port: Send {
-    /// The offset of the register that has the levels on the pads.
-    fn levels_at(&self) -> u32;
-    /// Reads any other register.
-    fn read(&self, offset: u32) -> u32;
-    /// Writes a register; returns whether pads may be switched to other peripherals now.
-    fn write(&mut self, offset: u32, value: u32, mask: u32) -> bool;
-    fn mode(&self, pin: u8) -> Mode;
-    fn pull(&self, pin: u8) -> Pull;
-    fn is_open_drain(&self, pin: u8) -> bool;
-    /// The level that the program has set for the time when the pad is an output.
-    fn is_high(&self, pin: u8) -> bool;
-    /// Its speed, from 0 to 3.
-    fn speed(&self, pin: u8) -> u8;
 }
 
 /// The condition under which a signal is on a pad.

@@ -3,8 +3,8 @@
 //!
 //! In: writes to the registers of AFIO. Out: the block of each peripheral, and the pads that the debug port holds.
 
-use super::{Mode, Port, Pull};
-use crate::wires::merge;
+use super::port::{Mode, Port, Pull};
+use crate::registers::merge;
 use sensedsl_surroundings::Pad;
 
 /// A port, with the manual's names of its registers.

@@ -1,7 +1,7 @@
 //! The ports of the families after STM32F1: each pad has a mode, and a number for the peripheral that controls it.
 
-use super::{Mode, Port, Pull};
-use crate::wires::merge;
+use super::port::{Mode, Port, Pull};
+use crate::registers::merge;
 
 /// A port, with the manual's names of its registers.
 #[derive(Clone, Copy, Debug)]

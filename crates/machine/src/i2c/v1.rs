@@ -3,7 +3,8 @@
 use super::{I2c, is_held};
 use crate::mcu::Mcu;
 use crate::ports::{PortState, Setting};
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 use sensedsl_surroundings::{I2cEvent, I2cReply};
 
 /// Fast mode; this unit has no fast mode plus.

@@ -7,7 +7,8 @@
 use super::{I2c, is_held};
 use crate::mcu::Mcu;
 use crate::ports::{PortState, Setting};
-use crate::wires::{NEVER, SECOND_NS, Wires, merge, periods_ns};
+use crate::registers::merge;
+use crate::wires::{NEVER, SECOND_NS, Wires, periods_ns};
 use sensedsl_surroundings::{I2cEvent, I2cReply};
 
 /// Fast mode plus.

@@ -1,10 +1,11 @@
 //! The unit of STM32F1 without a connectivity line.
 
-use super::{
+use super::unit::{
     AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, SOURCES, index,
     with_causes, with_ready, with_switch,
 };
-use crate::wires::{Clocks, ResetCause, merge};
+use crate::registers::merge;
+use crate::wires::{Clocks, ResetCause};
 
 /// The internal oscillators.
 const HSI_HZ: u64 = 8_000_000;

@@ -1,10 +1,11 @@
 //! The unit of STM32F4.
 
-use super::{
+use super::unit::{
     AHB, APB, CAUSE_PIN, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, SOURCES, index, with_causes,
     with_ready, with_switch,
 };
-use crate::wires::{Clocks, ResetCause, merge};
+use crate::registers::merge;
+use crate::wires::{Clocks, ResetCause};
 
 /// The internal oscillators.
 const HSI_HZ: u64 = 16_000_000;
@@ -23,7 +24,7 @@ const RESETS_BELOW: u32 = 0x20;
 
 const READY: [(u32, u32); 5] = [(0, 1), (16, 17), (24, 25), (26, 27), (28, 29)];
 /// A power-up also counts as a brown-out.
-const CAUSE_POWER: u32 = super::CAUSE_POWER | 1 << 25;
+const CAUSE_POWER: u32 = super::unit::CAUSE_POWER | 1 << 25;
 
 /// The registers, by offset; the crystal is a property of the board.
 #[derive(Debug)]

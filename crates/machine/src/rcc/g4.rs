@@ -1,10 +1,11 @@
 //! The unit of STM32G4: the core's clock comes from one PLL, and units select among several clocks (CCIPR).
 
-use super::{
+use super::unit::{
     AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, index,
     with_ready, with_switch,
 };
-use crate::wires::{Clocks, ResetCause, merge};
+use crate::registers::merge;
+use crate::wires::{Clocks, ResetCause};
 
 /// The internal oscillators, and the crystal of a clock.
 const HSI_HZ: u64 = 16_000_000;

@@ -7,35 +7,12 @@
 mod f1;
 mod f4;
 mod g4;
+mod unit;
 
-use crate::mcu::Mcu;
-use crate::wires::{Clocks, ResetCause};
+use std::collections::BTreeMap;
 
-/// The unit, in one of its versions.
-pub(crate) trait Rcc: Send {
-    /// Restarts it in its state after a reset. Earlier causes stay until the program clears them, or until power is
-    /// lost, which also clears the backup domain.
-    fn reset(&mut self, cause: ResetCause);
-    /// The causes of resets, as bits 25 to 31 of CSR.
-    fn causes(&self) -> u32;
-    fn read(&self, offset: u32) -> u32;
-    /// Writes a register; returns the peripherals that this holds in reset, by their bits in the enable register at an
-    /// offset.
-    fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)>;
-    /// The offsets of the enable registers.
-    fn enables(&self) -> &'static [u32];
-    fn clocks(&self) -> Clocks;
-
-    /// The frequency of a clock that units can select, by its name in the MCU's file.
-    fn named_hz(&self, _: &str) -> u64 {
-        0
-    }
-
-    /// Whether the peripheral that belongs to a bit of an enable register has its clock.
-    fn is_enabled(&self, offset: u32, bit: u32) -> bool {
-        self.read(offset) >> bit & 1 == 1
-    }
-}
+pub(crate) use self::unit::Rcc;
+use crate::mcu::{Kernel, Mcu};
 
 /// The unit of an MCU in its state after power-up.
 pub(crate) fn new(mcu: &Mcu, crystal_hz: u64) -> Box<dyn Rcc> {
@@ -46,43 +23,12 @@ pub(crate) fn new(mcu: &Mcu, crystal_hz: u64) -> Box<dyn Rcc> {
     }
 }
 
-/// The bits of CSR that the versions have in common: causes of resets, and the bit that clears them.
-const CLEAR: u32 = 1 << 24;
-const CAUSES: u32 = 0xFE00_0000;
-const CAUSE_PIN: u32 = 1 << 26;
-const CAUSE_POWER: u32 = 1 << 27;
-const CAUSE_SOFTWARE: u32 = 1 << 28;
-const CAUSE_WATCHDOG: u32 = 1 << 29;
-
-/// The divider of the core's clock, by the code in HPRE, and those of the buses, by the codes in PPRE1 and PPRE2.
-const AHB: [u64; 16] = [1, 1, 1, 1, 1, 1, 1, 1, 2, 4, 8, 16, 64, 128, 256, 512];
-const APB: [u64; 8] = [1, 1, 1, 1, 2, 4, 8, 16];
-
-/// CR after a write: what is switched on is ready. Each pair is the bit that switches an oscillator or a PLL on, and
-/// the bit that reports it ready.
-fn with_ready(written: u32, pairs: &[(u32, u32)]) -> u32 {
-    pairs
-        .iter()
-        .fold(written, |all, (on, ready)| (all & !(1 << ready)) | (written >> on & 1) << ready)
-}
-
-/// The bits of CR that report HSI, HSE and PLL ready, by their code in CFGR.
-const SOURCES: [u32; 4] = [1, 17, 25, u32::MAX];
-
-/// CFGR after a write: the switch follows the selection once the oscillator runs.
-fn with_switch(written: u32, was: u32, cr: u32, sources: [u32; 4]) -> u32 {
-    let ready = sources[(written & 3) as usize];
-    let is_ready = cr.checked_shr(ready).is_some_and(|cr| cr & 1 == 1);
-    let status = if is_ready { written & 3 } else { was >> 2 & 3 };
-    (written & !0xC) | status << 2
-}
-
-/// CSR after a write: only the LSI's switch and the bit that clears causes have an effect.
-fn with_causes(written: u32, was: u32) -> u32 {
-    let causes = if written & CLEAR == 0 { was & CAUSES } else { 0 };
-    causes | (written & 1) | (written & 1) << 1
-}
-
-fn index(offset: u32) -> usize {
-    (offset / 4) as usize
+/// The frequencies of the units that select their kernel clock.
+pub(crate) fn kernels<'m>(mcu: &'m Mcu, rcc: &dyn Rcc) -> BTreeMap<&'m str, u64> {
+    let selected_hz = |kernel: &Kernel| {
+        let (register, bit, bits) = kernel.field;
+        let code = rcc.read(register) >> bit & ((1 << bits) - 1);
+        kernel.clocks.get(code as usize).map_or(0, |clock| rcc.named_hz(clock))
+    };
+    mcu.kernels().map(|(unit, kernel)| (unit, selected_hz(kernel))).collect()
 }

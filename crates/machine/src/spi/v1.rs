@@ -5,7 +5,8 @@ use super::{
 };
 use crate::mcu::Mcu;
 use crate::ports::PortState;
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 /// The bit of CR1 for items of 16 bits.
 const WIDE: u32 = 1 << 11;

@@ -10,7 +10,8 @@ use super::{
 };
 use crate::mcu::Mcu;
 use crate::ports::PortState;
-use crate::wires::{NEVER, Wires, merge, periods_ns};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 const FIFO_BYTES: usize = 4;
 /// The bit of CR2 for an RXNE that a single byte sets, and not only two.

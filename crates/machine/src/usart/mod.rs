@@ -3,9 +3,12 @@
 //! In: accesses of the program, and bytes from the host or from a device, at the port's speed. Out: bytes at that
 //! speed, interrupts, requests to the DMA.
 
+mod names;
 mod v2;
 mod v4;
 
+pub(crate) use self::names::place;
+use self::names::{LOW_POWER, name};
 use crate::mcu::Mcu;
 use crate::ports::{PortState, Setting};
 use crate::wires::{LinkPort, NEVER, Wires, periods_ns};
@@ -37,25 +40,8 @@ enum Version {
     LowPower,
 }
 
-/// The place of the first low-power port, behind all others.
-const LOW_POWER: usize = 10;
 /// The number of the first low-power port for the surroundings, whose numbers have one byte.
 const LOW_POWER_NUMBER: usize = 128;
-
-/// The place of a unit among the serial ports: 0 is USART1.
-pub(crate) fn place(name: &str) -> Option<usize> {
-    let number = name.trim_start_matches(|letter: char| letter.is_ascii_uppercase());
-    let at = number.parse::<usize>().ok()?.checked_sub(1)?;
-    Some(if name.starts_with("LP") { LOW_POWER + at } else { at })
-}
-
-fn name(place: usize) -> String {
-    match place {
-        LOW_POWER.. => format!("LPUART{}", place - LOW_POWER + 1),
-        3 | 4 | 6 | 7 => format!("UART{}", place + 1),
-        _ => format!("USART{}", place + 1),
-    }
-}
 
 /// A serial port.
 #[derive(Clone, Debug)]

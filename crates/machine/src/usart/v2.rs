@@ -2,7 +2,8 @@
 //! DR. They differ in oversampling.
 
 use super::{COMPLETE, ERRORS, IDLE, RECEIVED, Usart};
-use crate::wires::{Wires, merge};
+use crate::registers::merge;
+use crate::wires::Wires;
 
 /// The bit of CR1 that switches the port on.
 pub(super) const ENABLE: u32 = 1 << 13;

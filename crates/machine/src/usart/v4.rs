@@ -2,7 +2,8 @@
 //! in each direction. Flags are cleared by writing ICR.
 
 use super::{COMPLETE, EMPTY, ERRORS, IDLE, RECEIVED, RECEIVER, TRANSMITTER, Usart};
-use crate::wires::{NEVER, Wires, merge};
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires};
 
 /// The bit of CR1 that switches the port on.
 pub(super) const ENABLE: u32 = 1;

@@ -9,9 +9,10 @@
 //! find the device whenever the unit is on.
 
 use super::host::Host;
-use super::{Function, Usb};
+use super::unit::{Function, Usb};
 use crate::mcu::Mcu;
-use crate::wires::{LinkPort, Wires, merge};
+use crate::registers::merge;
+use crate::wires::{LinkPort, Wires};
 
 const ENDPOINTS: usize = 8;
 /// The frequency that the unit needs, and how far it may be off: 0.25 %.

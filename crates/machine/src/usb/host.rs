@@ -1,6 +1,6 @@
 //! A host computer that uses the board as a serial port: it enumerates the device and moves bytes both ways.
 
-use super::Function;
+use super::unit::Function;
 use crate::wires::{NEVER, Wires};
 
 /// The length of a frame, and the time after which the host polls again.

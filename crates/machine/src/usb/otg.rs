@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 
 use super::host::Host;
-use super::{Function, Usb};
+use super::unit::{Function, Usb};
 use crate::mcu::Mcu;
-use crate::wires::{LinkPort, NEVER, Wires, merge};
+use crate::registers::merge;
+use crate::wires::{LinkPort, NEVER, Wires};
 
 /// The number of endpoints in each direction.
 const ENDPOINTS: usize = 4;
