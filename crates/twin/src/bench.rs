@@ -155,6 +155,15 @@ impl Bench {
         &self.waves
     }
 
+    /// Puts a peer on the CAN buses of the board: from now on, the frames of the world's devices there are not sent.
+    pub fn open_can(&mut self, job: &BoardJob<'_>) -> Peer {
+        let on_can = job.connections.iter().filter(|one| one.connection.kind.can().is_some());
+        let units = on_can.filter_map(|one| self.units.number(one.unit?)).collect();
+        let peer = Peer::new(units);
+        self.peer = Some(peer.clone());
+        peer
+    }
+
     /// Whether the board has no supply.
     #[must_use]
     pub fn is_off(&self, now_ns: u64) -> bool {

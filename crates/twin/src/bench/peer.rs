@@ -3,9 +3,6 @@
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use sensedsl_job::BoardJob;
-
-use super::Bench;
 use sensedsl_surroundings::CanFrame;
 
 /// The most frames that wait in each direction: a peer that does not read loses the oldest ones.
@@ -24,18 +21,11 @@ struct Lines {
     to_board: VecDeque<(u8, CanFrame)>,
 }
 
-impl Bench {
-    /// Puts a peer on the CAN buses of the board: from now on, the frames of the world's devices there are not sent.
-    pub fn open_can(&mut self, job: &BoardJob<'_>) -> Peer {
-        let on_can = job.connections.iter().filter(|one| one.connection.kind.can().is_some());
-        let units = on_can.filter_map(|one| self.units.number(one.unit?)).collect();
-        let peer = Peer { units, lines: Arc::default() };
-        self.peer = Some(peer.clone());
-        peer
-    }
-}
-
 impl Peer {
+    pub(super) fn new(units: BTreeSet<u8>) -> Self {
+        Self { units, lines: Arc::default() }
+    }
+
     /// The unit numbers of the buses.
     pub fn units(&self) -> impl Iterator<Item = u8> + '_ {
         self.units.iter().copied()

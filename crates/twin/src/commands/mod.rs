@@ -4,6 +4,7 @@
 //! In: a board's job, the world's commands, and the length of the run. Out, each millisecond: the bytes that the host
 //! sends; at the end, the findings about each actuator and about levels that never change.
 
+mod command;
 mod compare;
 mod expect;
 pub mod outputs;
@@ -12,10 +13,10 @@ mod tried;
 mod written;
 
 use sensedsl_job::BoardJob;
-use sensedsl_model::design::DeviceIndex;
 use sensedsl_wire::{Direction, Scalar, encode_hello_request, encode_report};
 
 use crate::bench::Bench;
+pub use command::Command;
 use expect::Expected;
 use outputs::Outputs;
 use tried::Actor;
@@ -28,17 +29,6 @@ const UNTOLD_NS: u64 = 450 * MS;
 const SILENCE_MIN_NS: u64 = 100 * MS;
 /// The time from the first command of one actuator to that of the next.
 const APART_NS: u64 = 7 * MS;
-
-/// A command that a world has the host send.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Command {
-    /// The actuator.
-    pub device: DeviceIndex,
-    /// The time of the command.
-    pub at_ns: u64,
-    /// The value as it is on the wire, one scalar for each element.
-    pub value: Vec<Scalar>,
-}
 
 /// The host's current activity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

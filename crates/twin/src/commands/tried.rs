@@ -6,9 +6,10 @@ use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, Scalar};
 
+use super::command::Command;
 use super::expect::{self, Expectation, Expected};
 use super::outputs::Outputs;
-use super::{Command, MS, compare};
+use super::{MS, compare};
 use crate::arith::number;
 use crate::bench::Bench;
 use crate::truth::{Scale, real};

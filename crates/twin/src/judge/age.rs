@@ -8,7 +8,7 @@ use sensedsl_model::kind::icu::{Icu, Mode};
 use sensedsl_model::kind::spi::Spi;
 use sensedsl_wire::Direction;
 
-use super::{MS, SECOND};
+use super::findings::{MS, SECOND};
 use crate::truth::Subject;
 use crate::world::Signal;
 

@@ -9,8 +9,8 @@ use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
 use super::age::link_ns;
+use super::findings::{Disagreement, Finding, MS};
 use super::pace::{Pace, REPEAT_NS};
-use super::{Disagreement, Finding, MS};
 use crate::arith::number;
 use crate::truth::Subject;
 

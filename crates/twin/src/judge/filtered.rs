@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use super::MS;
+use super::findings::MS;
 use crate::arith::{decay, number};
 use crate::truth::Subject;
 

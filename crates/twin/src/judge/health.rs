@@ -5,7 +5,7 @@
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_wire::{Causes, DeviceHealth, Health, NEVER_MS, ResetCause, Status};
 
-use super::{DeviceFindings, Disagreement, Finding, MS};
+use super::findings::{DeviceFindings, Disagreement, Finding, MS};
 use crate::bench::Bench;
 
 /// The health that the world lets a device have when the board is asked for it.

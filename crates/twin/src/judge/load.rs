@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use sensedsl_wire::Health;
 
-use super::{MS, SECOND};
+use super::findings::{MS, SECOND};
 
 /// A board reports the greatest load of any window of this length.
 const WINDOW_NS: u64 = SECOND;

@@ -4,7 +4,7 @@ use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
-use super::{Disagreement, Finding, MS, SECOND};
+use super::findings::{Disagreement, Finding, MS, SECOND};
 use crate::arith::number;
 use crate::bench::Bench;
 use crate::parts::pulses;

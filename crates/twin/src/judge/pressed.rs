@@ -7,8 +7,8 @@ use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
 
+use super::findings::{Disagreement, Finding};
 use super::pace::reporter_ns;
-use super::{Disagreement, Finding};
 use crate::arith::number;
 use crate::parts::line::{Spikes, levels};
 use crate::truth::Subject;

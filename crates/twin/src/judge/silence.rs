@@ -7,7 +7,7 @@
 use sensedsl_model::kind::icu::Icu;
 use sensedsl_model::protocol::Filter;
 
-use super::MS;
+use super::findings::MS;
 use crate::parts::pulses;
 use crate::truth::Subject;
 

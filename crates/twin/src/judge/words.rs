@@ -1,6 +1,6 @@
 //! Findings in words.
 
-use super::{DeviceFindings, Finding, MS};
+use super::findings::{DeviceFindings, Finding, MS};
 use crate::bench::seconds;
 
 impl DeviceFindings {
