@@ -175,6 +175,9 @@ uint32_t up_sequence(size_t field);
 uint32_t up_errors(size_t field);
 uint32_t up_age_ms(size_t field);
 
+/* Before any other of these functions, once the kernel has started. */
+void up_store_start(void);
+
 /* For the reporter: the store and the health of the devices, which it uses between up_lock() and up_unlock(). */
 up_store_t *up_store(void);
 up_health_t *up_health(void);

@@ -26,6 +26,7 @@ pub(super) const FILES: &[File] = own![
     "up_link.h",
     "up_link_serial.c",
     "up_link_usb.c",
+    "up_main.c",
     "up_mcu.h",
     "up_rt.c",
     "up_rt.h",

@@ -21,8 +21,16 @@ const HARDWARE: &str = "generated/sense_hw.c";
 
 /// The files compiled with the tree: the generated ones, and those of the tree that read the
 /// generated settings.
-const OBJECTS: [&str; 7] =
-    ["sense_hw", "sense_model", "up_rt", "up_report", "hal_st_lld", "hal_adc_lld", "hal_icu_lld"];
+const OBJECTS: [&str; 8] = [
+    "sense_hw",
+    "sense_model",
+    "up_main",
+    "up_rt",
+    "up_report",
+    "hal_st_lld",
+    "hal_adc_lld",
+    "hal_icu_lld",
+];
 
 fn write(folder: &Path, files: &Folder) {
     for (path, text) in files {

@@ -73,7 +73,7 @@ const MISTAKES: &[Mistake] = &[
     (
         F4,
         "kinds/analog",
-        "uproxy/chibios/up_rt.c",
+        "uproxy/chibios/up_main.c",
         "task->stack, task->stack_bytes,",
         "task->stack,",
     ),
