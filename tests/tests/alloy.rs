@@ -26,10 +26,10 @@ fn analyze(models: &[PathBuf]) -> Option<Vec<Runs>> {
     }
     let mut call = Command::new("java");
     call.arg("-cp").arg(classes).arg(root().join("tests/alloy/Runs.java")).args(models);
-    let said = printed(&mut call);
-    eprint!("{said}");
+    let output = printed(&mut call);
+    eprint!("{output}");
     let runs = |model: &PathBuf| {
-        let lines = said.lines().filter_map(|line| {
+        let lines = output.lines().filter_map(|line| {
             line.strip_prefix(model.to_str().unwrap()).map(str::split_whitespace)
         });
         let runs = lines.map(|mut words| {

@@ -100,8 +100,8 @@ fn facts_agree_with_the_table() {
         }
         let table = whole(entry);
         for source in &board.source {
-            let said = [&source.what, &source.from, &source.licence];
-            assert!(said.iter().all(|text| !text.is_empty()), "{}: empty source", entry.name);
+            let output = [&source.what, &source.from, &source.licence];
+            assert!(output.iter().all(|text| !text.is_empty()), "{}: empty source", entry.name);
         }
         for lever in board.button.iter().chain(&board.led) {
             let part = &pin(&table, &lever.pin, entry.name).onboard;
@@ -171,12 +171,12 @@ fn wired(entry: &Entry, target: Option<&str>) -> (Design, Assignment) {
     let text = fig2_on(entry);
     let request = Request { path: "fig2.sense", text: &text, board: None, target };
     let resolved = resolve(&request, &NoFiles);
-    let said: Vec<&str> = resolved.diagnostics.iter().map(|said| said.code.name()).collect();
+    let output: Vec<&str> = resolved.diagnostics.iter().map(|output| output.code.name()).collect();
     // Without a profile for the MCU the design is still wired, and a hint names what is not
     // checked.
-    let known = target.is_some() || !said.contains(&"H0702") || said == ["H0702"];
-    assert!(known, "{}: {said:?}", entry.name);
-    let design = resolved.design.unwrap_or_else(|| panic!("{}: {said:?}", entry.name));
+    let known = target.is_some() || !output.contains(&"H0702") || output == ["H0702"];
+    assert!(known, "{}: {output:?}", entry.name);
+    let design = resolved.design.unwrap_or_else(|| panic!("{}: {output:?}", entry.name));
     match Wiring::new(&design, None).solve_only(false) {
         Solved::Wired(wiring) => (design, *wiring),
         _ => panic!("{} cannot carry Fig. 2", entry.name),
@@ -238,9 +238,9 @@ fn places_in_the_tree_exist() {
         let board = tree.join("os/hal/boards").join(&chibios.board).join("board.mk");
         assert!(board.is_file(), "{name}: {}", board.display());
         let mcuconf = tree.join(&chibios.demo).join(&chibios.cfg).join("mcuconf.h");
-        let said = std::fs::read(&mcuconf).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let said = String::from_utf8_lossy(&said).into_owned();
-        assert!(said.contains(&chibios.mcuconf), "{name}: no {}", chibios.mcuconf);
+        let output = std::fs::read(&mcuconf).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let output = String::from_utf8_lossy(&output).into_owned();
+        assert!(output.contains(&chibios.mcuconf), "{name}: no {}", chibios.mcuconf);
         let folder = "os/common/startup/ARMCMx/compilers/GCC/ld";
         let script = tree.join(folder).join(&chibios.ldscript);
         assert!(script.is_file(), "{name}: {}", script.display());

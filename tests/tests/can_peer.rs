@@ -45,15 +45,15 @@ impl Running {
 
     /// The first line that is wanted; if none comes, panics with the lines received.
     fn wait(&self, mut wanted: impl FnMut(&str) -> bool) -> String {
-        let (end, mut said) = (Instant::now() + PATIENCE, Vec::new());
+        let (end, mut reported) = (Instant::now() + PATIENCE, Vec::new());
         while let Ok(line) = self.lines.recv_timeout(end.saturating_duration_since(Instant::now()))
         {
             if wanted(&line) {
                 return line;
             }
-            said.push(line);
+            reported.push(line);
         }
-        panic!("only {said:#?}");
+        panic!("only {reported:#?}");
     }
 }
 

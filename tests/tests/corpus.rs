@@ -22,7 +22,7 @@ use serde_json::Value;
 const ON_TABLE: &str = "board Robot {\n    sensor A returns uint16 {\n        id = 1;\n        type = analog;\n    }\n}\n";
 
 /// The codes and places of all diagnostics for a file, and the exit status of `check`.
-fn said(folder: &Path, file: &str) -> (Vec<(String, String)>, i32) {
+fn reported(folder: &Path, file: &str) -> (Vec<(String, String)>, i32) {
     let call = sensedsl(["check", "--format", "json"]).within(folder);
     let ran = if file.ends_with(".csv") {
         call.arg("--board").arg(file).arg("-").stdin(ON_TABLE).run()
@@ -33,12 +33,12 @@ fn said(folder: &Path, file: &str) -> (Vec<(String, String)>, i32) {
         .unwrap_or_else(|error| panic!("{file}: {error}\n{}\n{}", ran.stdout, ran.stderr));
     let text = |one: &Value, key: &str| one[key].as_str().unwrap().to_owned();
     let diagnostics = value["diagnostics"].as_array().unwrap();
-    let said = diagnostics.iter().map(|one| {
+    let reported = diagnostics.iter().map(|one| {
         assert!(one["help"].is_string(), "{file}: {} gives no way out", one["code"]);
         let (line, column) = (&one["start"]["line"], &one["start"]["column"]);
         (text(one, "code"), format!("{}:{line}:{column}", text(one, "file")))
     });
-    (said.collect(), ran.status)
+    (reported.collect(), ran.status)
 }
 
 #[test]
@@ -53,13 +53,14 @@ fn malformed_input_gets_the_code_that_names_it() {
     for path in &files {
         let file = path.file_name().unwrap().to_string_lossy().into_owned();
         let code = file.split('_').next().unwrap().to_owned();
-        let (said, status) = said(&folder, &file);
-        if !said.iter().any(|(one, _)| *one == code) {
-            unnamed.push(format!("{file}: {said:?}"));
+        let (reported, status) = reported(&folder, &file);
+        if !reported.iter().any(|(one, _)| *one == code) {
+            unnamed.push(format!("{file}: {reported:?}"));
         }
-        let wrong = said.iter().any(|(code, _)| code.starts_with('E'));
+        let wrong = reported.iter().any(|(code, _)| code.starts_with('E'));
         assert_eq!(status != 0, wrong, "{file}: status {status}");
-        let all: Vec<String> = said.iter().map(|(code, place)| format!("{code} {place}")).collect();
+        let all: Vec<String> =
+            reported.iter().map(|(code, place)| format!("{code} {place}")).collect();
         writeln!(found, "{file}: {}", all.join(", ")).unwrap();
     }
     assert!(unnamed.is_empty(), "not said where the file names it:\n{}", unnamed.join("\n"));
@@ -69,11 +70,11 @@ fn malformed_input_gets_the_code_that_names_it() {
     let expected = fs::read_to_string(&list).unwrap();
     let by_file = |text: &str| -> BTreeMap<String, String> {
         let lines = text.lines().filter_map(|line| line.split_once(": "));
-        lines.map(|(file, said)| (file.to_owned(), said.to_owned())).collect()
+        lines.map(|(file, reported)| (file.to_owned(), reported.to_owned())).collect()
     };
     let (expected, found) = (by_file(&expected), by_file(&found));
-    for (file, said) in &found {
-        assert_eq!(expected.get(file), Some(said), "{file}");
+    for (file, reported) in &found {
+        assert_eq!(expected.get(file), Some(reported), "{file}");
     }
     assert_eq!(expected.len(), found.len(), "expected.txt names files that are gone");
 }

@@ -45,9 +45,9 @@ fn what_disagrees_is_told() {
     change("crates/model/drivers/position.sense", "bits = 13..0;", "bits = 12..0;");
     fs::remove_file(copy.join("tests/vectors/drivers/srf02.txt")).unwrap();
     let ran = check(copy.path());
-    let said = String::from_utf8_lossy(&ran.stdout).into_owned();
-    assert_eq!(ran.status.code(), Some(1), "{said}");
+    let log = String::from_utf8_lossy(&ran.stdout).into_owned();
+    assert_eq!(ran.status.code(), Some(1), "{log}");
     for driver in ["adxl345:", "as5047p:", "srf02: no vectors"] {
-        assert!(said.contains(driver), "{driver} in {said}");
+        assert!(log.contains(driver), "{driver} in {log}");
     }
 }

@@ -32,7 +32,7 @@ fn the_pages_are_fresh() {
 /// Each example is wired on a common board, with no diagnostics except hints.
 #[test]
 fn every_example_is_wired() {
-    let mut said = Vec::new();
+    let mut reported = Vec::new();
     for part in facts::all() {
         let text = facts::example(&part);
         let on = sensedsl_session::On::default();
@@ -41,12 +41,12 @@ fn every_example_is_wired() {
         let snapshot = workspace.snapshot("example.sense", on, &sensedsl_model::NoFiles);
         let answer = snapshot.solve(&sensedsl_session::Ask::default());
         if answer.wired().is_none() {
-            said.push(format!("{EXAMPLE_BOARD} does not carry {}", part.name));
+            reported.push(format!("{EXAMPLE_BOARD} does not carry {}", part.name));
         }
         let beyond = answer.diagnostics.iter().filter(|one| one.severity != Severity::Hint);
-        said.extend(beyond.map(|one| format!("{}: {} {}", part.name, one.code, one.message)));
+        reported.extend(beyond.map(|one| format!("{}: {} {}", part.name, one.code, one.message)));
     }
-    assert_eq!(said, [] as [&str; 0]);
+    assert_eq!(reported, [] as [&str; 0]);
 }
 
 #[test]

@@ -30,8 +30,8 @@ fn every_example_is_solved_and_generated() {
         let text = fs::read_to_string(root().join(&path)).unwrap();
         assert!(text.lines().count() <= lines_max(name), "{name} is too long");
         let _ = sensedsl(["fmt", "--check", &path]).run().exits(0);
-        let said = sensedsl(["check", &path]).run().exits(0);
-        assert!(!said.stdout.contains("error"), "{name}: {}", said.stdout);
+        let output = sensedsl(["check", &path]).run().exits(0);
+        assert!(!output.stdout.contains("error"), "{name}: {}", output.stdout);
         let solved = sensedsl(["solve", &path]).run().exits(0).stdout;
         assert!(solved.contains("proved optimal"), "{name}: {solved}");
         let out = scratch.path().join(name).display().to_string();

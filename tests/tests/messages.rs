@@ -15,7 +15,7 @@ fn settings() -> insta::Settings {
 }
 
 /// The output of `check` for people, about a file of the corpus.
-fn said(file: &str) -> String {
+fn reported(file: &str) -> String {
     let folder = sensedsl_tests::root().join("tests/corpus/err");
     let call = sensedsl(["check"]).within(&folder);
     let call = if file.ends_with(".csv") {
@@ -46,7 +46,7 @@ fn messages_for_people() {
     ];
     settings().bind(|| {
         for file in files {
-            insta::assert_snapshot!(file, said(file));
+            insta::assert_snapshot!(file, reported(file));
         }
     });
 }

@@ -19,8 +19,8 @@ fn verify_for(certificate: &Path, files: &[&PathBuf]) -> (i32, String) {
 
 fn ran(verifier: &mut Command) -> (i32, String) {
     let output = verifier.output().unwrap();
-    let said = [output.stdout, output.stderr].concat();
-    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
+    let log = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&log).into_owned())
 }
 
 /// Solves with a certificate and verifies it; returns the output of the verifier.
@@ -31,9 +31,9 @@ fn proved(arguments: &[&str], stdin: &str, status: i32) -> String {
     let call = sensedsl(["solve", "-q"]).arg("--proof").arg(&certificate);
     let ran = arguments.iter().fold(call, |call, argument| call.arg(argument)).stdin(stdin).run();
     assert_eq!(ran.status, status, "{arguments:?}\n{stdin}\n{}", ran.stderr);
-    let (status, said) = verify(&certificate);
-    assert_eq!(status, 0, "{arguments:?}\n{stdin}\n{said}");
-    said
+    let (status, log) = verify(&certificate);
+    assert_eq!(status, 0, "{arguments:?}\n{stdin}\n{log}");
+    log
 }
 
 #[test]
@@ -41,13 +41,13 @@ fn the_examples_are_proved_on_both_boards() {
     for file in ["examples/fig2.sense", "examples/miniature_car.sense"] {
         for board in [BOARD, "STM32F407G-DISC1"] {
             for target in ["chibios", "none"] {
-                let said = proved(&[file, "--board", board, "--target", target], "", 0);
-                assert!(said.contains("none is better"), "{said}");
+                let log = proved(&[file, "--board", board, "--target", target], "", 0);
+                assert!(log.contains("none is better"), "{log}");
             }
         }
     }
-    let said = proved(&["examples/fig2.sense"], "", 0);
-    assert!(said.contains("moved 0, violated 0, shared 0, cost 5, spares 0"), "{said}");
+    let log = proved(&["examples/fig2.sense"], "", 0);
+    assert!(log.contains("moved 0, violated 0, shared 0, cost 5, spares 0"), "{log}");
 }
 
 #[test]
@@ -56,8 +56,8 @@ fn that_there_is_no_wiring_is_proved() {
     let cases =
         [design(BOARD, &["analog"; 10]), design(BOARD, &[bus; 4]), design(BOARD, &["icu"; 9])];
     for file in &cases {
-        let said = proved(&["-"], file, 1);
-        assert!(said.contains("there is no wiring"), "{said}");
+        let log = proved(&["-"], file, 1);
+        assert!(log.contains("there is no wiring"), "{log}");
     }
 }
 
@@ -76,14 +76,14 @@ fn buses_frequencies_wishes_and_boards_are_proved() {
             "analog: prefer pin = PA3;",
         ],
     );
-    let said = proved(&["-"], &mixed, 0);
-    assert!(!said.contains("violated 0"), "the wishes contradict each other: {said}");
+    let log = proved(&["-"], &mixed, 0);
+    assert!(!log.contains("violated 0"), "the wishes contradict each other: {log}");
     let devices: String = (1..=12)
         .map(|id| format!("sensor S{id} returns uint16 {{ id = {id}; type = analog; }}\n"))
         .collect();
     let spare = format!("board A on {BOARD} {{ }}\nspare board B on {BOARD} {{ }}\n{devices}");
-    let said = proved(&["-"], &spare, 0);
-    assert!(said.contains("spares 1"), "{said}");
+    let log = proved(&["-"], &spare, 0);
+    assert!(log.contains("spares 1"), "{log}");
 }
 
 #[test]
@@ -93,8 +93,8 @@ fn moved_wires_are_proved_to_be_needed() {
     let answer = sensedsl(["solve", "-q", "--format", "json", "-"]).stdin(before).run().exits(0);
     let keep = scratch.write(NAMES[3], answer.stdout);
     let after = design(BOARD, &["analog: pin = PC1;", "icu: avoid unit = TIM3;"]);
-    let said = proved(&["-", "--keep", &keep.display().to_string()], &after, 0);
-    assert!(said.contains("moved 1, violated 1"), "{said}");
+    let log = proved(&["-", "--keep", &keep.display().to_string()], &after, 0);
+    assert!(log.contains("moved 1, violated 1"), "{log}");
 }
 
 /// The files of a design, and the answer to `--keep`.
@@ -120,18 +120,18 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
     let _ = solve(&plain).run().exits(0);
     let _ = solve(&proof).arg("--keep").arg(&kept).run().exits(0);
     let all = [&main, &used, &pins, &kept];
-    let (status, said) = verify_for(&proof, &all);
-    assert_eq!(status, 0, "{said}");
+    let (status, log) = verify_for(&proof, &all);
+    assert_eq!(status, 0, "{log}");
     for name in NAMES {
-        assert!(said.contains(&format!("{name}: the same")), "{name}: {said}");
+        assert!(log.contains(&format!("{name}: the same")), "{name}: {log}");
     }
     for missing in 0..4 {
         let given: Vec<_> = (0..4).filter(|at| *at != missing).map(|at| all[at]).collect();
-        let (status, said) = verify_for(&proof, &given);
-        assert!(status == 1 && said.contains("which is not given"), "{said}");
+        let (status, log) = verify_for(&proof, &given);
+        assert!(status == 1 && log.contains("which is not given"), "{log}");
     }
-    let (status, said) = verify_for(&plain, &all);
-    assert!(status == 1 && said.contains("not of"), "nothing was kept: {said}");
+    let (status, log) = verify_for(&plain, &all);
+    assert!(status == 1 && log.contains("not of"), "nothing was kept: {log}");
     assert_eq!(verify_for(&plain, &all[..3]).0, 0);
     // The texts that `parts` prints are those that were used.
     let mut texts = Vec::new();
@@ -139,13 +139,13 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
         let text = sensedsl(["parts"]).args(call).run().exits(0).stdout;
         texts.push(scratch.write(&format!("text{}", texts.len()), text));
     }
-    let (status, said) = verify_for(&plain, &[&main, &used, &pins, &texts[0], &texts[1]]);
-    assert!(status == 0 && !said.contains("not compared"), "{said}");
+    let (status, log) = verify_for(&plain, &[&main, &used, &pins, &texts[0], &texts[1]]);
+    assert!(status == 0 && !log.contains("not compared"), "{log}");
     for (changed, name) in all.into_iter().zip(NAMES) {
         let before = read(changed);
         scratch.write(name, format!("{before} "));
-        let (status, said) = verify_for(&proof, &all);
-        assert!(status == 1 && said.contains("that was solved"), "{name}: {said}");
+        let (status, log) = verify_for(&proof, &all);
+        assert!(status == 1 && log.contains("that was solved"), "{name}: {log}");
         scratch.write(name, before);
     }
     assert_eq!(verify_for(&proof, &all).0, 0);
@@ -162,13 +162,13 @@ fn a_certificate_of_a_built_in_board_is_of_its_table() {
     let _ = call.stdin(read(&given)).run().exits(0);
     let table = sensedsl(["boards", "STM32F407G-DISC1"]).run().exits(0).stdout;
     let table = scratch.write("table", table);
-    let (status, said) = verify_for(&proof, &[&given, &table]);
-    assert!(status == 0 && said.contains("<stdin>: the same"), "{said}");
-    assert!(said.contains("`sensedsl boards STM32F407G-DISC1`: the same"), "{said}");
-    assert!(said.contains("with --target none") && !said.contains("not compared"), "{said}");
+    let (status, log) = verify_for(&proof, &[&given, &table]);
+    assert!(status == 0 && log.contains("<stdin>: the same"), "{log}");
+    assert!(log.contains("`sensedsl boards STM32F407G-DISC1`: the same"), "{log}");
+    assert!(log.contains("with --target none") && !log.contains("not compared"), "{log}");
     let other = sensedsl(["boards", BOARD]).run().exits(0).stdout;
-    let (status, said) = verify_for(&proof, &[&given, &scratch.write("other", other)]);
-    assert!(status == 1 && said.contains("not of"), "{said}");
+    let (status, log) = verify_for(&proof, &[&given, &scratch.write("other", other)]);
+    assert!(status == 1 && log.contains("not of"), "{log}");
 }
 
 #[test]
@@ -191,9 +191,9 @@ fn changed_certificates_are_refused_and_other_files_are_unusable() {
     ] {
         let changed = text.replace(from, to);
         assert_ne!(changed, text, "{from}");
-        let (got, said) = verify(&scratch.write("changed.json", &changed));
-        assert_eq!(got, status, "{from} to {to}: {said}");
-        assert!(!said.is_empty());
+        let (got, log) = verify(&scratch.write("changed.json", &changed));
+        assert_eq!(got, status, "{from} to {to}: {log}");
+        assert!(!log.is_empty());
     }
     assert_eq!(verify(&scratch.join("not there")).0, 2);
     assert_eq!(verify(&scratch.write("text", "no certificate")).0, 2);
@@ -231,6 +231,6 @@ fn a_certificate_is_the_result_where_it_goes_to_the_standard_output() {
     assert_eq!((to_file.status, ran.status), (0, 0), "{}", ran.stderr);
     assert_eq!(ran.stdout, read(&path));
     assert!(!std::path::Path::new("-").exists());
-    let said = answered(Command::new(verifier()).arg("-"), ran.stdout);
-    assert!(said.starts_with("verified"), "{said}");
+    let log = answered(Command::new(verifier()).arg("-"), ran.stdout);
+    assert!(log.starts_with("verified"), "{log}");
 }

@@ -97,8 +97,8 @@ fn a_generated_host_reads_the_pseudo_terminal() {
     let mut simulate = Command::new(binary());
     simulate.args(["simulate", CAR, "--seconds", "60"]).current_dir(root()).stderr(Stdio::null());
     let mut board = Running::new(&mut simulate);
-    let mut said = board.lines();
-    let name = said.find_map(|line| line.strip_prefix("the board is at ").map(str::to_owned));
+    let mut reported = board.lines();
+    let name = reported.find_map(|line| line.strip_prefix("the board is at ").map(str::to_owned));
     let mut host = Running::new(Command::new(program).arg(name.unwrap()));
     let wanted = ["IRFrontRight = ", "USFront = ", "WheelLeftA = ", "RCSteering = "];
     let mut missing: Vec<&str> = wanted.to_vec();

@@ -113,8 +113,13 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
             ("W0804", ["Pins!A6:", "empty row"]),
             ("W0805", ["Pins!C7:", "the number 11"]),
         ] {
-            let said = |line: &str| line.contains(code) && words.iter().all(|w| line.contains(w));
-            assert!(made.stderr.lines().any(said), "{format} {code} {words:?}\n{}", made.stderr);
+            let reported =
+                |line: &str| line.contains(code) && words.iter().all(|w| line.contains(w));
+            assert!(
+                made.stderr.lines().any(reported),
+                "{format} {code} {words:?}\n{}",
+                made.stderr
+            );
         }
         let expected =
             "Pin,Position,ADC,I2C\nPA1,23,ADC1_IN1,-\nPB6,92,-,I2C1_SCL\nPB7,93,-,-\nPC1,16,11,-\n";

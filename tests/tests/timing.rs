@@ -28,9 +28,9 @@ fn sensor(number: usize, ty: &str, properties: &str) -> String {
 }
 
 /// The codes and help texts of all diagnostics.
-fn said(diagnostics: &[Diagnostic]) -> Vec<(&'static str, &str)> {
-    let said = |one: &'_ Diagnostic| one.code.info().code;
-    diagnostics.iter().map(|one| (said(one), one.help.as_deref().unwrap_or_default())).collect()
+fn reported(diagnostics: &[Diagnostic]) -> Vec<(&'static str, &str)> {
+    let reported = |one: &'_ Diagnostic| one.code.info().code;
+    diagnostics.iter().map(|one| (reported(one), one.help.as_deref().unwrap_or_default())).collect()
 }
 
 #[test]
@@ -57,8 +57,8 @@ fn what_the_memory_does_not_hold_is_refused() {
         (1..=count).map(array).collect()
     };
     let (_, diagnostics) = discovery(&arrays(20));
-    assert_eq!(said(&diagnostics)[0].0, "E0626");
-    assert_eq!(said(&discovery(&arrays(3)).1), []);
+    assert_eq!(reported(&diagnostics)[0].0, "E0626");
+    assert_eq!(reported(&discovery(&arrays(3)).1), []);
 }
 
 #[test]
@@ -73,18 +73,18 @@ fn rangers_take_turns() {
         (1..=3).map(ranger).collect()
     };
     let (timing, diagnostics) = discovery(&rangers(200, ""));
-    assert_eq!(said(&diagnostics), []);
+    assert_eq!(reported(&diagnostics), []);
     let turns = |turn: &sensedsl_timing::Turn| (turn.start_ms, turn.measuring_ms, turn.overlaps);
     let turns: Vec<_> = timing.boards[0].turns.iter().map(turns).collect();
     assert_eq!(turns, [(0, 66, false), (66, 66, false), (132, 39, false)]);
 
     let (_, diagnostics) = discovery(&rangers(100, ""));
-    let [("W0625", help)] = said(&diagnostics)[..] else { panic!("{diagnostics:#?}") };
+    let [("W0625", help)] = reported(&diagnostics)[..] else { panic!("{diagnostics:#?}") };
     assert!(help.contains("`delay = 171 ms;`"), "{help}");
-    assert_eq!(said(&discovery(&rangers(171, "")).1), []);
+    assert_eq!(reported(&discovery(&rangers(171, "")).1), []);
     let stated = discovery(&rangers(100, "group = front;")).1;
-    assert_eq!(said(&stated)[0].0, "E0624");
-    assert_eq!(said(&discovery(&rangers(100, "group = none;")).1), []);
+    assert_eq!(reported(&stated)[0].0, "E0624");
+    assert_eq!(reported(&discovery(&rangers(100, "group = none;")).1), []);
 }
 
 /// If no profile states a fact, there is no figure, and nothing is refused because of it.

@@ -62,8 +62,8 @@ fn preprocess(tree: &Path, names: &Names, device: &str) -> Result<Macros> {
         .arg(&file)
         .output()
         .with_context(|| compiler.clone())?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    ensure!(output.status.success(), "{compiler} {} for {device}: {said}", file.display());
+    let log = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "{compiler} {} for {device}: {log}", file.display());
     let text = String::from_utf8_lossy(&output.stdout);
     let defined = text.lines().filter_map(|line| line.strip_prefix("#define "));
     let pair = |define: &str| {

@@ -130,15 +130,15 @@ fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
     stdin.write_all(text.as_bytes())?;
     drop(stdin);
     let output = child.wait_with_output()?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let lines = said.split("the compiler takes all ").nth(1);
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    let lines = log.split("the compiler takes all ").nth(1);
     let lines = lines.and_then(|rest| rest.split_whitespace().next()?.parse().ok());
-    let unjudged = said.lines().filter_map(|line| line.split_once("not judged: "));
+    let unjudged = log.lines().filter_map(|line| line.split_once("not judged: "));
     let unjudged = unjudged.filter_map(|(_, wire)| Some(wire.split_once(", which")?.0.to_owned()));
     Ok(match lines.filter(|_| output.status.success()) {
         Some(lines) => Outcome::Taken(lines, unjudged.collect()),
         None => {
-            let errors = said.lines().filter(|line| line.starts_with("error"));
+            let errors = log.lines().filter(|line| line.starts_with("error"));
             Outcome::Refused(errors.collect::<Vec<_>>().join("; "))
         }
     })

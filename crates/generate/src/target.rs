@@ -135,12 +135,12 @@ fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
 
 /// Adds what [`firmware`] would reject to the diagnostics of a design, as warnings for users who do not generate yet. A
 /// board whose target is `none` wants no firmware, and a design with errors gets none.
-pub fn foresee(design: &Design, wiring: &Assignment, said: &mut Vec<Diagnostic>) {
-    if said.iter().any(|one| one.severity == Severity::Error) {
+pub fn foresee(design: &Design, wiring: &Assignment, reported: &mut Vec<Diagnostic>) {
+    if reported.iter().any(|one| one.severity == Severity::Error) {
         return;
     }
     let is_known = |gap: &Diagnostic| {
-        said.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
+        reported.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
     };
     let mut found = Vec::new();
     for job in jobs(design, wiring) {
@@ -151,7 +151,7 @@ pub fn foresee(design: &Design, wiring: &Assignment, said: &mut Vec<Diagnostic>)
     }
     drop_allowed(design, &mut found);
     if !found.is_empty() {
-        said.append(&mut found);
-        sort(said);
+        reported.append(&mut found);
+        sort(reported);
     }
 }

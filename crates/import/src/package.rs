@@ -400,7 +400,9 @@ mod tests {
             ("<mergeCell ref='A1:B1234567890'/>".to_owned(), "letters"),
         ] {
             match scanned(&text) {
-                Err(Refused::TooMuch(said, _)) => assert!(said.contains(what), "{said}"),
+                Err(Refused::TooMuch(reported, _)) => {
+                    assert!(reported.contains(what), "{reported}")
+                }
                 other => panic!("{what}: {other:?}"),
             }
         }

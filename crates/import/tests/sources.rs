@@ -17,7 +17,7 @@ fn imported(bytes: &[u8]) -> Imported {
 }
 
 /// The `CODE message` lines of an import.
-fn said(imported: &Imported) -> Vec<String> {
+fn reported(imported: &Imported) -> Vec<String> {
     let line = |one: &sensedsl_diagnostics::Diagnostic| format!("{} {}", one.code, one.message);
     imported.diagnostics.iter().map(line).collect()
 }
@@ -25,7 +25,7 @@ fn said(imported: &Imported) -> Vec<String> {
 /// Whether a message has a code and contains all the words.
 fn says(imported: &Imported, code: &str, words: &[&str]) -> bool {
     let holds = |line: &String| line.starts_with(code) && words.iter().all(|w| line.contains(w));
-    said(imported).iter().any(holds)
+    reported(imported).iter().any(holds)
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn workbooks_round_trip_table_1() {
     let expected = catalog::find("STM32F4DiscoveryBoard").unwrap().csv();
     for book in [&include_bytes!("data/table1.xlsx")[..], include_bytes!("data/table1.ods")] {
         let made = imported(book);
-        assert_eq!(said(&made), [""; 0]);
+        assert_eq!(reported(&made), [""; 0]);
         assert_eq!(made.table.unwrap(), expected);
     }
 }
@@ -42,8 +42,16 @@ fn workbooks_round_trip_table_1() {
 fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
     let xlsx = imported(include_bytes!("data/odd.xlsx"));
     let ods = imported(include_bytes!("data/odd.ods"));
-    assert!(says(&xlsx, "W0805", &["Pins!C3:", "=CONCATENATE", "no value"]), "{:?}", said(&xlsx));
-    assert!(says(&ods, "W0805", &["Pins!C3:", "=CONCATENATE", "`ADC1_IN1`"]), "{:?}", said(&ods));
+    assert!(
+        says(&xlsx, "W0805", &["Pins!C3:", "=CONCATENATE", "no value"]),
+        "{:?}",
+        reported(&xlsx)
+    );
+    assert!(
+        says(&ods, "W0805", &["Pins!C3:", "=CONCATENATE", "`ADC1_IN1`"]),
+        "{:?}",
+        reported(&ods)
+    );
     for made in [xlsx, ods] {
         for (code, words) in [
             ("W0804", ["Notes!B2:", "no pin table"]),
@@ -53,7 +61,7 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
             ("W0804", ["Pins!A6:", "empty row"]),
             ("W0805", ["Pins!C7:", "number 11"]),
         ] {
-            assert!(says(&made, code, &words), "{code} {words:?}: {:?}", said(&made));
+            assert!(says(&made, code, &words), "{code} {words:?}: {:?}", reported(&made));
         }
         let table = made.table.unwrap();
         assert!(table.contains("\nPB6,92,-,I2C1_SCL\nPB7,93,-,-\n"), "{table}");
@@ -76,7 +84,7 @@ fn damaged_workbooks_are_refused() {
     for book in [&include_bytes!("data/table1.xlsx")[..], include_bytes!("data/table1.ods")] {
         for end in (4..book.len()).step_by(101) {
             let made = imported(book.get(..end).unwrap());
-            assert!(made.failed() && made.table.is_none(), "{end}: {:?}", said(&made));
+            assert!(made.failed() && made.table.is_none(), "{end}: {:?}", reported(&made));
         }
     }
 }
@@ -86,10 +94,10 @@ fn a_wide_table_keeps_its_columns_under_any_head() {
     let text = "my board;;\nPin name;ADC;Side\nPA1;ADC123-IN1;left\nX;;\nPB0;I2C1-SLC;\n";
     let made = imported(text.as_bytes());
     assert_eq!(made.table.as_deref(), Some("Pin,ADC,Side\nPA1,ADC123-IN1,left\nPB0,I2C1-SLC,\n"));
-    assert!(says(&made, "W0804", &["A1:", "above the table"]), "{:?}", said(&made));
-    assert!(says(&made, "W0805", &["A2:", "`Pin name`"]), "{:?}", said(&made));
-    assert!(says(&made, "W0804", &["A4:", "`X`"]), "{:?}", said(&made));
-    assert!(says(&made, "W0805", &["B5:", "`I2C1-SLC`"]), "{:?}", said(&made));
+    assert!(says(&made, "W0804", &["A1:", "above the table"]), "{:?}", reported(&made));
+    assert!(says(&made, "W0805", &["A2:", "`Pin name`"]), "{:?}", reported(&made));
+    assert!(says(&made, "W0804", &["A4:", "`X`"]), "{:?}", reported(&made));
+    assert!(says(&made, "W0805", &["B5:", "`I2C1-SLC`"]), "{:?}", reported(&made));
 }
 
 #[test]
@@ -99,22 +107,22 @@ fn a_long_table_is_gathered_by_pin() {
     let made = imported(text.as_bytes());
     let expected = "# mcu = STM32F407VG\nPin,Position,ADC,TIM,UART\n\
                     PA2,25,ADC1_IN2,TIM2_CH3@1,USART2_TX@7\nPA10,69,-,-,USART1_RX\n";
-    assert_eq!(made.table.as_deref(), Some(expected), "{:?}", said(&made));
-    assert!(says(&made, "W0804", &["C5:", "`17`"]), "{:?}", said(&made));
-    assert!(says(&made, "W0804", &["A7:", "`?`"]), "{:?}", said(&made));
-    assert!(says(&made, "W0804", &["E3:", "`Speed`"]), "{:?}", said(&made));
+    assert_eq!(made.table.as_deref(), Some(expected), "{:?}", reported(&made));
+    assert!(says(&made, "W0804", &["C5:", "`17`"]), "{:?}", reported(&made));
+    assert!(says(&made, "W0804", &["A7:", "`?`"]), "{:?}", reported(&made));
+    assert!(says(&made, "W0804", &["E3:", "`Speed`"]), "{:?}", reported(&made));
 }
 
 #[test]
 fn other_encodings_are_reported_at_their_cell() {
     let latin1 = imported(b"Pin;I\xb2C\nPB6;I2C1-SCL\n");
     assert_eq!(latin1.table.as_deref(), Some("Pin,I²C\nPB6,I2C1-SCL\n"));
-    assert!(says(&latin1, "W0805", &["B1:", "byte 5 (0xB2)", "`²`"]), "{:?}", said(&latin1));
+    assert!(says(&latin1, "W0805", &["B1:", "byte 5 (0xB2)", "`²`"]), "{:?}", reported(&latin1));
     let utf16: Vec<u8> =
         "\u{feff}Pin,ADC\r\nPA1,ADC1_IN1\r\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
     let utf16 = imported(&utf16);
     assert_eq!(utf16.table.as_deref(), Some("Pin,ADC\nPA1,ADC1_IN1\n"));
-    assert!(says(&utf16, "W0805", &["UTF-16LE"]), "{:?}", said(&utf16));
+    assert!(says(&utf16, "W0805", &["UTF-16LE"]), "{:?}", reported(&utf16));
 }
 
 #[test]
@@ -124,10 +132,10 @@ fn columns_of_alternate_functions_are_numbered() {
     let made = imported(text.as_bytes());
     let expected = "Pin,ADC,TIM,UART\nPA2,ADC123_IN2,TIM2_CH3@1 TIM2_ETR@1,USART2_TX@7\n";
     assert_eq!(
-        (made.table.as_deref(), said(&made).len()),
+        (made.table.as_deref(), reported(&made).len()),
         (Some(expected), 0),
         "{:?}",
-        said(&made)
+        reported(&made)
     );
 }
 
@@ -157,7 +165,7 @@ fn a_hwdef_becomes_devices() {
         assert!(program.contains(line), "{line}\n{program}");
     }
     assert!(!program.contains("PE3") && !program.contains("PA11"), "{program}");
-    assert!(says(&made, "W0804", &["PC1"]), "{:?}", said(&made));
+    assert!(says(&made, "W0804", &["PC1"]), "{:?}", reported(&made));
     let table = made.table.unwrap();
     assert!(table.contains("# mcu = STM32F405XX\n") && table.contains("ADC1_IN2"), "{table}");
     assert!(table.contains("ADC3_IN10"), "{table}");
@@ -188,7 +196,7 @@ fn what_a_hwdef_leaves_open_is_reported() {
         &["flash at PC0", "SPI3"],
         &["OSD_CS at PC2"],
     ] {
-        assert!(says(&made, "W0804", words), "{words:?}: {:?}", said(&made));
+        assert!(says(&made, "W0804", words), "{words:?}: {:?}", reported(&made));
     }
     let program = made.program.unwrap();
     assert!(program.contains("sensor DPS310 ") && !program.contains("BMP280"), "{program}");
@@ -208,7 +216,7 @@ fn broken_descriptions_of_mcus_are_refused() {
         assert!(
             says(&made, "E0801", &[words]) && made.table.is_none(),
             "{text}: {:?}",
-            said(&made)
+            reported(&made)
         );
     }
 }
@@ -242,13 +250,13 @@ fn an_empty_description_of_an_mcu_is_refused_with_a_reason() {
         beside: &|_| Err(ReadError::Missing),
     };
     let made = import(&source);
-    assert!(made.failed() && says(&made, "E0801", &["empty.xml"]), "{:?}", said(&made));
+    assert!(made.failed() && says(&made, "E0801", &["empty.xml"]), "{:?}", reported(&made));
 }
 
 #[test]
 fn a_table_of_which_no_pin_is_left_is_refused() {
     for text in ["Pin,_\n", "Pin,ADC\n???,ADC1_IN1\n", "Pin,ADC\nVDD,\n"] {
         let made = imported(text.as_bytes());
-        assert!(made.failed() && says(&made, "E0802", &[]), "{text:?}: {:?}", said(&made));
+        assert!(made.failed() && says(&made, "E0802", &[]), "{text:?}: {:?}", reported(&made));
     }
 }

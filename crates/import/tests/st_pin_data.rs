@@ -61,13 +61,13 @@ fn every_mcu_is_imported() {
     let paths = files(&data.join("mcu"), "xml");
     assert!(paths.len() >= 2_000, "{} files", paths.len());
     let importer = Importer::default();
-    let mut said: BTreeMap<String, usize> = BTreeMap::new();
+    let mut reported: BTreeMap<String, usize> = BTreeMap::new();
     let mut distinct: BTreeMap<String, (PathBuf, String)> = BTreeMap::new();
     for path in &paths {
         let made = imported_with(&importer, path);
         assert!(!made.failed(), "{}: {:?}", path.display(), made.diagnostics);
         for one in &made.diagnostics {
-            *said.entry(one.code.to_string()).or_default() += 1;
+            *reported.entry(one.code.to_string()).or_default() += 1;
         }
         let csv = made.table.unwrap();
         let rows = csv.split_once("\nPin").unwrap().1.to_owned();
@@ -84,7 +84,7 @@ fn every_mcu_is_imported() {
         shared += usize::from(positions.windows(2).any(|pair| pair[0] == pair[1]));
     }
     eprintln!(
-        "{} MCU files, {} tables, {pins} pins, {shared} with shared pads; said {said:?}",
+        "{} MCU files, {} tables, {pins} pins, {shared} with shared pads; said {reported:?}",
         paths.len(),
         distinct.len()
     );
@@ -160,12 +160,12 @@ fn every_project_is_imported_or_refused_with_a_reason() {
     let paths = files(&data.join("boards"), "ioc");
     assert!(paths.len() >= 250, "{} files", paths.len());
     let mut refused: BTreeMap<String, usize> = BTreeMap::new();
-    let mut said: BTreeMap<String, usize> = BTreeMap::new();
+    let mut reported: BTreeMap<String, usize> = BTreeMap::new();
     let (mut devices, mut done) = (0, 0);
     for path in &paths {
         let made = imported(path);
         for one in &made.diagnostics {
-            *said.entry(one.code.to_string()).or_default() += 1;
+            *reported.entry(one.code.to_string()).or_default() += 1;
         }
         let (Some(program), Some(csv)) = (made.program, made.table) else {
             let code = made.diagnostics.first().unwrap().code;
@@ -196,7 +196,7 @@ fn every_project_is_imported_or_refused_with_a_reason() {
         assert_eq!(laid_out.as_deref(), Ok(program.as_str()), "{}", path.display());
     }
     eprintln!(
-        "{done} of {} projects imported, {devices} devices, refused {refused:?}, said {said:?}",
+        "{done} of {} projects imported, {devices} devices, refused {refused:?}, said {reported:?}",
         paths.len()
     );
     assert!(devices > 2_000, "{devices} devices");

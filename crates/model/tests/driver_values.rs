@@ -5,7 +5,7 @@
 use sensedsl_model::{NoFiles, Request, resolve};
 
 /// The codes and messages of a file with a driver and a chip of it.
-fn said(driver: &str) -> String {
+fn reported(driver: &str) -> String {
     let text = format!(
         "driver own {driver}\nboard STM32F407G_DISC1 {{ chip Chip {{ driver = own; id = 1; }} }}"
     );
@@ -17,9 +17,9 @@ fn said(driver: &str) -> String {
 
 #[track_caller]
 fn tells(driver: &str, wanted: &str) {
-    let said = said(driver);
-    assert!(said.contains(wanted), "{driver}\n{said}");
-    assert_eq!(said.lines().count(), 1, "one mistake, one message\n{said}");
+    let reported = reported(driver);
+    assert!(reported.contains(wanted), "{driver}\n{reported}");
+    assert_eq!(reported.lines().count(), 1, "one mistake, one message\n{reported}");
 }
 
 #[test]
@@ -36,9 +36,9 @@ fn values_that_cannot_stand_in_their_bytes() {
     tells(&i2c("packed = 11; length = 2;", "uint16[2]"), "2 numbers of 11 bits are 3 bytes");
     tells(&i2c("crc = sensirion;", "uint8"), "a checksum follows every two bytes");
     tells(&i2c("register = 256;", "uint8").replace("register = 0; ", ""), "256");
-    assert_eq!(said(&i2c("bits = 15..4; elements = [0, 2, 1];", "int16[3]")), "");
+    assert_eq!(reported(&i2c("bits = 15..4; elements = [0, 2, 1];", "int16[3]")), "");
     let wide = i2c("", "uint8").replace("address", "register_size = 2; address");
-    assert_eq!(said(&wide.replace("register = 0;", "register = 0x0100;")), "");
+    assert_eq!(reported(&wide.replace("register = 0;", "register = 0x0100;")), "");
 }
 
 #[test]
@@ -50,16 +50,18 @@ fn messages_that_never_end() {
     tells(&uart("start = [1]; length = 3; checksum_from = 1;"), "`checksum_from`");
     tells(&uart("start = [1]; length = 3; checksum = sum8; checksum_from = 2;"), "checksum_from");
     assert_eq!(
-        said(&uart("start = [1]; length = 3; checksum = xor8; checksum_from = 1; invert = true;")),
+        reported(&uart(
+            "start = [1]; length = 3; checksum = xor8; checksum_from = 1; invert = true;"
+        )),
         ""
     );
-    assert_eq!(said(&uart("end = \"\\n\";")), "");
+    assert_eq!(reported(&uart("end = \"\\n\";")), "");
 }
 
 /// Only a driver's reading can state how many channels a pulse train has.
 #[test]
 fn pulse_trains_are_readings() {
-    assert_eq!(said("for icu { mode = ppm; reading channels returns uint16[6] {} }"), "");
+    assert_eq!(reported("for icu { mode = ppm; reading channels returns uint16[6] {} }"), "");
     tells("for icu { mode = width; reading channels returns uint16[6] {} }", "E0220");
     let text =
         "board STM32F407G_DISC1 { sensor A returns uint16 { id = 1; type = icu; mode = ppm; } }";

@@ -113,9 +113,10 @@ fn the_library_is_the_folder() {
 #[test]
 fn every_driver_serves_a_part() {
     let mistakes = facts::mistakes();
-    let said = mistakes.iter().filter(|(_, one)| one.severity != Severity::Hint);
-    let said: Vec<String> = said.map(|(name, one)| format!("{name}: {}", one.message)).collect();
-    assert_eq!(said, [] as [&str; 0]);
+    let output = mistakes.iter().filter(|(_, one)| one.severity != Severity::Hint);
+    let output: Vec<String> =
+        output.map(|(name, one)| format!("{name}: {}", one.message)).collect();
+    assert_eq!(output, [] as [&str; 0]);
     let written = LIBRARY.iter().flat_map(|(_, text)| parse(text).ast().drivers());
     let written: Vec<String> = written.map(|one| one.name().unwrap().text().to_owned()).collect();
     let read: Vec<String> = facts::all().into_iter().map(|part| part.name).collect();
@@ -179,7 +180,7 @@ fn misspelled_names_are_understood() {
 /// The example of each part is in the canonical layout, short, and resolves.
 #[test]
 fn every_example_resolves() {
-    let mut said = Vec::new();
+    let mut output = Vec::new();
     for part in facts::all() {
         let text = facts::example(&part);
         let name = &part.name;
@@ -188,9 +189,9 @@ fn every_example_resolves() {
         let request = Request { path: "example.sense", text: &text, ..Request::default() };
         let resolved = resolve(&request, &NoFiles);
         let beyond = resolved.diagnostics.iter().filter(|one| one.severity != Severity::Hint);
-        said.extend(beyond.map(|one| format!("{}: {}", part.name, one.message)));
+        output.extend(beyond.map(|one| format!("{}: {}", part.name, one.message)));
     }
-    assert_eq!(said, [] as [&str; 0]);
+    assert_eq!(output, [] as [&str; 0]);
 }
 
 fn page_of_drivers() -> String {
@@ -231,12 +232,12 @@ fn examples_of_the_driver_page_resolve() {
     assert!(examples.len() >= 3);
     for text in examples {
         let request = Request { path: "example.sense", text, ..Request::default() };
-        let said = resolve(&request, &NoFiles).diagnostics;
-        let said: Vec<&str> = said
+        let output = resolve(&request, &NoFiles).diagnostics;
+        let output: Vec<&str> = output
             .iter()
             .filter(|one| one.severity != Severity::Hint)
             .map(|one| one.message.as_str())
             .collect();
-        assert!(said.is_empty(), "{text}\n{said:?}");
+        assert!(output.is_empty(), "{text}\n{output:?}");
     }
 }

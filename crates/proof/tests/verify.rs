@@ -93,10 +93,13 @@ fn files_are_told_from_others() {
     );
     let compared = |given: &[(&str, &str)]| compared(&subject, given);
     let all = [("a/robot.sense", "one"), ("/home/common/robot.sense", "two"), ("x.csv", "pins")];
-    let said = compared(&all).expect("all are the same");
-    assert!(!said.contains("not compared") && said.contains("with --target none"), "{said}");
-    let said = compared(&all[..2]).expect("the table may be left out");
-    assert!(said.contains("`sensedsl boards B`: not compared"), "{said}");
+    let messages = compared(&all).expect("all are the same");
+    assert!(
+        !messages.contains("not compared") && messages.contains("with --target none"),
+        "{messages}"
+    );
+    let messages = compared(&all[..2]).expect("the table may be left out");
+    assert!(messages.contains("`sensedsl boards B`: not compared"), "{messages}");
     let renamed = [("other.sense", "one"), ("common\\robot.sense", "two")];
     assert!(
         compared(&renamed).is_ok(),
@@ -110,8 +113,8 @@ fn files_are_told_from_others() {
         (&[all[0], all[1], ("y.csv", "pines")], "not of \"y.csv\""),
         (&[all[0], all[1], ("c.sense", "")], "not of \"c.sense\""),
     ] {
-        let said = compared(given).expect_err(why);
-        assert!(said.contains(why), "{given:?}: {said}");
+        let messages = compared(given).expect_err(why);
+        assert!(messages.contains(why), "{given:?}: {messages}");
     }
 }
 
@@ -173,8 +176,8 @@ fn what_is_not_proved_is_refused() {
         (&split, "[0, 0, 0, 0]", "[2, 0, 0, 0]", "no device 2"),
         (&split, "[0, 0, 0, 0]", "[0, 0, 0, 3]", "no candidate 3"),
     ] {
-        let said = verified(&changed(text, from, to)).expect_err(from);
-        assert!(said.contains(why), "{from} to {to}: {said}");
+        let messages = verified(&changed(text, from, to)).expect_err(from);
+        assert!(messages.contains(why), "{from} to {to}: {messages}");
     }
 }
 

@@ -55,15 +55,15 @@ fn capacity_ends_with_the_kinds_that_were_looked_at() {
     let most = Duration::from_secs(4);
     let more = ["--timeout", "1", "--format", "json"];
     let cut = run_within(most, &["capacity"], &boards, &more);
-    let said = String::from_utf8_lossy(&cut.stderr).into_owned();
+    let log = String::from_utf8_lossy(&cut.stderr).into_owned();
     // On a slow machine, not even the wiring is found.
     if cut.status.success() {
         let answer = json(&cut);
         assert_eq!(answer["complete"], false);
         assert!(answer["capacity"].as_array().unwrap().len() < 1_000);
-        assert!(said.contains("stopped: ") && said.contains(" of 1000 were not"), "{said}");
+        assert!(log.contains("stopped: ") && log.contains(" of 1000 were not"), "{log}");
     } else {
-        assert!(said.contains("E0404"), "{said}");
+        assert!(log.contains("E0404"), "{log}");
     }
 
     let whole = run(&["capacity"], &file("whole.sense", 1, 1), &["--format", "json"]);
@@ -76,13 +76,13 @@ fn explain_ends_with_the_pins_that_were_looked_at() {
     let boards = file("explain.sense", 60, 60);
     let more = ["Dev1", "--timeout", "2", "--format", "json"];
     let cut = run_within(Duration::from_secs(5), &["explain", "wiring"], &boards, &more);
-    let said = String::from_utf8_lossy(&cut.stderr).into_owned();
+    let log = String::from_utf8_lossy(&cut.stderr).into_owned();
     // On a slow machine, not even the wiring is found.
     if cut.status.success() {
-        assert!(said.contains("stopped: there may be more pins"), "{said}");
+        assert!(log.contains("stopped: there may be more pins"), "{log}");
         assert_eq!(json(&cut)["complete"], false);
     } else {
-        assert!(said.contains("E0404"), "{said}");
+        assert!(log.contains("E0404"), "{log}");
     }
     let one = file("one.sense", 1, 1);
     let whole = run(&["explain", "wiring"], &one, &["Dev1", "--format", "json"]);

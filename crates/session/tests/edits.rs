@@ -24,7 +24,7 @@ fn car() -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-fn said(workspace: &Workspace) -> Vec<Diagnostic> {
+fn reported(workspace: &Workspace) -> Vec<Diagnostic> {
     workspace.snapshot(NAME, On::default(), &NoFiles).diagnostics().to_vec()
 }
 
@@ -62,11 +62,11 @@ fn random_edits_end_where_a_fresh_reading_is() {
             workspace.edit(NAME, start..end, with).unwrap();
             undo.push(text);
         }
-        let now = said(&workspace);
+        let now = reported(&workspace);
         if number % 100 == 99 {
             let mut fresh = Workspace::default();
             fresh.open(NAME, workspace.text(NAME).unwrap());
-            assert_eq!(now, said(&fresh), "after {number} edits");
+            assert_eq!(now, reported(&fresh), "after {number} edits");
         }
     }
     while let Some(text) = undo.pop() {
@@ -75,7 +75,7 @@ fn random_edits_end_where_a_fresh_reading_is() {
     assert_eq!(workspace.text(NAME).unwrap(), car());
     let mut fresh = Workspace::default();
     fresh.open(NAME, car());
-    assert_eq!(said(&workspace), said(&fresh));
+    assert_eq!(reported(&workspace), reported(&fresh));
 }
 
 #[test]
@@ -134,9 +134,9 @@ fn a_broken_device_leaves_the_others_their_wiring() {
         ("sensor Two returns uint16 { id = 2; type = analog; pin = PB5; }", "E0314"),
         ("sensor Two returns uint16 { id = 2; type = analog; unit = ADC9; }", "E0311"),
     ] {
-        let (wired, left_out, said) = five(broken);
-        assert!(said.contains(&code), "{broken}: {said:?}");
-        assert_eq!(wired, rest, "{broken}: {said:?}");
+        let (wired, left_out, reported) = five(broken);
+        assert!(reported.contains(&code), "{broken}: {reported:?}");
+        assert_eq!(wired, rest, "{broken}: {reported:?}");
         assert_eq!(left_out, ["Two"], "{broken}");
     }
 }
@@ -146,9 +146,9 @@ fn a_conflict_among_the_others_is_still_found() {
     let broken = "sensor Two returns uint16 { id = 2; type = analogue; }
         sensor Six returns uint16 { id = 6; type = analog; pin = PA1; }
         sensor Seven returns uint16 { id = 7; type = analog; pin = PA1; }";
-    let (wired, left_out, said) = five(broken);
+    let (wired, left_out, reported) = five(broken);
     assert_eq!((wired.len(), left_out), (0, vec!["Two".to_owned()]));
-    assert!(said.contains(&"E0207") && said.contains(&"E0401"), "{said:?}");
+    assert!(reported.contains(&"E0207") && reported.contains(&"E0401"), "{reported:?}");
 }
 
 #[test]

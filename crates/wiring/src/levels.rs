@@ -47,14 +47,14 @@ fn volts(board: &Board) -> Option<&'static Volts> {
 
 /// The level that the table gives for the pin: volts, or the letters of ST's data sheets.
 fn stated_mv(pin: &Pin) -> Option<u32> {
-    let said = pin.voltage.as_deref()?.trim();
-    if said.starts_with("FT") {
+    let reported = pin.voltage.as_deref()?.trim();
+    if reported.starts_with("FT") {
         return Some(5_500);
     }
-    if said.starts_with('T') {
+    if reported.starts_with('T') {
         return Some(UNKNOWN_MAX_MV);
     }
-    let volts: f64 = said.trim_end_matches(['V', 'v']).trim().parse().ok()?;
+    let volts: f64 = reported.trim_end_matches(['V', 'v']).trim().parse().ok()?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
     (0.0..1_000.0).contains(&volts).then(|| (volts * 1_000.0).round() as u32)
 }

@@ -201,14 +201,14 @@ fn minimal(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) {
 /// left out.
 fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> usize {
     let everything = vec![true; case.parts.len()];
-    let said = |wanted: &Repair| {
+    let output = |wanted: &Repair| {
         conflict.repairs.iter().find(|one| one.repair == *wanted).map(|one| one.cost)
     };
     let cost = |case: &Case, chosen: &[bool]| all(case, chosen).first().map(|one| one.objective[2]);
     for part in &conflict.parts {
         let mut chosen = everything.clone();
         chosen[part.0] = false;
-        assert_eq!(said(&Repair::Drop(*part)), cost(case, &chosen), "drop {part:?}\n{}", what());
+        assert_eq!(output(&Repair::Drop(*part)), cost(case, &chosen), "drop {part:?}\n{}", what());
         let mut freed = case.clone();
         let own = &mut freed.parts[part.0];
         let fixed = !own.rules.is_empty() || own.connections.iter().any(|(_, pin)| pin.is_some());
@@ -216,7 +216,7 @@ fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> 
         own.connections.iter_mut().for_each(|(_, pin)| *pin = None);
         if fixed && combinations(&freed) <= 4.0 * MOST {
             let cost = cost(&freed, &everything);
-            assert_eq!(said(&Repair::Free(*part)), cost, "free {part:?}\n{}", what());
+            assert_eq!(output(&Repair::Free(*part)), cost, "free {part:?}\n{}", what());
         }
         for board in 0..case.boards.len() {
             let mut moved = case.clone();
@@ -230,7 +230,7 @@ fn true_repairs(case: &Case, conflict: &NoWiring, what: &dyn Fn() -> String) -> 
             let to = sensedsl_model::design::BoardIndex(board);
             // The order of the parts does not matter to the cost.
             let cost = cost(&moved, &everything);
-            assert_eq!(said(&Repair::Move(*part, to)), cost, "move {part:?}\n{}", what());
+            assert_eq!(output(&Repair::Move(*part, to)), cost, "move {part:?}\n{}", what());
         }
     }
     conflict.repairs.len()

@@ -74,7 +74,7 @@ pub fn shown(bytes: &[u8]) -> String {
 fn pipeline(input: &Input, ask: Ask) {
     let resolved = resolved(input, &input.text);
     let Some(design) = &resolved.design else {
-        said(resolved.diagnostics, &resolved.sources);
+        reported(resolved.diagnostics, &resolved.sources);
         in_part(input);
         laid_out(input, None);
         return;
@@ -113,7 +113,7 @@ fn pipeline(input: &Input, ask: Ask) {
     }
     apply_allows(design, &mut diagnostics);
     sort(&mut diagnostics);
-    said(diagnostics, &resolved.sources);
+    reported(diagnostics, &resolved.sources);
     if ask.again && !ask.any {
         laid_out(input, files.as_ref());
     }
@@ -138,7 +138,7 @@ fn in_part(input: &Input) {
         assert_eq!(count(&wiring.boards), design.devices.len());
         reports(design, wiring);
     }
-    said(answer.diagnostics, snapshot.sources());
+    reported(answer.diagnostics, snapshot.sources());
 }
 
 fn resolved(input: &Input, text: &str) -> Resolved {
@@ -255,7 +255,7 @@ fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnost
 
 /// Every place is in its text, edits as well; every form can be rendered; the solver never fails
 /// its own check.
-fn said(mut diagnostics: Vec<Diagnostic>, sources: &SourceMap) {
+fn reported(mut diagnostics: Vec<Diagnostic>, sources: &SourceMap) {
     for one in &diagnostics {
         assert_ne!(one.code.name(), "E0402", "{}", one.message);
         let edits = one.fix.iter().flat_map(|fix| &fix.edits).map(|edit| edit.span);

@@ -36,8 +36,8 @@ fn build() -> PathBuf {
 
 /// The answer to each request, in order.
 fn ask(program: &Path, requests: &[String]) -> Vec<String> {
-    let said = answered(&mut Command::new(program), requests.join("\n") + "\n");
-    let answers: Vec<_> = said.lines().map(str::to_owned).collect();
+    let output = answered(&mut Command::new(program), requests.join("\n") + "\n");
+    let answers: Vec<_> = output.lines().map(str::to_owned).collect();
     assert_eq!(answers.len(), requests.len());
     answers
 }

@@ -55,7 +55,7 @@ pub fn units() -> Vec<Unit> {
                 let text = example(driver, "NUCLEO_F446RE", number, ty.as_deref());
                 match design(&text) {
                     Ok(design) => units.push(Unit { driver: name.clone(), design, cases: own }),
-                    Err(said) => wrong.push_str(&format!("{name}: {said}\n")),
+                    Err(reported) => wrong.push_str(&format!("{name}: {reported}\n")),
                 }
             }
             units
@@ -169,8 +169,8 @@ fn design(text: &str) -> Result<Design, String> {
     let request = Request { path: "example.sense", text, ..Request::default() };
     let resolved = resolve(&request, &NoFiles);
     let is_silent = resolved.diagnostics.is_empty();
-    let said = || resolved.diagnostics.iter().map(|one| format!("{} ", one.message)).collect();
-    resolved.design.filter(|_| is_silent).ok_or_else(said)
+    let reported = || resolved.diagnostics.iter().map(|one| format!("{} ", one.message)).collect();
+    resolved.design.filter(|_| is_silent).ok_or_else(reported)
 }
 
 impl Unit {

@@ -185,9 +185,9 @@ pub fn say(program: &Path, requests: &[String]) -> Vec<String> {
     let output = fed(&mut Command::new(program), requests.join("\n") + "\n");
     let answers = String::from_utf8(output.stdout).unwrap();
     let all: Vec<String> = answers.split_inclusive("end\n").map(str::to_owned).collect();
-    let said = String::from_utf8_lossy(&output.stderr);
+    let log = String::from_utf8_lossy(&output.stderr);
     let at = requests.get(all.len().saturating_sub(1)).cloned().unwrap_or_default();
-    assert!(output.status.success(), "{said}\nin or behind:\n{at}\n{answers:.0}");
+    assert!(output.status.success(), "{log}\nin or behind:\n{at}\n{answers:.0}");
     assert_eq!(all.len(), requests.len());
     all
 }

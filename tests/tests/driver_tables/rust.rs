@@ -299,8 +299,8 @@ impl Run<'_> {
 
     fn is_finished(&self) -> bool {
         let chip = self.chip.as_ref().unwrap();
-        let said = |item: u16| self.reported.results[usize::from(item)] != Outcome::Nothing;
-        chip.table().readings.iter().all(|reading| said(reading.item))
+        let lines = |item: u16| self.reported.results[usize::from(item)] != Outcome::Nothing;
+        chip.table().readings.iter().all(|reading| lines(reading.item))
             && (chip.is_running() || chip.fault() != Outcome::Nothing)
     }
 

@@ -186,9 +186,9 @@ fn linked(project: &Path, triple: &str) -> PathBuf {
     cargo.env(format!("CARGO_TARGET_{variable}_LINKER"), LINKER);
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", RUSTC).env_remove("RUSTFLAGS");
     let output = cargo.current_dir(project).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    assert!(!said.contains("warning"), "{said}");
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{log}");
+    assert!(!log.contains("warning"), "{log}");
     target.join(triple).join("release/firmware")
 }
 

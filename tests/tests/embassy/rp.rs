@@ -184,8 +184,8 @@ fn compiles(project: &Path, triple: &str) {
     let flags = if triple.starts_with("thumbv8m") { "--cfg armv8m --cfg armv8m_main" } else { "" };
     cargo.arg(target).env("RUSTFLAGS", flags).env("CARGO_INCREMENTAL", "0");
     let output = cargo.current_dir(project).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && !said.contains("warning"), "{said}");
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && !log.contains("warning"), "{log}");
 }
 
 /// An image for each core begins as the boot loader of its chip wants it.

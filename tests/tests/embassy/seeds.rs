@@ -56,9 +56,9 @@ fn refusal(folder: &Path, target: &Path, triple: Option<&str>) -> Option<String>
     if output.status.success() {
         return None;
     }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let code = said.split_once("error[").and_then(|(_, rest)| rest.split_once(']'));
-    Some(code.unwrap_or_else(|| panic!("{said}")).0.to_owned())
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    let code = log.split_once("error[").and_then(|(_, rest)| rest.split_once(']'));
+    Some(code.unwrap_or_else(|| panic!("{log}")).0.to_owned())
 }
 
 /// STM32F1 moves the pins of a unit as a block.

@@ -71,8 +71,8 @@ fn runtime_says(scratch_name: &str, change: Option<(&str, &str)>) -> Option<(boo
 
 #[test]
 fn conversions_end_fail_and_hang() {
-    let Some((is_well, said)) = runtime_says("analog-runtime", None) else { return };
-    assert!(is_well && said.contains(" checks, 0 failures"), "{said}");
+    let Some((is_well, reported)) = runtime_says("analog-runtime", None) else { return };
+    assert!(is_well && reported.contains(" checks, 0 failures"), "{reported}");
 }
 
 #[test]
@@ -88,10 +88,10 @@ fn a_broken_thread_is_noticed() {
         ("if (one->driver->state == ADC_ACTIVE) {", "{"),
     ];
     for (at, change) in changes.into_iter().enumerate() {
-        let Some((is_well, said)) = runtime_says(&format!("analog-broken-{at}"), Some(change))
+        let Some((is_well, reported)) = runtime_says(&format!("analog-broken-{at}"), Some(change))
         else {
             return;
         };
-        assert!(!is_well, "{change:?} is not noticed: {said}");
+        assert!(!is_well, "{change:?} is not noticed: {reported}");
     }
 }

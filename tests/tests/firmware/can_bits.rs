@@ -59,12 +59,12 @@ fn compile(is_fdcan: bool) -> PathBuf {
 /// jump width; `None` if it halts.
 fn bit_times(is_fdcan: bool, asked: &[(u32, u32)]) -> Vec<Option<[u32; 4]>> {
     let lines: String = asked.iter().map(|(clock, rate)| format!("{clock} {rate}\n")).collect();
-    let said = answered(&mut Command::new(program(is_fdcan)), lines);
+    let output = answered(&mut Command::new(program(is_fdcan)), lines);
     let numbers = |line: &str| {
         let numbers: Vec<u32> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
         <[u32; 4]>::try_from(numbers).ok()
     };
-    let made: Vec<_> = said.lines().map(numbers).collect();
+    let made: Vec<_> = output.lines().map(numbers).collect();
     assert_eq!(made.len(), asked.len());
     made
 }

@@ -28,8 +28,8 @@ pub(crate) fn build(tree: &Path, board: &Path, mode: &str) -> String {
     let mut make = Command::new("make");
     make.current_dir(board).arg("-j2").arg(format!("UP_MODE={mode}"));
     let output = run(make.arg(format!("CHIBIOS={}", tree.display())));
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(!said.contains("warning"), "{said}");
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!log.contains("warning"), "{log}");
     let program = board.join("build").join(mode).join("sense.elf");
     let size = printed(Command::new("arm-none-eabi-size").arg(program));
     let line = size.lines().nth(1).unwrap_or_default().split_whitespace();
@@ -93,7 +93,7 @@ fn guards_stop_a_tree_that_does_not_fit() {
         let mut make = Command::new("make");
         make.current_dir(&board).arg("-k").arg(format!("CHIBIOS={}", tree.display()));
         let output = make.arg("./build/development/obj/sense_hw.o").output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(!output.status.success() && said.contains(message), "{said}");
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && log.contains(message), "{log}");
     }
 }

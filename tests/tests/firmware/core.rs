@@ -125,8 +125,8 @@ fn runs_on_the_host(compiler: &str) {
     let program = scratch(compiler).join("core");
     let flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
     compile(compiler, &flags, &[sources(), tests_with_codecs()].concat(), &program);
-    let said = printed(Command::new(&program).args(vectors()));
-    assert!(checks(&said, vectors().len()) > 10_000);
+    let log = printed(Command::new(&program).args(vectors()));
+    assert!(checks(&log, vectors().len()) > 10_000);
 }
 
 #[test]
@@ -170,8 +170,8 @@ fn runs_on_an_emulated_cortex_m4() {
     emulator.current_dir(root().join("tests/vectors"));
     emulator.args(["-M", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"]);
     emulator.arg("-semihosting-config").arg(format!("enable=on,target=native,{arguments}"));
-    let said = printed(emulator.arg("-kernel").arg(&program));
-    assert!(checks(&said, vectors().len()) > 10_000);
+    let log = printed(emulator.arg("-kernel").arg(&program));
+    assert!(checks(&log, vectors().len()) > 10_000);
 }
 
 /// A test that cannot fail proves nothing: it must notice a broken core.

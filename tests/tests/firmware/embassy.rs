@@ -44,7 +44,7 @@ pub(crate) fn generated(name: &str, text: &str) -> PathBuf {
 
 /// Builds a project, from which no warning may come.
 pub(crate) fn build(board: &Path) -> PathBuf {
-    try_build(board).unwrap_or_else(|said| panic!("{said}"))
+    try_build(board).unwrap_or_else(|log| panic!("{log}"))
 }
 
 /// Builds a project without optimisation at link time, which takes long and changes nothing here; or what the compiler
@@ -66,9 +66,9 @@ pub(crate) fn try_build(board: &Path) -> Result<PathBuf, String> {
     }
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", "/usr/bin/rustc").env_remove("RUSTFLAGS");
     let output = cargo.current_dir(board).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    if !output.status.success() || said.contains("warning") {
-        return Err(said.into_owned());
+    let log = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() || log.contains("warning") {
+        return Err(log.into_owned());
     }
     let program = board.join("firmware.elf");
     let built = target.join(triple).join("release/firmware");

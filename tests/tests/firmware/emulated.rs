@@ -60,7 +60,7 @@ fn adapt(board: &Path, user: &str) {
 struct Board {
     emulator: Child,
     output: Receiver<Vec<u8>>,
-    said: Vec<u8>,
+    reported: Vec<u8>,
 }
 
 impl Board {
@@ -80,7 +80,7 @@ impl Board {
                 }
             }
         });
-        Self { emulator, output, said: Vec::new() }
+        Self { emulator, output, reported: Vec::new() }
     }
 
     fn say(&mut self, bytes: &[u8]) {
@@ -93,15 +93,15 @@ impl Board {
     fn wait<T>(&mut self, what: &str, found: impl Fn(&[u8]) -> Option<T>) -> T {
         let end = Instant::now() + Duration::from_secs(60);
         loop {
-            if let Some(result) = found(&self.said) {
-                self.said.clear();
+            if let Some(result) = found(&self.reported) {
+                self.reported.clear();
                 return result;
             }
-            let text = String::from_utf8_lossy(&self.said).into_owned();
+            let text = String::from_utf8_lossy(&self.reported).into_owned();
             let left = end.checked_duration_since(Instant::now());
             let left = left.unwrap_or_else(|| panic!("no {what} in {text:?}"));
             if let Ok(bytes) = self.output.recv_timeout(left) {
-                self.said.extend(bytes);
+                self.reported.extend(bytes);
             }
         }
     }
@@ -109,8 +109,8 @@ impl Board {
     /// Types a command and returns its answer.
     fn ask(&mut self, command: &str) -> String {
         self.say(format!("{command}\r\n").as_bytes());
-        self.wait(command, |said| {
-            let text = String::from_utf8_lossy(said);
+        self.wait(command, |reported| {
+            let text = String::from_utf8_lossy(reported);
             let answer = text.split_once(&format!("{command}\r\n"))?.1;
             Some(answer.strip_suffix("ch> ")?.to_owned())
         })
@@ -130,10 +130,10 @@ impl Board {
 
     /// The reports from now on, as soon as there are `count`.
     fn reports(&mut self, schema: &Schema, count: usize) -> Vec<Vec<(u8, Vec<Scalar>)>> {
-        self.wait(&format!("{count} reports"), |said| {
+        self.wait(&format!("{count} reports"), |reported| {
             let mut decoder = Decoder::new(schema, Direction::Sensor);
             let mut reports = Vec::new();
-            decoder.feed(said, |event| {
+            decoder.feed(reported, |event| {
                 if let Event::Report(_, values) = event {
                     reports.push(values);
                 }
@@ -145,10 +145,10 @@ impl Board {
     /// Waits until the frames in the output contain all of `wanted`; returns all frames.
     fn events(&mut self, wanted: &[Event]) -> Vec<Event> {
         let schema = schema();
-        self.wait(&format!("{wanted:?}"), |said| {
+        self.wait(&format!("{wanted:?}"), |reported| {
             let mut decoder = Decoder::new(&schema, Direction::Sensor);
             let mut events = Vec::new();
-            decoder.feed(said, |event| events.push(event));
+            decoder.feed(reported, |event| events.push(event));
             wanted.iter().all(|event| events.contains(event)).then_some(events)
         })
     }
@@ -191,7 +191,7 @@ fn an_application_runs_on_an_emulated_board() {
     adapt(&folder, "emulated_user.c");
     build(&tree, &folder, "development");
     let mut board = Board::start(&folder.join("build/development/sense.elf"), &[]);
-    board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
+    board.wait("prompt", |reported| reported.ends_with(b"ch> ").then_some(()));
 
     assert!(board.ask("info").contains("STM32F407"));
     let threads = board.ask("threads");
@@ -228,7 +228,7 @@ fn an_application_runs_on_an_emulated_board() {
     board.events(std::slice::from_ref(&hello));
 
     board.say(b"q");
-    board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
+    board.wait("prompt", |reported| reported.ends_with(b"ch> ").then_some(()));
     // The host is silent again, so the lamp falls back to its failsafe value.
     board.shows("print Lamp", "  4 Lamp                     9 (");
     // A host that does not know the shell requests a hello, and gets frames.

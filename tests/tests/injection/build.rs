@@ -58,8 +58,8 @@ fn make_takes_a_folder_of_any_name() {
     // The line that `generate` suggests typing next must be valid for a shell.
     let typed = next.lines().find_map(|line| line.strip_prefix("next: sensedsl build ")).unwrap();
     let typed = format!("printf '%s\\n' {typed}");
-    let said = printed(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
-    let words: Vec<&str> = said.lines().collect();
+    let log = printed(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
+    let words: Vec<&str> = log.lines().collect();
     assert_eq!(words, [output.to_str().unwrap(), "--chibios", "/path/to/ChibiOS"]);
     assert!(!is_owned(scratch.path()));
 }
@@ -97,8 +97,8 @@ fn a_folder_that_cmake_cannot_take_is_told() {
     let _ = generate(&source, &output);
     for host in ["cpp", "libcluon", "opendavinci", "opendavinci2014"] {
         let output = configured(&output, host, &scratch);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(!output.status.success() && said.contains("has a semicolon"), "{host}: {said}");
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && log.contains("has a semicolon"), "{host}: {log}");
     }
 }
 

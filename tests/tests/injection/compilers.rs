@@ -10,8 +10,8 @@ use super::corpus::{projects, words};
 
 fn run(command: &mut Command) -> String {
     let output = command.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && said.is_empty(), "{command:?}\n{said}");
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && log.is_empty(), "{command:?}\n{log}");
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
@@ -100,9 +100,9 @@ fn a_program_prints_a_hostile_quantity_as_it_is() {
     let mut command = Command::new("g++");
     command.args(["-std=c++17", "-I"]).arg(include);
     run(command.arg(source).arg("-o").arg(&program));
-    let said = run(&mut Command::new(program));
+    let log = run(&mut Command::new(program));
     let expected = project.texts.iter().map(|text| visible(text) + "\n");
-    assert_eq!(said, expected.collect::<String>());
+    assert_eq!(log, expected.collect::<String>());
 }
 
 /// No generated file has a character that reverses text, colours a terminal or is invisible.

@@ -6,8 +6,8 @@ use sensedsl_tests::sensedsl;
 fn codes(text: String) -> Vec<String> {
     let ran = sensedsl(["check", "--format", "json", "-"]).stdin(text).run();
     assert!(!ran.stdout.contains(|c| is_hidden(c) && c != '\n'), "{}", ran.stdout);
-    let said = ran.json();
-    let diagnostics = said["diagnostics"].as_array().unwrap();
+    let output = ran.json();
+    let diagnostics = output["diagnostics"].as_array().unwrap();
     diagnostics.iter().map(|one| one["code"].as_str().unwrap().to_owned()).collect()
 }
 

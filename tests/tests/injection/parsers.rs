@@ -168,9 +168,9 @@ fn sarif_and_commands_of_github_keep_messages_in_their_place() {
     for project in projects() {
         let file = mistaken(project.source.parent().unwrap(), project);
         let check = |format| sensedsl(["check", "--format", format]).arg(&file).run().exits(1);
-        let said = check("json").json();
-        let diagnostics = said["diagnostics"].as_array().unwrap();
-        assert!(diagnostics.len() >= project.texts.len(), "{said}");
+        let reported = check("json").json();
+        let diagnostics = reported["diagnostics"].as_array().unwrap();
+        assert!(diagnostics.len() >= project.texts.len(), "{reported}");
         let sarif = check("sarif");
         let log = sarif.json();
         assert_eq!(log["version"], "2.1.0");

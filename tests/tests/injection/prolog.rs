@@ -26,9 +26,9 @@ fn prolog_finds_the_same_cost_whatever_devices_are_called() {
     let source = scratch.write("words.sense", design + "}\n");
     let program = sensedsl(["solve", "--format", "prolog"]).arg(&source).run().exits(0).stdout;
     let program = scratch.write("wiring.pl", program);
-    let said = by_swipl(&program);
+    let reported = by_swipl(&program);
     let answer = sensedsl(["solve", "--format", "json"]).arg(&source).run().exits(0).json();
     let cost = answer["cost"].to_string();
-    assert!(said.split(|c: char| !c.is_ascii_digit()).any(|word| word == cost), "{said}");
-    assert!(said.contains("halt") && said.contains("Self_"), "{said}");
+    assert!(reported.split(|c: char| !c.is_ascii_digit()).any(|word| word == cost), "{reported}");
+    assert!(reported.contains("halt") && reported.contains("Self_"), "{reported}");
 }

@@ -96,9 +96,9 @@ fn a_terminal_gets_no_sequence_but_our_colours() {
                 .args(["-qefc", &line, "/dev/null"])
                 .current_dir(project.source.parent().unwrap());
             let output = script.env("TERM", "xterm-256color").output().unwrap();
-            let said = String::from_utf8_lossy(&output.stdout);
-            assert!(command == "check" || said.contains('\u{1b}'), "{said:?}");
-            for sequence in said.split('\u{1b}').skip(1) {
+            let log = String::from_utf8_lossy(&output.stdout);
+            assert!(command == "check" || log.contains('\u{1b}'), "{log:?}");
+            for sequence in log.split('\u{1b}').skip(1) {
                 let end = sequence.find(|c: char| !matches!(c, '[' | ';' | '0'..='9'));
                 let (start, rest) = sequence.split_at(end.unwrap());
                 assert!(start.starts_with('[') && rest.starts_with('m'), "{sequence:?}");

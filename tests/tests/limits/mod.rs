@@ -44,8 +44,8 @@ fn expect(folder: &TempDir, arguments: &[&str], status: i32, code: &str) {
 /// Like `expect` for a refusal: the program must report this code and no other error.
 #[track_caller]
 fn expect_alone(folder: &TempDir, arguments: &[&str], code: &str) {
-    let said = expect_of(binary(), folder, arguments, 1, code);
-    let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error[")).collect();
+    let output = expect_of(binary(), folder, arguments, 1, code);
+    let errors: Vec<&str> = output.lines().filter(|line| line.starts_with("error[")).collect();
     assert!(matches!(errors.as_slice(), [one] if one.contains(code)), "{arguments:?}: {errors:?}");
 }
 
@@ -78,12 +78,12 @@ fn expect_of(
         }
         std::thread::sleep(Duration::from_millis(2));
     };
-    let said = [fs::read(err).unwrap(), fs::read(out).unwrap()].concat();
-    let said = String::from_utf8_lossy(&said);
-    let start: String = said.chars().take(600).collect();
+    let output = [fs::read(err).unwrap(), fs::read(out).unwrap()].concat();
+    let output = String::from_utf8_lossy(&output);
+    let start: String = output.chars().take(600).collect();
     assert_eq!(ended.code(), Some(status), "{arguments:?}: {ended}\n{start}");
-    assert!(said.contains(code), "{arguments:?} does not say {code}\n{start}");
-    said.into_owned()
+    assert!(output.contains(code), "{arguments:?} does not say {code}\n{start}");
+    output.into_owned()
 }
 
 /// `check` or `import` must refuse the text with this code.

@@ -33,13 +33,13 @@ fn grows(command: &str, n: usize, name: &str, make: impl Fn(usize) -> Vec<(&'sta
     });
     let folders = [&none, &once, &twice, &more];
     let mut least_ms = [f64::MAX; 4];
-    let mut said = String::new();
+    let mut reported = String::new();
     for _ in 0..RUNS {
         for (least, folder) in least_ms.iter_mut().zip(folders) {
             *least = least.min(cpu_ms(folder, command, name));
         }
         let [none_ms, once_ms, twice_ms, more_ms] = least_ms;
-        said = format!(
+        reported = format!(
             "{name}: {none_ms:.0} ms for 1, {once_ms:.0} for {n}, {twice_ms:.0} for twice, \
              {more_ms:.0} for {TIMES} times as many"
         );
@@ -47,11 +47,11 @@ fn grows(command: &str, n: usize, name: &str, make: impl Fn(usize) -> Vec<(&'sta
             ms - none_ms <= RATIO_MAX * times * (once_ms - none_ms) + NOISE_MS
         };
         if grown(twice_ms, 2.0) && grown(more_ms, TIMES as f64) {
-            println!("{said}");
+            println!("{reported}");
             return;
         }
     }
-    panic!("{said}");
+    panic!("{reported}");
 }
 
 /// The processor time that the program takes on a file in the folder.

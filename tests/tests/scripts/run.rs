@@ -31,9 +31,9 @@ impl Place {
             let text = text.strip_prefix('@').map_or(text.clone(), shorthand);
             let line = line.replace("$FIG2", "$ROOT/examples/fig2.sense");
             let line = line.replace("$ROOT", &root().display().to_string());
-            let said = self.said();
+            let reported = self.reported();
             let is_right = line.is_empty() || line.starts_with('#') || self.line(&line, text);
-            assert!(is_right, "{}\n{line}\n{said}{}", self.name, self.said());
+            assert!(is_right, "{}\n{line}\n{reported}{}", self.name, self.reported());
         }
     }
 
@@ -88,7 +88,8 @@ impl Place {
             "no" if first == "out" => !self.ran.stdout.contains(others),
             "no" if first == "err" => !self.ran.stderr.contains(others),
             "count" => {
-                let count: usize = both.map(|said| said.matches(others).count()).iter().sum();
+                let count: usize =
+                    both.map(|reported| reported.matches(others).count()).iter().sum();
                 count.to_string() == first
             }
             "json" => {
@@ -112,7 +113,7 @@ impl Place {
         }
     }
 
-    fn said(&self) -> String {
+    fn reported(&self) -> String {
         format!("status {}\n{}\n{}\n", self.ran.status, self.ran.stdout, self.ran.stderr)
     }
 

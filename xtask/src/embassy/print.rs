@@ -228,18 +228,18 @@ fn adcs(
 
 /// The entries of a group: each unit, with its facts.
 fn units(lines: &Lines, group: Group) -> String {
-    let said = |line: &Line| {
+    let reported = |line: &Line| {
         let own = line.facts.units.iter().filter(move |((of, _), _)| *of == group);
         own.map(|((_, name), entry)| (name.clone(), entry.clone())).collect::<Vec<_>>()
     };
-    format!("units = [\n{}]\n", entries(lines, said))
+    format!("units = [\n{}]\n", entries(lines, reported))
 }
 
 /// Entries by name and facts; those that do not apply to all lines give their lines.
-fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> String {
+fn entries(lines: &Lines, reported: impl Fn(&Line) -> Vec<(String, String)>) -> String {
     let mut all: BTreeMap<String, BTreeMap<String, Vec<&String>>> = BTreeMap::new();
     for line in &lines.lines {
-        for (name, entry) in said(line) {
+        for (name, entry) in reported(line) {
             all.entry(name).or_default().entry(entry).or_default().push(&line.name);
         }
     }
@@ -344,25 +344,25 @@ fn system(
         chips.iter().any(|chip| chip.family == "STM32F1"),
         format_args!("{HAL}; {}", facts.target),
     )?;
-    let said = |line: &Line| {
+    let reported = |line: &Line| {
         line.facts
             .peripherals
             .iter()
             .map(|(ours, theirs)| (ours.clone(), format!("hal = \"{theirs}\"")))
             .collect()
     };
-    writeln!(text, "peripherals = [\n{}]", entries(lines, said))?;
+    writeln!(text, "peripherals = [\n{}]", entries(lines, reported))?;
     let switches = switches(folder)?;
     let kind = |field: &String| if switches.contains(field) { "switch" } else { "number" };
-    let said = |line: &Line| {
+    let reported = |line: &Line| {
         line.facts
             .remaps
             .iter()
             .map(|(unit, field)| (unit.clone(), format!("remap = \"{}\"", kind(field))))
             .collect()
     };
-    writeln!(text, "remaps = [\n{}]", entries(lines, said))?;
-    let said = |line: &Line| line.facts.interrupts.clone().into_iter().collect();
-    writeln!(text, "interrupts = [\n{}]", entries(lines, said))?;
+    writeln!(text, "remaps = [\n{}]", entries(lines, reported))?;
+    let reported = |line: &Line| line.facts.interrupts.clone().into_iter().collect();
+    writeln!(text, "interrupts = [\n{}]", entries(lines, reported))?;
     Ok(())
 }

@@ -63,17 +63,17 @@ pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Came>
     let mut too_large = String::new();
     for mode in ["development", "production"] {
         let output = make(&board, tree, mode)?.output().context("make")?;
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let log = String::from_utf8_lossy(&output.stderr).into_owned();
         if output.status.success() {
             let mut built = sizes(&board.join(format!("build/{mode}/sense.elf")))?;
-            built.warnings = ours(&said);
+            built.warnings = ours(&log);
             built.is_production = mode == "production";
             return Ok(Came::Built(built));
         }
-        let Some(overflow) = said.lines().find_map(overflow) else {
+        let Some(overflow) = log.lines().find_map(overflow) else {
             let words = ["error: ", "undefined reference", "***"];
             let is_error = |line: &&str| words.iter().any(|word| line.contains(word));
-            let error = said.lines().find(is_error).or(said.lines().next());
+            let error = log.lines().find(is_error).or(log.lines().next());
             bail!("{}", error.unwrap_or("make failed and says nothing").trim());
         };
         too_large = overflow;
@@ -202,12 +202,12 @@ fn sizes(program: &Path) -> Result<Built> {
 }
 
 /// The warnings that are about our files.
-fn ours(said: &str) -> BTreeSet<String> {
+fn ours(log: &str) -> BTreeSet<String> {
     let of_ours = |line: &&str| {
         let place = line.strip_prefix("./").unwrap_or(line);
         OURS.iter().any(|folder| place.starts_with(folder)) && line.contains(": warning: ")
     };
-    said.lines().filter(of_ours).map(str::to_owned).collect()
+    log.lines().filter(of_ours).map(str::to_owned).collect()
 }
 
 #[cfg(test)]
@@ -226,10 +226,10 @@ mod tests {
 
     #[test]
     fn only_warnings_of_our_files_count() {
-        let said = "generated/sense_hw.c:3:1: warning: unused [-Wunused]\n\
+        let log = "generated/sense_hw.c:3:1: warning: unused [-Wunused]\n\
                     /t/os/hal/hal.c:1:1: warning: conversion\n\
                     ./uproxy/core/up_i2c.c:9:2: warning: conversion\n\
                     generated/sense_hw.c:3:1: note: here\n";
-        assert_eq!(ours(said).len(), 2);
+        assert_eq!(ours(log).len(), 2);
     }
 }

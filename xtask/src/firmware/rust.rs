@@ -104,8 +104,8 @@ fn read(arguments: &[String]) -> Result<Options> {
 /// The target triple of this computer.
 fn host() -> Result<String> {
     let output = Command::new("rustc").arg("-vV").output().context("rustc")?;
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    let host = said.lines().find_map(|line| line.strip_prefix("host: "));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let host = text.lines().find_map(|line| line.strip_prefix("host: "));
     Ok(host.context("rustc -vV names no host")?.to_owned())
 }
 
@@ -141,9 +141,9 @@ fn check(
         cargo.env("RUSTFLAGS", flags);
     }
     let output = cargo.env("CARGO_INCREMENTAL", "0").output().context("cargo")?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
     let is_reported = |line: &&str| line.contains("error") || line.contains("warning");
-    let first = said.lines().find(is_reported).map(str::to_owned);
+    let first = text.lines().find(is_reported).map(str::to_owned);
     Ok(match (output.status.success(), first) {
         (true, first) => first,
         (false, first) => Some(first.unwrap_or_else(|| "cargo failed and says nothing".to_owned())),

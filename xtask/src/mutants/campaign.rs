@@ -121,12 +121,13 @@ impl<'a> Campaign<'a> {
         let group = if is_runtime { runtime } else { generated };
         let Some(site) = group.get(chance.below(group.len())) else { return Ok(()) };
         let text = std::fs::read_to_string(&site.file)?;
-        let (class, said) = subject.outcome(site, folder)?;
+        let (class, messages) = subject.outcome(site, folder)?;
         let place = site.file.strip_prefix(&subject.board).unwrap_or(&site.file).display();
         let place = format!("{place}:{}", site.line);
         let (target, reported) = (target(subject.is_rust), site.reported(&text));
         let number = number.to_string();
-        let cells = [&number, target, &subject.name, site.sort, &place, &reported, &class, &said];
+        let cells =
+            [&number, target, &subject.name, site.sort, &place, &reported, &class, &messages];
         let line = cells.map(|cell| cell.replace(['\t', '\n'], " ")).join("\t");
         Ok(writeln!(lock(&self.into), "{line}")?)
     }

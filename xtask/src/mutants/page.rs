@@ -53,8 +53,10 @@ pub(super) fn page(lines: &str) -> String {
     text.push_str("\n| mistake that nobody notices | |\n| --- | --- |\n");
     for row in rows.iter().filter(|row| cell(row, 6) == "nobody") {
         let [target, design, sort, place, reported] = [1, 2, 3, 4, 5].map(|at| cell(row, at));
-        let said = cell(row, 7).replace('|', "\\|");
-        text.push_str(&format!("| {target}, {design}: {sort} at {place}: {reported} | {said} |\n"));
+        let messages = cell(row, 7).replace('|', "\\|");
+        text.push_str(&format!(
+            "| {target}, {design}: {sort} at {place}: {reported} | {messages} |\n"
+        ));
     }
     text
 }

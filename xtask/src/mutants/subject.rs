@@ -51,7 +51,7 @@ pub(super) struct Subject<'a> {
 
 /// The message of the command, and the output of the MCU.
 struct Run {
-    said: Option<String>,
+    log: Option<String>,
     is_out_of_time: bool,
     seen: Seen,
 }
@@ -97,7 +97,7 @@ impl<'a> Subject<'a> {
         for run in runs? {
             let name = &subject.name;
             ensure!(!run.is_out_of_time, "{name}: the program without a mistake takes too long");
-            ensure!(run.said.is_none(), "{name}: a false alarm: {}", run.said.unwrap_or_default());
+            ensure!(run.log.is_none(), "{name}: a false alarm: {}", run.log.unwrap_or_default());
             subject.seen.push(run.seen);
         }
         Ok(subject)
@@ -189,8 +189,8 @@ impl<'a> Subject<'a> {
         let is_out_of_time = output.status.code() == Some(OUT_OF_TIME);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         let first = text.lines().find(|line| line.starts_with("error"));
-        let said = first.unwrap_or("the command has ended without a word").to_owned();
-        Ok(Run { said: (!output.status.success()).then_some(said), is_out_of_time, seen })
+        let log = first.unwrap_or("the command has ended without a word").to_owned();
+        Ok(Run { log: (!output.status.success()).then_some(log), is_out_of_time, seen })
     }
 
     /// All sites: those in generated files, and those in the runtime.
@@ -221,8 +221,8 @@ impl<'a> Subject<'a> {
         if class != IMAGE || self.settings.is_building {
             return Ok((class, String::new()));
         }
-        let (class, said) = self.tried(&kept)?;
-        Ok((class.to_owned(), said))
+        let (class, log) = self.tried(&kept)?;
+        Ok((class.to_owned(), log))
     }
 
     /// The path at which the image with a mistake is kept: the judge changes more often than the firmware that it
@@ -240,8 +240,8 @@ impl<'a> Subject<'a> {
     /// Builds a program with a mistake, and keeps the image. Returns the class.
     fn made(&self, kept: &Path, embassy: &Path) -> Result<&'static str> {
         let built = self.build(embassy)?;
-        let said = String::from_utf8_lossy(&built.stderr).into_owned();
-        if !built.status.success() || said.contains("warning") {
+        let log = String::from_utf8_lossy(&built.stderr).into_owned();
+        if !built.status.success() || log.contains("warning") {
             return Ok("compiler");
         }
         if self.flash()? == self.right {
@@ -259,9 +259,9 @@ impl<'a> Subject<'a> {
             if run.is_out_of_time {
                 return Ok(("late", String::new()));
             }
-            match run.said {
-                Some(said) if world.is_none() => return Ok(("command", said)),
-                Some(said) => return Ok(("nobody", format!("in the example's world: {said}"))),
+            match run.log {
+                Some(log) if world.is_none() => return Ok(("command", log)),
+                Some(log) => return Ok(("nobody", format!("in the example's world: {log}"))),
                 None => what = what.or_else(|| same::differ(&self.schema, right, &run.seen)),
             }
         }

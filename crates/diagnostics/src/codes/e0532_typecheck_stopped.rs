@@ -15,13 +15,13 @@ folder of `CARGO_HOME`; with an old compiler, run `rustup update`."#,
 });
 
 /// `said` is cargo's output.
-pub fn stopped(span: Span, board: &str, said: &str) -> Diagnostic {
-    let help = if said.contains("rustc") && said.contains("requires") {
+pub fn stopped(span: Span, board: &str, log: &str) -> Diagnostic {
+    let help = if log.contains("rustc") && log.contains("requires") {
         "the crates need a newer compiler: `rustup update`"
-    } else if said.contains("download") || said.contains("network") || said.contains("offline") {
+    } else if log.contains("download") || log.contains("network") || log.contains("offline") {
         "the first check of a chip downloads crates: connect to the network and try again"
     } else {
         "`sensedsl -v check --typecheck` shows the folder; run `cargo check` in it to see all that cargo says"
     };
-    Diagnostic::new(CODE, span, format!("the wiring of {board} was not judged: {said}")).help(help)
+    Diagnostic::new(CODE, span, format!("the wiring of {board} was not judged: {log}")).help(help)
 }

@@ -131,11 +131,11 @@ fn streams(out: &mut String, choices: &Choices<'_>, labels: &Labels) {
     let mut by_stream: BTreeMap<u32, Vec<String>> = BTreeMap::new();
     let used: BTreeSet<u32> =
         choices.ways().flat_map(|way| &way.of.dma).map(|user| user.0).collect();
-    let mut said = false;
+    let mut reported = false;
     for (number, (user, name)) in users.filter(|(at, _)| used.contains(&(*at as u32))) {
-        if !said {
+        if !reported {
             out.push_str("\n// Each DMA request of a peripheral in use has a stream of its own.\n");
-            said = true;
+            reported = true;
         }
         let ways =
             choices.ways().filter(|way| way.of.dma.iter().any(|one| one.0 as usize == number));

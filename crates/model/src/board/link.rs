@@ -32,13 +32,13 @@ pub(crate) fn read(
     node: &ast::Board,
     target: Option<&Target>,
     wired: &[catalog::Link],
-    said: (&Constants, &mut Vec<Diagnostic>),
+    reported: (&Constants, &mut Vec<Diagnostic>),
 ) -> Link {
     let default = match target {
         Some(Target::Profile(profile)) => default_transport(profile, wired),
         Some(Target::None) | None => Transport::Usb,
     };
-    let mut link = stated_link(file, node, default, said);
+    let mut link = stated_link(file, node, default, reported);
     let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
     let driven = |wired: &catalog::Link| match target {
         Some(Target::Profile(profile)) => is_driven(profile, wired),

@@ -27,8 +27,8 @@ pub(crate) fn asked(
     node: &ast::Board,
     board: Span,
 ) -> RequestedTarget {
-    let said = (context.constants, &mut *context.diagnostics);
-    let mut fields = Fields::new(node.properties(), file, "a board", board, said);
+    let reported = (context.constants, &mut *context.diagnostics);
+    let mut fields = Fields::new(node.properties(), file, "a board", board, reported);
     let stated = fields.name("target", "a target such as chibios or embassy");
     for field in fields.rest() {
         let meant = nearest(&field.name, PROPERTIES.iter().copied());

@@ -19,8 +19,8 @@ const EIGHT_BIT: u8 = 0x80;
 pub(crate) fn of(driver: Option<&Driver>, known: Known<'_>) -> Bounds {
     let Some(driver) = driver else { return Bounds::default() };
     // Mistakes in them are reported once for the driver, not for each device.
-    let mut said = Vec::new();
-    of_driver(driver, known, &mut said)
+    let mut reported = Vec::new();
+    of_driver(driver, known, &mut reported)
 }
 
 /// Like [`of`], but also reports mistakes.
@@ -34,8 +34,8 @@ pub(crate) fn of_driver(
         .node
         .properties()
         .filter(|one| one.name().is_some_and(|name| BOUNDS.contains(&name.text())));
-    let said = (known.constants, diagnostics);
-    read(&mut Fields::new(own, driver.file, "a driver", at, said))
+    let reported = (known.constants, diagnostics);
+    read(&mut Fields::new(own, driver.file, "a driver", at, reported))
 }
 
 /// Takes the properties that give a part's bounds.

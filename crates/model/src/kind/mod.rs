@@ -174,9 +174,9 @@ mod tests {
         let mut all = BTreeSet::new();
         for direction in kind.spec().directions {
             let constants = crate::value::constants::Constants::default();
-            let (mut said, at) = (Vec::new(), Span::new(file, 0..0));
+            let (mut reported, at) = (Vec::new(), Span::new(file, 0..0));
             let mut fields =
-                Fields::new(std::iter::empty(), file, "a device", at, (&constants, &mut said));
+                Fields::new(std::iter::empty(), file, "a device", at, (&constants, &mut reported));
             kind.read(&mut fields, *direction, ValueType::scalar(ScalarType::Uint16));
             all.append(&mut fields.asked);
         }

@@ -46,8 +46,8 @@ pub(crate) fn read(
     let owner = format!("the {} `{}`", direction.name(), name.value);
     let (wishes, allows) =
         rule::of_device(file, node.rules(), node.range(), (known.constants, diagnostics));
-    let said = (known.constants, &mut *diagnostics);
-    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let reported = (known.constants, &mut *diagnostics);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, reported);
     let kind_name = kind_name(&mut fields, direction, known.drivers)?;
     fields.rename_owner(kind_name.value.with_article());
     let driver = take_driver(&mut fields, kind_name.value, known, &name.value);
@@ -112,8 +112,8 @@ fn driver_with_values<'d>(
     known: Known<'d>,
 ) -> Option<&'d Driver> {
     let named = node.properties().find(|one| one.name().is_some_and(|n| n.text() == "driver"))?;
-    let (constants, said) = (known.constants, &mut Vec::new());
-    let value = crate::value::Evaluator::new(file, constants, said).value(&named.value()?);
+    let (constants, reported) = (known.constants, &mut Vec::new());
+    let value = crate::value::Evaluator::new(file, constants, reported).value(&named.value()?);
     let driver = known.drivers.look_up(&name_or_text(&value)?)?;
     driver.has_values().then_some(driver)
 }

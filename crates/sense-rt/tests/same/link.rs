@@ -49,7 +49,7 @@ struct Line {
     is_gone: bool,
     room: usize,
     coming: Vec<u8>,
-    said: String,
+    reported: String,
 }
 
 impl Channel for Line {
@@ -77,8 +77,8 @@ impl Channel for Line {
         if self.is_gone {
             return false;
         }
-        self.said.push_str(" w");
-        say_bytes(&mut self.said, bytes);
+        self.reported.push_str(" w");
+        say_bytes(&mut self.reported, bytes);
         self.room -= bytes.len();
         true
     }
@@ -87,7 +87,7 @@ impl Channel for Line {
 struct Board {
     store: Store<[u8; schema(true, Checksum::Crc32).values_bytes()]>,
     health: Health<[Record; ITEMS.len()]>,
-    said: String,
+    reported: String,
 }
 
 impl Host for Board {
@@ -96,14 +96,14 @@ impl Host for Board {
     }
 
     fn apply(&mut self, index: usize, value: &[u8]) {
-        write!(self.said, " a{index}").unwrap();
+        write!(self.reported, " a{index}").unwrap();
         for element in value.chunks(ITEMS[index].scalar.bytes()) {
-            write!(self.said, ":{:x}", ITEMS[index].scalar.load(element)).unwrap();
+            write!(self.reported, ":{:x}", ITEMS[index].scalar.load(element)).unwrap();
         }
     }
 
     fn failsafe(&mut self) {
-        self.said.push_str(" failsafe");
+        self.reported.push_str(" failsafe");
     }
 
     fn intercept(&mut self, byte: u8) -> bool {
@@ -128,7 +128,7 @@ impl Link {
         let board = Board {
             store: Store::new(schema),
             health: Health::new(&CYCLES_MS),
-            said: String::new(),
+            reported: String::new(),
         };
         let reporter = Reporter::new(ReporterConfig { schema, cycle_ms, silence_ms });
         Self { line: Line::default(), board, reporter }
@@ -165,8 +165,8 @@ impl Link {
             self.reporter.cycle(now_us, &mut self.line, &mut self.board);
         }
         // What arrives is applied, or the failsafe taken, before anything is sent.
-        out.push_str(&std::mem::take(&mut self.board.said));
-        out.push_str(&std::mem::take(&mut self.line.said));
+        out.push_str(&std::mem::take(&mut self.board.reported));
+        out.push_str(&std::mem::take(&mut self.line.reported));
         if tells {
             let counts = self.reporter.counts();
             write!(out, " {} {}", counts.reports_sent, counts.reports_refused).unwrap();

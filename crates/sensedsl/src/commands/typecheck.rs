@@ -114,23 +114,23 @@ fn read(job: &BoardJob<'_>, check: &TypeCheck, output: &Output) -> Vec<Diagnosti
     let mut seen = BTreeSet::new();
     let mut elsewhere = None;
     for message in messages(output) {
-        let said = message.get("message").and_then(Value::as_str).unwrap_or_default();
-        let said = ["embassy_stm32::", "embassy_rp::", "peripherals::"]
+        let log = message.get("message").and_then(Value::as_str).unwrap_or_default();
+        let log = ["embassy_stm32::", "embassy_rp::", "peripherals::"]
             .iter()
-            .fold(said.to_owned(), |said, path| said.replace(path, ""));
+            .fold(log.to_owned(), |log, path| log.replace(path, ""));
         let Some(line) = line_of(&message) else { continue };
         match check.lines.get(&line) {
             Some(judged) if seen.insert(line) => {
-                found.push(e0530_wiring_not_of_the_chip::refused(judged.span, &judged.what, &said));
+                found.push(e0530_wiring_not_of_the_chip::refused(judged.span, &judged.what, &log));
             }
             Some(_) => {}
-            None => elsewhere = elsewhere.or(Some(said)),
+            None => elsewhere = elsewhere.or(Some(log)),
         }
     }
     let name = &job.board.name;
     if found.is_empty() && !output.status.success() {
-        let said = elsewhere.unwrap_or_else(|| reason(&String::from_utf8_lossy(&output.stderr)));
-        found.push(e0532_typecheck_stopped::stopped(name.span, &name.value, &said));
+        let log = elsewhere.unwrap_or_else(|| reason(&String::from_utf8_lossy(&output.stderr)));
+        found.push(e0532_typecheck_stopped::stopped(name.span, &name.value, &log));
     }
     found
 }
@@ -150,8 +150,8 @@ fn line_of(message: &Value) -> Option<usize> {
 /// The reason why cargo failed: its first error with the lines that belong to it.
 fn reason(stderr: &str) -> String {
     let lines = stderr.lines().skip_while(|line| !line.starts_with("error"));
-    let said: Vec<&str> = lines.map(str::trim).filter(|line| !line.is_empty()).take(4).collect();
-    if said.is_empty() { "cargo says nothing".to_owned() } else { said.join("; ") }
+    let log: Vec<&str> = lines.map(str::trim).filter(|line| !line.is_empty()).take(4).collect();
+    if log.is_empty() { "cargo says nothing".to_owned() } else { log.join("; ") }
 }
 
 /// The folder for this program in the user's cache.
@@ -181,8 +181,8 @@ mod tests {
 
     #[test]
     fn the_reason_is_cargo_s_own() {
-        let said = "    Updating crates.io index\nerror: failed to download from `x`\n\nCaused by:\n  no network\n";
-        assert_eq!(reason(said), "error: failed to download from `x`; Caused by:; no network");
+        let log = "    Updating crates.io index\nerror: failed to download from `x`\n\nCaused by:\n  no network\n";
+        assert_eq!(reason(log), "error: failed to download from `x`; Caused by:; no network");
         assert_eq!(reason(""), "cargo says nothing");
     }
 }

@@ -57,7 +57,7 @@ impl Lock {
         waiting: &mut dyn FnMut(),
     ) -> Result<Self, NoLock> {
         let began = Instant::now();
-        let mut said = false;
+        let mut reported = false;
         loop {
             if let Some(lock) = Self::try_take(folder)? {
                 return Ok(lock);
@@ -66,9 +66,9 @@ impl Lock {
             if waited >= wait {
                 return Err(NoLock::Busy);
             }
-            if waited >= SILENT && !said {
+            if waited >= SILENT && !reported {
                 waiting();
-                said = true;
+                reported = true;
             }
             thread::sleep(PAUSE);
         }

@@ -22,8 +22,8 @@ pub(crate) use tree::tree;
 fn asked(program: &str, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new(program);
     let output = command.args(arguments).stdin(Stdio::null()).output().ok()?;
-    let said = [output.stdout, output.stderr].map(|one| String::from_utf8_lossy(&one).into_owned());
-    Some(said.join("\n"))
+    let text = [output.stdout, output.stderr].map(|one| String::from_utf8_lossy(&one).into_owned());
+    Some(text.join("\n"))
 }
 
 /// The end of a program in words: `status 2`.

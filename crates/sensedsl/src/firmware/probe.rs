@@ -50,8 +50,8 @@ impl Tool {
     fn look(self) -> Found {
         let (command, arguments, has): (_, &[&str], fn(&str) -> bool) = match self {
             Self::StFlash => ("st-info", &["--probe"], stlink_found),
-            Self::ProbeRs => ("probe-rs", &["list"], |said| said.contains("[0]")),
-            Self::DfuUtil => ("dfu-util", &["--list"], |said| said.contains("Found DFU:")),
+            Self::ProbeRs => ("probe-rs", &["list"], |reported| reported.contains("[0]")),
+            Self::DfuUtil => ("dfu-util", &["--list"], |reported| reported.contains("Found DFU:")),
             Self::Openocd => {
                 let here = asked("openocd", &["--version"]).is_some();
                 return if here { Found::Unknown } else { Found::NoTool };
@@ -63,7 +63,7 @@ impl Tool {
             Some(_) if self == Self::StFlash && asked("st-flash", &["--version"]).is_none() => {
                 Found::NoTool
             }
-            Some(said) if has(&said) => Found::Board,
+            Some(reported) if has(&reported) => Found::Board,
             Some(_) => Found::Nothing,
         }
     }
@@ -85,8 +85,8 @@ impl Tool {
 }
 
 /// Whether the output reports a board: `Found 1 stlink programmers`.
-fn stlink_found(said: &str) -> bool {
-    let count = said.split("Found ").nth(1).and_then(|rest| rest.split_whitespace().next());
+fn stlink_found(reported: &str) -> bool {
+    let count = reported.split("Found ").nth(1).and_then(|rest| rest.split_whitespace().next());
     count.and_then(|count| count.parse::<u32>().ok()).is_some_and(|count| count > 0)
 }
 

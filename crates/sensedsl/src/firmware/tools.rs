@@ -16,8 +16,9 @@ pub(crate) struct Make(pub(crate) &'static str);
 
 /// Make, once everything that a build calls is known to be installed.
 pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
-    let is_gnu =
-        |name: &&&str| asked(name, &["--version"]).is_some_and(|said| said.starts_with("GNU Make"));
+    let is_gnu = |name: &&&str| {
+        asked(name, &["--version"]).is_some_and(|reported| reported.starts_with("GNU Make"))
+    };
     let Some(make) = ["make", "gmake"].iter().find(is_gnu) else {
         return Err(e0516_tool_missing::tool_missing(at, "make", "GNU make runs the build").into());
     };

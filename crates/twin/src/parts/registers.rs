@@ -196,9 +196,9 @@ impl Registers {
         self.write(out);
         let now_ns = self.began_ns;
         let place = self.sent.len();
-        let said =
+        let reported =
             |one: &&Reading| !one.exchange.is_empty() && one.exchange.starts_with(&self.sent);
-        if let Some(first) = self.readings.iter().find(said) {
+        if let Some(first) = self.readings.iter().find(reported) {
             let same: Vec<&Reading> =
                 self.readings.iter().filter(|one| one.exchange == first.exchange).collect();
             let bytes = merged(&self.bytes_of(&same, subjects, now_ns));

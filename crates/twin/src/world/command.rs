@@ -22,13 +22,13 @@ impl<'a> Reader<'a> {
     pub(super) fn commands(&mut self, list: &Value<'_>) {
         let Some(all) = list.get_ref().as_array() else {
             let (span, wanted) = (self.span(list), "a block of its own");
-            self.said.push(unreadable::wrong_sort(span, "`command`", wanted, "[[command]]"));
+            self.reported.push(unreadable::wrong_sort(span, "`command`", wanted, "[[command]]"));
             return;
         };
         for one in all {
             match self.command(one) {
                 Ok(command) => self.world.commands.push(command),
-                Err(said) => self.said.push(*said),
+                Err(reported) => self.reported.push(*reported),
             }
         }
     }

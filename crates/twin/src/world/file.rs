@@ -45,22 +45,22 @@ pub struct Scene<'a> {
 /// Reads a world.
 #[must_use]
 pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnostic>) {
-    let mut reader = Reader { file, scene, said: Vec::new(), world: World::default() };
+    let mut reader = Reader { file, scene, reported: Vec::new(), world: World::default() };
     if let Some(at) = beyond(text) {
         let span = Span::new(file, at..at);
-        reader.said.push(e0551_world_too_large::too_large(span, WORLD_TABLES_MAX));
-        return (reader.world, reader.said);
+        reader.reported.push(e0551_world_too_large::too_large(span, WORLD_TABLES_MAX));
+        return (reader.world, reader.reported);
     }
     match DeTable::parse(text) {
         Ok(table) => reader.read(table.get_ref()),
         Err(error) => {
             let range = error.span().unwrap_or(0..0);
             let span = Span::new(file, range.start.min(text.len())..range.end.min(text.len()));
-            reader.said.push(unreadable::not_toml(span, error.message()));
+            reader.reported.push(unreadable::not_toml(span, error.message()));
         }
     }
     reader.world.faults.sort_by_key(|one| one.at_ns);
-    (reader.world, reader.said)
+    (reader.world, reader.reported)
 }
 
 /// The place at which a text exceeds the number of tables and lists that are read, each of which takes a hundred times
@@ -89,7 +89,7 @@ fn beyond(text: &str) -> Option<usize> {
 pub(super) struct Reader<'a> {
     pub(super) file: FileId,
     pub(super) scene: &'a Scene<'a>,
-    pub(super) said: Vec<Diagnostic>,
+    pub(super) reported: Vec<Diagnostic>,
     pub(super) world: World,
 }
 
@@ -106,9 +106,9 @@ impl<'a> Reader<'a> {
                 Some(seed) => self.world.seed = Some(seed),
                 None => {
                     let wanted = "a whole number from 0 on";
-                    let said =
+                    let reported =
                         unreadable::wrong_sort(self.span(seed), "`seed`", wanted, "seed = 7");
-                    self.said.push(said);
+                    self.reported.push(reported);
                 }
             }
         }
@@ -123,7 +123,7 @@ impl<'a> Reader<'a> {
                     let near = nearest(other, all);
                     let span = self.span(key);
                     let list = "`seed`, `[devices]`, `[[fault]]` and `[[command]]`";
-                    self.said.push(unknown::unknown_word(span, other, "a world", near, list));
+                    self.reported.push(unknown::unknown_word(span, other, "a world", near, list));
                 }
             }
         }
@@ -132,8 +132,9 @@ impl<'a> Reader<'a> {
     fn devices(&mut self, value: &Spanned<DeValue<'_>>) {
         let Some(table) = value.get_ref().as_table() else {
             let example = "[devices]";
-            let said = unreadable::wrong_sort(self.span(value), "`devices`", "a table", example);
-            self.said.push(said);
+            let reported =
+                unreadable::wrong_sort(self.span(value), "`devices`", "a table", example);
+            self.reported.push(reported);
             return;
         };
         for (name, value) in table {
@@ -156,7 +157,7 @@ impl<'a> Reader<'a> {
             let names: Vec<&str> = sensors.map(|one| one.name.value.as_str()).collect();
             let list: Vec<String> = names.iter().take(12).map(|name| format!("`{name}`")).collect();
             let near = nearest(name, names.iter().copied());
-            self.said.push(unknown::unknown_device(span, name, near, &list.join(", ")));
+            self.reported.push(unknown::unknown_device(span, name, near, &list.join(", ")));
             return None;
         };
         let why = if !scene.devices.contains(&index) {
@@ -166,7 +167,7 @@ impl<'a> Reader<'a> {
         } else {
             return Some((index, device));
         };
-        self.said.push(unknown::not_simulated(span, name, why));
+        self.reported.push(unknown::not_simulated(span, name, why));
         None
     }
 
@@ -183,7 +184,7 @@ impl<'a> Reader<'a> {
             Some(list) if list.len() == count => list.iter().collect(),
             Some(list) => {
                 let span = self.span(value);
-                self.said.push(value::wrong_count(span, &name, list.len(), count));
+                self.reported.push(value::wrong_count(span, &name, list.len(), count));
                 return None;
             }
         };
@@ -194,11 +195,11 @@ impl<'a> Reader<'a> {
             match read.signal(entry) {
                 Ok(mut signal) => {
                     turns(device, &mut signal);
-                    self.said.extend(impossible(device, &signal, span));
+                    self.reported.extend(impossible(device, &signal, span));
                     signals.push(signal);
                 }
-                Err(said) => {
-                    self.said.push(*said);
+                Err(reported) => {
+                    self.reported.push(*reported);
                     return None;
                 }
             }
@@ -216,14 +217,14 @@ impl<'a> Reader<'a> {
     fn faults(&mut self, value: &Spanned<DeValue<'_>>) {
         let Some(list) = value.get_ref().as_array() else {
             let wanted = "a block of its own";
-            let said = unreadable::wrong_sort(self.span(value), "`fault`", wanted, "[[fault]]");
-            self.said.push(said);
+            let reported = unreadable::wrong_sort(self.span(value), "`fault`", wanted, "[[fault]]");
+            self.reported.push(reported);
             return;
         };
         for one in list {
             match self.fault(one) {
                 Ok(fault) => self.world.faults.extend(fault),
-                Err(said) => self.said.push(*said),
+                Err(reported) => self.reported.push(*reported),
             }
         }
     }
@@ -306,8 +307,8 @@ fn is_turning(device: &Device) -> bool {
 /// The reason why a device cannot follow a signal.
 fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
-    if let Some(said) = too_fast(device, signal, span) {
-        return Some(said);
+    if let Some(reported) = too_fast(device, signal, span) {
+        return Some(reported);
     }
     if is_counter(&device.kind, device) && signal.falls() {
         return Some(value::falls(span, name));

@@ -48,8 +48,8 @@ pub(crate) fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<ActuatorFin
     with_job(right, |right| {
         with_job(wrong, |wrong| {
             assert_eq!(right.schema.hash(), wrong.schema.hash());
-            let (world, said) = read(right, world, 7);
-            assert!(said.is_empty(), "{said:#?}");
+            let (world, reported) = read(right, world, 7);
+            assert!(reported.is_empty(), "{reported:#?}");
             let bench = Bench::new(right, &world, 7);
             let mut commands = Commands::new(right, &bench, 10_000 * MS);
             let mut board = SoftBoard::new(wrong, bench);
@@ -191,12 +191,12 @@ fn a_world_has_a_script_of_its_own() {
 
 #[test]
 fn a_command_that_cannot_be_is_told_with_its_place() {
-    let said = |text: &str| {
+    let reported = |text: &str| {
         with_job(RIGHT, |job| {
             read(job, text, 7).1.iter().map(|one| one.code.to_string()).collect::<Vec<_>>()
         })
     };
-    let command = |rest: &str| said(&format!("[[command]]\n{rest}\n"));
+    let command = |rest: &str| reported(&format!("[[command]]\n{rest}\n"));
     assert_eq!(command("device = \"Thrust\"\nat = \"1 s\"\nvalue = 400"), ["E0542"]);
     assert_eq!(command("device = \"Thrsut\"\nat = \"1 s\"\nvalue = 4"), ["E0541"]);
     assert_eq!(command("device = \"Servos\"\nat = \"1 s\"\nvalue = [1, 2]"), ["E0542"]);

@@ -88,11 +88,11 @@ fn mistakes_of_firmware_are_seen() {
         } else {
             ""
         };
-        let said = wrong(find, with, world, 12);
-        let is_seen = said.iter().all(|(of, _)| of == name)
-            && said.iter().any(|(_, what)| what.contains(words));
+        let messages = wrong(find, with, world, 12);
+        let is_seen = messages.iter().all(|(of, _)| of == name)
+            && messages.iter().any(|(_, what)| what.contains(words));
         if !is_seen {
-            missed.push(format!("`{find}` as `{with}`: {said:?}"));
+            missed.push(format!("`{find}` as `{with}`: {messages:?}"));
         }
     }
     assert!(missed.is_empty(), "{missed:#?}");

@@ -94,8 +94,8 @@ fn run(
 ) -> Run {
     {
         assert_eq!(job.schema.hash(), board.schema.hash());
-        let (world, said) = read(job, world, 7);
-        assert!(said.is_empty(), "{said:#?}");
+        let (world, output) = read(job, world, 7);
+        assert!(output.is_empty(), "{output:#?}");
         let bench = Bench::new(job, &world, 7);
         let mut judge = Judge::new(job, &bench);
         let mut board = SoftBoard::new(board, bench);
@@ -115,9 +115,9 @@ fn run(
                     judge.take(ms * 1_000_000, &values);
                     reports.push((ms * 1_000_000, values));
                 }
-                Event::Health(said) => {
+                Event::Health(output) => {
                     judge.answered();
-                    judge.health(ms * 1_000_000, &said);
+                    judge.health(ms * 1_000_000, &output);
                     is_healthy = true;
                 }
                 Event::Hello(_)

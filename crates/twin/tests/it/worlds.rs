@@ -14,21 +14,21 @@ const BOARD: &str = "board STM32F4DiscoveryBoard {
 }";
 
 /// The codes and places of the errors in a world.
-fn said(text: &str) -> Vec<(String, String)> {
+fn reported(text: &str) -> Vec<(String, String)> {
     with_job(BOARD, |job| {
-        let (_, said) = read(job, text, 1);
-        for one in &said {
+        let (_, reported) = read(job, text, 1);
+        for one in &reported {
             assert!(one.help.is_some(), "{one:#?}");
         }
         let place = |one: &sensedsl_diagnostics::Diagnostic| {
             text.get(one.primary.span.range()).unwrap_or_default().to_owned()
         };
-        said.iter().map(|one| (one.code.to_string(), place(one))).collect()
+        reported.iter().map(|one| (one.code.to_string(), place(one))).collect()
     })
 }
 
 fn only(text: &str, code: &str, place: &str) {
-    assert_eq!(said(text), [(code.to_owned(), place.to_owned())], "{text}");
+    assert_eq!(reported(text), [(code.to_owned(), place.to_owned())], "{text}");
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn every_mistake_is_told_with_its_place() {
     {
         only(&format!("{d}Rain = {fast}"), "E0542", fast);
     }
-    assert_eq!(said(&format!("{d}Rain = {{ rate = 24 }}")), []);
+    assert_eq!(reported(&format!("{d}Rain = {{ rate = 24 }}")), []);
     only(
         &format!("{d}Light = {{ ramp = [0, 1], over = \"1 fortnight\" }}"),
         "E0543",
@@ -89,8 +89,8 @@ fn every_mistake_is_told_with_its_place() {
 fn samples_are_joined_by_straight_lines() {
     with_job(BOARD, |job| {
         let text = "[devices]\nLight = { csv = \"drive.csv\", column = \"speed\" }";
-        let (world, said) = read(job, text, 1);
-        assert!(said.is_empty(), "{said:#?}");
+        let (world, reported) = read(job, text, 1);
+        assert!(reported.is_empty(), "{reported:#?}");
         let signal = &world.signals.values().next().unwrap()[0];
         assert!((signal.at(500_000_000) - 15.0).abs() < 1e-9);
         assert!((signal.at(9_000_000_000) - 20.0).abs() < 1e-9);
@@ -151,8 +151,8 @@ const SHOWN: &str = "board STM32F407G_DISC1 {
 fn values_carry_units_and_codes() {
     with_job(SHOWN, |job| {
         let of = |line: &str, at_s: u64| {
-            let (world, said) = read(job, &format!("[devices]\n{line}"), 1);
-            assert!(said.is_empty(), "{line}: {said:#?}");
+            let (world, reported) = read(job, &format!("[devices]\n{line}"), 1);
+            assert!(reported.is_empty(), "{line}: {reported:#?}");
             world.signals.values().next().unwrap()[0].at(at_s * 1_000_000_000)
         };
         for (line, at_s, expected) in [
@@ -174,8 +174,8 @@ fn values_carry_units_and_codes() {
         }
         let command = |device: &str, value: &str| {
             let text = format!("[[command]]\ndevice = \"{device}\"\nat = 1\nvalue = {value}");
-            let (world, said) = read(job, &text, 1);
-            assert!(said.is_empty(), "{value}: {said:#?}");
+            let (world, reported) = read(job, &text, 1);
+            assert!(reported.is_empty(), "{value}: {reported:#?}");
             sensedsl_twin::truth::real(world.commands[0].value[0])
         };
         for (device, value, code) in [
@@ -205,9 +205,9 @@ fn a_unit_that_does_not_fit_is_told() {
             ("Bent = { sine = \"raw 5\", period = 1 }", "E0542", "along a `curve`"),
             ("Front = { noise = \"much\", value = 20 }", "E0540", "`noise` must be"),
         ] {
-            let (_, said) = read(job, &format!("[devices]\n{line}"), 1);
+            let (_, reported) = read(job, &format!("[devices]\n{line}"), 1);
             let found: Vec<_> =
-                said.iter().map(|one| (one.code.to_string(), &*one.message)).collect();
+                reported.iter().map(|one| (one.code.to_string(), &*one.message)).collect();
             assert_eq!(found.len(), 1, "{line}: {found:#?}");
             assert!(found[0].0 == code && found[0].1.contains(words), "{line}: {found:#?}");
         }
@@ -215,10 +215,10 @@ fn a_unit_that_does_not_fit_is_told() {
             [("Servo", "\"3 ms\""), ("Servo", "\"5 cm\""), ("Motor", "\"5 m/s\"")]
         {
             let text = format!("[[command]]\ndevice = \"{device}\"\nat = 1\nvalue = {value}");
-            let (_, said) = read(job, &text, 1);
-            assert_eq!(said.len(), 1, "{value}: {said:#?}");
-            assert_eq!(said[0].code.to_string(), "E0542");
-            assert!(said[0].help.is_some());
+            let (_, reported) = read(job, &text, 1);
+            assert_eq!(reported.len(), 1, "{value}: {reported:#?}");
+            assert_eq!(reported[0].code.to_string(), "E0542");
+            assert!(reported[0].help.is_some());
         }
     });
 }

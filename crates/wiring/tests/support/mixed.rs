@@ -48,8 +48,9 @@ impl Text {
         let target = Some(self.target);
         let request = Request { path: "mixed.sense", text: &self.sense, board: None, target };
         let resolved = resolve(&request, self);
-        let said: Vec<&str> = resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
-        resolved.design.unwrap_or_else(|| panic!("{said:?}\n{}", self.sense))
+        let reported: Vec<&str> =
+            resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
+        resolved.design.unwrap_or_else(|| panic!("{reported:?}\n{}", self.sense))
     }
 }
 

@@ -355,10 +355,12 @@ impl Text {
     pub fn design(&self) -> Option<Design> {
         let (path, text, target) = ("tied.sense", self.sense.as_str(), Some(self.target));
         let resolved = resolve(&Request { path, text, board: None, target }, self);
-        let said: Vec<&str> = resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
-        let is_unnamed = said.iter().any(|said| said.starts_with("no pin of the board is"));
+        let reported: Vec<&str> =
+            resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
+        let is_unnamed =
+            reported.iter().any(|reported| reported.starts_with("no pin of the board is"));
         if resolved.design.is_none() {
-            assert!(is_unnamed, "{said:?}\n{}", self.all());
+            assert!(is_unnamed, "{reported:?}\n{}", self.all());
         }
         resolved.design
     }

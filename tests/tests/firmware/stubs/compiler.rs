@@ -116,7 +116,7 @@ pub(super) fn compile_all(name: &str, all: &[Firmware]) -> (Vec<String>, usize) 
     static SEEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let place = scratch(&format!("stubs/{name}"));
     let (next, read) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let said = Mutex::new(Vec::new());
+    let reported = Mutex::new(Vec::new());
     let work = || {
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
@@ -138,7 +138,7 @@ pub(super) fn compile_all(name: &str, all: &[Firmware]) -> (Vec<String>, usize) 
                 if words.is_empty() {
                     SEEN.lock().unwrap().extend(keys.into_iter().map(|(_, key)| key));
                 } else {
-                    said.lock().unwrap().push(format!("{} {mode}:\n{words}", one.title));
+                    reported.lock().unwrap().push(format!("{} {mode}:\n{words}", one.title));
                 }
             }
         }
@@ -149,9 +149,9 @@ pub(super) fn compile_all(name: &str, all: &[Firmware]) -> (Vec<String>, usize) 
             let _ = scope.spawn(work);
         }
     });
-    let mut said = said.into_inner().unwrap();
-    said.sort();
-    (said, read.into_inner())
+    let mut reported = reported.into_inner().unwrap();
+    reported.sort();
+    (reported, read.into_inner())
 }
 
 pub(super) fn write(folder: &Path, files: &Folder) {

@@ -84,9 +84,9 @@ fn every_family_and_kind_compiles_with_the_stubs() {
             }
         }
     }
-    let (said, read) = compile_all("families", &all);
+    let (reported, read) = compile_all("families", &all);
     eprintln!("{} firmwares, {read} files read", all.len());
-    assert!(said.is_empty(), "{} of {}:\n{}", said.len(), all.len(), said.concat());
+    assert!(reported.is_empty(), "{} of {}:\n{}", reported.len(), all.len(), reported.concat());
     if is_thorough() && !is_exhaustive() {
         assert_eq!(not_made, NOT_MADE);
     }

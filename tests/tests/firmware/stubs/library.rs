@@ -120,9 +120,9 @@ fn every_driver_and_every_example_has_firmware_and_hosts() {
         all = all.into_iter().step_by(4).collect();
     }
     if is_here() {
-        let (said, read) = compile_all("library", &all);
+        let (reported, read) = compile_all("library", &all);
         eprintln!("{} firmwares, {read} files read", all.len());
-        assert!(said.is_empty(), "{} of {}:\n{}", said.len(), all.len(), said.concat());
+        assert!(reported.is_empty(), "{} of {}:\n{}", reported.len(), all.len(), reported.concat());
     }
     assert!(designs.len() > 100, "{}", designs.len());
 }

@@ -101,8 +101,8 @@ fn mistakes_in_templates_are_refused() {
         let only: Vec<&str> = if path.ends_with(".c") { vec![path] } else { vec![HARDWARE] };
         let folder = place.join(index.to_string());
         write(&folder, &files);
-        let said = compile(&folder, &macros_of(board), "development", &only);
-        if !said.contains("error") {
+        let reported = compile(&folder, &macros_of(board), "development", &only);
+        if !reported.contains("error") {
             passed.push(format!("{board} {path}: `{with}` for `{find}`"));
         }
     }

@@ -203,7 +203,7 @@ impl Bench {
     }
 
     /// The bytes that the host received, as text.
-    pub(super) fn said(&self) -> String {
+    pub(super) fn reported(&self) -> String {
         let bytes: Vec<u8> = self.received.iter().map(|(_, byte)| *byte).collect();
         String::from_utf8_lossy(&bytes).into_owned()
     }

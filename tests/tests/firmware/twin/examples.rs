@@ -93,8 +93,9 @@ fn agrees(system: System, (example, world_name): (&str, &str), link: &str) {
     let design = (text.as_str(), world.as_str());
     let trial = match Host::start(&what, &text) {
         Some(mut host) => {
-            let trial =
-                run_with(system, design, &image, SECONDS, |ms, said, _| host.pass(ms, said));
+            let trial = run_with(system, design, &image, SECONDS, |ms, reported, _| {
+                host.pass(ms, reported)
+            });
             host.assert_shows(&what, &trial);
             trial
         }

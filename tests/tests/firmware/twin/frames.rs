@@ -10,10 +10,10 @@ use super::trial::System;
 const FRAMES: &str = include_str!("../../../firmware/designs/frames.sense");
 
 /// Checks the report on an image or on the soft board, in which each output must have been checked.
-fn assert_looked_at(name: &str, said: &str) {
-    assert!(said.contains("looks at outputs found what the design says"), "{name}: {said}");
+fn assert_looked_at(name: &str, reported: &str) {
+    assert!(reported.contains("looks at outputs found what the design says"), "{name}: {reported}");
     for output in ["Rpm", "Mode", "Gain", "Both"] {
-        let row = said.lines().find(|line| line.trim_start().starts_with(output)).unwrap();
+        let row = reported.lines().find(|line| line.trim_start().starts_with(output)).unwrap();
         let looks = row.split_whitespace().nth(2).unwrap();
         assert_ne!(looks, "0", "{name}: {row}");
     }
@@ -35,9 +35,9 @@ fn images_send_them() {
     }
     for system in [System::Chibios, System::Embassy] {
         let name = format!("frames_{system:?}");
-        let Some((status, said)) = judged(system, &name, FRAMES, FRAMES) else { continue };
-        assert_eq!(status, 0, "{name}: {said}");
-        assert_looked_at(&name, &said);
+        let Some((status, reported)) = judged(system, &name, FRAMES, FRAMES) else { continue };
+        assert_eq!(status, 0, "{name}: {reported}");
+        assert_looked_at(&name, &reported);
     }
 }
 
@@ -54,10 +54,10 @@ fn a_selector_at_another_place_is_told() {
         1,
     );
     assert_ne!(elsewhere, FRAMES);
-    let Some((status, said)) = judged(System::Embassy, "frames_elsewhere", &elsewhere, FRAMES)
+    let Some((status, reported)) = judged(System::Embassy, "frames_elsewhere", &elsewhere, FRAMES)
     else {
         return;
     };
-    assert_eq!(status, 1, "{said}");
-    assert!(said.contains("error[E0552]: `Mode`"), "{said}");
+    assert_eq!(status, 1, "{reported}");
+    assert!(reported.contains("error[E0552]: `Mode`"), "{reported}");
 }

@@ -49,8 +49,8 @@ impl Host {
     }
 
     /// Passes one millisecond: sends the board's bytes to the host, and returns the host's bytes.
-    pub(super) fn pass(&mut self, ms: u64, said: &[u8]) -> Vec<u8> {
-        self.line.say_all(said);
+    pub(super) fn pass(&mut self, ms: u64, messages: &[u8]) -> Vec<u8> {
+        self.line.say_all(messages);
         self.received.extend(self.line.received());
         if ms < GREETING_MS { Vec::new() } else { std::mem::take(&mut self.received) }
     }

@@ -143,13 +143,16 @@ fn the_shell_answers_over_usb() {
     bench.run_until_ms(2_000);
     bench.machine.link_write(b"\r\nsensors\r\n");
     bench.run_until_ms(2_200);
-    let said = bench.said();
-    assert!(said.contains(" 19 USRear                   42 ("), "{said}");
+    let reported = bench.reported();
+    assert!(reported.contains(" 19 USRear                   42 ("), "{reported}");
     bench.machine.link_write(b"doctor\r\n");
     bench.run_until_ms(6_000);
-    let said = bench.said();
+    let reported = bench.reported();
     // This world has no pull-ups on the bus.
-    assert!(said.contains("I2C3 at PA8 (I2C3_SCL): no resistor pulls this wire up"), "{said}");
+    assert!(
+        reported.contains("I2C3 at PA8 (I2C3_SCL): no resistor pulls this wire up"),
+        "{reported}"
+    );
 }
 
 /// If the reporter of a program hangs, the watchdog restarts it, and the program reports that.

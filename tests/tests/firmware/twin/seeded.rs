@@ -31,8 +31,8 @@ pub(super) fn made(tree: &Path, board: &Path) -> Option<Vec<u8>> {
     let mut make = Command::new("make");
     make.current_dir(board).args(["-j2", "UP_MODE=production", "USE_LTO=no"]);
     let output = make.arg(format!("CHIBIOS={}", tree.display())).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let is_made = output.status.success() && !said.contains("warning");
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    let is_made = output.status.success() && !log.contains("warning");
     is_made.then(|| super::trial::image(board))
 }
 

@@ -166,9 +166,9 @@ fn built(system: System, board: &Path) -> Result<Vec<u8>, String> {
         System::Chibios => made(&tree().unwrap(), board).ok_or_else(|| "compiler".to_owned()),
         System::Embassy => match try_build(board) {
             Ok(path) => Ok(std::fs::read(path).unwrap()),
-            Err(said) => {
-                let code = said.split("error[").nth(1).and_then(|rest| rest.split(']').next());
-                let code = code.unwrap_or_else(|| panic!("{said}"));
+            Err(reported) => {
+                let code = reported.split("error[").nth(1).and_then(|rest| rest.split(']').next());
+                let code = code.unwrap_or_else(|| panic!("{reported}"));
                 Err(format!("types ({code})"))
             }
         },

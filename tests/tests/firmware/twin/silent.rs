@@ -23,14 +23,14 @@ fn of_both(name: &str, built: &str, text: &str, expected: &[&str]) {
     }
     for system in [System::Chibios, System::Embassy] {
         let name = format!("{name}_{system:?}");
-        let Some((status, said)) = judged(system, &name, built, text) else { continue };
-        assert_eq!(status, 1, "{name}: {said}");
+        let Some((status, reported)) = judged(system, &name, built, text) else { continue };
+        assert_eq!(status, 1, "{name}: {reported}");
         for words in expected {
-            assert!(said.contains(words), "{name} does not say {words}: {said}");
+            assert!(reported.contains(words), "{name} does not say {words}: {reported}");
         }
         // The image agrees with the file that it was built from.
-        let (status, said) = judged(system, &name, built, built).unwrap();
-        assert_eq!(status, 0, "{name}: {said}");
+        let (status, reported) = judged(system, &name, built, built).unwrap();
+        assert_eq!(status, 0, "{name}: {reported}");
     }
 }
 

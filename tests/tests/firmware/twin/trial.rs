@@ -117,11 +117,11 @@ pub(super) fn run(
     asks_ms: &[u64],
 ) -> Trial {
     run_with(system, design, image, seconds, |ms, _, schema| {
-        let mut said = greets(ms, &[], schema);
+        let mut output = greets(ms, &[], schema);
         if asks_ms.contains(&ms) {
-            said.extend(encode_health_request(schema));
+            output.extend(encode_health_request(schema));
         }
-        said
+        output
     })
 }
 
@@ -160,18 +160,18 @@ pub(super) fn run_job(
         seed: None,
         samples: &|_| Err("there are no files".to_owned()),
     };
-    let (world, said) = world::read(file, world, &scene);
-    assert!(said.is_empty(), "{said:#?}");
+    let (world, output) = world::read(file, world, &scene);
+    assert!(output.is_empty(), "{output:#?}");
     let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
     let mut judge = Judge::new(job, &bench);
     let mut board = EmulatedBoard::new(job, bench, image).unwrap();
     let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
     let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
     let (mut mismatches, mut outputs) = (Vec::new(), Vec::new());
-    let (mut said, mut greeted) = (Vec::new(), None);
+    let (mut output, mut greeted) = (Vec::new(), None);
     let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
     for ms in 1..=seconds * 1_000 {
-        board.link_write(&host(ms, &said, &job.schema));
+        board.link_write(&host(ms, &output, &job.schema));
         // The host sends full speed for 300 ms, and then nothing.
         if motor && (600..900).contains(&ms) && ms % 100 == 0 {
             let values = [(20, vec![Scalar::Unsigned(10_000)])];
@@ -188,8 +188,8 @@ pub(super) fn run_job(
                 outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
             }
         }
-        said = board.link_read();
-        decoder.feed(&said, |event| match event {
+        output = board.link_read();
+        decoder.feed(&output, |event| match event {
             Event::Report(_, values) => {
                 judge.take(ms * MS, &values);
                 reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
@@ -212,7 +212,7 @@ pub(super) fn run_job(
         }
     }
     // The host gets the last bytes; its answer goes nowhere.
-    let _ = host(seconds * 1_000, &said, &job.schema);
+    let _ = host(seconds * 1_000, &output, &job.schema);
     Trial {
         judged: judge.finish(board.now_ns()),
         mismatches,

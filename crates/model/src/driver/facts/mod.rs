@@ -195,10 +195,10 @@ pub fn mistakes() -> Vec<(String, Diagnostic)> {
     let library = Library::open();
     let mut found = Vec::new();
     for (field, driver) in library.drivers.of_library() {
-        let mut said = Vec::new();
-        let facts = library.facts(field, driver, &mut said);
-        debug_assert!(facts.is_some() || !said.is_empty(), "{}", driver.name.value);
-        found.extend(said.into_iter().map(|one| (driver.name.value.clone(), one)));
+        let mut reported = Vec::new();
+        let facts = library.facts(field, driver, &mut reported);
+        debug_assert!(facts.is_some() || !reported.is_empty(), "{}", driver.name.value);
+        found.extend(reported.into_iter().map(|one| (driver.name.value.clone(), one)));
     }
     found
 }
@@ -230,9 +230,9 @@ impl Library {
         &self,
         field: &'static str,
         driver: &Driver,
-        said: &mut Vec<Diagnostic>,
+        reported: &mut Vec<Diagnostic>,
     ) -> Option<PartFacts> {
-        let mut fields = self.fields(driver, said);
+        let mut fields = self.fields(driver, reported);
         let mut text = |name: &str| fields.text(name).map(|text| text.value);
         let (part, about) = (text("part"), text("about"));
         let (sheet, checked) = (text("sheet"), text("checked"));
@@ -243,7 +243,7 @@ impl Library {
         let pull = fields.peek_name("pull");
         drop(fields);
         let first = addresses.first().filter(|_| address.is_none()).copied();
-        let read = self.whole(driver, first, said)?;
+        let read = self.whole(driver, first, reported)?;
         let kinds = kinds(&read);
         // For a GPIO and an input, `pull` is the resistor inside the MCU.
         let is_outside = kinds.iter().any(|kind| !kind.spec().properties.contains(&"pull"));
@@ -271,10 +271,10 @@ impl Library {
     }
 
     /// The properties of the driver's head.
-    fn fields<'a>(&'a self, driver: &Driver, said: &'a mut Vec<Diagnostic>) -> Fields<'a> {
+    fn fields<'a>(&'a self, driver: &Driver, reported: &'a mut Vec<Diagnostic>) -> Fields<'a> {
         let at = span(driver.file, driver.node.range());
         let own = driver.node.properties();
-        Fields::new(own, driver.file, "a driver", at, (&self.constants, said))
+        Fields::new(own, driver.file, "a driver", at, (&self.constants, reported))
     }
 
     /// A part that uses everything the driver has.
@@ -282,7 +282,7 @@ impl Library {
         &self,
         driver: &Driver,
         address: Option<u8>,
-        said: &mut Vec<Diagnostic>,
+        reported: &mut Vec<Diagnostic>,
     ) -> Option<ReadPart> {
         let name = &driver.name.value;
         let address = address.map(|one| format!("address = {one:#04X};")).unwrap_or_default();
@@ -296,15 +296,15 @@ impl Library {
         let at = (self.file, Next::FIRST);
         let tree = parse(&format!("{head} {{ driver = {name}; {address} }}")).ast();
         match tree.parts().next()? {
-            ast::Item::Chip(node) => chip::read(at, &node, None, known, said),
-            ast::Item::Device(node) => device::read(at, &node, None, known, said),
+            ast::Item::Chip(node) => chip::read(at, &node, None, known, reported),
+            ast::Item::Device(node) => device::read(at, &node, None, known, reported),
         }
     }
 
     /// Direction and type of a driver's only value, if the driver does not name it.
     fn plain_value(&self, driver: &Driver) -> Option<(Direction, ValueType)> {
-        let mut said = Vec::new();
-        let fields = self.fields(driver, &mut said);
+        let mut reported = Vec::new();
+        let fields = self.fields(driver, &mut reported);
         let kind = driver.kind?;
         let inputs_have = kind.spec().inputs_have;
         let is_read = inputs_have.is_empty() || inputs_have.iter().any(|name| fields.has(name));

@@ -58,9 +58,9 @@ pub(crate) fn read(
         wishes.extend(more);
         allows.extend(others);
     }
-    let said = (known.constants, &mut *diagnostics);
+    let reported = (known.constants, &mut *diagnostics);
     let owner = format!("the chip `{}`", name.value);
-    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, reported);
     let Some(wanted) = fields.name("driver", "the name of a driver") else {
         if !fields.has("driver") {
             fields.missing("driver", "driver = mpu6050;");
@@ -153,8 +153,8 @@ fn protocol(
         |one: &Property| one.name().is_some_and(|name| PROTOCOL.contains(&name.text()));
     let at = span(driver.file, driver.node.range());
     let own = properties.iter().filter(|one| of_protocol(one)).cloned();
-    let said = (known.constants, diagnostics);
-    let mut fields = Fields::new(own, file, "a driver", at, said);
+    let reported = (known.constants, diagnostics);
+    let mut fields = Fields::new(own, file, "a driver", at, reported);
     fields.drivers_follow();
     let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
     let all = driver.node.properties().chain(blocks);
@@ -269,9 +269,9 @@ impl ChipReader<'_> {
         let RequestedValue { name, block, own, value, given } = asked;
         let direction = given.direction;
         let main = sockets.get(*given.via.first()?)?;
-        let said = (self.known.constants, &mut *diagnostics);
+        let reported = (self.known.constants, &mut *diagnostics);
         let owner = format!("`{}`", name.value);
-        let mut fields = Fields::new(own.iter().cloned(), self.file, &owner, name.span, said);
+        let mut fields = Fields::new(own.iter().cloned(), self.file, &owner, name.span, reported);
         // On a bus, each value has its own register. Other wires are the same for all values, and
         // the `min` of a pwm output is not that of the value.
         let is_bus = main.kind.spec().values == Values::Any;

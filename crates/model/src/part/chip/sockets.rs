@@ -138,10 +138,10 @@ impl Socket {
         whole: &ChipReader<'_>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> (Kind, Placement, Option<Level>) {
-        let said = (whole.known.constants, &mut *diagnostics);
+        let reported = (whole.known.constants, &mut *diagnostics);
         let owner = self.kind.with_article();
         let at = whole.name.span;
-        let mut fields = Fields::new(self.block_properties(), whole.file, &owner, at, said);
+        let mut fields = Fields::new(self.block_properties(), whole.file, &owner, at, reported);
         fields.inherit(whole.properties_for(self.kind), whole.file);
         fields.drivers_follow();
         fields.inherit(self.driver_properties(), whole.driver.file);

@@ -74,8 +74,8 @@ pub(super) fn given(
             diagnostics.push(e0229_wrong_driver::wrong_driver(at, &message));
             continue;
         }
-        let said = (constants, &mut *diagnostics);
-        let via = via((driver.file, at), &properties, sockets, said);
+        let reported = (constants, &mut *diagnostics);
+        let via = via((driver.file, at), &properties, sockets, reported);
         let (Some(value), Some(via)) = (value, via) else { continue };
         let (name, value) = (name.text().to_owned(), value.value);
         all.push(DriverValue { name, direction, value, properties, via });
@@ -194,8 +194,8 @@ fn choose(
     let is_reading = |one: &&Property| one.name().is_some_and(|name| name.text() == "reading");
     let constants = whole.known.constants;
     let stated = own.iter().filter(is_reading).cloned();
-    let said = (constants, &mut *diagnostics);
-    let mut fields = Fields::new(stated, whole.file, "a device", name.span, said);
+    let reported = (constants, &mut *diagnostics);
+    let mut fields = Fields::new(stated, whole.file, "a device", name.span, reported);
     let stated = fields.name("reading", "the name of a reading or command");
     let fitting: Vec<&DriverValue> = all.iter().filter(|one| one.direction == direction).collect();
     let wanted = stated.as_ref().unwrap_or(name);

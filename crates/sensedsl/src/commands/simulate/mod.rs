@@ -183,16 +183,16 @@ fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result
         samples: &samples,
     };
     let file = sources.add(name, text.as_str());
-    let (mut world, mut said) = world::read(file, &text, &scene);
+    let (mut world, mut reported) = world::read(file, &text, &scene);
     for one in &args.set {
         let text = format!("[devices]\n{}\n", line(one));
         let file = sources.add("--set", text.as_str());
         let (own, why) = world::read(file, &text, &scene);
         world.signals.extend(own.signals);
-        said.extend(why);
+        reported.extend(why);
     }
-    terminal.diagnostics(&said, &sources)?;
-    Ok((!has_errors(&said)).then_some(world))
+    terminal.diagnostics(&reported, &sources)?;
+    Ok((!has_errors(&reported)).then_some(world))
 }
 
 /// The line of a world for `NAME=VALUE`. A value that is neither a number nor a list or table becomes a string:

@@ -334,10 +334,10 @@ fn a_second_run_waits_and_gives_up() {
     let scratch = TempDir::new();
     let out = scratch.out();
     let first = take(&out, Duration::ZERO, &mut || {}).unwrap();
-    let mut said = 0;
-    let second = take(&out, Duration::from_millis(500), &mut || said += 1);
+    let mut reported = 0;
+    let second = take(&out, Duration::from_millis(500), &mut || reported += 1);
     assert!(matches!(second, Err(Trouble::Busy)));
-    assert_eq!(said, 1);
+    assert_eq!(reported, 1);
     drop(first);
     assert!(!out.exists(), "nothing was written");
     drop(take(&out, Duration::ZERO, &mut || {}).unwrap());
