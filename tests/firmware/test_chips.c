@@ -76,27 +76,27 @@ static up_bus_result_t world_exchange(void *context, uint8_t address, const uint
 /* The last report to the sink for each field. */
 typedef struct {
   up_result_t results[4];
-  unsigned told[4];
+  unsigned reported[4];
   int16_t axes[3];
   int16_t celsius;
   int32_t wide[2];
-} heard_t;
+} received_t;
 
 static void on_value(void *context, uint16_t field, up_result_t result, void *value) {
-  heard_t *heard = context;
+  received_t *received = context;
 
-  heard->results[field] = result;
-  heard->told[field]++;
+  received->results[field] = result;
+  received->reported[field]++;
   CHECK((value != NULL) == (result == UP_FRESH));
   if (value == NULL) {
     return;
   }
   if (field == 0U) {
-    memcpy(heard->axes, value, sizeof heard->axes);
+    memcpy(received->axes, value, sizeof received->axes);
   } else if (field == 1U) {
-    memcpy(&heard->celsius, value, sizeof heard->celsius);
+    memcpy(&received->celsius, value, sizeof received->celsius);
   } else {
-    memcpy(&heard->wide[field - 2U], value, sizeof heard->wide[0]);
+    memcpy(&received->wide[field - 2U], value, sizeof received->wide[0]);
   }
 }
 
@@ -131,7 +131,7 @@ static const up_chip_t mpu = {
 
 typedef struct {
   world_t world;
-  heard_t heard;
+  received_t received;
   up_chip_transfer_state_t transfers[4];
   uint8_t calibration[32];
   uint8_t work[48];
@@ -157,7 +157,7 @@ static uint32_t clock_ms(void) {
 }
 
 static void step(board_t *board, const up_chip_t *chip, uint32_t now_ms) {
-  const up_value_sink_t sink = {on_value, &board->heard};
+  const up_value_sink_t sink = {on_value, &board->received};
 
   world_ms = now_ms;
   up_chip_step(chip, &board->state, &board->bus, &schema, clock_ms, &sink);
@@ -180,22 +180,22 @@ static void test_start(void) {
   step(&board, &mpu, t0);
   CHECK(up_chip_idle_ms(&mpu, &board.state, t0) == 101U);
   step(&board, &mpu, t0 + 100U);
-  CHECK(board.world.transfers == 1U && board.heard.told[0] == 0U && !board.state.is_running);
+  CHECK(board.world.transfers == 1U && board.received.reported[0] == 0U && !board.state.is_running);
   step(&board, &mpu, t0 + 101U);
-  CHECK(board.state.is_running && board.state.counts.starts == 1U && board.heard.results[0] == UP_FRESH);
-  CHECK(board.heard.axes[0] == 16 && board.heard.axes[1] == -16 && board.heard.axes[2] == 16384);
-  CHECK(board.heard.results[1] == UP_FRESH && board.heard.celsius == -3728);
+  CHECK(board.state.is_running && board.state.counts.starts == 1U && board.received.results[0] == UP_FRESH);
+  CHECK(board.received.axes[0] == 16 && board.received.axes[1] == -16 && board.received.axes[2] == 16384);
+  CHECK(board.received.results[1] == UP_FRESH && board.received.celsius == -3728);
   CHECK(board.state.counts.causes[UP_FRESH] == 2U);
   CHECK(board.world.log_size == sizeof written && memcmp(board.world.log, written, sizeof written) == 0);
   CHECK(board.world.transfers == 4U && up_chip_idle_ms(&mpu, &board.state, t0 + 101U) == 10U);
   step(&board, &mpu, t0 + 105U);
-  CHECK(board.heard.told[0] == 1U);
+  CHECK(board.received.reported[0] == 1U);
   step(&board, &mpu, t0 + 111U);
-  CHECK(board.heard.told[0] == 2U && board.state.fault == UP_NOTHING);
+  CHECK(board.received.reported[0] == 2U && board.state.fault == UP_NOTHING);
   /* Alternating 9 ms and 11 ms, as clocks with whole milliseconds round: none is left out, none comes twice. */
   for (uint32_t i = 2U; i < 100U; i++) {
     step(&board, &mpu, t0 + 101U + 10U * i - i % 2U);
-    CHECK(board.heard.told[0] == i + 1U);
+    CHECK(board.received.reported[0] == i + 1U);
   }
 }
 
@@ -219,26 +219,26 @@ static void test_faults(void) {
   set_up_mpu(&board);
   board.world.is_gone = true;
   step(&board, &mpu, 0U);
-  CHECK(board.heard.results[0] == UP_NOT_ACKNOWLEDGED && board.heard.results[1] == UP_NOT_ACKNOWLEDGED);
-  CHECK(board.heard.told[0] == 1U);
+  CHECK(board.received.results[0] == UP_NOT_ACKNOWLEDGED && board.received.results[1] == UP_NOT_ACKNOWLEDGED);
+  CHECK(board.received.reported[0] == 1U);
   CHECK(board.state.counts.causes[UP_NOT_ACKNOWLEDGED] == 1U && board.state.fault == UP_NOT_ACKNOWLEDGED);
   CHECK(up_chip_idle_ms(&mpu, &board.state, 0U) == 10U);
   board.world.is_gone = false;
   step(&board, &mpu, 10U);
   step(&board, &mpu, 111U);
-  CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
+  CHECK(board.received.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
   /* A transfer fails: an error now, then the complete start again, with its pause. */
   board.world.fails_at = board.world.transfers + 1U;
   board.world.failure = UP_BUS_TIMED_OUT;
   board.world.log_size = 0U;
   step(&board, &mpu, 121U);
-  CHECK(board.heard.results[0] == UP_TIMED_OUT && board.state.counts.causes[UP_TIMED_OUT] == 1U);
+  CHECK(board.received.results[0] == UP_TIMED_OUT && board.state.counts.causes[UP_TIMED_OUT] == 1U);
   CHECK(board.state.fault == UP_TIMED_OUT);
-  CHECK(board.heard.told[0] == 3U && !board.state.is_running);
+  CHECK(board.received.reported[0] == 3U && !board.state.is_running);
   step(&board, &mpu, 131U);
-  CHECK(board.world.log_size == 3U && board.heard.told[0] == 3U);
+  CHECK(board.world.log_size == 3U && board.received.reported[0] == 3U);
   step(&board, &mpu, 232U);
-  CHECK(board.heard.results[0] == UP_FRESH && board.state.counts.starts == 2U);
+  CHECK(board.received.results[0] == UP_FRESH && board.state.counts.starts == 2U);
 }
 
 /* The error of a bus is reported for each value, and counted separately. */
@@ -252,11 +252,11 @@ static void test_causes(void) {
     set_up_mpu(&board);
     step(&board, &mpu, 0U);
     step(&board, &mpu, 101U);
-    CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
+    CHECK(board.received.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
     board.world.fails_at = board.world.transfers + 1U;
     board.world.failure = cases[i];
     step(&board, &mpu, 111U);
-    CHECK(board.heard.results[0] == cases[i] && board.heard.results[1] == cases[i]);
+    CHECK(board.received.results[0] == cases[i] && board.received.results[1] == cases[i]);
     CHECK(board.state.fault == cases[i]);
     for (cause = 2U; cause < UP_RESULTS; cause++) {
       CHECK(board.state.counts.causes[cause] == ((cause == (size_t)cases[i]) ? 1U : 0U));
@@ -272,12 +272,12 @@ static void test_identity(void) {
   board.world.registers[0x75] = 0x70U; /* an MPU-6500 */
   step(&board, &mpu, 0U);
   step(&board, &mpu, 101U);
-  CHECK(board.heard.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
+  CHECK(board.received.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
   CHECK(board.state.counts.causes[UP_WRONG_IDENTITY] == 1U && board.state.identity_seen == 0x70U);
   before = board.world.log_size;
   for (uint32_t now_ms = 111U; now_ms < 1000U; now_ms += 10U) {
     step(&board, &mpu, now_ms);
-    CHECK(board.heard.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
+    CHECK(board.received.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
     if (board.state.counts.causes[UP_WRONG_IDENTITY] < 16U) {
       CHECK(board.world.log_size == before);
     }
@@ -290,7 +290,7 @@ static void test_identity(void) {
   step(&board, &mpu, 1000U);
   CHECK(board.world.log_size == before + 3U);
   step(&board, &mpu, 1101U);
-  CHECK(board.heard.results[0] == UP_FRESH);
+  CHECK(board.received.results[0] == UP_FRESH);
 }
 
 static void test_command(void) {
@@ -341,24 +341,24 @@ static void test_turns(void) {
     step(&board, &ads, now_ms);
     if (now_ms == 0U) {
       /* One millisecond more than it needs, because it was triggered during a millisecond that had already begun. */
-      CHECK(board.heard.told[2] == 0U && up_chip_idle_ms(&ads, &board.state, now_ms) == 10U);
+      CHECK(board.received.reported[2] == 0U && up_chip_idle_ms(&ads, &board.state, now_ms) == 10U);
     }
     if (now_ms == 20U) {
-      CHECK(board.heard.told[2] == 1U && board.heard.told[3] == 1U && board.heard.told[1] == 0U);
+      CHECK(board.received.reported[2] == 1U && board.received.reported[3] == 1U && board.received.reported[1] == 0U);
       CHECK(up_chip_idle_ms(&ads, &board.state, now_ms) == 5U);
     }
   }
-  CHECK(board.heard.told[2] == 2U && board.heard.told[3] == 2U && board.heard.told[1] == 1U);
+  CHECK(board.received.reported[2] == 2U && board.received.reported[3] == 2U && board.received.reported[1] == 1U);
   CHECK(board.world.log_size == sizeof written && memcmp(board.world.log, written, sizeof written) == 0);
   for (; now_ms < 2000U; now_ms += 10U) {
     step(&board, &ads, now_ms);
   }
-  CHECK(board.heard.told[2] == 50U && board.heard.told[3] == 50U && board.heard.told[1] == 20U);
+  CHECK(board.received.reported[2] == 50U && board.received.reported[3] == 50U && board.received.reported[1] == 20U);
   /* A second without a step: the missed measurements are left out. */
   step(&board, &ads, 3000U);
   step(&board, &ads, 3010U);
   step(&board, &ads, 3020U);
-  CHECK(board.heard.told[2] == 51U && board.heard.told[3] == 51U && board.heard.told[1] == 21U);
+  CHECK(board.received.reported[2] == 51U && board.received.reported[3] == 51U && board.received.reported[1] == 21U);
 }
 
 /* If it is called whenever there is something to do, a chip is as fast and as regular as its tables state. */
@@ -374,7 +374,7 @@ static void test_idle(void) {
     idle_ms = up_chip_idle_ms(&ads, &board.state, now_ms);
     now_ms += (idle_ms == 0U) ? 1U : idle_ms;
   }
-  CHECK(board.heard.told[2] == 100U && board.heard.told[3] == 100U && board.heard.told[1] == 40U);
+  CHECK(board.received.reported[2] == 100U && board.received.reported[3] == 100U && board.received.reported[1] == 40U);
   CHECK(steps < 500U);
 }
 
@@ -385,14 +385,14 @@ static void test_early(void) {
   static const up_chip_t chip = {.transfers = transfers, .readings = readings, .cycle_ms = 10U, .address = 0x68U,
                                  .transfers_count = 1U, .readings_count = 1U};
   static const uint32_t times_ms[] = {0U, 97U, 98U, 196U, 198U, 297U, 300U};
-  static const unsigned told[] = {1U, 1U, 2U, 2U, 3U, 3U, 4U};
+  static const unsigned reported[] = {1U, 1U, 2U, 2U, 3U, 3U, 4U};
   board_t board;
   size_t i;
 
   set_up(&board, &chip);
-  for (i = 0U; i < sizeof told / sizeof told[0]; i++) {
+  for (i = 0U; i < sizeof reported / sizeof reported[0]; i++) {
     step(&board, &chip, times_ms[i]);
-    CHECK(board.heard.told[2] == told[i]);
+    CHECK(board.received.reported[2] == reported[i]);
   }
 }
 
@@ -407,9 +407,9 @@ static void test_no_wait(void) {
   set_up(&board, &chip);
   board.world.registers[0] = 1U;
   step(&board, &chip, 0U);
-  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 0x01C1 && board.heard.told[2] == 1U);
+  CHECK(board.received.results[2] == UP_FRESH && board.received.wide[0] == 0x01C1 && board.received.reported[2] == 1U);
   step(&board, &chip, 10U);
-  CHECK(board.heard.told[2] == 2U);
+  CHECK(board.received.reported[2] == 2U);
 }
 
 /* ---- checksums, SPI, formulas ---- */
@@ -432,13 +432,13 @@ static void test_crc(void) {
   memcpy(board.world.registers, image, sizeof image);
   step(&board, &sht, 0U);
   step(&board, &sht, 16U);
-  CHECK(board.heard.told[2] == 0U);
+  CHECK(board.received.reported[2] == 0U);
   step(&board, &sht, 17U);
-  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 0xBEEF && board.heard.wide[1] == 0x6666);
+  CHECK(board.received.results[2] == UP_FRESH && board.received.wide[0] == 0xBEEF && board.received.wide[1] == 0x6666);
   board.world.registers[5] ^= 0x10U;
   step(&board, &sht, 100U);
   step(&board, &sht, 200U);
-  CHECK(board.heard.results[2] == UP_FRESH && board.heard.results[3] == UP_WRONG_CRC);
+  CHECK(board.received.results[2] == UP_FRESH && board.received.results[3] == UP_WRONG_CRC);
   CHECK(board.state.counts.causes[UP_WRONG_CRC] == 1U && board.state.fault == UP_WRONG_CRC && board.state.is_running);
 }
 
@@ -459,10 +459,10 @@ static void test_exchange(void) {
   set_up(&board, &mcp3008);
   CHECK(up_chip_work_bytes(&mcp3008, &schema) == 6U);
   step(&board, &mcp3008, 0U); /* a bus without exchanges */
-  CHECK(board.heard.results[2] == UP_BUS_ERROR && board.state.counts.causes[UP_BUS_ERROR] == 1U);
+  CHECK(board.received.results[2] == UP_BUS_ERROR && board.state.counts.causes[UP_BUS_ERROR] == 1U);
   board.bus.exchange = world_exchange;
   step(&board, &mcp3008, 10U);
-  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 992 && board.heard.wide[1] == 989);
+  CHECK(board.received.results[2] == UP_FRESH && board.received.wide[0] == 992 && board.received.wide[1] == 989);
 }
 
 static void test_formula(void) {
@@ -487,11 +487,11 @@ static void test_formula(void) {
   memcpy(&board.world.registers[0x88], trimming, sizeof trimming);
   memcpy(&board.world.registers[0xF7], image, sizeof image);
   step(&board, &bmp, 0U);
-  CHECK(board.heard.wide[0] == 2508 && board.heard.wide[1] == 25767233);
+  CHECK(board.received.wide[0] == 2508 && board.received.wide[1] == 25767233);
   board.world.registers[0xFA] = 0x80U;
   board.world.registers[0xFB] = 0x00U;
   step(&board, &bmp, 10U);
-  CHECK(board.heard.results[2] == UP_INVALID && board.state.counts.causes[UP_INVALID] == 2U);
+  CHECK(board.received.results[2] == UP_INVALID && board.state.counts.causes[UP_INVALID] == 2U);
   CHECK(board.state.fault == UP_INVALID);
 }
 
@@ -508,7 +508,7 @@ static void test_bad_wire(void) {
 
   set_up_mpu(&board);
   for (i = 0U; i < 30000U; i++) {
-    const unsigned told = board.heard.told[0];
+    const unsigned reported = board.received.reported[0];
     const uint32_t failed = failures_of(&board.state);
     bool is_good;
     seed = seed * 1664525U + 1013904223U;
@@ -519,17 +519,17 @@ static void test_bad_wire(void) {
     board.world.failure = (up_bus_result_t)((unsigned)UP_NOT_ACKNOWLEDGED + (seed >> 12) % 4U);
     board.world.log_size = 0U;
     step(&board, &mpu, now_ms);
-    if (board.heard.told[0] != told && board.heard.results[0] == UP_FRESH) {
+    if (board.received.reported[0] != reported && board.received.results[0] == UP_FRESH) {
       fresh++;
-      CHECK(!board.state.is_stranger && board.state.is_running && board.state.fault == UP_NOTHING);
-      CHECK(board.heard.axes[1] == -16 && board.heard.results[1] == UP_FRESH);
+      CHECK(!board.state.has_wrong_identity && board.state.is_running && board.state.fault == UP_NOTHING);
+      CHECK(board.received.axes[1] == -16 && board.received.results[1] == UP_FRESH);
     }
     if (failures_of(&board.state) != failed) {
-      CHECK(board.heard.told[0] != told && board.heard.results[0] == board.state.fault && !board.state.is_running);
+      CHECK(board.received.reported[0] != reported && board.received.results[0] == board.state.fault && !board.state.is_running);
     }
     CHECK(board.state.counts.causes[UP_FRESH] == 2U * fresh);
     if (i % 1000U > 30U && is_good) {
-      CHECK(board.state.is_running && board.heard.told[0] != told);
+      CHECK(board.state.is_running && board.received.reported[0] != reported);
     }
     now_ms += 10U + ((!is_good && (seed >> 24) == 7U) ? 100000U : 0U);
   }

@@ -200,13 +200,13 @@ static void test_change(void) {
   uint64_t memory[UP_FILTER_WORDS(2U, 2U, 0U, false, true)];
   up_filter_state_t state = {.memory = memory};
   static const uint16_t in[] = {100U, 102U, 98U, 97U, 99U, 100U, 100U};
-  static const bool told[] = {true, false, false, true, false, true, false};
+  static const bool reported[] = {true, false, false, true, false, true, false};
   uint32_t i, count = 0U;
   int16_t pair[] = {-1, 4};
 
   for (i = 0U; i < 7U; i++) {
     uint16_t value = in[i];
-    CHECK(pass_u16(&filter, &state, i * 100U, &value) == (told[i] ? UP_FRESH : UP_NOTHING) && value == in[i]);
+    CHECK(pass_u16(&filter, &state, i * 100U, &value) == (reported[i] ? UP_FRESH : UP_NOTHING) && value == in[i]);
   }
   for (i = 7U; i < 107U; i++) {
     uint16_t value = 100U;
@@ -258,7 +258,7 @@ static void test_wide_change(void) {
   CHECK(up_filter_apply(&filter, &state, &i64_field, 0U, &number) == UP_NOTHING);
   number = INT64_MAX;
   CHECK(up_filter_apply(&filter, &state, &i64_field, 0U, &number) == UP_FRESH);
-  state.has_told = false;
+  state.has_reported = false;
   CHECK(up_filter_apply(&wide, &state, &f64_field, 0U, &real) == UP_FRESH);
   real = 1.9;
   CHECK(up_filter_apply(&wide, &state, &f64_field, 0U, &real) == UP_NOTHING);
@@ -275,16 +275,16 @@ static void test_together(void) {
                               .has_change = true, .change = {.u = 50U}, .heartbeat_ms = 500U};
   uint64_t memory[UP_FILTER_WORDS(1U, 2U, 15U, true, true)];
   up_filter_state_t state = {.memory = memory};
-  uint32_t i, told = 0U, invalid = 0U;
+  uint32_t i, reported = 0U, invalid = 0U;
 
   for (i = 0U; i < 200U; i++) {
     uint16_t value = (uint16_t)((i % 10U == 3U) ? 0U : ((i % 7U == 2U) ? 60000U : 1000U + i % 3U));
     const up_result_t result = pass_u16(&filter, &state, i * 10U, &value);
-    told += (result == UP_FRESH) ? 1U : 0U;
+    reported += (result == UP_FRESH) ? 1U : 0U;
     invalid += (result == UP_INVALID) ? 1U : 0U;
     CHECK(result == UP_INVALID || (value >= 1000U && value <= 1002U));
   }
-  CHECK(invalid == 20U && told == 4U);
+  CHECK(invalid == 20U && reported == 4U);
 }
 
 void test_filters(void) {

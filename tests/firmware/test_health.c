@@ -122,7 +122,7 @@ static void test_wrap(void) {
 
 static void test_silence(void) {
   up_silence_t silence;
-  uint32_t now_ms, told = 0U;
+  uint32_t now_ms, reported = 0U;
 
   up_silence_init(&silence, 500U, 0xFFFFFF00U);
   CHECK(!up_silence_step(&silence, 0xFFFFFF00U) && !up_silence_step(&silence, 0xF3U));
@@ -131,9 +131,9 @@ static void test_silence(void) {
   CHECK(!silence.is_silent && !up_silence_step(&silence, 0x2F3U) && up_silence_step(&silence, 0x2F4U));
   /* Reported once for each silence, also when the clock wraps. */
   for (now_ms = 0x300U; now_ms < 0xFF000000U; now_ms += 0x00100000U) {
-    told += up_silence_step(&silence, now_ms) ? 1U : 0U;
+    reported += up_silence_step(&silence, now_ms) ? 1U : 0U;
   }
-  CHECK(told == 0U && !up_silence_step(&silence, 0x100U));
+  CHECK(reported == 0U && !up_silence_step(&silence, 0x100U));
   for (now_ms = 0U; now_ms < 10000U; now_ms += 10U) {
     if (now_ms % 490U == 0U) {
       up_silence_heard(&silence, now_ms);

@@ -8,10 +8,10 @@
 
 typedef struct {
   up_result_t results[4];
-  unsigned told[4];
+  unsigned reported[4];
   uint16_t channels[18];
   int32_t numbers[4];
-} heard_t;
+} received_t;
 
 static const up_field_t fields[] = {
     {"A", 1U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 0U},
@@ -23,20 +23,20 @@ static const up_field_t fields[] = {
 static const up_schema_t schema = {fields, 5U, false, 0U};
 
 static void on_value(void *context, uint16_t field, up_result_t result, void *value) {
-  heard_t *heard = context;
+  received_t *received = context;
   const uint16_t at = (field > 3U) ? 3U : field;
 
-  heard->results[at] = result;
-  heard->told[at]++;
+  received->results[at] = result;
+  received->reported[at]++;
   if (value != NULL && field < 3U) {
-    memcpy(&heard->numbers[field], value, sizeof heard->numbers[0]);
+    memcpy(&received->numbers[field], value, sizeof received->numbers[0]);
   } else if (value != NULL) {
-    memcpy(heard->channels, value, up_field_bytes(&fields[field]));
+    memcpy(received->channels, value, up_field_bytes(&fields[field]));
   }
 }
 
 typedef struct {
-  heard_t heard;
+  received_t received;
   uint8_t buffer[128];
   uint64_t scratch[8];
   up_message_state_t state;
@@ -49,7 +49,7 @@ static void set_up(port_t *port) {
 }
 
 static void feed(port_t *port, const up_message_t *message, const void *bytes, size_t count) {
-  const up_value_sink_t sink = {on_value, &port->heard};
+  const up_value_sink_t sink = {on_value, &port->received};
 
   up_message_feed(message, &port->state, &schema, bytes, count, &sink);
 }
@@ -78,13 +78,13 @@ static void test_tfmini(void) {
 
   set_up(&port);
   feed(&port, &tfmini, frame, sizeof frame);
-  CHECK(port.heard.numbers[0] == 1000 && port.heard.numbers[1] == 300 && port.state.messages == 1U);
+  CHECK(port.received.numbers[0] == 1000 && port.received.numbers[1] == 300 && port.state.messages == 1U);
   for (i = 0U; i < sizeof frame; i++) {
     feed(&port, &tfmini, &frame[i], 1U);
   }
   CHECK(port.state.messages == 2U && port.state.dropped_bytes == 0U);
   feed(&port, &tfmini, hard, sizeof hard);
-  CHECK(port.state.messages == 3U && port.heard.numbers[0] == 0x5959 && port.state.dropped_bytes == 1U);
+  CHECK(port.state.messages == 3U && port.received.numbers[0] == 0x5959 && port.state.dropped_bytes == 1U);
   feed(&port, &tfmini, frame, 5U); /* cut off, and the next one follows at once */
   feed(&port, &tfmini, frame, sizeof frame);
   CHECK(port.state.messages == 4U && port.state.dropped_bytes == 6U && port.state.wrong_checksum >= 1U);
@@ -114,9 +114,9 @@ static void test_sbus(void) {
 
   set_up(&port);
   feed(&port, &sbus, first, sizeof first);
-  CHECK(memcmp(port.heard.channels, first_channels, sizeof first_channels) == 0 && port.heard.numbers[0] == 0);
+  CHECK(memcmp(port.received.channels, first_channels, sizeof first_channels) == 0 && port.received.numbers[0] == 0);
   feed(&port, &sbus, second, sizeof second);
-  CHECK(memcmp(port.heard.channels, second_channels, sizeof second_channels) == 0 && port.heard.numbers[0] == 3);
+  CHECK(memcmp(port.received.channels, second_channels, sizeof second_channels) == 0 && port.received.numbers[0] == 3);
   feed(&port, &sbus, first, 10U); /* the rest is lost; the line is silent, then everything is right again */
   up_message_gap(&port.state);
   feed(&port, &sbus, first, sizeof first);
@@ -137,15 +137,15 @@ static void test_ibus(void) {
 
   set_up(&port);
   feed(&port, &ibus, frame, sizeof frame);
-  CHECK(port.state.messages == 1U && port.heard.channels[0] == 0x5DBU && port.heard.channels[5] == 2000U);
+  CHECK(port.state.messages == 1U && port.received.channels[0] == 0x5DBU && port.received.channels[5] == 2000U);
   frame[31] ^= 1U;
   feed(&port, &ibus, frame, sizeof frame);
   CHECK(port.state.messages == 1U && port.state.wrong_checksum == 1U);
   frame[31] ^= 1U;
   frame[7] ^= 1U;
   feed(&port, &ibus, frame, sizeof frame);
-  CHECK(port.state.messages == 1U && port.state.wrong_checksum == 2U && port.heard.told[3] == 3U);
-  CHECK(port.heard.results[3] == UP_WRONG_CRC && port.heard.channels[0] == 0x5DBU);
+  CHECK(port.state.messages == 1U && port.state.wrong_checksum == 2U && port.received.reported[3] == 3U);
+  CHECK(port.received.results[3] == UP_WRONG_CRC && port.received.channels[0] == 0x5DBU);
 }
 
 static void test_crsf(void) {
@@ -163,9 +163,9 @@ static void test_crsf(void) {
 
   set_up(&port);
   feed(&port, &crsf, frame, sizeof frame);
-  CHECK(port.state.messages == 1U && port.heard.channels[0] == 993U && port.heard.channels[1] == 988U);
+  CHECK(port.state.messages == 1U && port.received.channels[0] == 993U && port.received.channels[1] == 988U);
   for (i = 6U; i < 16U; i++) {
-    CHECK(port.heard.channels[i] == 992U);
+    CHECK(port.received.channels[i] == 992U);
   }
 }
 
@@ -187,23 +187,23 @@ static void test_nmea(void) {
 
   set_up(&port);
   feed_text(&port, &gps, "$GPTXT,01,01,02,ANTSTATUS=DONTKNOW*33\r\n$GPRMC,,V,,,,,,,,,,N*53\r\n");
-  CHECK(port.state.messages == 2U && port.heard.results[0] == UP_NOTHING && port.heard.told[0] == 1U);
-  CHECK(port.heard.told[2] == 0U);
+  CHECK(port.state.messages == 2U && port.received.results[0] == UP_NOTHING && port.received.reported[0] == 1U);
+  CHECK(port.received.reported[2] == 0U);
   feed_text(&port, &gps, "$GPGGA,,,,,,0,00,99.99,,,,,,*48\r\n");
-  CHECK(port.heard.told[2] == 1U && port.heard.results[2] == UP_NOTHING);
+  CHECK(port.received.reported[2] == 1U && port.received.results[2] == UP_NOTHING);
   feed_text(&port, &gps, "$GPRMC,200000.00,A,1541.31248595,N,05130.51199976,W,0.59,154.37,140120,16.9,W,D*0C\r\n");
   /* 15 + 41.31248595 / 60 and -(51 + 30.51199976 / 60) degrees */
-  CHECK(port.heard.results[0] == UP_FRESH && port.heard.numbers[0] == 156885414);
-  CHECK(port.heard.results[1] == UP_FRESH && port.heard.numbers[1] == -515085333);
+  CHECK(port.received.results[0] == UP_FRESH && port.received.numbers[0] == 156885414);
+  CHECK(port.received.results[1] == UP_FRESH && port.received.numbers[1] == -515085333);
   feed_text(&port, &gps, "$GPGGA,200000.00,1541.31248595,N,05130.51199976,W,2,06,1.5,8.8,M,-37.6,M,5.0,0138*7D\r\n");
-  CHECK(port.heard.results[2] == UP_FRESH && port.heard.numbers[2] == 880 && port.state.messages == 5U);
+  CHECK(port.received.results[2] == UP_FRESH && port.received.numbers[2] == 880 && port.state.messages == 5U);
   /* Damaged; without its end; with lower-case digits; a sentence of a Galileo talker. */
   feed_text(&port, &gps, "$GPGGA,200000.00,1541.31248595,N,05130.51199976,W,2,06,1.5,9.8,M,-37.6,M,5.0,0138*7D\r\n");
   feed_text(&port, &gps, "$GPGGA,2000$GPGGA,,,,,,0,00,99.99,,,,,,*48\r\n$GPGLL,,,,,,V,N*64\r\n"
                          "$GPGGA,,,,,,1,,,-5.006,,,,,*67\r\n");
-  CHECK(port.state.wrong_checksum >= 2U && port.state.messages == 8U && port.heard.numbers[2] == -501);
+  CHECK(port.state.wrong_checksum >= 2U && port.state.messages == 8U && port.received.numbers[2] == -501);
   /* Of the damaged sentences, only a value that is complete is reported. */
-  CHECK(port.heard.told[2] == 6U && port.heard.told[0] == 2U);
+  CHECK(port.received.reported[2] == 6U && port.received.reported[0] == 2U);
 }
 
 /* MaxSonar: `R`, digits, carriage return; lines of numbers without a start; a distance or a word. */
@@ -221,17 +221,17 @@ static void test_text(void) {
 
   set_up(&port);
   feed_text(&port, &maxsonar, "12\rR087\rR0R088\rR123456789\rR300\rRabc\r");
-  CHECK(port.state.messages == 4U && port.heard.told[0] == 4U && port.heard.numbers[0] == 300);
+  CHECK(port.state.messages == 4U && port.received.reported[0] == 4U && port.received.numbers[0] == 300);
   CHECK(port.state.values == 3U);
-  CHECK(port.heard.results[0] == UP_INVALID && port.state.invalid == 1U);
+  CHECK(port.received.results[0] == UP_INVALID && port.state.invalid == 1U);
   set_up(&port);
   feed_text(&port, &lines, "99;1\n1.25;fF\n"); /* the first line began before reception started */
-  CHECK(port.state.messages == 1U && port.heard.numbers[0] == 13 && port.heard.numbers[1] == 255);
+  CHECK(port.state.messages == 1U && port.received.numbers[0] == 13 && port.received.numbers[1] == 255);
   feed_text(&port, &lines, "1234567890123;7\n-2 ;\n");
-  CHECK(port.state.messages == 2U && port.heard.numbers[0] == -20 && port.heard.results[1] == UP_NOTHING);
+  CHECK(port.state.messages == 2U && port.received.numbers[0] == -20 && port.received.results[1] == UP_NOTHING);
   up_message_gap(&port.state);
   feed_text(&port, &lines, "4\n");
-  CHECK(port.state.messages == 3U && port.heard.numbers[0] == 40 && port.heard.results[1] == UP_NOTHING);
+  CHECK(port.state.messages == 3U && port.received.numbers[0] == 40 && port.received.results[1] == UP_NOTHING);
 }
 
 /* Without a start: a checksum finds messages, and a gap finds blocks; nothing else does. */
@@ -245,13 +245,13 @@ static void test_without_start(void) {
 
   set_up(&port);
   feed(&port, &summed, stream, sizeof stream);
-  CHECK(port.state.messages == 2U && port.heard.numbers[0] == 5 && port.state.dropped_bytes == 1U);
+  CHECK(port.state.messages == 2U && port.received.numbers[0] == 5 && port.state.dropped_bytes == 1U);
   set_up(&port);
   feed(&port, &blocks, stream, sizeof stream);
   CHECK(port.state.messages == 0U);
   up_message_gap(&port.state);
   feed(&port, &blocks, &stream[1], 2U);
-  CHECK(port.state.messages == 1U && port.heard.numbers[0] == 0x1234);
+  CHECK(port.state.messages == 1U && port.received.numbers[0] == 0x1234);
 }
 
 /* u-blox: a pause, two messages in a row, a pause, one more message. */

@@ -147,28 +147,28 @@ static void test_unseen_pulses(void) {
 
 static void test_telling(void) {
   const up_contact_config_t config = {0U, UP_EDGE_RISING};
-  up_contact_told_t told;
+  up_contact_report_t reported;
   up_contact_t contact;
 
-  memset(&told, 0, sizeof told);
+  memset(&reported, 0, sizeof reported);
   memset(&contact, 0, sizeof contact);
   up_contact_look(&config, &contact, false, 0U);
-  CHECK(up_contact_tell(&config, &contact, &told) && !told.level);
-  CHECK(!up_contact_tell(&config, &contact, &told));
+  CHECK(up_contact_report(&config, &contact, &reported) && !reported.level);
+  CHECK(!up_contact_report(&config, &contact, &reported));
   /* A pulse between two readings: first its level is reported, then the current one. */
   up_contact_on_edge(&config, &contact, true, 1U);
   up_contact_look(&config, &contact, false, 2U);
   CHECK(contact.edges == 1U);
-  CHECK(up_contact_tell(&config, &contact, &told) && told.level);
-  CHECK(up_contact_tell(&config, &contact, &told) && !told.level);
-  CHECK(!up_contact_tell(&config, &contact, &told));
+  CHECK(up_contact_report(&config, &contact, &reported) && reported.level);
+  CHECK(up_contact_report(&config, &contact, &reported) && !reported.level);
+  CHECK(!up_contact_report(&config, &contact, &reported));
   /* A rise that stays is reported once. */
   up_contact_on_edge(&config, &contact, true, 3U);
-  CHECK(up_contact_tell(&config, &contact, &told) && told.level);
-  CHECK(!up_contact_tell(&config, &contact, &told));
+  CHECK(up_contact_report(&config, &contact, &reported) && reported.level);
+  CHECK(!up_contact_report(&config, &contact, &reported));
   /* A dip ends at the level where it was: for rising edges, nothing has happened. */
   up_contact_on_edge(&config, &contact, true, 4U);
-  CHECK(!up_contact_tell(&config, &contact, &told) && told.level);
+  CHECK(!up_contact_report(&config, &contact, &reported) && reported.level);
 }
 
 /* ---- pulses ---- */

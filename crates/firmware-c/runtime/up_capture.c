@@ -24,12 +24,12 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   const uint32_t edges = raw->edges + (first_edge_seen ? 1U : 0U);
 
   /* An unchanged count is news as well: it is reported once at the start and repeated from time to time. */
-  if (state->has_told && edges == state->captures && (uint32_t)(now_ms - state->told_ms) < COUNT_REPEAT_MS) {
+  if (state->has_reported && edges == state->captures && (uint32_t)(now_ms - state->reported_ms) < COUNT_REPEAT_MS) {
     return false;
   }
-  state->has_told = true;
+  state->has_reported = true;
   state->captures = edges;
-  state->told_ms = now_ms;
+  state->reported_ms = now_ms;
   up_count_store(type, (int64_t)edges, element);
   return true;
 }
@@ -59,7 +59,7 @@ static bool read_silence(const up_capture_config_t *config, up_capture_state_t *
                          uint8_t type, void *element) {
   const bool tells_silence = config->mode == UP_CAPTURE_FREQUENCY || config->mode == UP_CAPTURE_DUTY;
 
-  if (!tells_silence || state->is_silent || (uint32_t)(now_ms - state->told_ms) < config->silent_ms) {
+  if (!tells_silence || state->is_silent || (uint32_t)(now_ms - state->reported_ms) < config->silent_ms) {
     return false;
   }
   state->is_silent = true;
@@ -78,7 +78,7 @@ bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *stat
     return read_silence(config, state, now_ms, type, element);
   }
   state->captures = captures;
-  state->told_ms = now_ms;
+  state->reported_ms = now_ms;
   state->is_silent = false;
   store_capture(config, raw, type, element);
   return true;

@@ -36,8 +36,8 @@ typedef struct {
 /* What the reader remembers from one read to the next. */
 typedef struct {
   uint32_t captures; /* edges, pulses or periods at the last read */
-  uint32_t told_ms; /* when something new was last stored */
-  bool has_told;
+  uint32_t reported_ms; /* when something new was last stored */
+  bool has_reported;
   bool is_silent;
 } up_capture_state_t;
 

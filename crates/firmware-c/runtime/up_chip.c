@@ -10,7 +10,7 @@
 #define EARLY_PARTS 8U
 /* After this many attempts a chip with a wrong identity is started anyway: some identify themselves only once set
  * up. */
-#define LOOKS 16U
+#define IDENTITY_ATTEMPTS 16U
 
 typedef struct {
   const up_chip_t *chip;
@@ -139,7 +139,7 @@ static bool identify(const step_t *step) {
     if ((((unsigned)found[i] ^ identity->expected[i]) & mask) != 0U) {
       state->identity_seen = found[i];
       count_fault(state, UP_WRONG_IDENTITY);
-      state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;
+      state->has_wrong_identity = state->counts.causes[UP_WRONG_IDENTITY] % IDENTITY_ATTEMPTS != 0U;
       restart(state);
       return false;
     }
@@ -177,11 +177,11 @@ static void begin_transfers(const step_t *step) {
 
 /* Nothing is written to a chip with a wrong identity. */
 static void start(const step_t *step) {
-  if (UP_USES_CHIP_IDENTITY && step->state->is_stranger) {
+  if (UP_USES_CHIP_IDENTITY && step->state->has_wrong_identity) {
     if (!identify(step)) {
       return;
     }
-    step->state->is_stranger = false;
+    step->state->has_wrong_identity = false;
   }
   if (initialise(step) && identify(step) && calibrate(step)) {
     begin_transfers(step);

@@ -121,7 +121,7 @@ typedef struct {
   uint8_t in_flight;     /* 1 + index of the triggered transfer that has not been fetched yet; 0 for none */
   bool is_pausing;       /* until pause_until_ms */
   bool is_running;       /* started: transfers are made and commands are accepted */
-  bool is_stranger;      /* the last identity read was wrong */
+  bool has_wrong_identity;      /* the last identity read was wrong */
 } up_chip_state_t;
 
 /* The size of the work buffer: the most bytes that any transfer or command writes and reads together. */

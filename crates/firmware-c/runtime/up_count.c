@@ -36,10 +36,10 @@ void up_count_store(uint8_t type, int64_t count, void *element) {
 }
 
 bool up_repeat_is_due(up_repeat_t *repeat, bool has_changed, uint32_t repeat_ms, uint32_t now_ms) {
-  if (repeat->has_told && !has_changed && (uint32_t)(now_ms - repeat->told_ms) < repeat_ms) {
+  if (repeat->has_reported && !has_changed && (uint32_t)(now_ms - repeat->reported_ms) < repeat_ms) {
     return false;
   }
-  repeat->has_told = true;
-  repeat->told_ms = now_ms;
+  repeat->has_reported = true;
+  repeat->reported_ms = now_ms;
   return true;
 }

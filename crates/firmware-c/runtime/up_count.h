@@ -26,8 +26,8 @@ void up_count_store(uint8_t type, int64_t count, void *element);
 
 /* When an unchanged value is reported again. All zero at the start. */
 typedef struct {
-  uint32_t told_ms;
-  bool has_told;
+  uint32_t reported_ms;
+  bool has_reported;
 } up_repeat_t;
 
 /* True if a value must be reported: it has changed, or was never reported, or not for `repeat_ms`. */

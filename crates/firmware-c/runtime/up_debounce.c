@@ -57,17 +57,17 @@ void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact,
   up_contact_look(config, contact, level, now);
 }
 
-bool up_contact_tell(const up_contact_config_t *config, const up_contact_t *contact, up_contact_told_t *told) {
-  const bool has_edge = contact->edges != told->edges;
+bool up_contact_report(const up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported) {
+  const bool has_edge = contact->edges != reported->edges;
 
-  told->edges = contact->edges;
-  if (!told->has_told || contact->level != told->level) {
-    told->has_told = true;
-    told->level = contact->level;
+  reported->edges = contact->edges;
+  if (!reported->has_reported || contact->level != reported->level) {
+    reported->has_reported = true;
+    reported->level = contact->level;
     return true;
   }
-  if (has_edge && counts(config, !told->level)) {
-    told->level = !told->level;
+  if (has_edge && counts(config, !reported->level)) {
+    reported->level = !reported->level;
     return true;
   }
   return false;

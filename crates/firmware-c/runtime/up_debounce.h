@@ -44,11 +44,11 @@ void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact,
 typedef struct {
   uint32_t edges;
   bool level;
-  bool has_told;
-} up_contact_told_t;
+  bool has_reported;
+} up_contact_report_t;
 
-/* True if there is a level to report, in told->level: one that differs from the last, or that of a pulse that came
+/* True if there is a level to report, in reported->level: one that differs from the last, or that of a pulse that came
  * and went since the last call; the present level is then reported by the next call. */
-bool up_contact_tell(const up_contact_config_t *config, const up_contact_t *contact, up_contact_told_t *told);
+bool up_contact_report(const up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported);
 
 #endif

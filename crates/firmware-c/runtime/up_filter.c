@@ -264,12 +264,12 @@ static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint6
   return ((from_key > to_key) ? from_key - to_key : to_key - from_key) >= filter->change.u;
 }
 
-static bool has_changed(const up_filter_t *filter, const up_field_t *field, const uint8_t *told, const uint8_t *value) {
+static bool has_changed(const up_filter_t *filter, const up_field_t *field, const uint8_t *reported, const uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   size_t i;
 
   for (i = 0U; i < field->count; i++) {
-    if (is_far(filter, field->type, up_element_load(field->type, &told[i * element_bytes]),
+    if (is_far(filter, field->type, up_element_load(field->type, &reported[i * element_bytes]),
                up_element_load(field->type, &value[i * element_bytes]))) {
       return true;
     }
@@ -280,7 +280,7 @@ static bool has_changed(const up_filter_t *filter, const up_field_t *field, cons
 /* Whether the next value would be too late for the heartbeat if it comes after three quarters of the present
  * interval. */
 static bool is_heartbeat(const up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
-  const uint64_t silent_ms = (uint32_t)(now_ms - state->told_ms);
+  const uint64_t silent_ms = (uint32_t)(now_ms - state->reported_ms);
   const uint64_t interval_ms = (uint32_t)(now_ms - state->seen_ms);
 
   return filter->heartbeat_ms != 0U && silent_ms + interval_ms - interval_ms / 4U > filter->heartbeat_ms;
@@ -291,10 +291,10 @@ up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state,
   const size_t count = field->count;
   const size_t smooth_words = (UP_USES_SMOOTH && filter->smooth_ms > 0U) ? UP_FILTER_SMOOTH_WORDS(count) : 0U;
   const bool has_change = UP_USES_CHANGE && filter->has_change;
-  const size_t told_words = has_change ? UP_FILTER_VALUE_WORDS(count, up_type_bytes(field->type)) : 0U;
-  uint64_t *told = (smooth_words > 0U) ? &state->memory[smooth_words] : state->memory;
-  uint64_t *window = (told_words > 0U) ? &told[told_words] : told;
-  bool is_told = true;
+  const size_t reported_words = has_change ? UP_FILTER_VALUE_WORDS(count, up_type_bytes(field->type)) : 0U;
+  uint64_t *reported = (smooth_words > 0U) ? &state->memory[smooth_words] : state->memory;
+  uint64_t *window = (reported_words > 0U) ? &reported[reported_words] : reported;
+  bool is_reported = true;
 
   if (is_invalid(filter, field, value)) {
     return UP_INVALID;
@@ -306,17 +306,17 @@ up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state,
     smooth(filter, state, field, now_ms, value);
   }
   if (has_change) {
-    is_told = !state->has_told || has_changed(filter, field, (uint8_t *)told, value) ||
+    is_reported = !state->has_reported || has_changed(filter, field, (uint8_t *)reported, value) ||
               is_heartbeat(filter, state, now_ms);
-    if (is_told) {
-      memcpy(told, value, up_field_bytes(field));
+    if (is_reported) {
+      memcpy(reported, value, up_field_bytes(field));
     }
   }
   state->seen_ms = now_ms;
   state->has_seen = true;
-  if (is_told) {
-    state->told_ms = now_ms;
-    state->has_told = true;
+  if (is_reported) {
+    state->reported_ms = now_ms;
+    state->has_reported = true;
   }
-  return is_told ? UP_FRESH : UP_NOTHING;
+  return is_reported ? UP_FRESH : UP_NOTHING;
 }

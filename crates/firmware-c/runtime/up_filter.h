@@ -60,11 +60,11 @@ typedef struct {
 typedef struct {
   uint64_t *memory; /* UP_FILTER_WORDS() words; NULL if that is 0 */
   uint32_t seen_ms; /* when the last valid value came; the clock may wrap */
-  uint32_t told_ms; /* when a value was last reported */
+  uint32_t reported_ms; /* when a value was last reported */
   uint8_t window_at;
   uint8_t window_count;
   bool has_seen;
-  bool has_told;
+  bool has_reported;
 } up_filter_state_t;
 
 /* Filters one value in place. UP_FRESH: report it. UP_NOTHING: valid, but too little changed to be reported.

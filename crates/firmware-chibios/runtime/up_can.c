@@ -199,12 +199,12 @@ static void take(const up_can_t *bus, const CANRxFrame *frame) {
     } else {
       result = UP_INVALID;
     }
-    if (result == UP_FRESH && bus->is_told[i] && now_ms - bus->told_ms[i] < how->cycle_ms) {
+    if (result == UP_FRESH && bus->is_reported[i] && now_ms - bus->reported_ms[i] < how->cycle_ms) {
       continue;
     }
     if (result == UP_FRESH) {
-      bus->told_ms[i] = now_ms;
-      bus->is_told[i] = true;
+      bus->reported_ms[i] = now_ms;
+      bus->is_reported[i] = true;
     }
     up_result(how->field, result, value);
   }

@@ -100,7 +100,7 @@ void up_digital_start(const up_digital_t *sensor) {
 
 /* Takes a level or a count; true if it is new. */
 static bool take(const up_digital_t *sensor, const up_digital_input_t *input, uint8_t type, void *element) {
-  up_contact_told_t *told = &input->state->told;
+  up_contact_report_t *reported = &input->state->reported;
   up_contact_t contact;
   bool is_news;
 
@@ -109,11 +109,11 @@ static bool take(const up_digital_t *sensor, const up_digital_input_t *input, ui
   contact = input->state->contact;
   chSysUnlock();
   if (type == UP_TYPE_BOOL) {
-    is_news = up_contact_tell(input->config, &contact, told);
-    up_element_store(type, (told->level != sensor->is_low_active) ? 1U : 0U, element);
+    is_news = up_contact_report(input->config, &contact, reported);
+    up_element_store(type, (reported->level != sensor->is_low_active) ? 1U : 0U, element);
   } else {
-    is_news = contact.edges != told->edges;
-    told->edges = contact.edges;
+    is_news = contact.edges != reported->edges;
+    reported->edges = contact.edges;
     up_count_store(type, (int64_t)contact.edges, element);
   }
   return is_news;

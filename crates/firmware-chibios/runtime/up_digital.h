@@ -22,7 +22,7 @@ typedef struct {
 /* The state of an input; all zero at the start. */
 typedef struct {
   up_contact_t contact;
-  up_contact_told_t told;
+  up_contact_report_t reported;
 } up_digital_state_t;
 
 typedef struct {

@@ -60,8 +60,8 @@ void up_encoder_poll(const up_encoder_t *encoder) {
     chSysLock();
     total = step(counter);
     chSysUnlock();
-    has_changed = has_changed || total != counter->state->told;
-    counter->state->told = total;
+    has_changed = has_changed || total != counter->state->reported;
+    counter->state->reported = total;
     up_count_store(type, total, &value[i * element_bytes]);
   }
   if (up_repeat_is_due(encoder->repeat, has_changed, REPEAT_MS, up_now_ms())) {

@@ -15,7 +15,7 @@
 typedef struct {
   virtual_timer_t timer; /* of a 16-bit counter: reads it in time */
   up_count_t count;
-  int32_t told;
+  int32_t reported;
 } up_encoder_state_t;
 
 /* A timer that counts the edges of two tracks. No driver of ChibiOS supports it. */

@@ -27,10 +27,10 @@ static void on_value(void *context, uint16_t field, up_result_t result, void *va
 
   for (i = 0U; i < port->message->fields_count; i++) {
     if (port->message->fields[i].field == field && result == UP_FRESH) {
-      if (port->is_told[i]) {
+      if (port->is_reported[i]) {
         return;
       }
-      port->is_told[i] = true;
+      port->is_reported[i] = true;
     }
   }
   up_result(field, result, value);
@@ -122,7 +122,7 @@ void up_uart_cycle(const void *work) {
     return;
   }
   for (i = 0U; i < port->message->fields_count; i++) {
-    port->is_told[i] = false;
+    port->is_reported[i] = false;
   }
   count_faults(port);
   /* The last millisecond is left for the code that keeps the cycles apart. */

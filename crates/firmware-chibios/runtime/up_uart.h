@@ -34,7 +34,7 @@ typedef struct {
   /* The messages from the device; NULL for none. */
   const up_message_t *message;
   up_message_state_t *message_state;
-  bool *is_told; /* one per value of the message: it was stored in this cycle */
+  bool *is_reported; /* one per value of the message: it was stored in this cycle */
   uint32_t cycle_ms;
   uint16_t gap_ms; /* the silence that ends an unfinished message; 0: messages show where they begin */
   uint8_t init_count;

@@ -67,8 +67,8 @@ pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
 /// A wire that the board can detect to be disconnected. MISO of an SPI device is not driven while the device is not
 /// selected.
 fn input(context: &Context<'_>, one: &JobConnection<'_>, pad: &Pad<'_>) -> Option<Input> {
-    let is_told = pad.role.is_driven_by_device() && pad.role != Role::Miso;
-    let line = context.line(&pad.pin.name).filter(|_| is_told)?;
+    let is_reported = pad.role.is_driven_by_device() && pad.role != Role::Miso;
+    let line = context.line(&pad.pin.name).filter(|_| is_reported)?;
     let is_bus = matches!(pad.role, Role::Scl | Role::Sda);
     let signal = pad.usage.map_or("GPIO", |usage| usage.spelled.as_str());
     let name = if is_bus { one.unit.unwrap_or_default() } else { &one.title };

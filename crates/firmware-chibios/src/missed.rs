@@ -13,7 +13,7 @@ use sensedsl_job::JobConnection;
 
 /// Reports each connection with a pad that nothing sets up, or with a port that nothing starts. If something was
 /// reported before, such as a clock that cannot be made, that is the reason.
-pub(super) fn tell(
+pub(super) fn report(
     context: &Context<'_>,
     pads: &[PadPlan],
     sections: &[Section],
@@ -45,9 +45,9 @@ fn missed(
     let kind = one.connection.kind.name();
     let drivers = context.names.drivers.clone();
     let peripheral = PERIPHERALS.iter().find(|peripheral| peripheral.kind == Some(kind))?;
-    let is_told = !peripherals::kinds(&drivers).contains(&kind)
+    let is_reported = !peripherals::kinds(&drivers).contains(&kind)
         || (peripheral.lacks)(context.job, one).is_some();
-    if is_told {
+    if is_reported {
         return None;
     }
     let is_set_up = |pin: &PinName| pads.iter().any(|plan| plan.pin == *pin);

@@ -66,7 +66,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     pads.extend(sections.iter().flat_map(|section| section.pads.iter().cloned()));
     pads.sort();
     pads.dedup();
-    missed::tell(context, &pads, &sections, diagnostics);
+    missed::report(context, &pads, &sections, diagnostics);
     let work = sections.iter().flat_map(|section| &section.work);
     let tasks: Vec<TaskPlan> = work.map(|work| TaskPlan::new(context, work)).collect();
     let settings = settings::plan(context, &sections, &link);

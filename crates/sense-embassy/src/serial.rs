@@ -10,7 +10,7 @@ use sense_rt::{Bits, Compose, InitStep, MessageStart, MessageStream, Outcome, Sc
 use crate::devices::Report;
 use crate::now_ms;
 
-/// A device that says nothing for so long may have lost its supply, and what it was told with it.
+/// A device that says nothing for so long may have lost its supply, and its settings with it.
 const FORGOTTEN_MS: u32 = 5_000;
 
 /// What comes from a device and waits; it is a `static`.
@@ -110,7 +110,7 @@ impl<'a, const BYTES: usize> Device<'a, BYTES> {
         }
     }
 
-    /// Whether the device has been silent for so long that it may have to be told everything again.
+    /// Whether the device has been silent for so long that it may have to be set up again.
     pub fn is_forgotten(&mut self, cycle_ms: u32) -> bool {
         let is_forgotten = now_ms().wrapping_sub(self.received_ms) >= FORGOTTEN_MS + cycle_ms;
         if is_forgotten {

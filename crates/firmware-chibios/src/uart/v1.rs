@@ -71,10 +71,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             section.pads.extend(context.alternate_pad(pad, drive, diagnostics));
         }
         let sent = message.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
-        let told = message.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
+        let reported = message.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
         send_bytes = send_bytes.max(sent);
         let needed = serial::waiting_bytes(uart);
-        let needed = needed.max(2 * sent).max(u32::try_from(told).unwrap_or(0));
+        let needed = needed.max(2 * sent).max(u32::try_from(reported).unwrap_or(0));
         queue_bytes = queue_bytes.max(needed.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end()));
         section.units.insert(UnitName::new(&port.unit));
         section.clocks.extend(context.profile.unit(&port.unit).and_then(|unit| unit.clock.clone()));

@@ -194,10 +194,10 @@ private:
     enum Said { nothing, said_unanswered, said_unverified };
 
     struct Value {
-        Value() : came(-1), is_told(false) {}
+        Value() : came(-1), is_reported(false) {}
         Milliseconds came;
         /// Its being overdue was noted.
-        bool is_told;
+        bool is_reported;
     };
 
     /// What is told of a device is told once, until it is well again.
@@ -399,19 +399,19 @@ private:
             const Milliseconds limit = limit_ms(i);
             shortest = limit > 0 && (shortest == 0 || limit < shortest) ? limit : shortest;
             const Milliseconds since = values_[i].came < matched_ ? matched_ : values_[i].came;
-            if (limit > 0 && !values_[i].is_told && session_->heard() > since + limit) {
-                values_[i].is_told = true;
+            if (limit > 0 && !values_[i].is_reported && session_->last_received() > since + limit) {
+                values_[i].is_reported = true;
                 note(std::string(facts_->sensors[i].name) + ": no value for " + seconds(now - since) +
                      " (expected every " + seconds(facts_->sensors[i].cycle_ms) + ")");
                 session_->want_health();
             }
         }
         const Milliseconds silence = shortest > 1000 ? shortest : 1000;
-        const Milliseconds heard = session_->heard() < matched_ ? matched_ : session_->heard();
-        if (shortest > 0 && now - heard > silence) {
+        const Milliseconds received = session_->last_received() < matched_ ? matched_ : session_->last_received();
+        if (shortest > 0 && now - received > silence) {
             Lock lock(lock_);
             is_ready_ = false;
-            silent_ = heard;
+            silent_ = received;
             session_->ask_anew();
         }
     }
@@ -494,11 +494,11 @@ private:
     void take(size_t sensor) {
         Value &value = values_[sensor];
         const Milliseconds now = now_ms();
-        if (value.is_told) {
+        if (value.is_reported) {
             const Milliseconds since = value.came < matched_ ? matched_ : value.came;
             note(std::string(facts_->sensors[sensor].name) + ": values again after " + seconds(now - since));
         }
-        value.is_told = false;
+        value.is_reported = false;
         value.came = now;
     }
 
@@ -526,7 +526,7 @@ private:
     End end_;
     /// When the device went; negative while it is there.
     Milliseconds lost_;
-    /// When it was last heard before it was asked anew; negative while it speaks.
+    /// When the board last sent something before it was asked again; negative while it sends.
     Milliseconds silent_;
     Milliseconds matched_;
     Milliseconds looked_;

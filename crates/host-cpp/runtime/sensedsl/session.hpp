@@ -67,7 +67,7 @@ public:
     };
 
     Session(const BoardFacts &facts, Sink &sink)
-        : facts_(&facts), sink_(&sink), is_recording_(false), state_(asking), now_(0), started_(0), asked_(-1), heard_(0),
+        : facts_(&facts), sink_(&sink), is_recording_(false), state_(asking), now_(0), started_(0), asked_(-1), last_received_(0),
           requests_(0), health_every_(0), health_asked_(-1), health_due_since_(0),
           is_health_wanted_(false), is_health_due_(false), other_form_hash_(0), bytes_(0), withheld_(0), step_(0), board_hash_(0), reader_(0),
           decoder_(*facts.schema, facts.schema->sensors, *this),
@@ -123,7 +123,7 @@ public:
 
     State state() const { return state_; }
     /// When the last whole frame came.
-    Milliseconds heard() const { return heard_; }
+    Milliseconds last_received() const { return last_received_; }
     /// True when the board should have answered by now.
     bool is_unanswered() const {
         return state_ == asking && now_ - started_ >= unanswered_after_ms;
@@ -244,7 +244,7 @@ private:
     }
 
     virtual void on_hello(uint32_t hash) {
-        heard_ = now_;
+        last_received_ = now_;
         if (hash == facts_->schema->hash) {
             if (state_ == asking || state_ == playing) {
                 state_ = matched;
@@ -276,7 +276,7 @@ private:
     }
 
     virtual void on_health(const Health &health) {
-        heard_ = now_;
+        last_received_ = now_;
         is_health_due_ = false;
         if (state_ == matched || state_ == playing) {
             sink_->on_health(health);
@@ -284,7 +284,7 @@ private:
     }
 
     virtual void on_other_health(uint8_t version) {
-        heard_ = now_;
+        last_received_ = now_;
         is_health_due_ = false;
         if (state_ == matched || state_ == playing) {
             sink_->on_other_health(version);
@@ -298,7 +298,7 @@ private:
     }
 
     virtual void on_frame_end() {
-        heard_ = now_;
+        last_received_ = now_;
         if (state_ == matched || state_ == playing) {
             sink_->on_frame_end();
         } else {
@@ -314,7 +314,7 @@ private:
     Milliseconds started_;
     /// When a hello was asked for; negative before the first time.
     Milliseconds asked_;
-    Milliseconds heard_;
+    Milliseconds last_received_;
     unsigned requests_;
     Milliseconds health_every_;
     /// When health was asked for last; negative before the first time.

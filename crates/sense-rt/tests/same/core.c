@@ -332,11 +332,11 @@ static void read_capture(void) {
 
 static up_contact_config_t contact_config;
 static up_contact_t contact;
-static up_contact_told_t contact_told;
+static up_contact_report_t contact_reported;
 
 static void begin_contact(void) {
   memset(&contact, 0, sizeof contact);
-  memset(&contact_told, 0, sizeof contact_told);
+  memset(&contact_reported, 0, sizeof contact_reported);
   contact_config.lasting = (uint32_t)ask();
   contact_config.edge = (uint8_t)ask();
 }
@@ -352,8 +352,8 @@ static void see_contact(void) {
     up_contact_look(&contact_config, &contact, level, now);
   } else if (what == 2U) {
     up_contact_sample(&contact_config, &contact, level, now);
-  } else if (up_contact_tell(&contact_config, &contact, &contact_told)) {
-    printf(" %u", (unsigned)contact_told.level);
+  } else if (up_contact_report(&contact_config, &contact, &contact_reported)) {
+    printf(" %u", (unsigned)contact_reported.level);
   }
   printf(" %" PRIu32, contact.edges);
 }

@@ -62,7 +62,7 @@ fn count(count: u8) -> NonZeroU8 {
     NonZeroU8::new(count).unwrap_or(NonZeroU8::MIN)
 }
 
-/// A value that comes: where it is, the identifier of its frame, how often it is told at most, and the bits of the frame
+/// A value that comes: where it is, the identifier of its frame, how often it is reported at most, and the bits of the frame
 /// by which it is there: those that count, and what they are. Byte 0 of a frame has the lowest bits.
 pub type Value = (MessageField, Id, u32, (u64, u64));
 
@@ -76,7 +76,7 @@ pub struct Bus<'a> {
     pub values: &'static [Value],
     /// Items that are sent.
     pub sent: &'static [usize],
-    /// When each value was told.
+    /// When each value was last reported.
     pub reported_ms: &'a mut [Option<u32>],
     /// Room for any value.
     pub value: &'a mut [u8],
