@@ -62,8 +62,8 @@ fn count(count: u8) -> NonZeroU8 {
     NonZeroU8::new(count).unwrap_or(NonZeroU8::MIN)
 }
 
-/// A value that comes: where it is, the identifier of its frame, how often it is reported at most, and the bits of the frame
-/// by which it is there: those that count, and what they are. Byte 0 of a frame has the lowest bits.
+/// A value that a frame has: where it is, the identifier of the frame, the shortest time between two reports, and the
+/// bits by which the frame has it: those that count, and what they are. Byte 0 of a frame has the lowest bits.
 pub type Value = (MessageField, Id, u32, (u64, u64));
 
 /// What the task of a bus keeps.
