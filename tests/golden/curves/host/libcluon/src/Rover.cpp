@@ -101,7 +101,7 @@ private:
             ::sense::curves::Ranger message;
             message.raw(raw[0]);
             message.value(::sense::curves::scaling::Ranger().of(static_cast<double>(raw[0])));
-            tell("Ranger", raw, 1, true, ::sense::curves::scaling::Ranger(), {8.0, 70.0}, " cm");
+            report("Ranger", raw, 1, true, ::sense::curves::scaling::Ranger(), {8.0, 70.0}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -125,7 +125,7 @@ private:
             message.value5(::sense::curves::scaling::Line().of(static_cast<double>(raw[5])));
             message.value6(::sense::curves::scaling::Line().of(static_cast<double>(raw[6])));
             message.value7(::sense::curves::scaling::Line().of(static_cast<double>(raw[7])));
-            tell("Line", raw, 8, true, ::sense::curves::scaling::Line(), {1.0, std::numeric_limits<double>::infinity()}, " percent");
+            report("Line", raw, 8, true, ::sense::curves::scaling::Line(), {1.0, std::numeric_limits<double>::infinity()}, " percent");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -136,7 +136,7 @@ private:
             message.raw0(raw[0]);
             message.raw1(raw[1]);
             message.raw2(raw[2]);
-            tell("Bumper", raw, 3, false, ::sense::curves::scaling::Bumper(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("Bumper", raw, 3, false, ::sense::curves::scaling::Bumper(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -148,7 +148,7 @@ private:
             message.raw1(raw[1]);
             message.value0(::sense::curves::scaling::Wheels().of(static_cast<double>(raw[0])));
             message.value1(::sense::curves::scaling::Wheels().of(static_cast<double>(raw[1])));
-            tell("Wheels", raw, 2, true, ::sense::curves::scaling::Wheels(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("Wheels", raw, 2, true, ::sense::curves::scaling::Wheels(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -158,7 +158,7 @@ private:
             ::sense::curves::Bent message;
             message.raw(raw[0]);
             message.value(::sense::curves::scaling::Bent().of(static_cast<double>(raw[0])));
-            tell("Bent", raw, 1, true, ::sense::curves::scaling::Bent(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("Bent", raw, 1, true, ::sense::curves::scaling::Bent(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -172,7 +172,7 @@ private:
             message.value0(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[0])));
             message.value1(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[1])));
             message.value2(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[2])));
-            tell("Acceleration", raw, 3, true, ::sense::curves::scaling::Acceleration(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " g");
+            report("Acceleration", raw, 3, true, ::sense::curves::scaling::Acceleration(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " g");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -186,7 +186,7 @@ private:
             message.value0(::sense::curves::scaling::Rate().of(static_cast<double>(raw[0])));
             message.value1(::sense::curves::scaling::Rate().of(static_cast<double>(raw[1])));
             message.value2(::sense::curves::scaling::Rate().of(static_cast<double>(raw[2])));
-            tell("Rate", raw, 3, true, ::sense::curves::scaling::Rate(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg/s");
+            report("Rate", raw, 3, true, ::sense::curves::scaling::Rate(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg/s");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -196,7 +196,7 @@ private:
             ::sense::curves::Position message;
             message.raw(raw[0]);
             message.value(::sense::curves::scaling::Position().of(static_cast<double>(raw[0])));
-            tell("Position", raw, 1, true, ::sense::curves::scaling::Position(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg");
+            report("Position", raw, 1, true, ::sense::curves::scaling::Position(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -206,7 +206,7 @@ private:
     }
 
     template <typename T>
-    void tell(const char *name, const T *raw, std::size_t count, bool has_value,
+    void report(const char *name, const T *raw, std::size_t count, bool has_value,
               const sensedsl::Scaling &scaling, const sensedsl::Limits &limits,
               const char *quantity) const {
         if (settings_.is_verbose) {

@@ -118,15 +118,15 @@ async fn spi0_1000ms(bus: &'static rt::spi::SpiBus<SPI0>, gyro_select: Output<'s
     }
 }
 
-static PLACE_HEARD: rt::serial::RxQueue<64> = rt::serial::RxQueue::new();
+static PLACE_RX: rt::serial::RxQueue<64> = rt::serial::RxQueue::new();
 
 /// The bytes of Place at GP0 (UART0_TX), GP1 (UART0_RX).
 #[allow(non_camel_case_types, reason = "it is called as the device")]
-pub struct PLACEHeard;
+pub struct PLACERx;
 
-impl interrupt::typelevel::Handler<interrupt::typelevel::UART0_IRQ> for PLACEHeard {
+impl interrupt::typelevel::Handler<interrupt::typelevel::UART0_IRQ> for PLACERx {
     unsafe fn on_interrupt() {
-        rt::uart::on_interrupt(&PLACE_HEARD, hal::pac::UART0, 0xFF);
+        rt::uart::on_interrupt(&PLACE_RX, hal::pac::UART0, 0xFF);
     }
 }
 
@@ -134,7 +134,7 @@ impl interrupt::typelevel::Handler<interrupt::typelevel::UART0_IRQ> for PLACEHea
 #[embassy_executor::task]
 async fn place_listen(_port: hal::uart::Uart<'static, hal::uart::Blocking>) {
     let mut stream: sense_rt::MessageStream<[u8; tables::PLACE_MESSAGE.stream_bytes(&SCHEMA)]> = sense_rt::MessageStream::new(&tables::PLACE_MESSAGE, &SCHEMA);
-    let mut device = rt::serial::Device::new(&PLACE_HEARD, &mut stream, 3, &[8]);
+    let mut device = rt::serial::Device::new(&PLACE_RX, &mut stream, 3, &[8]);
     loop {
         let until = Instant::now() + Duration::from_millis(1000);
         device.cycle(until, |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value)).await;
@@ -173,14 +173,14 @@ async fn pulse_1000ms_prio_2_10us(mut near_trigger: Output<'static>) {
 /// Touch at GP10 (GPIO): its edges.
 #[embassy_executor::task]
 async fn touch_edges(pin: Input<'static>) {
-    rt::edges::watch(pin, rt::edges::Trigger::Rising, &TOUCH_KEPT).await;
+    rt::edges::watch(pin, rt::edges::Trigger::Rising, &TOUCH_STATE).await;
 }
 
 /// Touch at GP10 (GPIO).
-static TOUCH_KEPT: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static TOUCH_STATE: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Bump at GP11 (GPIO).
-static BUMP_KEPT: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
+static BUMP_STATE: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 5000, edge: sense_rt::Edge::Both });
 
 /// gpio 1000 ms.
 #[embassy_executor::task]
@@ -188,7 +188,7 @@ async fn gpio_1000ms() {
     let mut ticker = Ticker::every(Duration::from_millis(1000));
     loop {
         let mut value = [0; 1];
-        for (at, level) in [BUMP_KEPT.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
+        for (at, level) in [BUMP_STATE.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
         BOARD.report(None, tables::BUMP, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_1000MS, now_ms());
         ticker.next().await;
@@ -285,11 +285,11 @@ async fn reporter(
         }
         {
             let (mut value, mut is_news) = ([0; 1], false);
-            is_news |= TOUCH_KEPT.take(&mut touch_told[0], Scalar::Bool, false, &mut value[0..]);
+            is_news |= TOUCH_STATE.take(&mut touch_told[0], Scalar::Bool, false, &mut value[0..]);
             if touch_repeat.is_due(is_news, 1000, now_ms()) { BOARD.report(None, tables::TOUCH, Outcome::Fresh, &mut value); }
         }
         {
-            BUMP_KEPT.sample();
+            BUMP_STATE.sample();
         }
         reporter.cycle(Instant::now().as_micros(), &mut Near(&LINK), &mut Board);
         BOARD.with(|_, health| health.tick(now_ms()));
@@ -320,8 +320,8 @@ async fn main(spawner: Spawner) {
     rt::uart::listen(hal::pac::UART0);
     // Its handler is there.
     unsafe { interrupt::UART0_IRQ.enable() };
-    TOUCH_KEPT.begin(rt::edges::Pad(10));
-    BUMP_KEPT.begin(wiring.bump);
+    TOUCH_STATE.begin(rt::edges::Pad(10));
+    BUMP_STATE.begin(wiring.bump);
     start!(spawner, link(wiring.link));
     let adc1: &'static ADC1Unit = ADC1_UNIT.init(Mutex::new(wiring.adc1));
     start!(spawner, adc1_1000ms(adc1, wiring.light, wiring.pair_0, wiring.pair_1));

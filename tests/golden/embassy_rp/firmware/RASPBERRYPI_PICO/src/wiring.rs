@@ -9,7 +9,7 @@ bind_interrupts!(pub struct Irqs {
     ADC_IRQ_FIFO => hal::adc::InterruptHandler;
     DMA_IRQ_0 => hal::dma::InterruptHandler<DMA_CH0>, hal::dma::InterruptHandler<DMA_CH1>;
     I2C0_IRQ => hal::i2c::InterruptHandler<I2C0>;
-    UART0_IRQ => crate::PLACEHeard;
+    UART0_IRQ => crate::PLACERx;
     USBCTRL_IRQ => hal::usb::InterruptHandler<USB>;
 });
 

@@ -149,15 +149,15 @@ async fn spi3_10ms(bus: &'static rt::spi::SpiBus, angle_select: Output<'static>)
     }
 }
 
-static AHEAD_HEARD: rt::serial::RxQueue<230> = rt::serial::RxQueue::new();
+static AHEAD_RX: rt::serial::RxQueue<230> = rt::serial::RxQueue::new();
 
 /// The bytes of Ahead at PD6 (USART2_RX).
 #[allow(non_camel_case_types, reason = "it is called as the device")]
-pub struct AHEADHeard;
+pub struct AHEADRx;
 
-impl interrupt::typelevel::Handler<interrupt::typelevel::USART2> for AHEADHeard {
+impl interrupt::typelevel::Handler<interrupt::typelevel::USART2> for AHEADRx {
     unsafe fn on_interrupt() {
-        rt::usart::on_interrupt(&AHEAD_HEARD, hal::pac::USART2, 0xFF);
+        rt::usart::on_interrupt(&AHEAD_RX, hal::pac::USART2, 0xFF);
     }
 }
 
@@ -166,7 +166,7 @@ impl interrupt::typelevel::Handler<interrupt::typelevel::USART2> for AHEADHeard 
 async fn ahead_listen(_port: hal::usart::UartRx<'static, hal::mode::Blocking>) {
     let mut ahead_filter: Filter<[u8; tables::AHEAD_FILTER.bytes(&SCHEMA.items[9])]> = Filter::new(&tables::AHEAD_FILTER);
     let mut stream: sense_rt::MessageStream<[u8; tables::AHEAD_MESSAGE.stream_bytes(&SCHEMA)]> = sense_rt::MessageStream::new(&tables::AHEAD_MESSAGE, &SCHEMA);
-    let mut device = rt::serial::Device::new(&AHEAD_HEARD, &mut stream, 0, &[9]);
+    let mut device = rt::serial::Device::new(&AHEAD_RX, &mut stream, 0, &[9]);
     loop {
         let until = Instant::now() + Duration::from_millis(20);
         device.cycle(until, |index: usize, outcome, value: &mut [u8]| BOARD.report(match index { 9 => Some(&mut *ahead_filter), _ => None }, index, outcome, value)).await;
@@ -175,7 +175,7 @@ async fn ahead_listen(_port: hal::usart::UartRx<'static, hal::mode::Blocking>) {
     }
 }
 
-static CAN1_KEPT: rt::can::Memory = rt::can::Memory::new();
+static CAN1_STATE: rt::can::Memory = rt::can::Memory::new();
 
 /// CAN1: frames that come.
 #[embassy_executor::task]
@@ -202,10 +202,10 @@ async fn speed_edges(timer: hal::timer::pwm_input::PwmInput<'static, TIM2>) {
 }
 
 /// Bumper at PC13 (GPIO).
-static BUMPER_KEPT: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
+static BUMPER_STATE: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
 
 /// Drops at PD3 (GPIO).
-static DROPS_KEPT: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
+static DROPS_STATE: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Edges on the lines of this interrupt.
 #[allow(non_camel_case_types, reason = "it is called as the interrupt")]
@@ -213,7 +213,7 @@ pub struct EXTI3_EDGES;
 
 impl interrupt::typelevel::Handler<interrupt::typelevel::EXTI3> for EXTI3_EDGES {
     unsafe fn on_interrupt() {
-        DROPS_KEPT.on_interrupt();
+        DROPS_STATE.on_interrupt();
     }
 }
 
@@ -223,7 +223,7 @@ async fn gpio_50ms() {
     let mut ticker = Ticker::every(Duration::from_millis(50));
     loop {
         let mut value = [0; 1];
-        for (at, level) in [!BUMPER_KEPT.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
+        for (at, level) in [!BUMPER_STATE.level()].into_iter().enumerate() { Scalar::Bool.store_at(u64::from(level), &mut value, at); }
         BOARD.report(None, tables::BUMPER, Outcome::Fresh, &mut value);
         WATCH.beat(tables::GPIO_50MS, now_ms());
         ticker.next().await;
@@ -318,11 +318,11 @@ async fn reporter(
             if speed.read(&config, &seen, false, now_ms(), Scalar::Uint32, &mut value) { BOARD.report(None, tables::SPEED, Outcome::Fresh, &mut value); }
         }
         {
-            BUMPER_KEPT.sample();
+            BUMPER_STATE.sample();
         }
         {
             let (mut value, mut is_news) = ([0; 4], false);
-            is_news |= DROPS_KEPT.take(&mut drops_told[0], Scalar::Uint32, false, &mut value[0..]);
+            is_news |= DROPS_STATE.take(&mut drops_told[0], Scalar::Uint32, false, &mut value[0..]);
             if drops_repeat.is_due(is_news, 1000, now_ms()) { BOARD.report(None, tables::DROPS, Outcome::Fresh, &mut value); }
         }
         {
@@ -383,8 +383,8 @@ async fn main(spawner: Spawner) {
     rt::usart::listen(hal::pac::USART2);
     // Its handler is there.
     unsafe { interrupt::USART2.enable() };
-    BUMPER_KEPT.begin(wiring.bumper);
-    DROPS_KEPT.begin(wiring.drops);
+    BUMPER_STATE.begin(wiring.bumper);
+    DROPS_STATE.begin(wiring.drops);
     // Its handler is there.
     unsafe { interrupt::EXTI3.enable() };
     let adc1: &'static ADC1Unit = ADC1_UNIT.init(Mutex::new(wiring.adc1));
@@ -395,7 +395,7 @@ async fn main(spawner: Spawner) {
     let spi3: &'static rt::spi::SpiBus = SPI3_BUS.init(Mutex::new(wiring.spi3));
     start!(spawner, spi3_10ms(spi3, wiring.angle_select));
     start!(spawner, ahead_listen(wiring.ahead));
-    let (can1_tx, can1_rx) = rt::can::start(wiring.can1, hal::pac::CAN1, &rt::can::Banks { registers: hal::pac::CAN1, first: 0 }, &CAN1_KEPT, rt::can::Bit { divider: 6, before: 11, after: 2, jump: 2 }, &[crate::rt::can::standard(0x120)]);
+    let (can1_tx, can1_rx) = rt::can::start(wiring.can1, hal::pac::CAN1, &rt::can::Banks { registers: hal::pac::CAN1, first: 0 }, &CAN1_STATE, rt::can::Bit { divider: 6, before: 11, after: 2, jump: 2 }, &[crate::rt::can::standard(0x120)]);
     start!(spawner, can1_listen(can1_rx));
     start!(spawner, speed_edges(wiring.speed));
     start!(spawner, gpio_50ms());

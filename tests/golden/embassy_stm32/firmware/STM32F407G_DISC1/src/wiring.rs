@@ -21,7 +21,7 @@ bind_interrupts!(pub struct Irqs {
     I2C3_ER => hal::i2c::ErrorInterruptHandler<I2C3>;
     I2C3_EV => hal::i2c::EventInterruptHandler<I2C3>;
     TIM2 => hal::timer::CaptureCompareInterruptHandler<TIM2>;
-    USART2 => crate::AHEADHeard;
+    USART2 => crate::AHEADRx;
     USART3 => hal::usart::BufferedInterruptHandler<USART3>;
 });
 

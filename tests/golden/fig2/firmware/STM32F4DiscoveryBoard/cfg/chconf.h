@@ -8,7 +8,7 @@
 #define CH_CFG_ST_FREQUENCY 10000
 #define CH_CFG_INTERVALS_SIZE 32
 
-/* How much of each stack was ever used is told by what is still filled. */
+/* What is still filled shows how much of each stack was ever used. */
 #define CH_DBG_FILL_THREADS TRUE
 
 /* For development the kernel checks itself and whoever calls it. */

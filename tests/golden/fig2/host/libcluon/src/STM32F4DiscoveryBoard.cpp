@@ -98,7 +98,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::IRFront message;
             message.raw(raw[0]);
-            tell("IRFront", raw, 1, false, ::sense::fig2::scaling::IRFront(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("IRFront", raw, 1, false, ::sense::fig2::scaling::IRFront(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -107,7 +107,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::IRFrontRight message;
             message.raw(raw[0]);
-            tell("IRFrontRight", raw, 1, false, ::sense::fig2::scaling::IRFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("IRFrontRight", raw, 1, false, ::sense::fig2::scaling::IRFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -117,7 +117,7 @@ private:
             ::sense::fig2::USRear message;
             message.raw(raw[0]);
             message.value(::sense::fig2::scaling::USRear().of(static_cast<double>(raw[0])));
-            tell("USRear", raw, 1, true, ::sense::fig2::scaling::USRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
+            report("USRear", raw, 1, true, ::sense::fig2::scaling::USRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -126,7 +126,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::WheelEncoder message;
             message.raw(raw[0]);
-            tell("WheelEncoder", raw, 1, false, ::sense::fig2::scaling::WheelEncoder(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("WheelEncoder", raw, 1, false, ::sense::fig2::scaling::WheelEncoder(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -136,7 +136,7 @@ private:
     }
 
     template <typename T>
-    void tell(const char *name, const T *raw, std::size_t count, bool has_value,
+    void report(const char *name, const T *raw, std::size_t count, bool has_value,
               const sensedsl::Scaling &scaling, const sensedsl::Limits &limits,
               const char *quantity) const {
         if (settings_.is_verbose) {

@@ -98,7 +98,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::IRFrontRight message;
             message.raw(raw[0]);
-            tell("IRFrontRight", raw, 1, false, ::sense::miniature_car::scaling::IRFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("IRFrontRight", raw, 1, false, ::sense::miniature_car::scaling::IRFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -107,7 +107,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::IRRearRight message;
             message.raw(raw[0]);
-            tell("IRRearRight", raw, 1, false, ::sense::miniature_car::scaling::IRRearRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("IRRearRight", raw, 1, false, ::sense::miniature_car::scaling::IRRearRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -116,7 +116,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::IRRear message;
             message.raw(raw[0]);
-            tell("IRRear", raw, 1, false, ::sense::miniature_car::scaling::IRRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("IRRear", raw, 1, false, ::sense::miniature_car::scaling::IRRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -126,7 +126,7 @@ private:
             ::sense::miniature_car::USFront message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::USFront().of(static_cast<double>(raw[0])));
-            tell("USFront", raw, 1, true, ::sense::miniature_car::scaling::USFront(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
+            report("USFront", raw, 1, true, ::sense::miniature_car::scaling::USFront(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -136,7 +136,7 @@ private:
             ::sense::miniature_car::USFrontRight message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::USFrontRight().of(static_cast<double>(raw[0])));
-            tell("USFrontRight", raw, 1, true, ::sense::miniature_car::scaling::USFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
+            report("USFrontRight", raw, 1, true, ::sense::miniature_car::scaling::USFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -146,7 +146,7 @@ private:
             ::sense::miniature_car::USRear message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::USRear().of(static_cast<double>(raw[0])));
-            tell("USRear", raw, 1, true, ::sense::miniature_car::scaling::USRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
+            report("USRear", raw, 1, true, ::sense::miniature_car::scaling::USRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -155,7 +155,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::WheelLeftA message;
             message.raw(raw[0]);
-            tell("WheelLeftA", raw, 1, false, ::sense::miniature_car::scaling::WheelLeftA(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("WheelLeftA", raw, 1, false, ::sense::miniature_car::scaling::WheelLeftA(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -164,7 +164,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::WheelLeftB message;
             message.raw(raw[0]);
-            tell("WheelLeftB", raw, 1, false, ::sense::miniature_car::scaling::WheelLeftB(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("WheelLeftB", raw, 1, false, ::sense::miniature_car::scaling::WheelLeftB(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -173,7 +173,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::WheelRightA message;
             message.raw(raw[0]);
-            tell("WheelRightA", raw, 1, false, ::sense::miniature_car::scaling::WheelRightA(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("WheelRightA", raw, 1, false, ::sense::miniature_car::scaling::WheelRightA(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -182,7 +182,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::miniature_car::WheelRightB message;
             message.raw(raw[0]);
-            tell("WheelRightB", raw, 1, false, ::sense::miniature_car::scaling::WheelRightB(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            report("WheelRightB", raw, 1, false, ::sense::miniature_car::scaling::WheelRightB(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -192,7 +192,7 @@ private:
             ::sense::miniature_car::RCSteering message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::RCSteering().of(static_cast<double>(raw[0])));
-            tell("RCSteering", raw, 1, true, ::sense::miniature_car::scaling::RCSteering(), {1000.0, 2000.0}, " us");
+            report("RCSteering", raw, 1, true, ::sense::miniature_car::scaling::RCSteering(), {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -202,7 +202,7 @@ private:
             ::sense::miniature_car::RCThrottle message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::RCThrottle().of(static_cast<double>(raw[0])));
-            tell("RCThrottle", raw, 1, true, ::sense::miniature_car::scaling::RCThrottle(), {1000.0, 2000.0}, " us");
+            report("RCThrottle", raw, 1, true, ::sense::miniature_car::scaling::RCThrottle(), {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -212,7 +212,7 @@ private:
             ::sense::miniature_car::RCSwitch message;
             message.raw(raw[0]);
             message.value(::sense::miniature_car::scaling::RCSwitch().of(static_cast<double>(raw[0])));
-            tell("RCSwitch", raw, 1, true, ::sense::miniature_car::scaling::RCSwitch(), {1000.0, 2000.0}, " us");
+            report("RCSwitch", raw, 1, true, ::sense::miniature_car::scaling::RCSwitch(), {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -222,7 +222,7 @@ private:
     }
 
     template <typename T>
-    void tell(const char *name, const T *raw, std::size_t count, bool has_value,
+    void report(const char *name, const T *raw, std::size_t count, bool has_value,
               const sensedsl::Scaling &scaling, const sensedsl::Limits &limits,
               const char *quantity) const {
         if (settings_.is_verbose) {
