@@ -44,6 +44,7 @@ impl Line {
     }
 
     /// Sends all of the bytes, however slowly the host takes them.
+    #[cfg(feature = "machine")]
     pub(crate) fn say_all(&mut self, mut bytes: &[u8]) {
         let start = Instant::now();
         while !bytes.is_empty() {
@@ -59,6 +60,7 @@ impl Line {
     }
 
     /// Bytes that the host has sent.
+    #[cfg(feature = "machine")]
     pub(crate) fn received(&mut self) -> Vec<u8> {
         let mut bytes = [0_u8; 256];
         let count = self.board.read(&mut bytes).unwrap_or(0);

@@ -29,6 +29,7 @@ impl Background {
     }
 
     /// Like [`Self::start`], with standard error in a file named `errors`.
+    #[cfg(feature = "machine")]
     pub(crate) fn start_apart(command: &mut Command, folder: &Path, errors: &str) -> Self {
         Self::start_with(command, folder, |_| File::create(folder.join(errors)).unwrap())
     }
