@@ -7,6 +7,7 @@ mod alloy;
 mod boards;
 mod boards_page;
 mod can_peer;
+mod circles;
 mod command_line;
 mod corpus;
 mod crash;

@@ -6,6 +6,9 @@ use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use serde::{Deserialize, Deserializer};
 
+/// The name of the target, after which its part of a board's file is named.
+pub(crate) const NAME: &str = "chibios";
+
 /// The facts about a board. Paths are relative to the tree.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,7 +47,7 @@ impl Facts {
     ///
     /// If the board's file is damaged; tests rule that out for the built-in ones.
     pub fn of(board: &catalog::Board) -> Result<Option<Self>, String> {
-        let Some(facts) = board.system.get(crate::NAME) else { return Ok(None) };
+        let Some(facts) = board.system.get(NAME) else { return Ok(None) };
         let own =
             facts.own.clone().try_into::<Self>().map_err(|error| error.message().to_owned())?;
         Ok(Some(Self { clocks_hz: facts.clocks_hz.clone(), ..own }))

@@ -72,15 +72,12 @@ use sensedsl_files::FileSet;
 use sensedsl_job::Target;
 use sensedsl_job::{BoardJob, JobConnection};
 
-/// The name of the target.
-const NAME: &str = "chibios";
-
 /// The target `chibios`.
 pub struct Chibios;
 
 impl Target for Chibios {
     fn name(&self) -> &'static str {
-        NAME
+        facts::NAME
     }
 
     /// An MCU is served if there is code for its pins; a kind, if there is code for the version of its driver.

@@ -77,7 +77,7 @@ fn usb_task(context: &Context<'_>, driver: &str, section: &mut Section) {
 }
 
 /// The size of a port's queue for what the host sends: twice what comes from one cycle of the reporter to the next.
-pub(super) fn heard_bytes(baud: u32, report_ms: u32) -> u32 {
+pub(super) fn received_bytes(baud: u32, report_ms: u32) -> u32 {
     const BITS_OF_BYTE: u32 = 10;
     let bytes_each_ms = baud.div_ceil(BITS_OF_BYTE * 1_000);
     bytes_each_ms.saturating_mul(2 * report_ms).clamp(64, 1_024).next_power_of_two()

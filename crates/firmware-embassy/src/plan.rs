@@ -83,7 +83,7 @@ pub(super) struct Plan {
     pub(super) is_otg: bool,
     pub(super) is_uart: bool,
     /// The size of a serial port's queue for what the host sends.
-    pub(super) heard_bytes: u32,
+    pub(super) received_bytes: u32,
 }
 
 /// The schema in the runtime's words.
@@ -147,7 +147,7 @@ pub(super) fn plan(
         is_usb,
         is_otg: section.link == LinkPlan::Otg,
         is_uart: section.link == LinkPlan::Uart,
-        heard_bytes: link::heard_bytes(board.link.baud, report_ms),
+        received_bytes: link::received_bytes(board.link.baud, report_ms),
         fields: section.fields,
         outputs: section.outputs,
         items: section.items,
