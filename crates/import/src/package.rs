@@ -401,7 +401,7 @@ mod tests {
         ] {
             match scanned(&text) {
                 Err(Refused::TooMuch(reported, _)) => {
-                    assert!(reported.contains(what), "{reported}")
+                    assert!(reported.contains(what), "{reported}");
                 }
                 other => panic!("{what}: {other:?}"),
             }
