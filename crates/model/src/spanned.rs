@@ -2,7 +2,7 @@
 //! that is read keeps its place, so this file needs no other one.
 
 use sensedsl_diagnostics::{FileId, Span};
-use sensedsl_syntax::TextRange;
+use sensedsl_syntax::{TextRange, ast};
 
 /// A value and where it was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,4 +16,9 @@ pub struct Spanned<T> {
 /// The span of a syntax range.
 pub(crate) fn span(file: FileId, range: TextRange) -> Span {
     Span::new(file, range.start().into()..range.end().into())
+}
+
+/// A name and where it is written.
+pub(crate) fn named(file: FileId, name: &ast::Name) -> Spanned<String> {
+    Spanned { value: name.text().to_owned(), span: span(file, name.range()) }
 }

@@ -21,7 +21,7 @@ use crate::design::Board;
 use crate::rule;
 use crate::source::files::{FileRequest, FileUse, ReadError};
 use crate::source::reader::beside;
-use crate::spanned::{Spanned, span};
+use crate::spanned::{Spanned, named, span};
 use context::{Context, RemainingBudget};
 
 /// The pins of a board, with their origin.
@@ -34,8 +34,7 @@ struct Pins {
 
 /// Reads the board `node` of `file`; none when its pins cannot be found.
 pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -> Option<Board> {
-    let name = node.name()?;
-    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let name = named(file, &node.name()?);
     let rules = rule::of_board(file, node, (context.constants, context.diagnostics));
     let asked = target::asked(context, file, node, name.span);
     let pins = pins(context, file, node, &name).and_then(|pins| afforded(context, pins, name.span));

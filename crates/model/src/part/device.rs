@@ -21,7 +21,7 @@ use crate::part::properties::{
 };
 use crate::part::{chip, placement, reach, words};
 use crate::rule;
-use crate::spanned::{Spanned, span};
+use crate::spanned::{Spanned, named, span};
 use crate::value::types;
 
 /// Most elements of an array with a wire each, which is more than any part has of one kind.
@@ -36,8 +36,7 @@ pub(crate) fn read(
     known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<ReadPart> {
-    let name = node.name()?;
-    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let name = named(file, &node.name()?);
     let direction = direction(node)?;
     if let Some(driver) = driver_with_values(file, node, known) {
         return chip::of_device((file, next), node, driver, board, known, diagnostics);

@@ -29,7 +29,7 @@ use crate::part::ids::ID_MAX;
 use crate::part::properties::{self, COMMON_PROPERTIES, PRESENTATION};
 use crate::part::words;
 use crate::rule;
-use crate::spanned::{Spanned, span};
+use crate::spanned::{Spanned, named, span};
 use crate::value::Evaluator;
 use reader::{ChipReader, DriverValue};
 use sockets::Socket;
@@ -48,8 +48,7 @@ pub(crate) fn read(
     known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<ReadPart> {
-    let name = node.name()?;
-    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let name = named(file, &node.name()?);
     let rest = (known.constants, &mut *diagnostics);
     let (mut wishes, mut allows) = rule::of_device(file, node.rules(), node.range(), rest);
     for device in node.devices() {
@@ -100,8 +99,7 @@ pub(crate) fn of_device(
     known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<ReadPart> {
-    let name = node.name()?;
-    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let name = named(file, &node.name()?);
     let rest = (known.constants, &mut *diagnostics);
     let (wishes, allows) = rule::of_device(file, node.rules(), node.range(), rest);
     let block = span(file, node.range());
