@@ -47,6 +47,11 @@ pub fn few<T>(all: &[T], count: usize) -> &[T] {
     if is_thorough() { all } else { all.get(..count).unwrap_or(all) }
 }
 
+/// Every `step`-th item, or all of them in a thorough run.
+pub fn one_in<I: IntoIterator>(step: usize, all: I) -> impl Iterator<Item = I::Item> {
+    all.into_iter().step_by(if is_thorough() { 1 } else { step })
+}
+
 /// The root of the repository.
 #[must_use]
 pub fn root() -> PathBuf {

@@ -1,7 +1,7 @@
 //! No input makes the tool panic: seeded mutations of all examples and tables are resolved, solved
 //! and generated in this process.
 //!
-//! The default is 600 mutations, and 20,000 with `SENSEDSL_THOROUGH=1`;
+//! The default is 200 mutations, and 20,000 with `SENSEDSL_THOROUGH=1`;
 //! `SENSEDSL_MUTATIONS=1000000` is for a long run (with `--release`). An input that panics is
 //! printed; it belongs in `tests/corpus/err` or `tests/corpus/ok`.
 
@@ -188,7 +188,7 @@ fn panics(numbers: impl Iterator<Item = u64>, seeds: &[Input]) -> String {
 #[test]
 fn mutated_examples_and_tables() {
     let mutations: u64 = std::env::var("SENSEDSL_MUTATIONS")
-        .map_or(if is_thorough() { 20_000 } else { 600 }, |number| {
+        .map_or(if is_thorough() { 20_000 } else { 200 }, |number| {
             number.parse().expect("SENSEDSL_MUTATIONS is a number")
         });
     let seeds = seeds();

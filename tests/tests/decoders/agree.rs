@@ -46,7 +46,7 @@ fn cases(seed: u64, rounds: usize, mut check: impl FnMut(&Schema, Direction, &[u
 #[test]
 fn rust_says_what_the_definition_says() {
     let (mut frames, mut streams) = (0, 0);
-    cases(1, rounds(if is_thorough() { 120 } else { 20 }), |schema, direction, stream, pieces| {
+    cases(1, rounds(if is_thorough() { 120 } else { 5 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let at_once = rust(schema, direction, stream, &[0]);
         assert_eq!(at_once, wanted, "{schema:?} {direction:?} {stream:02x?}");
@@ -80,7 +80,7 @@ const BUILDS: [(&str, &[&str]); 4] = [
 fn c_and_cpp_agree(folder: &str, more: &[&str]) {
     let flags = ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
     let mut program = Program::build(&scratch(folder), &[&flags, more].concat());
-    cases(2, rounds(if is_thorough() { 25 } else { 6 }), |schema, direction, stream, pieces| {
+    cases(2, rounds(if is_thorough() { 25 } else { 2 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let schema_bytes = schema_bytes(schema, direction);
         for who in OTHERS {

@@ -8,7 +8,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use sensedsl_board::catalog;
-use sensedsl_tests::{answered, has, root, run, text};
+use sensedsl_tests::{answered, has, is_thorough, one_in, root, run, text};
 
 use super::stubs;
 use super::tools::scratch;
@@ -116,7 +116,8 @@ fn every_bit_rate_that_is_accepted_is_made() {
     for is_fdcan in [false, true] {
         let mut asked = Vec::new();
         let mut accepted = Vec::new();
-        for (board, hz, _) in clocks().into_iter().filter(|(.., own)| *own == is_fdcan) {
+        let clocks = clocks().into_iter().filter(|(.., own)| *own == is_fdcan);
+        for (board, hz, _) in one_in(3, clocks) {
             for rate in RATES {
                 let text = design.replace("BOARD", &board);
                 let text = text.replace("bitrate = 500 kHz", &format!("bitrate = {rate} Hz"));
@@ -145,7 +146,8 @@ fn every_bit_rate_that_is_accepted_is_made() {
     }
     eprintln!("made {made:?}, refused {refused}");
     assert!(wrong.is_empty(), "{wrong:#?}");
-    assert!(made[0] >= 100 && made[1] >= 15 && refused > 0, "{made:?} {refused}");
+    let least = if is_thorough() { [100, 15] } else { [30, 5] };
+    assert!(made[0] >= least[0] && made[1] >= least[1] && refused > 0, "{made:?} {refused}");
 }
 
 /// Every whole number of steps with every prescaler of a clock, so that no rate between them is

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::{few, has, printed, run};
+use sensedsl_tests::{few, has, is_thorough, printed, run};
 
 use super::link::{Application, design, scenes};
 use super::tools::Background;
@@ -72,7 +72,7 @@ fn wrong_calls_are_told_apart_from_wrong_boards() {
 
 #[test]
 fn two_designs_are_installed_and_found_by_one_program() {
-    if !has("cmake") || !has("g++") {
+    if !is_thorough() || !has("cmake") || !has("g++") {
         return;
     }
     let prefix = files::folder("prefix");

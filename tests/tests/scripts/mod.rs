@@ -1,9 +1,10 @@
 //! Calls of the program as users type them, with what must come of them: `tests/scripts/*.txt`. The README there
-//! defines the lines. A file is a test; each case in it has a folder of its own.
+//! defines the lines. A file is a test; each case in it has a folder of its own. Quick runs take a
+//! fifth of the rows.
 
 mod run;
 
-use sensedsl_tests::{files, root, text};
+use sensedsl_tests::{files, one_in, root, text};
 
 use run::Place;
 
@@ -19,11 +20,13 @@ fn check(file: &str) {
         }
     }
     assert!(!cases.is_empty(), "{file} has no cases");
-    for (number, lines) in cases {
+    let rows_of = |(number, lines): &(usize, Vec<&str>)| {
         let (name, lines) = lines.split_first().unwrap();
-        for (row, lines) in rows(lines) {
-            Place::new(format!("{file}:{number}: {name} {row}")).run(&lines);
-        }
+        let title = format!("{file}:{number}: {name}");
+        rows(lines).into_iter().map(move |(row, lines)| (format!("{title} {row}"), lines))
+    };
+    for (title, lines) in one_in(5, cases.iter().flat_map(rows_of)) {
+        Place::new(title).run(&lines);
     }
 }
 
@@ -142,7 +145,7 @@ fn what_does_not_hold_is_noticed() {
     {
         assert!(!fails(right), "{right}");
     }
-    for wrong in [
+    let wrong = [
         "out PICO",
         "no out BLACKPILL",
         "rows 1",
@@ -164,7 +167,8 @@ fn what_does_not_hold_is_noticed() {
         "files .: x",
         ">1 boards",
         "unknown word",
-    ] {
+    ];
+    for wrong in one_in(5, wrong) {
         assert!(fails(wrong), "{wrong}");
     }
 }
