@@ -38,7 +38,8 @@ fn row(entry: &Entry) -> String {
     let pins = entry.table().pins;
     let taken = |pin: &&Pin| pin.onboard.as_ref().is_some_and(|part| part.how == Occupation::Taken);
     let free = pins.len() - pins.iter().filter(taken).count();
-    let places = distinct(pins.iter().filter_map(|pin| pin.header.as_deref()));
+    let places = distinct(pins.iter().flat_map(Pin::headers));
+    let places = if places.is_empty() { "unknown".to_owned() } else { places };
     let parts = distinct(pins.iter().filter_map(|pin| pin.onboard.as_ref()).map(|p| &*p.part));
     let links = board.link.iter().map(|link| {
         let names: Vec<&str> = link.pins.iter().map(|pin| pin.as_str()).collect();

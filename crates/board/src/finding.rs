@@ -60,6 +60,32 @@ pub enum FindingKind {
         /// The first row's pin cell.
         first: Range<usize>,
     },
+    /// A word of the column `Places` that is no place; it is not read.
+    BadPlace {
+        /// The word.
+        spelled: String,
+    },
+    /// The board's form has the connector, but not this contact.
+    NoContact {
+        /// Connector and contact.
+        contact: String,
+        /// The form.
+        form: String,
+    },
+    /// A contact is there twice without carrying the same; the second is read all the same.
+    ContactTwice {
+        /// Connector and contact.
+        contact: String,
+        /// What the first one carries.
+        first: String,
+    },
+    /// The table's line `# form = …` names no form.
+    UnknownForm {
+        /// The name.
+        spelled: String,
+        /// The name that was probably meant.
+        nearest: Option<String>,
+    },
     /// A usage is in a row twice; it is read, and counts, once.
     DuplicateUsage {
         /// The usage as the table spells it.

@@ -3,6 +3,7 @@
 //! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest is
 //! read, so that one run reports all mistakes.
 
+mod places;
 mod usages;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,8 +14,10 @@ use sensedsl_limits::{COLUMNS_MAX, DIAGNOSTICS_MAX, PINS_MAX, TABLE_PROPERTIES_M
 
 use crate::cells::{self, Cell, Sheet, is_zero_width};
 use crate::finding::{Finding, FindingKind};
+use crate::form::{self, Form};
 use crate::mcu;
 use crate::pin::PinName;
+use crate::place::Place;
 use crate::table::{Column, Loaded, Pin, Property, Role, Table};
 
 /// Implements [`crate::table::load`].
@@ -60,6 +63,10 @@ struct Loader<'a> {
     more: usize,
     /// How many more usages may be read.
     usages_left: usize,
+    /// The shape of the board, if the table names it.
+    form: Option<&'static Form>,
+    /// What each contact of a connector carries, and whether that is a pin.
+    carried: BTreeMap<String, (String, bool)>,
 }
 
 /// A piece of a cell, between white space.
@@ -77,7 +84,15 @@ impl Word {
 impl<'a> Loader<'a> {
     fn new(text: &'a str) -> Self {
         let (lines, findings) = (line_starts(text), Vec::new());
-        Self { text, lines, findings, more: 0, usages_left: USAGES_MAX }
+        Self {
+            text,
+            lines,
+            findings,
+            more: 0,
+            usages_left: USAGES_MAX,
+            form: None,
+            carried: BTreeMap::new(),
+        }
     }
 
     /// The findings, in text order.
@@ -139,6 +154,10 @@ impl<'a> Loader<'a> {
         Some(self.content(cell)).filter(Word::is_filled)
     }
 
+    fn text(&self, cell: &Cell) -> Option<String> {
+        self.value(cell).map(|word| word.text)
+    }
+
     /// The pieces of a cell, separated by white space.
     fn words(&self, cell: &Cell) -> Vec<Word> {
         let raw = self.raw(&cell.range);
@@ -179,14 +198,27 @@ impl<'a> Loader<'a> {
                 self.report(FindingKind::DuplicateProperty { key }, &property.range, None);
                 continue;
             }
-            if property.key == "mcu" {
-                self.mcu(&property);
-                board.mcu = Some(property.value.clone());
+            match property.key.as_str() {
+                "mcu" => {
+                    self.mcu(&property);
+                    board.mcu = Some(property.value.clone());
+                }
+                "form" => self.form(&property),
+                _ => {}
             }
             if board.properties.len() == TABLE_PROPERTIES_MAX {
                 return self.too_large("lines `# key = value`", TABLE_PROPERTIES_MAX, comment);
             }
             board.properties.push(property);
+        }
+    }
+
+    fn form(&mut self, property: &Property) {
+        self.form = form::find(&property.value);
+        if self.form.is_none() {
+            let nearest = form::nearest_name(&property.value).map(str::to_owned);
+            let spelled = property.value.clone();
+            self.report(FindingKind::UnknownForm { spelled, nearest }, &property.range, None);
         }
     }
 
@@ -223,6 +255,10 @@ impl<'a> Loader<'a> {
                 continue;
             }
             blank = false;
+            if let Some(contacts) = self.contacts(row, &slots) {
+                board.contacts.extend(contacts);
+                continue;
+            }
             let Some(pin) = self.row(row, &slots) else { continue };
             if pins.len() == PINS_MAX && !pins.contains_key(&pin.name) {
                 self.too_large("pins", PINS_MAX, &pin.range);
@@ -297,7 +333,7 @@ impl<'a> Loader<'a> {
             self.report(kind, &header_range(row), None);
         }
         let mut pin = self.pin(row, slots)?;
-        let mut alternates = None;
+        let (mut alternates, mut described) = (None, Place::default());
         let mut known = Known::new();
         for (cell, column) in row.iter().zip(slots) {
             let Some(column) = column else { continue };
@@ -306,17 +342,24 @@ impl<'a> Loader<'a> {
                 Role::Usages => self.usages(cell, column, &mut pin, &mut known),
                 Role::Onboard => pin.onboard = self.onboard(cell, column),
                 Role::Alternate => alternates = Some((cell, column)),
-                Role::Position
-                | Role::Side
-                | Role::Header
-                | Role::Label
-                | Role::Voltage
-                | Role::Note
-                | Role::Pin => {
-                    if let Some(place) = pin.text_mut(column.role) {
-                        *place = self.value(cell).map(|word| word.text);
-                    }
+                Role::Label => pin.label = self.text(cell),
+                Role::Voltage => pin.voltage = self.text(cell),
+                Role::Note => pin.note = self.text(cell),
+                Role::Position => described.position = self.text(cell),
+                Role::Side => described.side = self.text(cell),
+                Role::Header => described.header = self.text(cell),
+                Role::Places => {
+                    pin.places = self.places(cell, column, (pin.name.as_str(), true));
                 }
+                Role::Pin => {}
+            }
+        }
+        if described != Place::default() {
+            pin.places.insert(0, described);
+        }
+        for place in &mut pin.places {
+            if let Some(form) = self.form {
+                place.look_up(form);
             }
         }
         if let Some((cell, column)) = alternates {

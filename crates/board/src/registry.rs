@@ -25,6 +25,13 @@ macro_rules! board {
     };
 }
 
+/// A file of `forms/`.
+macro_rules! form {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../forms/", $name, ".toml")))
+    };
+}
+
 /// A file of `targets/`.
 macro_rules! target {
     ($target:literal, $file:literal, $family:literal, $parts:expr) => {
@@ -127,6 +134,27 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("STM32L0538-DISCO", &["ST_STM32L053_DISCOVERY"], "STM32L053C8T6", "STM32L0538-DISCO, Discovery kit, all pins of its MCU"),
     board!("STM32L-DISCOVERY", &["ST_STM32L_DISCOVERY"], "STM32L152RBT6", "STM32L-DISCOVERY, Discovery kit, all pins of its MCU"),
     board!("STM32VLDISCOVERY", &["ST_STM32VL_DISCOVERY"], "STM32F100RBT6", "STM32VLDISCOVERY, Discovery kit, all pins of its MCU"),
+];
+
+#[rustfmt::skip]
+pub(crate) const FORMS: &[(&str, &str)] = &[
+    form!("bluepill"),
+    form!("maple-mini"),
+    form!("mega"),
+    form!("nano"),
+    form!("nucleo32"),
+    form!("nucleo64"),
+    form!("nucleo64p"),
+    form!("nucleo144"),
+    form!("pico"),
+    form!("stm32f3-discovery"),
+    form!("stm32f4-discovery"),
+    form!("stm32f429i-disc1"),
+    form!("stm32l476g-disco"),
+    form!("stm32l0538-disco"),
+    form!("stm32vl-discovery"),
+    form!("uno-r3-micro-usb"),
+    form!("uno-r3"),
 ];
 
 #[rustfmt::skip]

@@ -8,7 +8,9 @@ use std::ops::Range;
 
 use crate::cells::{bare, guarded, inner, says_nothing};
 use crate::finding::Finding;
-use crate::pin::PinName;
+use crate::form::{self, Form};
+use crate::pin::{PinName, natural};
+use crate::place::{Contact, Place};
 use crate::remap::Blocks;
 use crate::signal::Signal;
 
@@ -38,6 +40,8 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// The pins in natural order.
     pub pins: Vec<Pin>,
+    /// The contacts of connectors that carry no pin, in the order of the rows.
+    pub contacts: Vec<Contact>,
 }
 
 /// A line `# key = value`.
@@ -73,6 +77,8 @@ pub enum Role {
     Side,
     /// The connector.
     Header,
+    /// Contacts of connectors: `CN7.28 CN8.1=A0`.
+    Places,
     /// The part of the board that is connected to the pin.
     Onboard,
     /// The text printed next to the pin.
@@ -89,11 +95,12 @@ pub enum Role {
 
 impl Role {
     /// The roles that a header can name; all except [`Role::Usages`].
-    pub const NAMED: [(&'static str, Self); 9] = [
+    pub const NAMED: [(&'static str, Self); 10] = [
         ("Pin", Self::Pin),
         ("Position", Self::Position),
         ("Side", Self::Side),
         ("Header", Self::Header),
+        ("Places", Self::Places),
         ("Onboard", Self::Onboard),
         ("Label", Self::Label),
         ("Voltage", Self::Voltage),
@@ -120,13 +127,10 @@ pub struct Pin {
     pub spelled: String,
     /// The usages in the order of the row, with each signal once.
     pub usages: Vec<Usage>,
-    /// The position on the package.
-    pub position: Option<String>,
-    /// The edge of the board.
-    pub side: Option<String>,
-    /// The connector.
-    pub header: Option<String>,
-    /// The text printed next to the pin.
+    /// Where it is found, in the order of the table: what its columns `Header`, `Position` and `Side` say, then its
+    /// column `Places`.
+    pub places: Vec<Place>,
+    /// The text printed next to the pin, wherever its places have none of their own.
     pub label: Option<String>,
     /// The voltages that the pin tolerates.
     pub voltage: Option<String>,
@@ -148,9 +152,7 @@ impl Pin {
             name,
             spelled,
             usages: Vec::new(),
-            position: None,
-            side: None,
-            header: None,
+            places: Vec::new(),
             label: None,
             voltage: None,
             note: None,
@@ -163,14 +165,55 @@ impl Pin {
     /// The text of a column that describes the pin; none for other columns.
     pub fn text_mut(&mut self, role: Role) -> Option<&mut Option<String>> {
         match role {
-            Role::Position => Some(&mut self.position),
-            Role::Side => Some(&mut self.side),
-            Role::Header => Some(&mut self.header),
+            Role::Position => self.first_place().map(|place| &mut place.position),
+            Role::Side => self.first_place().map(|place| &mut place.side),
+            Role::Header => self.first_place().map(|place| &mut place.header),
             Role::Label => Some(&mut self.label),
             Role::Voltage => Some(&mut self.voltage),
             Role::Note => Some(&mut self.note),
-            Role::Pin | Role::Onboard | Role::Alternate | Role::Usages => None,
+            Role::Pin | Role::Places | Role::Onboard | Role::Alternate | Role::Usages => None,
         }
+    }
+
+    /// The place that the columns `Header`, `Position` and `Side` describe, with nothing in it at first.
+    fn first_place(&mut self) -> Option<&mut Place> {
+        if self.places.is_empty() {
+            self.places.push(Place::default());
+        }
+        self.places.first_mut()
+    }
+
+    /// Its position on the package, if the table has that.
+    #[must_use]
+    pub fn package_position(&self) -> Option<&str> {
+        let own = self.places.iter().find(|place| place.header.is_none())?;
+        own.position.as_deref()
+    }
+
+    /// The connectors that it is at, each once.
+    #[must_use]
+    pub fn headers(&self) -> Vec<&str> {
+        distinct(self.places.iter().filter_map(|place| place.header.as_deref()))
+    }
+
+    /// The edges of the board that it is at, each once.
+    #[must_use]
+    pub fn sides(&self) -> Vec<&str> {
+        distinct(self.places.iter().filter_map(|place| place.side.as_deref()))
+    }
+
+    /// What is printed beside it, each text once.
+    #[must_use]
+    pub fn labels(&self) -> Vec<&str> {
+        let own = self.places.iter().filter_map(|place| place.label.as_deref());
+        distinct(self.label.as_deref().into_iter().chain(own))
+    }
+
+    /// Its contact at a connector: the first in natural order if there are several.
+    #[must_use]
+    pub fn position_at(&self, header: &str) -> Option<&str> {
+        let there = self.places.iter().filter(|place| place.is_at_header(header));
+        there.filter_map(|place| place.position.as_deref()).min_by(|a, b| natural(a, b))
     }
 
     /// The opportunity cost of taking the pin, which is its number of usages over all columns.
@@ -253,7 +296,42 @@ impl fmt::Display for Onboard {
     }
 }
 
+/// Texts in their order, each once; letters of any case are alike.
+fn distinct<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<&'t str> {
+    let mut known: Vec<&str> = Vec::new();
+    for text in texts {
+        if !known.iter().any(|one| one.eq_ignore_ascii_case(text)) {
+            known.push(text);
+        }
+    }
+    known
+}
+
 impl Table {
+    /// The shape of the board, from the line `# form = …`.
+    #[must_use]
+    pub fn form(&self) -> Option<&'static Form> {
+        self.property("form").and_then(form::find)
+    }
+
+    /// What the contacts without a pin carry, each signal with the words of all its contacts.
+    fn contact_rows(&self) -> Vec<(&str, Vec<String>)> {
+        let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
+        for contact in &self.contacts {
+            match rows.iter_mut().find(|(signal, _)| *signal == contact.signal) {
+                Some((_, places)) => places.extend(contact.place.word()),
+                None => rows.push((&contact.signal, contact.place.word().into_iter().collect())),
+            }
+        }
+        rows
+    }
+
+    /// Whether it says of any pin where it is.
+    #[must_use]
+    pub fn has_places(&self) -> bool {
+        self.pins.iter().any(|pin| pin.places.iter().any(|place| place.header.is_some()))
+    }
+
     /// The row of a pin.
     #[must_use]
     pub fn pin(&self, name: &PinName) -> Option<&Pin> {
@@ -281,23 +359,49 @@ impl Table {
             self.columns.iter().filter(|column| column.role != Role::Alternate).collect();
         push_row(&mut csv, columns.iter().map(|column| column.header.clone()));
         for pin in &self.pins {
-            push_row(&mut csv, columns.iter().map(|column| cell(pin, column)));
+            let (described, others) =
+                described(pin, |role| columns.iter().any(|one| one.role == role));
+            let cell = |column: &&Column| cell(pin, column, described, others);
+            push_row(&mut csv, columns.iter().map(cell));
+        }
+        for (signal, places) in self.contact_rows() {
+            let cell = |column: &&Column| match column.role {
+                Role::Label => signal.to_owned(),
+                Role::Places => places.join(" "),
+                _ => String::new(),
+            };
+            push_row(&mut csv, columns.iter().map(cell));
         }
         csv
     }
 }
 
+/// The place for the columns `Header`, `Position` and `Side`, and those for the column `Places`.
+fn described(pin: &Pin, has: impl Fn(Role) -> bool) -> (Option<&Place>, &[Place]) {
+    let fits = |place: &Place| {
+        let is_plain = place.label.is_none() && !place.is_inferred;
+        let whole = (place.header.is_none() || has(Role::Header))
+            && (place.position.is_none() || has(Role::Position));
+        is_plain && whole && (place.word().is_none() || !has(Role::Places) || has(Role::Header))
+    };
+    match pin.places.split_first() {
+        Some((first, others)) if fits(first) => (Some(first), others),
+        _ => (None, &pin.places),
+    }
+}
+
 /// The content of one cell.
-fn cell(pin: &Pin, column: &Column) -> String {
+fn cell(pin: &Pin, column: &Column, described: Option<&Place>, others: &[Place]) -> String {
     // A dash would be read as an empty cell.
     let plain =
         |text: String| if says_nothing(&inner(&text, false)) { String::new() } else { text };
     let text = |text: &Option<String>| text.clone().map(plain).unwrap_or_default();
     match column.role {
         Role::Pin => pin.spelled.clone(),
-        Role::Position => text(&pin.position),
-        Role::Side => text(&pin.side),
-        Role::Header => text(&pin.header),
+        Role::Position => described.map_or(String::new(), |place| text(&place.position)),
+        Role::Side => described.map_or(String::new(), |place| text(&place.side)),
+        Role::Header => described.map_or(String::new(), |place| text(&place.header)),
+        Role::Places => others.iter().filter_map(Place::word).collect::<Vec<_>>().join(" "),
         Role::Label => text(&pin.label),
         Role::Voltage => text(&pin.voltage),
         Role::Note => text(&pin.note),

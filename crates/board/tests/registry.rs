@@ -3,12 +3,52 @@
 #![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use sensedsl_board::catalog::{self, Board};
 use sensedsl_board::pin::natural;
-use sensedsl_board::{profile, table};
+use sensedsl_board::{form, profile, table};
+
+/// The boards of which no public source says where their pins are, and the paper's, whose table has none.
+const WITHOUT_PLACES: &[&str] = &[
+    "B-G474E-DPOW1",
+    "NUCLEO-L4P5ZG",
+    "OLIMEX-STM32-E407",
+    "P-NUCLEO-WB55-USBDONGLE",
+    "STM32C0116-DK",
+    "STM32F0DISCOVERY",
+    "STM32F4DiscoveryBoard",
+    "STM32F072B-DISCO",
+    "STM32F3348-DISCO",
+];
+
+/// Contacts of which no public source says what they carry: how many of each connector.
+const UNKNOWN_CONTACTS: &[(&str, &str, usize)] = &[
+    ("CLICKER2-STM32", "HDR2", 1),
+    ("NUCLEO-C071RB", "CN10", 2),
+    ("NUCLEO-C071RB", "CN7", 5),
+    ("NUCLEO-H503RB", "CN10", 7),
+    ("NUCLEO-H503RB", "CN7", 12),
+    ("NUCLEO-H563ZI", "CN11", 1),
+    ("NUCLEO-H563ZI", "CN12", 1),
+    ("NUCLEO-L452RE-P", "CN5", 1),
+    ("NUCLEO-L452RE-P", "CN6", 1),
+    ("NUCLEO-L552ZE-Q", "CN11", 51),
+    ("NUCLEO-L552ZE-Q", "CN12", 45),
+    ("NUCLEO-U083RC", "CN10", 5),
+    ("NUCLEO-U083RC", "CN7", 9),
+    ("NUCLEO-U385RG-Q", "CN10", 19),
+    ("NUCLEO-U385RG-Q", "CN7", 24),
+    ("NUCLEO-WL55JC1", "CN10", 7),
+    ("NUCLEO-WL55JC1", "CN7", 17),
+    ("STM32F469I-DISCO", "CN12", 1),
+    ("STM32H735G-DK", "ARD_DIGITAL_H", 4),
+    ("STM32H735G-DK", "STMOD+", 4),
+    ("STM32L-DISCOVERY", "P1", 4),
+    ("STM32L-DISCOVERY", "P2", 4),
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -76,6 +116,10 @@ fn generate(module: &str) -> String {
         )
         .unwrap();
     }
+    text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const FORMS: &[(&str, &str)] = &[\n");
+    for (file, _) in entries(&root().join("crates/board/forms")) {
+        writeln!(text, "    form!({:?}),", file.strip_suffix(".toml").unwrap()).unwrap();
+    }
     text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const TARGETS: &[Target] = &[\n");
     for (target, file, path) in targets() {
         let (family, parts) = (family(&read(&path)), parts(&read(&path)));
@@ -97,7 +141,7 @@ fn the_registry_is_fresh() {
 
 #[test]
 fn every_board_is_sound() {
-    let mut names = std::collections::BTreeSet::new();
+    let mut names = BTreeSet::new();
     for entry in catalog::all() {
         for name in std::iter::once(&entry.name).chain(entry.aliases) {
             assert_eq!(catalog::find(name), Some(entry), "{name} is the name of two boards");
@@ -118,6 +162,63 @@ fn every_board_is_sound() {
             assert!(!facts.clocks_hz.is_empty(), "{}: no clocks", board.name);
         }
     }
+}
+
+/// Outline, connectors and sides of every form are consistent.
+#[test]
+fn every_form_is_sound() {
+    for name in form::names() {
+        let form = form::find(name).unwrap_or_else(|| panic!("{name} cannot be read"));
+        assert_eq!(form.name, name);
+        for connector in &form.connector {
+            let mut numbers: Vec<u32> = connector.numbers().collect();
+            numbers.sort_unstable();
+            let all: Vec<u32> = (1..=u32::try_from(numbers.len()).unwrap()).collect();
+            assert_eq!(numbers, all, "{name} {}", connector.name);
+            for number in numbers {
+                let at = connector.contact(number).unwrap();
+                let is_inside = (0.0..=form.width_mm).contains(&at.x_mm)
+                    && (0.0..=form.height_mm).contains(&at.y_mm);
+                assert!(is_inside, "{name} {}.{number}: {at:?}", connector.name);
+            }
+        }
+    }
+}
+
+/// A board has no places, or every pin on a connector has one, and all contacts of a connector are there.
+#[test]
+fn places_are_complete() {
+    let (mut without, mut unknown) = (Vec::new(), Vec::new());
+    for entry in catalog::all() {
+        let table = entry.table();
+        if !table.has_places() {
+            without.push(entry.name);
+            continue;
+        }
+        let pins = table.pins.iter().flat_map(|pin| &pin.places);
+        let places = pins.chain(table.contacts.iter().map(|contact| &contact.place));
+        let mut numbers: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+        for place in places {
+            let header = place.header.clone().unwrap();
+            let number = place.position.as_ref().unwrap().parse().unwrap();
+            assert!(numbers.entry(header).or_default().insert(number), "{} {place:?}", entry.name);
+        }
+        for (header, numbers) in numbers {
+            let form = table.form().and_then(|form| form.connector(&header));
+            let all: BTreeSet<u32> = match form {
+                Some(connector) => connector.numbers().collect(),
+                None => (*numbers.first().unwrap()..=*numbers.last().unwrap()).collect(),
+            };
+            let missing = all.difference(&numbers).count();
+            if missing > 0 {
+                unknown.push((entry.name, header, missing));
+            }
+        }
+    }
+    assert_eq!(without, WITHOUT_PLACES);
+    let unknown: Vec<_> =
+        unknown.iter().map(|(board, header, count)| (*board, header.as_str(), *count)).collect();
+    assert_eq!(unknown, UNKNOWN_CONTACTS);
 }
 
 #[test]

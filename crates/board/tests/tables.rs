@@ -80,9 +80,10 @@ fn described_pins() {
     assert_eq!(table.mcu.as_deref(), Some("STM32F407VGT6"));
     assert_eq!(table.property("Revision"), Some("C"));
     let pb6 = pin(&table, "PB6");
-    assert_eq!(pb6.position.as_deref(), Some("92"));
-    assert_eq!(pb6.side.as_deref(), Some("left"));
-    assert_eq!(pb6.header.as_deref(), Some("P2"));
+    assert_eq!(
+        (pb6.sides(), pb6.headers(), pb6.position_at("p2")),
+        (vec!["left"], vec!["P2"], Some("92"))
+    );
     assert_eq!(pb6.label.as_deref(), Some("D10"));
     assert_eq!(pb6.voltage.as_deref(), Some("5V"));
     assert_eq!(pb6.note.as_deref(), Some("audio, too"));
@@ -96,6 +97,46 @@ fn described_pins() {
     assert_eq!(onboard("PA0"), ("LED".to_owned(), Occupation::Care));
     assert_eq!(onboard("PC13"), ("Button".to_owned(), Occupation::Taken));
     assert_eq!(pin(&table, "PA0").label, None);
+}
+
+#[test]
+fn pins_with_several_places() {
+    let text = "# form = nucleo64\nPin,Label,Places\nPA0,A0,CN7.28 CN8.1\nPB1,,CN10.24? CN5.6=D13\nPB2,,\n\
+        ,GND,CN7.8 CN7.19\n,NRST,CN6.3=RESET\n";
+    let table = check(text, &[]);
+    let pa0 = pin(&table, "PA0");
+    assert_eq!(
+        (pa0.headers(), pa0.sides(), pa0.labels()),
+        (vec!["CN7", "CN8"], vec!["left"], vec!["A0"])
+    );
+    let pb1 = pin(&table, "PB1");
+    assert_eq!((pb1.sides(), pb1.labels()), (vec!["right"], vec!["D13"]));
+    assert!(pb1.places[0].is_inferred && !pb1.places[1].is_inferred);
+    assert_eq!(pin(&table, "PB2").places, []);
+    let contacts: Vec<String> = table
+        .contacts
+        .iter()
+        .map(|one| format!("{} {}", one.signal, one.place.contact().unwrap()))
+        .collect();
+    assert_eq!(contacts, ["GND CN7.8", "GND CN7.19", "NRST CN6.3"]);
+    assert_eq!(table.to_csv(), text);
+}
+
+#[test]
+fn wrong_places_are_reported() {
+    let text = "# form = nucleo65\nPin,Label,Places\nPA0,,CN7.1 x\nPA1,,CN7.1 CN7.4\n,GND,CN7.2 CN7.4\n,,CN7.3\n,GND,CN7.2 cn7.1\n";
+    check(
+        text,
+        &[
+            "1:- `nucleo65` UnknownForm { spelled: \"nucleo65\", nearest: Some(\"nucleo64\")",
+            "3:Places `x` BadPlace",
+            "5:Places `CN7.4` ContactTwice { contact: \"CN7.4\", first: \"PA1\"",
+            "6:Pin `,,CN7.3` MissingPin",
+            "7:Places `cn7.1` ContactTwice",
+        ],
+    );
+    let text = "# form = nucleo32\nPin,Places\nPA0,CN3.16 CN3.15\nPA1,J1.99\n";
+    check(text, &["3:Places `CN3.16` NoContact { contact: \"CN3.16\", form: \"nucleo32\""]);
 }
 
 #[test]
@@ -266,7 +307,7 @@ proptest! {
     }
 
     #[test]
-    fn any_table_like_text_is_read(text in "(#|Pin|PA[0-9]{1,2}|AF|Onboard|TIM[0-9]_CH[0-9]|ADC12IN8|mcu|[=@:,;\t\"\r\n -]|\u{a0}|x){0,60}") {
+    fn any_table_like_text_is_read(text in "(#|Pin|Places|Label|Header|CN7.[0-9]|PA[0-9]{1,2}|AF|Onboard|TIM[0-9]_CH[0-9]|ADC12IN8|mcu|[=@:,;\t\"\r\n -]|\u{a0}|x){0,60}") {
         hold(&text)?;
     }
 

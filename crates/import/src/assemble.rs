@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::place::Place;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::{Column, Pin, Property, Role, Table, Usage};
@@ -93,7 +94,7 @@ pub(crate) fn table(
         .map(|(key, value)| Property { key: (*key).into(), value: value.clone(), range: 0..0 })
         .collect();
     let mcu = properties.iter().find(|one| one.key == "mcu").map(|one| one.value.clone());
-    Some(Table { mcu, columns: columns(&pins), properties, pins })
+    Some(Table { mcu, columns: columns(&pins), properties, pins, contacts: Vec::new() })
 }
 
 /// The columns that are not empty.
@@ -102,9 +103,10 @@ fn columns(pins: &[Pin]) -> Vec<Column> {
     let mut described = |header: &'static str, role, has: &dyn Fn(&Pin) -> bool| {
         columns.extend(pins.iter().any(has).then_some((header, role)));
     };
-    described("Position", Role::Position, &|pin| pin.position.is_some());
-    described("Side", Role::Side, &|pin| pin.side.is_some());
-    described("Header", Role::Header, &|pin| pin.header.is_some());
+    let place = |pin: &Pin, has: &dyn Fn(&Place) -> bool| pin.places.iter().any(has);
+    described("Position", Role::Position, &|pin| place(pin, &|place| place.position.is_some()));
+    described("Side", Role::Side, &|pin| !pin.sides().is_empty());
+    described("Header", Role::Header, &|pin| !pin.headers().is_empty());
     described("Label", Role::Label, &|pin| pin.label.is_some());
     described("Voltage", Role::Voltage, &|pin| pin.voltage.is_some());
     described("Onboard", Role::Onboard, &|pin| pin.onboard.is_some());

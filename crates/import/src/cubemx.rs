@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use roxmltree::{Document, Node, ParsingOptions};
 use sensedsl_board::pin::PinName;
+use sensedsl_board::place::Place;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::XML_NODES_MAX;
@@ -264,8 +265,8 @@ impl Reader<'_> {
         let what = format!(
             "{} is on position {} too, by remapping; the table has it on {}",
             row.pin.name,
-            row.pin.position.as_deref().unwrap_or("?"),
-            first.pin.position.as_deref().unwrap_or("?"),
+            row.pin.package_position().unwrap_or("?"),
+            first.pin.package_position().unwrap_or("?"),
         );
         log.doubtful(self.span(node), "", &what);
         for usage in row.usages {
@@ -278,7 +279,9 @@ impl Reader<'_> {
     fn pin(&self, node: &Node<'_, '_>, name: PinName) -> Row {
         let routes = self.functions.get(&name);
         let mut row = Row::new(name);
-        row.pin.position = node.attribute("Position").map(str::to_owned);
+        if let Some(position) = node.attribute("Position").map(str::to_owned) {
+            row.pin.places.push(Place { position: Some(position), ..Place::default() });
+        }
         for signal in node.children().filter(|child| is(child, "Signal")) {
             let signal = signal.attribute("Name").unwrap_or_default();
             if signal == "GPIO" || signal.is_empty() || is_trigger(signal) {

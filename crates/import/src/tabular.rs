@@ -263,6 +263,8 @@ impl Reader<'_> {
                 | FindingKind::UnknownAlternate { .. }
                 | FindingKind::AlternateCount { .. }
                 | FindingKind::AlternateConflict { .. }
+                | FindingKind::BadPlace { .. }
+                | FindingKind::UnknownForm { .. }
                 | FindingKind::DuplicateProperty { .. } => {
                     log.dropped(span, &place, &as_table.message);
                 }
@@ -271,6 +273,8 @@ impl Reader<'_> {
                 | FindingKind::MalformedSignal { .. }
                 | FindingKind::BadOccupation { .. }
                 | FindingKind::UnknownMcu { .. }
+                | FindingKind::NoContact { .. }
+                | FindingKind::ContactTwice { .. }
                 | FindingKind::InvisibleCharacter { .. } => {
                     log.doubtful(span, &place, &as_table.message);
                 }

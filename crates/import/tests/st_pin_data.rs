@@ -79,7 +79,8 @@ fn every_mcu_is_imported() {
         assert!(loaded.findings.is_empty(), "{}: {:?}", path.display(), loaded.findings);
         assert_eq!(loaded.board.to_csv(), *csv, "{}", path.display());
         pins += loaded.board.pins.len();
-        let mut positions: Vec<_> = loaded.board.pins.iter().map(|pin| &pin.position).collect();
+        let mut positions: Vec<_> =
+            loaded.board.pins.iter().map(|pin| pin.package_position()).collect();
         positions.sort();
         shared += usize::from(positions.windows(2).any(|pair| pair[0] == pair[1]));
     }
@@ -119,7 +120,7 @@ fn table_1_is_part_of_its_mcu() {
     }
     let pb10 = chip.pin(&PinName::parse("PB10").unwrap()).unwrap();
     let scl = pb10.usages.iter().find(|usage| usage.spelled == "I2C2_SCL").unwrap();
-    assert_eq!((scl.alternate, pb10.position.as_deref()), (Some(4), Some("47")));
+    assert_eq!((scl.alternate, pb10.package_position()), (Some(4), Some("47")));
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn pads_that_pins_share_have_one_position() {
     let made = imported(&data.join("mcu/STM32G031J(4-6)Mx.xml"));
     let chip = table::load(&made.table.unwrap()).board;
     let on = |position: &str| -> Vec<String> {
-        let pins = chip.pins.iter().filter(|pin| pin.position.as_deref() == Some(position));
+        let pins = chip.pins.iter().filter(|pin| pin.package_position() == Some(position));
         pins.map(|pin| pin.name.to_string()).collect()
     };
     assert_eq!(on("4"), ["PA0", "PA1", "PA2", "PF2"]);

@@ -276,9 +276,8 @@ fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
 
 fn places(boards: &[&Board], what: &str) -> Vec<String> {
     let pins = boards.iter().flat_map(|board| &board.table.pins);
-    let names =
-        pins.filter_map(|pin| if what == "side" { pin.side.clone() } else { pin.header.clone() });
-    let mut names: Vec<String> = names.collect();
+    let names = pins.flat_map(|pin| if what == "side" { pin.sides() } else { pin.headers() });
+    let mut names: Vec<String> = names.map(str::to_owned).collect();
     names.sort();
     names.dedup();
     names

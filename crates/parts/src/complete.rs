@@ -2,6 +2,7 @@
 //! MCU's pins out.
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::place::Place;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::Signal;
 use sensedsl_board::table::{Column, Property, Role, Table, Usage};
@@ -48,7 +49,8 @@ pub fn complete(table: &mut Table) -> Completion {
             continue;
         };
         if let Some(position) = position.filter(|position| shared.contains(position)) {
-            pin.position = Some(position.to_owned());
+            let position = Some(position.to_owned());
+            pin.places.insert(0, Place { position, ..Place::default() });
         }
         for column in columns() {
             let of_column = usages.iter().filter(|(signal, _)| column_of(signal) == column);

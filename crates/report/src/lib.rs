@@ -26,6 +26,7 @@ pub mod drivers;
 pub mod human;
 pub mod json;
 pub mod markdown;
+mod place;
 mod rows;
 pub mod schema;
 pub mod svg;

@@ -103,19 +103,6 @@ fn row(
     who: &Who<'_>,
 ) -> Option<Row> {
     let pin = wire.pin(board)?;
-    let mut place = Vec::new();
-    if let Some(side) = &pin.side {
-        place.push(side.clone());
-    }
-    match (&pin.header, &pin.position) {
-        (Some(header), Some(position)) => place.push(format!("{header}.{position}")),
-        (Some(header), None) => place.push(header.clone()),
-        (None, Some(position)) => place.push(format!("pin {position}")),
-        (None, None) => {}
-    }
-    if let Some(label) = &pin.label {
-        place.push(format!("\"{label}\""));
-    }
     Some(Row {
         board: board.name.value.clone(),
         device: who.name.to_owned(),
@@ -126,7 +113,7 @@ fn row(
         pin: pin.name.to_string(),
         signal: wire.signal(board).to_owned(),
         unit: who.unit.to_owned(),
-        place: place.join(" "),
+        place: crate::place::text(pin),
         shared: on.shared_with(wire).unwrap_or_default().to_owned(),
         usages: pin.cost(),
     })

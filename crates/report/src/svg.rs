@@ -11,6 +11,7 @@ use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 use sensedsl_board::pin::natural;
+use sensedsl_board::place::Place;
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::{Board, Design};
@@ -104,10 +105,10 @@ fn board_picture(
 /// The pins of the two edges.
 fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
     let mut pins: Vec<&Pin> = board.table.pins.iter().collect();
-    if pins.iter().any(|pin| pin.header.is_some() && pin.position.is_some()) {
+    if pins.iter().any(|pin| first(pin).is_some()) {
         pins.sort_by(|a, b| in_rows(a, b));
     }
-    let side = |pin: &Pin| pin.side.as_deref().map(str::to_lowercase);
+    let side = |pin: &Pin| pin.sides().first().map(|side| side.to_lowercase());
     if pins.iter().any(|pin| side(pin).is_some()) {
         let first = pins.iter().find_map(|pin| side(pin));
         return pins.into_iter().partition(|pin| match side(pin).as_deref() {
@@ -121,24 +122,23 @@ fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
     (left.to_vec(), right.to_vec())
 }
 
+/// The first contact of a pin.
+fn first(pin: &Pin) -> Option<String> {
+    pin.places.iter().find_map(Place::contact)
+}
+
 /// By connector and place on it; pins without a place come last.
 fn in_rows(a: &Pin, b: &Pin) -> Ordering {
-    let text = |text: &Option<String>| text.clone().unwrap_or_default();
-    let placed = |pin: &Pin| pin.header.is_none() || pin.position.is_none();
-    placed(a)
-        .cmp(&placed(b))
-        .then_with(|| natural(&text(&a.header), &text(&b.header)))
-        .then_with(|| natural(&text(&a.position), &text(&b.position)))
-        .then_with(|| a.name.cmp(&b.name))
+    let text = |pin: &Pin| first(pin).unwrap_or_default();
+    let (one, other) = (text(a), text(b));
+    let order = one.is_empty().cmp(&other.is_empty());
+    order.then_with(|| natural(&one, &other)).then_with(|| a.name.cmp(&b.name))
 }
 
 /// The text that is printed beside a pin, and its place on a connector.
 fn place(pin: &Pin) -> String {
-    let at = match (&pin.header, &pin.position) {
-        (Some(header), Some(position)) => Some(format!("{header}.{position}")),
-        _ => None,
-    };
-    let words: Vec<String> = pin.label.iter().cloned().chain(at).collect();
+    let labels = pin.labels().into_iter().filter(|label| *label != pin.name.as_str());
+    let words: Vec<String> = labels.map(str::to_owned).chain(first(pin)).collect();
     cut(&words.join("  "), 16)
 }
 

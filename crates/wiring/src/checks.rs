@@ -28,7 +28,7 @@ use crate::assignment::{Assignment, BoardAssignment};
 use crate::builder::{Builder, Converters, Meaning};
 use crate::formulate::{Formulation, wanted};
 use crate::levels::{Tolerates, stands, supply_mv};
-use crate::offer::{Offer, Withheld, roles};
+use crate::offer::{Offer, Withheld, has_places, roles};
 use crate::requested::{RequestedWires, free};
 use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
@@ -124,6 +124,11 @@ fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> 
             format!("{part} on the board"),
             None,
             format!("take another pin, or write `release {name};` if {part} is not needed"),
+        ),
+        Withheld::NoConnector => (
+            "nothing: it is on no connector".to_owned(),
+            None,
+            format!("take another pin, or write `release {name};`"),
         ),
         Withheld::Link => {
             let vbus = offers.iter().any(|offer| {
@@ -290,7 +295,7 @@ fn relaxed(
     relax: impl Fn(&mut RequestedWires<'_>),
 ) -> Vec<Meaning> {
     let fresh: Vec<Offer<'_>> =
-        offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
+        offers.iter().map(|offer| Offer::new(design, offer.index, offer.board)).collect();
     relaxed_on(design, &fresh, wires, relax)
 }
 
@@ -334,9 +339,12 @@ fn pins_of(design: &Design, offers: &[&Offer<'_>], wires: &Connection, role: Rol
         let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
         let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
         // With what is printed on the board, as this is what people look for.
-        pins.extend(names.map(|pin| match &pin.label {
-            Some(label) => format!("{} ({})", pin.name, visible(label)),
-            None => pin.name.to_string(),
+        pins.extend(names.map(|pin| {
+            let labels = pin.labels().into_iter().filter(|label| *label != pin.name.as_str());
+            match labels.collect::<Vec<_>>().as_slice() {
+                [] => pin.name.to_string(),
+                labels => format!("{} ({})", pin.name, visible(&labels.join(", "))),
+            }
         }));
     }
     pins.sort_by(|a, b| natural(a, b));
@@ -432,7 +440,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
             let why = "the board has no such pin or peripheral";
             diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));
         }
-        diagnostics.extend(releases(BoardIndex(index), board));
+        diagnostics.extend(releases(design, BoardIndex(index), board));
     }
     let mut reported = BTreeSet::new();
     for wires in &design.connections {
@@ -465,14 +473,15 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
 }
 
 /// Releases that free nothing: nothing has the pin, or the link keeps it.
-fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
-    let offer = Offer::new(index, board);
+fn releases(design: &Design, index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
+    let offer = Offer::new(design, index, board);
     let roles = roles(board);
     // By the name of a pin that is taken, or of the part on it: whether the link keeps such a pin.
     let (mut names, mut parts) = (BTreeMap::<&str, bool>::new(), BTreeMap::<String, bool>::new());
     for (at, pin) in board.table.pins.iter().enumerate() {
         let linked = offer.why_withheld(at) == Some(&Withheld::Link);
-        if pin.onboard.is_some() || roles.contains_key(&pin.name) {
+        let is_off = has_places(board) && pin.headers().is_empty();
+        if pin.onboard.is_some() || roles.contains_key(&pin.name) || is_off {
             *names.entry(pin.name.as_str()).or_default() |= linked;
         }
         if let Some(part) = &pin.onboard {

@@ -11,6 +11,7 @@ use sensedsl_solve::Conflict;
 
 use crate::formulate::{Formulation, Requester};
 use crate::names::list;
+use crate::offer::has_places;
 use crate::repairs::{Repair, Repaired};
 use crate::rule::Rule;
 
@@ -232,10 +233,25 @@ impl NoWiring {
         if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {
             help.push_str("; with `--target none`, the pins alone would do");
         }
+        help.extend(self.off_connectors(design));
         if !self.explained {
             help.push_str("; time ran out before everything else was tried");
         }
         help
+    }
+
+    /// That a board has free pins which are not offered because they are on no connector.
+    fn off_connectors(&self, design: &Design) -> Option<String> {
+        let is_free = |pin: &&Pin| pin.headers().is_empty() && pin.onboard.is_none();
+        let mut boards = self.resources.iter().filter_map(|one| design.board(one.board));
+        let board = boards.find(|board| has_places(board))?;
+        let first = board.table.pins.iter().find(is_free)?;
+        let (count, name) = (board.table.pins.iter().filter(is_free).count(), &first.name);
+        let (pins, are) = if count == 1 { ("pin", "is") } else { ("pins", "are") };
+        let on = &board.name.value;
+        Some(format!(
+            "; {count} free {pins} of {on} {are} on no connector, and used only where the file says so: `pin = {name};`"
+        ))
     }
 }
 

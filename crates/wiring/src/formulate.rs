@@ -63,7 +63,7 @@ pub(crate) fn formulate<'a>(
         .iter()
         .enumerate()
         .take_while(|_| !cancel.is_over())
-        .map(|(index, board)| Offer::new(BoardIndex(index), board))
+        .map(|(index, board)| Offer::new(design, BoardIndex(index), board))
         .collect();
     let pins = pins(design).0;
     let links = links(design);

@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::place::Place;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::silicon::{self, PinRole, Silicon};
 use sensedsl_board::table::{Occupation, Pin, Role, Usage, release_name};
 use sensedsl_diagnostics::Span;
-use sensedsl_model::design::{Board, BoardIndex, Transport};
+use sensedsl_model::design::{Board, BoardIndex, Design, Transport};
 
 /// The part that may be on the pins of an oscillator.
 const CRYSTAL: &str = "the oscillator's crystal";
@@ -25,6 +26,8 @@ pub(crate) enum Withheld {
     Link,
     /// The MCU needs it for itself.
     Needed(PinRole),
+    /// It is on no connector of the board.
+    NoConnector,
 }
 
 /// The `reserve` and `release` rules of a board, indexed by what they name, so that each pin is
@@ -37,10 +40,12 @@ struct Rules<'a> {
     released: BTreeSet<String>,
     /// The names that are released, in capitals, as on-board parts are compared in capitals.
     released_parts: BTreeSet<String>,
+    /// The pins that devices are fixed to.
+    named: BTreeSet<PinName>,
 }
 
 impl<'a> Rules<'a> {
-    fn of(board: &'a Board) -> Self {
+    fn of(board: &'a Board, named: BTreeSet<PinName>) -> Self {
         let mut reserved = BTreeMap::new();
         for rule in &board.reserved {
             if let Some(pin) = PinName::parse(&rule.value) {
@@ -55,6 +60,7 @@ impl<'a> Rules<'a> {
                 .filter_map(|name| Some(PinName::parse(name)?.as_str().to_owned()))
                 .collect(),
             released_parts: released().map(|name| name.to_uppercase()).collect(),
+            named,
         }
     }
 
@@ -85,13 +91,15 @@ pub(crate) struct Offer<'a> {
 }
 
 impl<'a> Offer<'a> {
-    pub(crate) fn new(index: BoardIndex, board: &'a Board) -> Self {
-        Self::by_rules(index, board, Rules::of(board))
+    pub(crate) fn new(design: &Design, index: BoardIndex, board: &'a Board) -> Self {
+        let fixed = design.connections.iter().flat_map(|one| &one.placement.pins);
+        let named = fixed.filter_map(|(_, pin)| pin.value.on(index).cloned()).collect();
+        Self::by_rules(index, board, Rules::of(board, named))
     }
 
     /// The same board with one more `release`.
     pub(crate) fn with_released(&self, pin: &PinName) -> Self {
-        let mut rules = Rules::of(self.board);
+        let mut rules = Rules::of(self.board, self.rules.named.clone());
         rules.released.insert(pin.as_str().to_owned());
         Self::by_rules(self.index, self.board, rules)
     }
@@ -183,24 +191,28 @@ impl<'a> Offer<'a> {
     }
 }
 
-/// The place of each pin that is not the only one there. A place is a position on the package or on
-/// a connector.
+/// The contact of each pin that is not the only one there; a position on the package is one as well. Pins that share
+/// contacts, directly or over others, have the same one.
 fn shared_pads(pins: &[Pin]) -> Vec<Option<String>> {
-    let place = |pin: &Pin| {
-        let position = pin.position.as_deref()?;
-        Some(
-            pin.header
-                .as_ref()
-                .map_or(position.to_owned(), |header| format!("{header}.{position}")),
-        )
+    let keys = |pin: &Pin| -> Vec<String> {
+        let key = |place: &Place| place.contact().or_else(|| place.position.clone());
+        pin.places.iter().filter_map(key).collect()
     };
-    let mut count: BTreeMap<String, usize> = BTreeMap::new();
-    for place in pins.iter().filter_map(place) {
-        *count.entry(place).or_default() += 1;
+    let mut at: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, pin) in pins.iter().enumerate() {
+        keys(pin).into_iter().for_each(|key| at.entry(key).or_default().push(index));
     }
-    pins.iter()
-        .map(|pin| place(pin).filter(|place| count.get(place).is_some_and(|n| *n > 1)))
-        .collect()
+    let mut pads: Vec<Option<String>> = vec![None; pins.len()];
+    for (key, sharing) in at.into_iter().filter(|(_, sharing)| sharing.len() > 1) {
+        let known: Vec<String> =
+            sharing.iter().filter_map(|index| pads.get(*index)?.clone()).collect();
+        for (index, pad) in pads.iter_mut().enumerate() {
+            if sharing.contains(&index) || pad.as_ref().is_some_and(|pad| known.contains(pad)) {
+                *pad = Some(key.clone());
+            }
+        }
+    }
+    pads
 }
 
 /// The remap blocks of a peripheral's signals.
@@ -279,7 +291,16 @@ fn withheld(
         return Some(Withheld::Onboard(part.part.clone()));
     }
     let role = roles.get(&pin.name).copied().filter(|role| *role != PinRole::Oscillator);
-    role.map(Withheld::Needed)
+    if let Some(role) = role {
+        return Some(Withheld::Needed(role));
+    }
+    let is_off = has_places(board) && pin.headers().is_empty() && !rules.named.contains(&pin.name);
+    is_off.then_some(Withheld::NoConnector)
+}
+
+/// Whether the board's table says of all pins at which connectors they are.
+pub(crate) fn has_places(board: &Board) -> bool {
+    board.table.columns.iter().any(|column| column.role == Role::Places)
 }
 
 /// The other thing that is on the pin, whether or not the pin is withheld. The board's table states

@@ -129,8 +129,9 @@ impl<'d> Tier<'d> {
                 if let Some(set) = tier.set(board, chosen) {
                     tier.sets.entry(meaning.board).or_default().insert(set);
                 }
-                let place = board.table.pins.get(chosen.pin).and_then(place);
-                if let Some((header, position)) = place {
+                let Some(pin) = board.table.pins.get(chosen.pin) else { continue };
+                for header in pin.headers() {
+                    let Some(position) = pin.position_at(header) else { continue };
                     let key = (meaning.board, header.to_ascii_uppercase());
                     tier.places.entry(key).or_default().push(position.to_owned());
                 }
@@ -219,68 +220,59 @@ impl<'d> Tier<'d> {
             let group = Group::Tie(meaning.board, "tied".to_owned());
             alternative.claims.push(builder.names.shared(resource, group));
         }
-        let all = match (self.tie, &meaning.unit) {
+        match (self.tie, &meaning.unit) {
             (Tie::Together(Together::Unit), Some(unit)) => {
                 let resource = self.resource(Tied::Same(Together::Unit));
                 let group = Group::Tie(meaning.board, unit.clone());
                 alternative.claims.push(builder.names.shared(resource, group));
-                return vec![(alternative, meaning)];
+                vec![(alternative, meaning)]
             }
             (Tie::Together(Together::Unit), None) if !self.is_told_by_pairs(meaning.board) => {
-                return self.by_common_unit(builder, number, board, (alternative, meaning));
+                self.by_common_unit(builder, number, board, (alternative, meaning))
             }
-            (Tie::Together(Together::Unit), None) => vec![(alternative, meaning)],
+            (Tie::Together(Together::Unit), None) => {
+                let at = meaning.board;
+                let units = |chosen: &Chosen| Some(self.units(builder, at, board, chosen));
+                only(alternative, meaning, units).into_iter().collect()
+            }
             (Tie::Together(Together::Side), _) => {
-                self.by_place(builder, Together::Side, board, (alternative, meaning))
+                self.by_place(builder, (number, Together::Side), board, (alternative, meaning))
             }
             (Tie::Together(Together::Header) | Tie::Sequence, _) => {
-                self.by_place(builder, Together::Header, board, (alternative, meaning))
+                self.by_place(builder, (number, Together::Header), board, (alternative, meaning))
             }
-        };
-        let claimed = all.into_iter().filter_map(|(alternative, meaning)| {
-            let at = meaning.board;
-            only(alternative, meaning, |chosen| self.claims(builder, number, (at, board), chosen))
-        });
-        claimed.collect()
+        }
     }
 
     /// The alternative for each header or side that all its wires can be at.
     fn by_place(
         &self,
         builder: &mut Builder<'_>,
-        what: Together,
+        (number, what): (u16, Together),
         board: &Board,
         (alternative, meaning): (Alternative, Meaning),
     ) -> Tight {
-        let named = |at: &Chosen| {
-            let pin = board.table.pins.get(at.pin)?;
-            let name = if what == Together::Side { &pin.side } else { &pin.header };
-            Some(name.as_ref()?.to_ascii_uppercase())
+        let named = |at: &Chosen| -> Vec<String> {
+            let Some(pin) = board.table.pins.get(at.pin) else { return Vec::new() };
+            let names = if what == Together::Side { pin.sides() } else { pin.headers() };
+            names.into_iter().map(str::to_ascii_uppercase).collect()
         };
         let names: BTreeSet<String> =
-            meaning.roles.iter().take(1).flatten().filter_map(named).collect();
+            meaning.roles.iter().take(1).flatten().flat_map(named).collect();
         let there = names.into_iter().filter_map(|name| {
             let mut one = alternative.clone();
             one.claims.push(self.same(builder, what, meaning.board, &name));
-            only(one, meaning.clone(), |at| (named(at)? == name).then(Vec::new))
+            let (index, pins) = (meaning.board, &board.table.pins);
+            only(one, meaning.clone(), |at| {
+                let is_there = named(at).contains(&name);
+                is_there.then_some(())?;
+                match self.tie {
+                    Tie::Sequence => self.order(builder, number, index, (pins.get(at.pin)?, &name)),
+                    Tie::Together(_) => Some(Vec::new()),
+                }
+            })
         });
         there.collect()
-    }
-
-    /// The claims of a candidate; `None` if it cannot keep the tie.
-    fn claims(
-        &self,
-        builder: &mut Builder<'_>,
-        number: u16,
-        (index, board): (BoardIndex, &Board),
-        at: &Chosen,
-    ) -> Option<Vec<Claim>> {
-        let pin = board.table.pins.get(at.pin)?;
-        match self.tie {
-            Tie::Together(Together::Unit) => Some(self.units(builder, index, board, at)),
-            Tie::Together(Together::Header | Together::Side) => Some(Vec::new()),
-            Tie::Sequence => self.order(builder, number, index, pin),
-        }
     }
 
     fn same(
@@ -332,15 +324,14 @@ impl<'d> Tier<'d> {
         builder: &mut Builder<'_>,
         number: u16,
         index: BoardIndex,
-        pin: &Pin,
+        (pin, header): (&Pin, &str),
     ) -> Option<Vec<Claim>> {
-        let (header, position) = place(pin)?;
-        let header = header.to_ascii_uppercase();
-        let places = self.places.get(&(index, header.clone()))?;
+        let position = pin.position_at(header)?;
+        let places = self.places.get(&(index, header.to_owned()))?;
         let own = places.iter().position(|place| place == position)?;
         let mut claims = Vec::new();
         let mut claim = |element: u16, place: usize, word: &str| {
-            let resource = self.resource(Tied::Place(element, index, header.clone(), place));
+            let resource = self.resource(Tied::Place(element, index, header.to_owned(), place));
             claims.push(builder.names.shared(resource, Group::Tie(index, word.to_owned())));
         };
         if usize::from(number) + 1 < self.connections.len() {
@@ -384,9 +375,4 @@ fn only(
 fn words(units: &Units) -> String {
     let units: Vec<&str> = units.iter().map(String::as_str).collect();
     units.join(" ")
-}
-
-/// Header and position of a pin.
-fn place(pin: &Pin) -> Option<(&str, &str)> {
-    Some((pin.header.as_deref()?, pin.position.as_deref()?))
 }

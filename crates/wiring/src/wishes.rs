@@ -113,9 +113,6 @@ impl Rules<'_> {
         usage: Option<&Usage>,
         channels: Channels,
     ) -> Vec<RuleId> {
-        let place = |has: &Option<String>, wanted: &str| {
-            has.as_deref().is_some_and(|has| has.eq_ignore_ascii_case(wanted))
-        };
         let violated = |wish: &Preference| match &wish.what {
             PreferenceSubject::Pin(Some(of), _) if *of != role => false,
             // One pin for a device of several wires: nothing to prefer, but something to avoid.
@@ -123,8 +120,12 @@ impl Rules<'_> {
             PreferenceSubject::Pin(_, name) => {
                 (name.on(offer.index) == Some(&pin.name)) != wish.prefer
             }
-            PreferenceSubject::Side(side) => place(&pin.side, side) != wish.prefer,
-            PreferenceSubject::Header(header) => place(&pin.header, header) != wish.prefer,
+            PreferenceSubject::Side(side) => {
+                pin.places.iter().any(|place| place.is_at_side(side)) != wish.prefer
+            }
+            PreferenceSubject::Header(header) => {
+                pin.places.iter().any(|place| place.is_at_header(header)) != wish.prefer
+            }
             PreferenceSubject::Unit(unit) => {
                 self.wire_violates(offer, (usage, channels), unit, wish.prefer)
             }

@@ -4,6 +4,7 @@
 //! or after the on-board part on it (`LED`). Each board's table decides which pin that is.
 
 use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::place::Place;
 use sensedsl_board::table::{Pin, Table};
 
 use sensedsl_diagnostics::codes::{e0310_unknown_pin, e0318_several_pins, h0704_printed_elsewhere};
@@ -103,7 +104,7 @@ impl Binder<'_> {
 }
 
 fn has_label(pin: &Pin, name: &str) -> bool {
-    pin.label.as_deref().is_some_and(|label| is(label, name))
+    pin.labels().iter().any(|label| is(label, name))
 }
 
 /// What a name stands for in a table.
@@ -125,7 +126,10 @@ fn find(table: &Table, spelled: &str) -> FoundName {
         let printed = others.next().map(|pin| pin.name.clone());
         return FoundName::Pin { name: pin.name.clone(), printed };
     }
-    let at_place = |pin: &&Pin| place(pin).is_some_and(|place| is(&place, spelled));
+    let at_place = |pin: &&Pin| {
+        let mut contacts = pin.places.iter().filter_map(Place::contact);
+        contacts.any(|contact| is(&contact, spelled))
+    };
     let part = |pin: &&Pin| {
         let part = pin.onboard.as_ref().map(|onboard| onboard.part.as_str()).unwrap_or_default();
         is(part, spelled) || part.split_whitespace().any(|word| is(word, spelled))
@@ -147,7 +151,7 @@ fn find(table: &Table, spelled: &str) -> FoundName {
 
 /// The other names of these pins, besides the MCU's.
 fn printed<'a>(pins: impl Iterator<Item = &'a Pin>) -> Vec<&'a str> {
-    let mut labels: Vec<&str> = pins.filter_map(|pin| pin.label.as_deref()).collect();
+    let mut labels: Vec<&str> = pins.flat_map(Pin::labels).collect();
     labels.sort_by(|a, b| natural(a, b));
     labels.dedup();
     labels
@@ -155,11 +159,6 @@ fn printed<'a>(pins: impl Iterator<Item = &'a Pin>) -> Vec<&'a str> {
 
 fn is(one: &str, other: &str) -> bool {
     one.eq_ignore_ascii_case(other)
-}
-
-/// Connector and contact: `CN7.3`.
-fn place(pin: &Pin) -> Option<String> {
-    Some(format!("{}.{}", pin.header.as_ref()?, pin.position.as_ref()?))
 }
 
 #[cfg(test)]

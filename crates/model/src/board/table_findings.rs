@@ -60,6 +60,10 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
         | Kind::AlternateConflict { .. }
         | Kind::BadOccupation { .. }
         | Kind::UnknownMcu { .. }
+        | Kind::UnknownForm { .. }
+        | Kind::BadPlace { .. }
+        | Kind::NoContact { .. }
+        | Kind::ContactTwice { .. }
         | Kind::DuplicateProperty { .. }
         | Kind::InvisibleCharacter { .. } => {
             let column = finding.column.as_deref();
@@ -91,6 +95,18 @@ fn oddity(kind: &FindingKind) -> String {
         }
         Kind::UnknownMcu { spelled, nearest } => {
             format!("`{spelled}` is no MCU that is known{}", meant(nearest))
+        }
+        Kind::UnknownForm { spelled, nearest } => {
+            format!("`{spelled}` is no form of a board that is known{}", meant(nearest))
+        }
+        Kind::BadPlace { spelled } => {
+            format!("`{spelled}` is no place: write connector, dot and contact, as in `CN7.28`")
+        }
+        Kind::NoContact { contact, form } => {
+            format!("boards of the form `{form}` have no contact `{contact}`")
+        }
+        Kind::ContactTwice { contact, first } => {
+            format!("`{contact}` carries `{first}` already")
         }
         Kind::DuplicateProperty { key } => {
             format!("`{key}` is given twice, the first one counts")

@@ -48,7 +48,7 @@ fn usages_come_from_the_part() {
         assert_eq!(signals(pin), signals(of_part), "{}", pin.name);
         assert!(pin.usages.iter().all(|usage| usage.range == pin.range));
     }
-    assert_eq!(found.pins[0].position.as_deref(), Some("12"));
+    assert_eq!(found.pins[0].package_position(), Some("12"));
     // The printed table has the same content.
     let printed = table::load(&found.to_csv());
     assert_eq!(printed.findings, []);
@@ -76,7 +76,7 @@ fn a_table_of_pins_is_wired() {
 fn pins_on_one_contact_exclude_each_other() {
     let mut small = table::load("# mcu = STM32G031J6M6\nPin\nPA11\nPB0\nPA13\n").board;
     assert!(matches!(complete(&mut small), Completion::Part { .. }));
-    let place = |name: &str| small.pin(&PinName::parse(name).unwrap()).unwrap().position.clone();
+    let place = |name: &str| small.pin(&PinName::parse(name).unwrap()).unwrap().package_position();
     assert_eq!(place("PA11"), place("PB0"));
     assert!(place("PB0").is_some());
     assert_eq!(place("PA13"), None, "alone on its contact");

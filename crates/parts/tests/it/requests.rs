@@ -104,8 +104,8 @@ fn cost(part: &str, devices: &str) -> Option<u32> {
             let board = &design.boards[0];
             let wires = wiring.boards[0].devices.iter().flat_map(|device| &device.wires);
             let pins: BTreeSet<usize> = wires.map(|wire| wire.pin).collect();
-            let places: Vec<&String> =
-                pins.iter().filter_map(|pin| board.table.pins[*pin].position.as_ref()).collect();
+            let places: Vec<&str> =
+                pins.iter().filter_map(|pin| board.table.pins[*pin].package_position()).collect();
             assert_eq!(
                 places.iter().collect::<BTreeSet<_>>().len(),
                 places.len(),

@@ -1,5 +1,6 @@
 //! The pins that one wire of a device may have, and what each of them claims.
 
+use sensedsl_board::place::Place;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_board::table::{Pin, Usage};
@@ -165,12 +166,13 @@ pub(super) fn pin_fits(
     role: Role,
     pin: &Pin,
 ) -> bool {
-    let same = |wanted: Option<&str>, has: Option<&str>| {
-        wanted.is_none_or(|wanted| has.is_some_and(|has| has.eq_ignore_ascii_case(wanted)))
+    let is_there = |place: &Place| {
+        wanted.side.is_none_or(|side| place.is_at_side(side))
+            && wanted.header.is_none_or(|header| place.is_at_header(header))
     };
+    let is_anywhere = wanted.side.is_none() && wanted.header.is_none();
     wanted.fixed(role).is_none_or(|fixed| fixed.on(offer.index) == Some(&pin.name))
-        && same(wanted.side, pin.side.as_deref())
-        && same(wanted.header, pin.header.as_deref())
+        && (is_anywhere || pin.places.iter().any(is_there))
         && stands_level(offer, wanted, role, pin)
 }
 

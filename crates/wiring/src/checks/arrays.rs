@@ -127,10 +127,10 @@ fn places(
             let names: Vec<String> = match tie {
                 None => vec![String::new()],
                 Some(Together::Header) => {
-                    pin.header.iter().map(|name| name.to_ascii_uppercase()).collect()
+                    pin.headers().into_iter().map(str::to_ascii_uppercase).collect()
                 }
                 Some(Together::Side) => {
-                    pin.side.iter().map(|name| name.to_ascii_uppercase()).collect()
+                    pin.sides().into_iter().map(str::to_ascii_uppercase).collect()
                 }
                 Some(Together::Unit) => match (&meaning.unit, usage) {
                     (Some(unit), _) => vec![unit.clone()],

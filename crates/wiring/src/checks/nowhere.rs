@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::codes::w0604_unused_rule;
 use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_model::design::{Board, BoardIndex, Design, Preference, PreferenceSubject};
@@ -41,12 +42,8 @@ fn useless(wish: &Preference, boards: &[(BoardIndex, &Board)]) -> Option<Diagnos
             (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect())
         }
         PreferenceSubject::Unit(unit) => return no_unit(wish, unit, boards),
-        PreferenceSubject::Side(side) => {
-            (side, pins().filter_map(|pin| pin.side.as_deref()).collect())
-        }
-        PreferenceSubject::Header(name) => {
-            (name, pins().filter_map(|pin| pin.header.as_deref()).collect())
-        }
+        PreferenceSubject::Side(side) => (side, pins().flat_map(Pin::sides).collect()),
+        PreferenceSubject::Header(name) => (name, pins().flat_map(Pin::headers).collect()),
         PreferenceSubject::Together(_) | PreferenceSubject::Sequence => return None,
     };
     let exists = known.iter().any(|one| one.eq_ignore_ascii_case(name));

@@ -130,8 +130,8 @@ pub(crate) fn facts(csv: &str) -> Result<Facts> {
     let mut facts = Facts::default();
     for pin in &loaded.board.pins {
         let name = pin.name.to_string();
-        if let Some(position) = &pin.position {
-            facts.positions.insert(name.clone(), position.clone());
+        if let Some(position) = pin.package_position() {
+            facts.positions.insert(name.clone(), position.to_owned());
         }
         for usage in &pin.usages {
             for one in single(usage.signal.function(), usage.signal.name()) {

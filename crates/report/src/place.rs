@@ -1,0 +1,37 @@
+//! Where a pin is found on the board, in words.
+
+use sensedsl_board::place::Place;
+use sensedsl_board::table::Pin;
+
+/// All places of a pin with what is printed there: `right CN10.21, CN5.1 "D8"`. The side is named
+/// where it changes; a label that repeats the pin's name is left out.
+pub(crate) fn text(pin: &Pin) -> String {
+    let (mut texts, mut side) = (Vec::new(), None);
+    for place in &pin.places {
+        let mut words = Vec::new();
+        if place.side.is_some() && place.side != side {
+            words.extend(place.side.clone());
+            side.clone_from(&place.side);
+        }
+        words.extend(contact(place));
+        words.extend(place.label.as_ref().map(|label| format!("\"{label}\"")));
+        texts.extend((!words.is_empty()).then(|| words.join(" ")));
+    }
+    let label = pin.label.as_ref().filter(|label| !label.eq_ignore_ascii_case(pin.name.as_str()));
+    let label = label.map(|label| format!("\"{label}\""));
+    [texts.join(", ")]
+        .into_iter()
+        .filter(|text| !text.is_empty())
+        .chain(label)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn contact(place: &Place) -> Option<String> {
+    match (&place.header, &place.position) {
+        (Some(_), Some(_)) => place.contact(),
+        (Some(header), None) => Some(header.clone()),
+        (None, Some(position)) => Some(format!("pin {position}")),
+        (None, None) => None,
+    }
+}
