@@ -265,7 +265,7 @@ pub(crate) struct BoardsArgs {
     /// A board: prints its table as CSV
     #[arg(value_parser = BOARD, hide_possible_values = true)]
     pub(crate) name: Option<String>,
-    /// Only boards with this text in their name, MCU or description
+    /// Only boards that have all of these words: "can usb 3v3", "nucleo dac", f411
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
     pub(crate) search: Option<String>,
 }

@@ -48,7 +48,7 @@ fn usages_come_from_the_part() {
         assert_eq!(signals(pin), signals(of_part), "{}", pin.name);
         assert!(pin.usages.iter().all(|usage| usage.range == pin.range));
     }
-    assert_eq!(found.pins[0].package_position(), Some("12"));
+    assert_eq!(found.pins[0].position_at("P1"), Some("12"));
     // The printed table has the same content.
     let printed = table::load(&found.to_csv());
     assert_eq!(printed.findings, []);

@@ -1,12 +1,15 @@
 //! `sensedsl boards`: the built-in boards.
 
+mod features;
+
 use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
-use sensedsl_board::table::Occupation;
+use sensedsl_board::table::{Occupation, Pin, Role, Table};
 use sensedsl_board::{catalog, mcu};
 use sensedsl_generate::target;
 use sensedsl_session::printed_board;
 
+use self::features::Features;
 use super::table::{INDENT, table};
 use crate::cli::BoardsArgs;
 use crate::status::Status;
@@ -25,15 +28,12 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
     Ok(Status::Done)
 }
 
-/// Prints the boards for which all words of `search` occur somewhere in what is known about them.
+/// Prints the boards that have all words of `search`: names, parts, peripherals, voltages.
 /// Scripts read one board from each line, name first; heads and count are for people.
 fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     let search = search.to_lowercase();
     let found = |board: &catalog::Entry, row: &[String; 8]| {
-        let names = board.aliases.iter().copied().chain([board.name, board.description]);
-        let cells = names.chain(row.iter().map(String::as_str)).map(str::to_lowercase);
-        let text = cells.collect::<Vec<_>>().join("\n");
-        search.split_whitespace().all(|word| text.contains(word))
+        search.trim().is_empty() || Features::of(board, row).has_all(&search)
     };
     let rows = catalog::all().iter().map(|board| (board, row(board)));
     let rows: Vec<[String; 8]> =
@@ -52,11 +52,8 @@ fn list(search: &str, terminal: &Terminal) -> Result<Status> {
 }
 
 fn row(board: &catalog::Entry) -> [String; 8] {
-    let pins = board.table().pins;
-    let is_free = |pin: &&sensedsl_board::table::Pin| {
-        pin.onboard.as_ref().is_none_or(|part| part.how != Occupation::Taken)
-    };
-    let free = pins.iter().filter(is_free).count();
+    let table = board.table();
+    let free = table.pins.iter().filter(|pin| is_free(&table, pin)).count();
     let package = sensedsl_parts::find(board.mcu).and_then(|found| found.package());
     let facts = board.board().ok();
     let links = facts.iter().flat_map(|facts| &facts.link).map(|link| match link.transport {
@@ -73,11 +70,18 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         mcu::family(board.mcu).to_owned(),
         board.mcu.to_owned(),
         or_dash(package.unwrap_or_default()),
-        pins.len().to_string(),
+        table.pins.len().to_string(),
         free.to_string(),
         or_dash(&links.join(" ")),
         or_dash(&systems.join(" ")),
     ]
+}
+
+/// Whether no part of the board has the pin, and it is at a connector if it is known which are.
+fn is_free(table: &Table, pin: &Pin) -> bool {
+    let is_left = pin.onboard.as_ref().is_none_or(|part| part.how != Occupation::Taken);
+    let knows_places = table.columns.iter().any(|column| column.role == Role::Places);
+    is_left && (!knows_places || !pin.headers().is_empty())
 }
 
 /// The systems for which there is firmware, with their versions, the usual one first.
