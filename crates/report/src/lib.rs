@@ -20,6 +20,7 @@
 //! assert!(svg::svg(&design, &wiring).contains("PB0"));
 //! ```
 
+mod contact;
 pub mod csv;
 pub mod diff;
 pub mod drivers;

@@ -6,6 +6,7 @@ use sensedsl_model::facts::{PartFacts, example};
 use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
+use crate::contact;
 
 /// Characters in a line.
 const WIDTH: usize = 80;
@@ -108,8 +109,8 @@ fn wires(part: &PartFacts) -> String {
             let first = at == 0;
             let settings = if first { words::settings(&connection.kind) } else { String::new() };
             let kind = if first { connection.kind.name().name() } else { "" };
-            let contact = words::contact(part, connection, *role).unwrap_or("-");
-            [words::wire(connection, *role), kind.to_owned(), contact.to_owned(), settings]
+            let contact = contact::contact(part, connection, *role).unwrap_or("-");
+            [contact::wire(connection, *role), kind.to_owned(), contact.to_owned(), settings]
         })
     });
     columns(["Wire", "Kind", "At the part", "Settings"], &rows.collect::<Vec<_>>())

@@ -43,7 +43,7 @@ pub fn value(part: &PartFacts) -> Value {
 
 fn connection(part: &PartFacts, one: &ConnectionFacts) -> Value {
     let wires = one.roles.iter().map(
-        |role| json!({ "role": role.name(), "contact": super::words::contact(part, one, *role) }),
+        |role| json!({ "role": role.name(), "contact": crate::contact::contact(part, one, *role) }),
     );
     json!({
         "name": one.name,

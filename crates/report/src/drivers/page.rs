@@ -7,6 +7,7 @@ use sensedsl_model::written::shown_hz;
 use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
+use crate::contact;
 
 /// Characters in a line.
 const WIDTH: usize = 120;
@@ -74,8 +75,8 @@ fn wiring(out: &mut String, part: &PartFacts) {
             let _ = writeln!(
                 out,
                 "| `{}` | {kind} | {} | {settings} |",
-                words::wire(connection, *role),
-                cell(words::contact(part, connection, *role).unwrap_or_default()),
+                contact::wire(connection, *role),
+                cell(contact::contact(part, connection, *role).unwrap_or_default()),
             );
         }
     }

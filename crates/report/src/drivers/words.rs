@@ -3,7 +3,7 @@
 use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts};
 use sensedsl_model::kind::digital::Pull;
 use sensedsl_model::kind::uart::Parity;
-use sensedsl_model::kind::{Interface, Kind, Role};
+use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_model::written::{shown_mv, shown_ohm};
 use sensedsl_wire::Direction;
 
@@ -246,69 +246,6 @@ pub(super) fn settings(kind: &Kind) -> String {
     words.join(", ")
 }
 
-/// The tool's name for a wire: `scl`, `pwm_a`, `encoder.a`.
-pub(super) fn wire(connection: &ConnectionFacts, role: Role) -> String {
-    match &connection.name {
-        None => role.name().to_owned(),
-        Some(name) if connection.roles.len() == 1 => name.clone(),
-        Some(name) => format!("{name}.{role}"),
-    }
-}
-
-/// The contact of the usual module that the wire goes to, if its name tells.
-pub(super) fn contact<'a>(
-    part: &'a PartFacts,
-    connection: &ConnectionFacts,
-    role: Role,
-) -> Option<&'a str> {
-    let own = connection.name.as_deref().filter(|_| connection.roles.len() == 1);
-    let own = own.map(spelled).unwrap_or_default();
-    let known = names_of(&connection.kind, role).iter().filter(|_| own.is_empty());
-    let names = own.iter().map(String::as_str).chain(known.copied());
-    names.into_iter().find_map(|wanted| {
-        let is_called = |entry: &&String| {
-            let mut words = entry.split(|letter: char| !letter.is_ascii_alphanumeric());
-            words.any(|word| word.eq_ignore_ascii_case(wanted))
-        };
-        let mut found = part.connector.iter().filter(is_called);
-        let first = found.next()?;
-        found.next().is_none().then_some(first.as_str())
-    })
-}
-
-/// How modules print the name of a connection: `in1_a` as `IN1A` or `AIN1`, `standby` as `STBY`.
-fn spelled(name: &str) -> Vec<String> {
-    let name = name.to_uppercase().replace("STANDBY", "STBY").replace("ENABLE", "EN");
-    let moved = match name.rsplit_once('_') {
-        Some((rest, side)) if side.len() == 1 => Some(format!("{side}{rest}").replace('_', "")),
-        Some(_) | None => None,
-    };
-    std::iter::once(name.replace('_', "")).chain(moved).collect()
-}
-
-/// The names that modules print beside the contact of a wire, the surest first.
-fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
-    match role {
-        Role::Scl => &["SCL"],
-        Role::Sda => &["SDA"],
-        // What one end sends, the other receives.
-        Role::Tx => &["RX", "RXD"],
-        Role::Rx => &["TX", "TXD", "SIGNAL"],
-        Role::Sck => &["SCK", "CLK"],
-        Role::Miso => &["MISO", "DOUT", "DO"],
-        Role::Mosi => &["MOSI", "DIN"],
-        Role::Cs => &["CS", "CSN", "NCS"],
-        Role::A => &["A"],
-        Role::B => &["B"],
-        Role::Trigger => &["TRIG"],
-        Role::In if kind.is_sampled() => {
-            &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
-        }
-        Role::In => &["ECHO", "PW", "DO", "OUT", "SIGNAL", "S", "PIN"],
-        Role::Out => &["IN", "IN1", "SIGNAL", "S", "PIN"],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -321,13 +258,6 @@ mod tests {
             [1.0 / 16_384.0, 0.01, 1.0 / 3.0, 0.087_890_625].map(factor),
             ["1/16384", "0.01", "1/3", "0.0878906"]
         );
-    }
-
-    #[test]
-    fn connections_are_spelled_as_on_modules() {
-        assert_eq!(spelled("in1_a"), ["IN1A", "AIN1"]);
-        assert_eq!(spelled("standby"), ["STBY"]);
-        assert_eq!(spelled("enable_forward"), ["ENFORWARD"]);
     }
 
     #[test]

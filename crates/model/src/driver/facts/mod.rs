@@ -59,6 +59,8 @@ pub struct PartFacts {
     pub address: Option<u8>,
     /// The names on the connector of the usual module, in order.
     pub connector: Vec<String>,
+    /// The wires, or `supply` and `ground`, whose contact the driver states: name and contact.
+    pub contacts: Vec<(String, String)>,
     /// What anyone who wires it must know.
     pub notes: Vec<String>,
     /// How it is started and identified; none for a part with one value that has no name.
@@ -238,6 +240,7 @@ impl Library {
         let (sheet, checked) = (text("sheet"), text("checked"));
         let [aliases, connector, notes] =
             ["aliases", "connector", "note"].map(|name| texts(&mut fields, name));
+        let (connector, contacts) = contacts(connector);
         let Bounds { addresses, clock_max_hz, supply_mv } = bounds::read(&mut fields);
         let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
         let pull = fields.peek_name("pull");
@@ -263,6 +266,7 @@ impl Library {
             addresses,
             address,
             connector,
+            contacts,
             notes,
             protocol: read.part.chip.clone(),
             values: values(&read),
@@ -377,6 +381,19 @@ fn connections(read: &ReadPart) -> Vec<ConnectionFacts> {
         level: one.level,
     });
     connections.collect()
+}
+
+/// The contacts of a connector, and the wires that are stated at them: `RPWM = forward`.
+fn contacts(entries: Vec<String>) -> (Vec<String>, Vec<(String, String)>) {
+    let mut wires = Vec::new();
+    let contact = |entry: String| match entry.split_once(" = ") {
+        Some((contact, wire)) => {
+            wires.push((wire.trim().to_owned(), contact.trim().to_owned()));
+            contact.trim().to_owned()
+        }
+        None => entry,
+    };
+    (entries.into_iter().map(contact).collect(), wires)
 }
 
 /// Reads a text or a list of texts.
