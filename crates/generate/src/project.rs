@@ -3,7 +3,7 @@
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_diagnostics::{Diagnostic, render};
 use sensedsl_model::design::{Design, DeviceIndex};
-use sensedsl_report::{json, markdown, schema, svg};
+use sensedsl_report::{json, schema, sheet, svg};
 use sensedsl_wiring::assignment::Assignment;
 
 use sensedsl_files::FileSet;
@@ -56,7 +56,8 @@ pub fn project(
     }
     files.add("assignment.json", render::json_text(&json::wired(design, assignment)));
     files.add("schema.json", render::json_text(&schema::schema(design, assignment)));
-    files.add("wiring.md", markdown::markdown(design, assignment));
+    files.add("wiring.md", sheet::markdown::markdown(design, assignment));
+    files.add("wiring.html", sheet::html::html(design, assignment));
     files.add("pinout.svg", svg::svg(design, assignment));
     let plan = host_plan(name, design, assignment);
     for host in wanted.hosts {

@@ -26,10 +26,10 @@ pub mod diff;
 pub mod drivers;
 pub mod human;
 pub mod json;
-pub mod markdown;
 mod place;
 mod rows;
 pub mod schema;
+pub mod sheet;
 pub mod svg;
 
 pub use rows::{Row, rows};

@@ -26,11 +26,12 @@ fn the_picture_shows_hostile_text_and_runs_nothing() {
         return;
     }
     let scratch = TempDir::new("browser");
-    // One page contains all pictures, so that the browser starts once; each picture is also checked
+    // One page contains all pictures and sheets, so that the browser starts once; each picture is also checked
     // as XML.
     let mut html = String::from("<!doctype html><meta charset=utf-8><title>calm</title>\n");
     for project in projects() {
         html.push_str(&read(&project.output.join("pinout.svg")));
+        html.push_str(&read(&project.output.join("wiring.html")));
     }
     // A page with one more script, to check that this test would notice it.
     let control =

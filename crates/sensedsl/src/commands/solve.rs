@@ -8,7 +8,7 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap, render, visible_json};
 use sensedsl_export::{alloy, prolog};
 use sensedsl_model::FileUse;
 use sensedsl_model::design::Design;
-use sensedsl_report::{csv, human, json, markdown, svg};
+use sensedsl_report::{csv, human, json, sheet, svg};
 use sensedsl_session::{Answer, Ask, Goal, Origin, has_errors};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Keep, Solved, Wiring};
@@ -187,7 +187,7 @@ fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assi
         SolveFormat::Human => human::human(design, wiring, terminal.colour()),
         SolveFormat::Json => print(&json::wired(design, wiring), args),
         SolveFormat::Csv => csv::csv(design, wiring),
-        SolveFormat::Markdown => markdown::markdown(design, wiring),
+        SolveFormat::Markdown => sheet::markdown::markdown(design, wiring),
         SolveFormat::Svg => svg::svg(design, wiring),
         // These are answered before solving: they need no answer.
         SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
