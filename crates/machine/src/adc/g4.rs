@@ -53,7 +53,7 @@ const REFERENCE_MV: f64 = 1212.0;
 const BATTERY_MV: f64 = 1100.0;
 
 /// A converter.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Unit {
     unit: u8,
     name: String,
@@ -80,19 +80,11 @@ impl Unit {
         Self {
             unit,
             name: format!("ADC{unit}"),
-            isr: 0,
-            ier: 0,
             cr: POWER_DOWN,
             cfgr: [1 << 31, 0],
-            smpr: [0; 2],
             thresholds: [0x0FFF_0000, 0x00FF_0000, 0x00FF_0000],
-            sqr: [0; 4],
-            other: [0; 4],
-            dr: 0,
-            asking: false,
-            at: 0,
             done_at: NEVER,
-            ccr: 0,
+            ..Self::default()
         }
     }
 
@@ -217,6 +209,20 @@ impl Unit {
             }
         }
     }
+
+    /// A register that holds what is written to it.
+    fn setting(&mut self, offset: u32) -> Option<&mut u32> {
+        Some(match offset {
+            0x04 => &mut self.ier,
+            0x0C | 0x10 => &mut self.cfgr[((offset - 0x0C) / 4) as usize],
+            0x14 | 0x18 => &mut self.smpr[((offset - 0x14) / 4) as usize],
+            0x20..=0x28 => &mut self.thresholds[((offset - 0x20) / 4) as usize],
+            0x30..=0x3C => &mut self.sqr[((offset - 0x30) / 4) as usize],
+            0xA0 | 0xA4 => &mut self.other[((offset - 0xA0) / 4) as usize],
+            0xB0 | 0xB4 => &mut self.other[((offset - 0xA8) / 4) as usize],
+            _ => return None,
+        })
+    }
 }
 
 impl Adc for Unit {
@@ -265,36 +271,25 @@ impl Adc for Unit {
     fn read(&mut self, offset: u32) -> u32 {
         match offset {
             0x00 => self.isr,
-            0x04 => self.ier,
             0x08 => self.cr,
-            0x0C | 0x10 => self.cfgr[((offset - 0x0C) / 4) as usize],
-            0x14 | 0x18 => self.smpr[((offset - 0x14) / 4) as usize],
-            0x20..=0x28 => self.thresholds[((offset - 0x20) / 4) as usize],
-            0x30..=0x3C => self.sqr[((offset - 0x30) / 4) as usize],
             0x40 => {
                 self.isr &= !DONE;
                 self.asking = false;
                 self.dr
             }
-            0xA0 | 0xA4 => self.other[((offset - 0xA0) / 4) as usize],
-            0xB0 | 0xB4 => self.other[((offset - 0xA8) / 4) as usize],
-            _ => 0,
+            _ => self.setting(offset).map_or(0, |register| *register),
         }
     }
 
     fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &Wires) {
-        let put = |old: &mut u32| *old = merge(*old, value, mask);
         match offset {
             0x00 => self.isr &= !(value & mask),
-            0x04 => put(&mut self.ier),
             0x08 => self.control(merge(self.cr, value, mask), wires),
-            0x0C | 0x10 => put(&mut self.cfgr[((offset - 0x0C) / 4) as usize]),
-            0x14 | 0x18 => put(&mut self.smpr[((offset - 0x14) / 4) as usize]),
-            0x20..=0x28 => put(&mut self.thresholds[((offset - 0x20) / 4) as usize]),
-            0x30..=0x3C => put(&mut self.sqr[((offset - 0x30) / 4) as usize]),
-            0xA0 | 0xA4 => put(&mut self.other[((offset - 0xA0) / 4) as usize]),
-            0xB0 | 0xB4 => put(&mut self.other[((offset - 0xA8) / 4) as usize]),
-            _ => {}
+            _ => {
+                if let Some(register) = self.setting(offset) {
+                    *register = merge(*register, value, mask);
+                }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod f1;
 mod g4;
+mod older;
 mod unit;
 mod v2;
 
@@ -17,9 +18,9 @@ use crate::registers::merge;
 /// A converter in its state after a reset, by its number: `1` is ADC1.
 pub(crate) fn new(block: &str, unit: u8) -> Box<dyn Adc> {
     match block {
-        "adc_f1" => Box::new(f1::Unit::new(unit)),
+        "adc_f1" => Box::new(older::Unit::<f1::Version>::new(unit)),
         "adc_g4" => Box::new(g4::Unit::new(unit)),
-        _ => Box::new(v2::Unit::new(unit)),
+        _ => Box::new(older::Unit::<v2::Version>::new(unit)),
     }
 }
 

@@ -1,7 +1,6 @@
 //! What the versions of the converter have in common.
 //!
-//! In: voltages on pads, and the registers that say which channels are converted. Out: what the chip asks of a
-//! converter, as a trait, and the numbers that voltages become.
+//! In: voltages on pads. Out: what the chip asks of a converter, as a trait, and the numbers that voltages become.
 
 use crate::wires::{SUPPLY_MV, Wires};
 
@@ -42,28 +41,4 @@ pub(super) fn code_of(millivolts: f64, bits: u64) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 4095")]
     let code = code as u32;
     code
-}
-
-/// The channel at a place of a sequence, from SQR1 to SQR3.
-pub(super) fn channel_at(sqr: [u32; 3], at: u32) -> u32 {
-    match at {
-        0..=5 => sqr[2] >> (5 * at) & 31,
-        6..=11 => sqr[1] >> (5 * (at - 6)) & 31,
-        _ => sqr[0] >> (5 * (at - 12)) & 31,
-    }
-}
-
-/// The channels of an injected sequence, from JSQR.
-pub(super) fn injected(jsqr: u32) -> impl Iterator<Item = u32> {
-    let length = (jsqr >> 20 & 3) + 1;
-    (0..length).map(move |index| jsqr >> (5 * (4 - length + index)) & 31)
-}
-
-/// The code of a channel's sampling time, from SMPR1 and SMPR2.
-pub(super) fn sampling(smpr: [u32; 2], channel: u32) -> usize {
-    let code = match channel {
-        0..=9 => smpr[1] >> (3 * channel) & 7,
-        _ => smpr[0] >> (3 * (channel.min(18) - 10)) & 7,
-    };
-    code as usize
 }
