@@ -1,11 +1,7 @@
 //! The unit of STM32F1 without a connectivity line.
 
-use super::unit::{
-    AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, SOURCES, index,
-    with_causes, with_ready, with_switch,
-};
-use crate::registers::merge;
-use crate::wires::{Clocks, ResetCause};
+use super::unit::{self, AHB, APB, Rcc as _, SOURCES, with_causes, with_ready, with_switch};
+use crate::wires::Clocks;
 
 /// The internal oscillators.
 const HSI_HZ: u64 = 8_000_000;
@@ -20,7 +16,6 @@ const APB2ENR: u32 = 0x18;
 const APB1ENR: u32 = 0x1C;
 const BDCR: u32 = 0x20;
 const CSR: u32 = 0x24;
-const REGISTERS: usize = 10;
 
 const READY: [(u32, u32); 3] = [(0, 1), (16, 17), (24, 25)];
 /// Bits of CFGR: the PLL takes the crystal, which is halved before.
@@ -29,20 +24,13 @@ const CRYSTAL_BY_2: u32 = 1 << 17;
 /// The USB unit has the PLL's clock as it is, and not two thirds of it.
 const USB_WHOLE: u32 = 1 << 22;
 
-/// The registers, by offset; the crystal is a property of the board.
+/// The version of the block.
 #[derive(Debug)]
-pub(super) struct Unit {
-    registers: [u32; REGISTERS],
-    crystal_hz: u64,
-}
+pub(super) struct Version;
+
+type Unit = unit::Unit<Version>;
 
 impl Unit {
-    pub(super) fn new(crystal_hz: u64) -> Self {
-        let mut unit = Self { registers: [0; REGISTERS], crystal_hz };
-        unit.reset(ResetCause::Power);
-        unit
-    }
-
     fn pll_hz(&self) -> u64 {
         let cfgr = self.read(CFGR);
         let by = if cfgr & CRYSTAL_BY_2 == 0 { 1 } else { 2 };
@@ -52,65 +40,43 @@ impl Unit {
     }
 }
 
-impl Rcc for Unit {
-    fn reset(&mut self, cause: ResetCause) {
-        let kept = [CSR, BDCR].map(|offset| self.read(offset));
-        let [csr, bdcr] = if cause == ResetCause::Power { [0; 2] } else { kept };
-        self.registers = [0; REGISTERS];
-        self.registers[index(CR)] = 0x83;
-        // The flash's interface and the SRAM have clocks.
-        self.registers[index(AHBENR)] = 0x14;
-        self.registers[index(BDCR)] = bdcr;
-        let cause = match cause {
-            ResetCause::Watchdog => CAUSE_WATCHDOG,
-            ResetCause::Software => CAUSE_SOFTWARE,
-            ResetCause::Power => CAUSE_POWER,
-        };
-        self.registers[index(CSR)] = csr | CAUSE_PIN | cause;
-    }
+impl unit::Version for Version {
+    const REGISTERS: usize = 10;
+    /// The flash's interface and the SRAM have clocks.
+    const RESET: &'static [(u32, u32)] = &[(CR, 0x83), (AHBENR, 0x14)];
+    const BDCR: u32 = BDCR;
+    const CSR: u32 = CSR;
+    const ENABLES: &'static [u32] = &[AHBENR, APB2ENR, APB1ENR];
 
-    fn causes(&self) -> u32 {
-        self.read(CSR) & CAUSES
-    }
-
-    fn read(&self, offset: u32) -> u32 {
-        self.registers.get(index(offset)).copied().unwrap_or(0)
-    }
-
-    fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)> {
-        let old = self.read(offset);
-        let written = merge(old, value, mask);
-        let new = match offset {
+    fn written(unit: &Unit, offset: u32, written: u32, was: u32) -> u32 {
+        match offset {
             CR => with_ready(written, &READY),
-            CFGR => with_switch(written, old, self.read(CR), SOURCES),
-            BDCR => (written & !2) | (written & 1) << 1,
-            CSR => with_causes(written, old),
+            CFGR => with_switch(written, was, unit.read(CR), SOURCES),
+            BDCR => with_ready(written, &[(0, 1)]),
+            CSR => with_causes(written, was),
             _ => written,
-        };
-        *self.registers.get_mut(index(offset))? = new;
-        let enable = match offset {
-            APB2RSTR => APB2ENR,
-            APB1RSTR => APB1ENR,
-            _ => return None,
-        };
-        Some((enable, new & !old))
+        }
     }
 
-    fn enables(&self) -> &'static [u32] {
-        &[AHBENR, APB2ENR, APB1ENR]
+    fn enable_of(reset: u32) -> Option<u32> {
+        match reset {
+            APB2RSTR => Some(APB2ENR),
+            APB1RSTR => Some(APB1ENR),
+            _ => None,
+        }
     }
 
-    fn clocks(&self) -> Clocks {
-        let cfgr = self.read(CFGR);
+    fn clocks(unit: &Unit) -> Clocks {
+        let cfgr = unit.read(CFGR);
         let system = match cfgr >> 2 & 3 {
-            1 => self.crystal_hz,
-            2 => self.pll_hz(),
+            1 => unit.crystal_hz,
+            2 => unit.pll_hz(),
             _ => HSI_HZ,
         };
         let core = system / AHB[(cfgr >> 4 & 15) as usize];
         let (by1, by2) = (APB[(cfgr >> 8 & 7) as usize], APB[(cfgr >> 11 & 7) as usize]);
         let timers = |by: u64| if by == 1 { core } else { core / by * 2 };
-        let pll_hz = if self.read(CR) >> 25 & 1 == 1 { self.pll_hz() } else { 0 };
+        let pll_hz = if unit.read(CR) >> 25 & 1 == 1 { unit.pll_hz() } else { 0 };
         Clocks {
             core,
             apb1: core / by1,
@@ -127,6 +93,8 @@ impl Rcc for Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rcc::unit::{CAUSE_PIN, CAUSE_POWER, CAUSE_WATCHDOG};
+    use crate::wires::ResetCause;
 
     #[test]
     fn the_clock_tree_is_what_the_registers_say() {

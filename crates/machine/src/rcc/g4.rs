@@ -1,11 +1,7 @@
 //! The unit of STM32G4: the core's clock comes from one PLL, and units select among several clocks (CCIPR).
 
-use super::unit::{
-    AHB, APB, CAUSE_PIN, CAUSE_POWER, CAUSE_SOFTWARE, CAUSE_WATCHDOG, CAUSES, Rcc, index,
-    with_ready, with_switch,
-};
-use crate::registers::merge;
-use crate::wires::{Clocks, ResetCause};
+use super::unit::{self, AHB, APB, CAUSES, Rcc as _, with_ready, with_switch};
+use crate::wires::Clocks;
 
 /// The internal oscillators, and the crystal of a clock.
 const HSI_HZ: u64 = 16_000_000;
@@ -20,10 +16,6 @@ const CCIPR: u32 = 0x88;
 const BDCR: u32 = 0x90;
 const CSR: u32 = 0x94;
 const CRRCR: u32 = 0x98;
-const REGISTERS: usize = 40;
-/// The enable registers, and how far the reset registers are below them.
-const ENABLES: [u32; 6] = [0x48, 0x4C, 0x50, 0x58, 0x5C, 0x60];
-const RESETS_BELOW: u32 = 0x20;
 
 const READY: [(u32, u32); 3] = [(8, 10), (16, 17), (24, 25)];
 /// The bits of CR that report the sources ready, by their code in CFGR; code 0 has none.
@@ -31,20 +23,13 @@ const SOURCES: [u32; 4] = [u32::MAX, 10, 17, 25];
 /// The bit of CSR that clears the causes of resets.
 const CLEAR: u32 = 1 << 23;
 
-/// The registers, by offset; the crystal is a property of the board.
+/// The version of the block.
 #[derive(Debug)]
-pub(super) struct Unit {
-    registers: [u32; REGISTERS],
-    crystal_hz: u64,
-}
+pub(super) struct Version;
+
+type Unit = unit::Unit<Version>;
 
 impl Unit {
-    pub(super) fn new(crystal_hz: u64) -> Self {
-        let mut unit = Self { registers: [0; REGISTERS], crystal_hz };
-        unit.reset(ResetCause::Power);
-        unit
-    }
-
     /// The frequency before the last dividers of the PLL; 0 if it is off.
     fn pll_hz(&self) -> u64 {
         let pll = u64::from(self.read(PLLCFGR));
@@ -79,60 +64,33 @@ impl Unit {
     }
 }
 
-impl Rcc for Unit {
-    fn reset(&mut self, cause: ResetCause) {
-        let kept = [CSR, BDCR].map(|offset| self.read(offset));
-        let [csr, bdcr] = if cause == ResetCause::Power { [0; 2] } else { kept };
-        self.registers = [0; REGISTERS];
-        self.registers[index(CR)] = 0x500;
-        self.registers[index(CFGR)] = 5;
-        self.registers[index(PLLCFGR)] = 0x1000;
-        self.registers[index(0x48)] = 0x100;
-        self.registers[index(BDCR)] = bdcr;
-        let cause = match cause {
-            ResetCause::Watchdog => CAUSE_WATCHDOG,
-            ResetCause::Software => CAUSE_SOFTWARE,
-            ResetCause::Power => CAUSE_POWER,
-        };
-        self.registers[index(CSR)] = csr | CAUSE_PIN | cause;
-    }
+impl unit::Version for Version {
+    const REGISTERS: usize = 40;
+    const RESET: &'static [(u32, u32)] =
+        &[(CR, 0x500), (CFGR, 5), (PLLCFGR, 0x1000), (0x48, 0x100)];
+    const BDCR: u32 = BDCR;
+    const CSR: u32 = CSR;
+    const ENABLES: &'static [u32] = &[0x48, 0x4C, 0x50, 0x58, 0x5C, 0x60];
 
-    fn causes(&self) -> u32 {
-        self.read(CSR) & CAUSES
-    }
-
-    fn read(&self, offset: u32) -> u32 {
-        self.registers.get(index(offset)).copied().unwrap_or(0)
-    }
-
-    fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)> {
-        let old = self.read(offset);
-        let written = merge(old, value, mask);
-        let new = match offset {
+    fn written(unit: &Unit, offset: u32, written: u32, was: u32) -> u32 {
+        match offset {
             CR => with_ready(written, &READY),
-            CFGR => with_switch(written, old, self.read(CR), SOURCES),
+            CFGR => with_switch(written, was, unit.read(CR), SOURCES),
             BDCR | CRRCR => with_ready(written, &[(0, 1)]),
             CSR => {
-                let causes = if written & CLEAR == 0 { old & CAUSES } else { 0 };
+                let causes = if written & CLEAR == 0 { was & CAUSES } else { 0 };
                 with_ready(causes | written & 1, &[(0, 1)])
             }
             _ => written,
-        };
-        *self.registers.get_mut(index(offset))? = new;
-        let enable = offset + RESETS_BELOW;
-        ENABLES.contains(&enable).then_some((enable, new & !old))
+        }
     }
 
-    fn enables(&self) -> &'static [u32] {
-        &ENABLES
-    }
-
-    fn clocks(&self) -> Clocks {
-        let cfgr = self.read(CFGR);
-        let core = self.system_hz() / AHB[(cfgr >> 4 & 15) as usize];
+    fn clocks(unit: &Unit) -> Clocks {
+        let cfgr = unit.read(CFGR);
+        let core = unit.system_hz() / AHB[(cfgr >> 4 & 15) as usize];
         let (by1, by2) = (APB[(cfgr >> 8 & 7) as usize], APB[(cfgr >> 11 & 7) as usize]);
         let timers = |by: u64| if by == 1 { core } else { core / by * 2 };
-        let has_hsi48 = self.read(CRRCR) >> 1 & 1 == 1;
+        let has_hsi48 = unit.read(CRRCR) >> 1 & 1 == 1;
         Clocks {
             core: core.max(1),
             apb1: core / by1,
@@ -141,26 +99,26 @@ impl Rcc for Unit {
             timers2: timers(by2),
             // The converters have a divider of their own.
             adc: core,
-            usb: match self.read(CCIPR) >> 26 & 3 {
+            usb: match unit.read(CCIPR) >> 26 & 3 {
                 0 if has_hsi48 => HSI48_HZ,
-                2 => self.outputs()[1],
+                2 => unit.outputs()[1],
                 _ => 0,
             },
             lsi: LSI_HZ,
         }
     }
 
-    fn named_hz(&self, clock: &str) -> u64 {
-        let clocks = self.clocks();
+    fn named_hz(unit: &Unit, clock: &str) -> u64 {
+        let clocks = Self::clocks(unit);
         match clock {
             "PCLK1" => clocks.apb1,
             "PCLK2" => clocks.apb2,
-            "SYS" => self.system_hz(),
+            "SYS" => unit.system_hz(),
             "HSI" => HSI_HZ,
-            "HSE" => self.crystal_hz,
+            "HSE" => unit.crystal_hz,
             "LSE" => LSE_HZ,
-            "PLL1_P" => self.outputs()[0],
-            "PLL1_Q" => self.outputs()[1],
+            "PLL1_P" => unit.outputs()[0],
+            "PLL1_Q" => unit.outputs()[1],
             _ => 0,
         }
     }
@@ -169,6 +127,8 @@ impl Rcc for Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rcc::unit::{CAUSE_PIN, CAUSE_POWER, CAUSE_WATCHDOG};
+    use crate::wires::ResetCause;
 
     #[test]
     fn the_clock_tree_is_what_the_registers_say() {

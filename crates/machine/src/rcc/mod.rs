@@ -17,9 +17,9 @@ use crate::mcu::{Kernel, Mcu};
 /// The unit of an MCU in its state after power-up.
 pub(crate) fn new(mcu: &Mcu, crystal_hz: u64) -> Box<dyn Rcc> {
     match mcu.block("RCC") {
-        "rcc_f1" => Box::new(f1::Unit::new(crystal_hz)),
-        "rcc_g4" => Box::new(g4::Unit::new(crystal_hz)),
-        _ => Box::new(f4::Unit::new(crystal_hz)),
+        "rcc_f1" => Box::new(unit::Unit::<f1::Version>::new(crystal_hz)),
+        "rcc_g4" => Box::new(unit::Unit::<g4::Version>::new(crystal_hz)),
+        _ => Box::new(unit::Unit::<f4::Version>::new(crystal_hz)),
     }
 }
 

@@ -1,8 +1,11 @@
 //! What the versions of the unit have in common.
 //!
-//! In: values that are written to registers of the same meaning. Out: what those hold then, and what the chip asks of
-//! the unit, as a trait.
+//! In: values that are written to registers, resets, and what a version does in its own way. Out: what the registers
+//! hold then, and what the chip asks of the unit, as a trait.
 
+use std::marker::PhantomData;
+
+use crate::registers::merge;
 use crate::wires::{Clocks, ResetCause};
 
 /// The unit, in one of its versions.
@@ -28,6 +31,94 @@ pub(crate) trait Rcc: Send {
     /// Whether the peripheral that belongs to a bit of an enable register has its clock.
     fn is_enabled(&self, offset: u32, bit: u32) -> bool {
         self.read(offset) >> bit & 1 == 1
+    }
+}
+
+/// What a version does in its own way.
+pub(super) trait Version: Sized + Send {
+    /// The number of registers.
+    const REGISTERS: usize;
+    /// The registers that are not 0 after a reset.
+    const RESET: &'static [(u32, u32)];
+    const BDCR: u32;
+    const CSR: u32;
+    /// The causes that a power-up counts as, besides the reset pin.
+    const POWER_CAUSES: u32 = CAUSE_POWER;
+    const ENABLES: &'static [u32];
+
+    /// What a register holds after a write.
+    fn written(unit: &Unit<Self>, offset: u32, written: u32, was: u32) -> u32;
+    fn clocks(unit: &Unit<Self>) -> Clocks;
+
+    /// The enable register of the peripherals that a reset register holds in reset.
+    fn enable_of(reset: u32) -> Option<u32> {
+        let enable = reset + 0x20;
+        Self::ENABLES.contains(&enable).then_some(enable)
+    }
+
+    fn named_hz(_: &Unit<Self>, _: &str) -> u64 {
+        0
+    }
+}
+
+/// The registers of a version, by offset; the crystal is a property of the board.
+#[derive(Debug)]
+pub(super) struct Unit<V> {
+    registers: Vec<u32>,
+    pub crystal_hz: u64,
+    version: PhantomData<V>,
+}
+
+impl<V: Version> Unit<V> {
+    pub(super) fn new(crystal_hz: u64) -> Self {
+        let registers = vec![0; V::REGISTERS];
+        let mut unit = Self { registers, crystal_hz, version: PhantomData };
+        unit.reset(ResetCause::Power);
+        unit
+    }
+}
+
+impl<V: Version> Rcc for Unit<V> {
+    fn reset(&mut self, cause: ResetCause) {
+        let kept = [V::CSR, V::BDCR].map(|offset| self.read(offset));
+        let [csr, bdcr] = if cause == ResetCause::Power { [0; 2] } else { kept };
+        let cause = match cause {
+            ResetCause::Watchdog => CAUSE_WATCHDOG,
+            ResetCause::Software => CAUSE_SOFTWARE,
+            ResetCause::Power => V::POWER_CAUSES,
+        };
+        self.registers.fill(0);
+        let others = [(V::BDCR, bdcr), (V::CSR, csr | CAUSE_PIN | cause)];
+        for (offset, value) in V::RESET.iter().copied().chain(others) {
+            self.registers[index(offset)] = value;
+        }
+    }
+
+    fn causes(&self) -> u32 {
+        self.read(V::CSR) & CAUSES
+    }
+
+    fn read(&self, offset: u32) -> u32 {
+        self.registers.get(index(offset)).copied().unwrap_or(0)
+    }
+
+    fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<(u32, u32)> {
+        let old = self.read(offset);
+        let new = V::written(self, offset, merge(old, value, mask), old);
+        *self.registers.get_mut(index(offset))? = new;
+        Some((V::enable_of(offset)?, new & !old))
+    }
+
+    fn enables(&self) -> &'static [u32] {
+        V::ENABLES
+    }
+
+    fn clocks(&self) -> Clocks {
+        V::clocks(self)
+    }
+
+    fn named_hz(&self, clock: &str) -> u64 {
+        V::named_hz(self, clock)
     }
 }
 
@@ -68,6 +159,6 @@ pub(super) fn with_causes(written: u32, was: u32) -> u32 {
     causes | (written & 1) | (written & 1) << 1
 }
 
-pub(super) fn index(offset: u32) -> usize {
+fn index(offset: u32) -> usize {
     (offset / 4) as usize
 }
