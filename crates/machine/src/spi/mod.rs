@@ -8,7 +8,8 @@ mod v3;
 
 use crate::mcu::Mcu;
 use crate::ports::{PortState, Setting};
-use crate::wires::Wires;
+use crate::registers::merge;
+use crate::wires::{NEVER, Wires, periods_ns};
 
 /// Bits of SR.
 const RECEIVED: u32 = 1;
@@ -25,7 +26,7 @@ const ERROR_INTERRUPTS: u32 = 1 << 5;
 const RECEIVED_INTERRUPTS: u32 = 1 << 6;
 const EMPTY_INTERRUPTS: u32 = 1 << 7;
 
-/// A port, in one of the block's versions.
+/// A port, in any of the block's versions.
 pub(crate) trait Spi: Send {
     /// Restarts it in its state after a reset.
     fn restart(&mut self, wires: &mut Wires);
@@ -43,8 +44,8 @@ pub(crate) trait Spi: Send {
 /// A port in its state after a reset, by its number: `1` is SPI1.
 pub(crate) fn new(unit: u8, mcu: &'static Mcu) -> Box<dyn Spi> {
     match mcu.block("SPI1") {
-        "spi_v3_i2s" => Box::new(v3::Unit::new(unit, mcu)),
-        _ => Box::new(v1::Unit::new(unit, mcu)),
+        "spi_v3_i2s" => Box::new(Unit::<v3::Version>::new(unit, mcu)),
+        _ => Box::new(Unit::<v1::Version>::new(unit, mcu)),
     }
 }
 
@@ -101,5 +102,140 @@ impl Place {
             || holds(RECEIVED_INTERRUPTS, RECEIVED)
             || holds(ERROR_INTERRUPTS, OVERRUN);
         wires.interrupt(self.irq, 0, is_held);
+    }
+}
+
+/// What a version does in its own way: the items that wait, and those that have been received.
+trait Version: Default + Send {
+    /// CR2 after a reset.
+    const CR2: u32;
+
+    /// The bits of an item.
+    fn bits(unit: &Unit<Self>) -> u64;
+    fn sr(unit: &Unit<Self>) -> u32;
+    /// The next item to send; `None` if none is complete.
+    fn next(unit: &mut Unit<Self>) -> Option<u16>;
+    /// Exchanges an item for another one, and keeps that.
+    fn finish(unit: &mut Unit<Self>, item: u16, wires: &Wires);
+    /// The program has read DR and then SR: the overrun is over.
+    fn clear_overrun(&mut self);
+    /// Reads DR with an access of that many bytes.
+    fn take(unit: &mut Unit<Self>, bytes: u32) -> u32;
+    /// Writes DR.
+    fn put(unit: &mut Unit<Self>, value: u32, mask: u32);
+}
+
+/// An SPI port.
+#[derive(Debug)]
+struct Unit<V> {
+    place: Place,
+    cr: [u32; 2],
+    other: [u32; 5],
+    /// The item on the wires.
+    shifting: Option<u16>,
+    until: u64,
+    /// Whether DR was read with an overrun, which a read of SR then clears.
+    has_read_data: bool,
+    version: V,
+}
+
+impl<V: Version> Unit<V> {
+    fn new(unit: u8, mcu: &'static Mcu) -> Self {
+        Self {
+            place: Place::new(unit, mcu),
+            cr: [0, V::CR2],
+            other: [7, 0, 0, 0, 2],
+            shifting: None,
+            until: NEVER,
+            has_read_data: false,
+            version: V::default(),
+        }
+    }
+
+    fn begin(&mut self, at: u64, wires: &Wires) {
+        self.until = NEVER;
+        if self.cr[0] & (ENABLE | MASTER) != ENABLE | MASTER || self.shifting.is_some() {
+            return;
+        }
+        self.shifting = V::next(self);
+        if self.shifting.is_some() {
+            let periods = V::bits(self) << ((self.cr[0] >> 3 & 7) + 1);
+            self.until = at + periods_ns(periods, self.place.clock_hz(wires));
+        }
+    }
+
+    fn report(&self, wires: &mut Wires) {
+        self.place.report(self.cr[1], V::sr(self), wires);
+    }
+
+    /// A register that holds what is written to it.
+    fn setting(&mut self, offset: u32) -> Option<&mut u32> {
+        match offset {
+            0x00 | 0x04 => Some(&mut self.cr[(offset / 4) as usize]),
+            0x10..=0x20 => Some(&mut self.other[((offset - 0x10) / 4) as usize]),
+            _ => None,
+        }
+    }
+}
+
+impl<V: Version> Spi for Unit<V> {
+    fn restart(&mut self, wires: &mut Wires) {
+        *self = Self::new(self.place.unit, self.place.mcu);
+        self.report(wires);
+    }
+
+    fn state(&self, wires: &Wires) -> Option<PortState> {
+        self.place.state(self.cr[0], wires)
+    }
+
+    fn deadline(&self) -> u64 {
+        self.until
+    }
+
+    fn advance(&mut self, wires: &mut Wires) {
+        while self.until <= wires.now {
+            let at = self.until;
+            let Some(item) = self.shifting.take() else { break };
+            V::finish(self, item, wires);
+            self.begin(at, wires);
+        }
+        self.report(wires);
+    }
+
+    fn asks(&self, transmits: bool) -> bool {
+        let is_ready = |enable: u32, flag: u32| self.cr[1] & enable != 0 && V::sr(self) & flag != 0;
+        if transmits {
+            is_ready(TRANSMITS_BY_DMA, EMPTY) && self.cr[0] & ENABLE != 0
+        } else {
+            is_ready(RECEIVES_BY_DMA, RECEIVED)
+        }
+    }
+
+    fn read(&mut self, offset: u32, bytes: u32, wires: &mut Wires) -> u32 {
+        let value = match offset {
+            0x08 => {
+                let value = V::sr(self);
+                if std::mem::take(&mut self.has_read_data) {
+                    self.version.clear_overrun();
+                }
+                value
+            }
+            0x0C => V::take(self, bytes),
+            _ => self.setting(offset).map_or(0, |register| *register),
+        };
+        self.report(wires);
+        value
+    }
+
+    fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
+        if offset == 0x0C {
+            V::put(self, value, mask);
+        } else if let Some(register) = self.setting(offset) {
+            *register = merge(*register, value, mask);
+        }
+        if self.until == NEVER {
+            self.begin(wires.now, wires);
+        }
+        self.report(wires);
     }
 }
