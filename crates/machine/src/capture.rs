@@ -5,7 +5,7 @@ use super::wires::{NEVER, Wires};
 use sensedsl_surroundings::Pad;
 
 /// The state of a timer's inputs, of which there are two or four.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Inputs {
     names: [String; 4],
     pads: [Option<Pad>; 4],

@@ -14,7 +14,7 @@ struct Line {
 }
 
 /// EXTI and SYSCFG.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Exti {
     /// The interrupt of each line.
     irqs: [u16; 16],
@@ -35,17 +35,8 @@ impl Exti {
     pub(super) fn new(mcu: &Mcu) -> Self {
         Self {
             irqs: std::array::from_fn(|line| mcu.irq("EXTI", &format!("EXTI{line}"))),
-            imr: 0,
-            emr: 0,
-            rising: 0,
-            falling: 0,
-            pending: 0,
-            remap: 0,
-            pmc: 0,
-            ports: [0; 4],
-            lines: [Line::default(); 16],
             next_ns: NEVER,
-            version: 0,
+            ..Self::default()
         }
     }
 

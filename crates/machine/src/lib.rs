@@ -163,12 +163,6 @@ impl Machine {
         self.core.chip().wires.link.is_open = is_open;
     }
 
-    /// The number of the host's bytes that have not arrived yet.
-    #[must_use]
-    pub fn link_waiting(&self) -> usize {
-        self.core.chip().wires.link.to_mcu.len()
-    }
-
     /// The bytes that the host has received since the last call, each with the time of its arrival.
     pub fn link_read(&mut self) -> Vec<(u64, u8)> {
         std::mem::take(&mut self.core.chip().wires.link.from_mcu)

@@ -13,7 +13,7 @@ const UPDATE: u32 = 1;
 const TRIGGER: u32 = 1 << 6;
 
 /// The hardware variant of a timer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Variant {
     /// The timer's number: `3` is TIM3.
     number: u8,
@@ -56,7 +56,7 @@ impl Variant {
 }
 
 /// A timer.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Timer {
     variant: Variant,
     pub cr1: u32,
@@ -94,29 +94,13 @@ impl Timer {
         let arr = if variant.is_wide { u32::MAX } else { 0xFFFF };
         Self {
             variant,
-            cr1: 0,
-            cr2: 0,
-            smcr: 0,
-            dier: 0,
-            sr: 0,
-            ccmr: [0; 2],
-            ccer: 0,
-            psc: 0,
             arr,
-            rcr: 0,
-            ccr: [0; 4],
-            bdtr: 0,
-            other: [0; 3],
             prescaler: 1,
-            base_count: 0,
-            base_ns: 0,
             // The first write sets it.
             hz: 1,
-            seen: 0,
             next: NEVER,
             inputs: Inputs::new(variant.number),
-            waveforms: [[(0, 0); 2]; 4],
-            asking: 0,
+            ..Self::default()
         }
     }
 

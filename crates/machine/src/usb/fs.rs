@@ -81,7 +81,7 @@ fn written(old: u32, value: u32, mask: u32) -> u32 {
 }
 
 /// What the versions of the block differ in.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Layout {
     /// The words of the memory for packets.
     words: usize,
@@ -95,7 +95,7 @@ const F1: Layout = Layout { words: 256, bytes: 4, pulls_up: false };
 const G4: Layout = Layout { words: 512, bytes: 2, pulls_up: true };
 
 /// The unit, with the host at the other end of the cable.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Device {
     irq: u16,
     layout: Layout,
@@ -124,17 +124,10 @@ impl Device {
         Self {
             irq,
             layout,
-            endpoints: [0; ENDPOINTS],
             cntr: FORCED_RESET | POWER_DOWN,
-            istr: 0,
-            daddr: 0,
-            btable: 0,
-            bcdr: 0,
             memory: vec![0; layout.words],
-            frame: 0,
             host: Host::new(),
-            expects_data1: [false; ENDPOINTS],
-            sends_data1: [false; ENDPOINTS],
+            ..Self::default()
         }
     }
 

@@ -20,8 +20,9 @@ const ADDRESSING: usize = 1;
 const PACKET_BYTES: usize = 64;
 
 /// The stage of a control transfer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 enum Step {
+    #[default]
     Setup,
     DataIn,
     DataOut,
@@ -30,8 +31,9 @@ enum Step {
 }
 
 /// The host's activity with the device.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 enum State {
+    #[default]
     Absent,
     Debouncing,
     Resetting,
@@ -41,7 +43,7 @@ enum State {
 }
 
 /// The host's end of the cable.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Host {
     pub next_ns: u64,
     state: State,
@@ -86,18 +88,12 @@ impl Host {
     pub(super) fn new() -> Self {
         Self {
             next_ns: NEVER,
-            state: State::Absent,
-            step: Step::Setup,
-            frame_ns: 0,
-            address: 0,
-            answer: Vec::new(),
-            waited: 0,
             configuration_bytes: 9,
             configuration: 1,
             input: 1,
             output: 1,
-            interface: 0,
             is_open: true,
+            ..Self::default()
         }
     }
 

@@ -91,7 +91,7 @@ impl Endpoint {
 }
 
 /// The USB port.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Otg {
     irq: u16,
     registers: Vec<u32>,
@@ -119,13 +119,9 @@ impl Otg {
             irq,
             registers: vec![0; 0x1000 / 4],
             status: 0x0400_0020,
-            ins: Default::default(),
-            outs: Default::default(),
-            received: VecDeque::new(),
-            reading: VecDeque::new(),
             host: Host::new(),
-            frame: 0,
             session_ns: NEVER,
+            ..Self::default()
         }
     }
 
