@@ -30,7 +30,6 @@ use crate::formulate::{Formulation, wanted};
 use crate::levels::{Tolerates, stands, supply_mv};
 use crate::offer::{Offer, Withheld, has_places, roles};
 use crate::requested::{RequestedWires, free};
-use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
@@ -39,7 +38,7 @@ pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
     let mut reported = BTreeSet::new();
     for (wires, meanings) in design.connections.iter().zip(&formulation.meanings) {
         if meanings.is_empty() && reported.insert((wires.part, wires.name.as_deref())) {
-            diagnostics.extend(why_hopeless(design, formulation, wires));
+            diagnostics.extend(Placed::new(design, formulation, wires).why_hopeless());
         }
     }
     if diagnostics.is_empty() {
@@ -48,308 +47,288 @@ pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
     diagnostics
 }
 
-fn why_hopeless(
-    design: &Design,
-    formulation: &Formulation<'_>,
-    wires: &Connection,
-) -> Option<Diagnostic> {
-    let offers = offers(formulation, wires);
-    if let Some(level) = wires.level
-        && possible(design, &offers, wires, |wanted| wanted.level_mv = None)
-    {
-        return Some(too_much_voltage(design, &offers, wires, level));
+/// A fixed pin of a device.
+type Fixed = (Role, Spanned<PinRef>);
+
+/// A connection, with the boards that it may be on.
+struct Placed<'d> {
+    design: &'d Design,
+    offers: Vec<&'d Offer<'d>>,
+    wires: &'d Connection,
+}
+
+impl<'d> Placed<'d> {
+    fn new(design: &'d Design, formulation: &'d Formulation<'_>, wires: &'d Connection) -> Self {
+        let bound = |offer: &&Offer<'_>| wires.board.is_none_or(|board| board == offer.index);
+        Self { design, offers: formulation.offers.iter().filter(bound).collect(), wires }
     }
-    for (role, pin) in &wires.placement.pins {
-        if let Some(withheld) = withheld(&offers, pin) {
-            return Some(withheld);
+
+    fn why_hopeless(&self) -> Option<Diagnostic> {
+        let wires = self.wires;
+        if let Some(level) = wires.level
+            && self.is_possible(|wanted| wanted.level_mv = None)
+        {
+            return Some(self.too_much_voltage(level));
         }
-        if !possible(design, &offers, wires, |wanted| {
+        for fixed in &wires.placement.pins {
+            if let Some(withheld) = self.withheld(&fixed.1) {
+                return Some(withheld);
+            }
+            if !self.is_possible(|wanted| {
+                wanted.unit = None;
+                wanted.side = None;
+                wanted.header = None;
+                wanted.pins.retain(|(role, _)| *role == fixed.0);
+            }) {
+                let report = self.swapped(fixed).or_else(|| self.bus_only(fixed));
+                let report = report.or_else(|| self.by_silicon(fixed));
+                let report = report.or_else(|| self.analog_only(fixed));
+                return Some(report.unwrap_or_else(|| self.cannot_serve(fixed)));
+            }
+        }
+        if let Some(report) = self.without_silicon() {
+            return Some(report);
+        }
+        let unit = wires.placement.unit.as_ref()?;
+        let reachable = self.is_possible(|wanted| {
+            wanted.pins.clear();
+            wanted.side = None;
+            wanted.header = None;
+        });
+        if reachable {
+            return None;
+        }
+        let units = self.units().join(", ");
+        let kind = wires.kind.name().with_article();
+        if let Some(because) = self.unit_lacks(&unit.value) {
+            let name = &unit.value;
+            return Some(e0320_silicon_cannot::unit_cannot(
+                unit.span, name, &kind, because, &units,
+            ));
+        }
+        Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units))
+    }
+
+    /// The report for a fixed pin that is withheld on every board that has it.
+    fn withheld(&self, pin: &Spanned<PinRef>) -> Option<Diagnostic> {
+        let at = |offer: &&Offer<'_>| {
+            let name = pin.value.on(offer.index)?;
+            let index = offer.board.table.pins.iter().position(|one| one.name == *name)?;
+            Some(offer.why_withheld(index).cloned())
+        };
+        let all: Option<Vec<Withheld>> = self.offers.iter().filter_map(at).collect();
+        let first = all?.into_iter().next()?;
+        let name = pin.value.name();
+        let (by, place, help) = match &first {
+            Withheld::Reserved(rule) => (
+                "a `reserve` rule".to_owned(),
+                Some(*rule),
+                "take another pin, or change the rule".to_owned(),
+            ),
+            Withheld::Onboard(part) => (
+                format!("{part} on the board"),
+                None,
+                format!("take another pin, or write `release {name};` if {part} is not needed"),
+            ),
+            Withheld::NoConnector => (
+                "nothing: it is on no connector".to_owned(),
+                None,
+                format!("take another pin, or write `release {name};`"),
+            ),
+            Withheld::Link => {
+                let vbus = self.offers.iter().any(|offer| {
+                    let usb = offer.board.profile().and_then(|profile| profile.usb(None));
+                    usb.and_then(|usb| usb.vbus.as_ref()).is_some_and(|vbus| vbus.as_str() == name)
+                });
+                let help = if vbus {
+                    "take another pin, or write `link { vbus = false; }` where the MCU need not notice the host"
+                } else {
+                    "take another pin, or another link"
+                };
+                ("the USB link".to_owned(), None, help.to_owned())
+            }
+            Withheld::Needed(role) => {
+                let price = match role {
+                    PinRole::Debug => "give up debugging",
+                    PinRole::Reset => "make it a GPIO in the option bytes",
+                    PinRole::Boot => "leave it alone at reset",
+                    PinRole::Oscillator => "fit no crystal",
+                };
+                let help = format!("take another pin, or write `release {name};` and {price}");
+                (role.describe().to_owned(), None, help)
+            }
+        };
+        Some(e0316_pin_not_available::pin_not_available(
+            pin.span,
+            &pin.value.shown(),
+            &by,
+            place,
+            &help,
+        ))
+    }
+
+    /// The report for a device whose level none of its possible pins tolerates.
+    fn too_much_voltage(&self, level: Level) -> Diagnostic {
+        let most = |offer: &&Offer<'_>| {
+            let pins = offer.pins().map(|(_, pin)| pin).filter(|pin| {
+                self.wires
+                    .placement
+                    .pins
+                    .iter()
+                    .all(|(_, fixed)| fixed.value.on(offer.index) == Some(&pin.name))
+            });
+            let of_pin = |pin| match stands(offer.board, pin, &self.wires.kind, level.at_pin_mv()) {
+                Tolerates::No(most) => Some(most),
+                Tolerates::Yes | Tolerates::Unknown => None,
+            };
+            pins.filter_map(of_pin).max()
+        };
+        let supply =
+            self.offers.iter().filter_map(|offer| supply_mv(offer.board)).max().unwrap_or(3_300);
+        let most = self.offers.iter().filter_map(most).max().unwrap_or(supply);
+        let help = if self.wires.kind.name().spec().sharing == Sharing::Own {
+            let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
+            format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
+        } else {
+            format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
+        };
+        let at_pin = level.at_pin_mv();
+        let (name, shown) = (self.design.part_name(self.wires.part), shown_mv(at_pin));
+        let at = self.design.part(self.wires.part).map_or(level.span, |part| part.name.span);
+        let most = if most < at_pin { most } else { supply };
+        let (device, stated) = ((at, name), (level.span, shown.as_str()));
+        e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
+    }
+
+    /// The report for two fixed pins that would be right if exchanged.
+    fn swapped(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
+        let pins = &self.wires.placement.pins;
+        let (other, its_pin) = pins.iter().find(|(other, its_pin)| {
+            other != role && its_pin.value.name() != pin.value.name() && {
+                let the_other_way = [(*role, its_pin.value.clone()), (*other, pin.value.clone())];
+                self.is_possible(|wanted| wanted.pins = the_other_way.to_vec())
+            }
+        })?;
+        let needs = format!("`{role}` of {}", self.wires.kind.name().with_article());
+        let line = |role: Role, pin: &PinRef| format!("{} = {};", role.property(), pin.spelled);
+        let lines = format!("{} {}", line(*role, &its_pin.value), line(*other, &pin.value));
+        let name = pin.value.shown();
+        let report = e0314_pin_cannot_serve::pins_swapped;
+        Some(report(pin.span, &name, &needs, its_pin.span, &lines))
+    }
+
+    fn cannot_serve(&self, (role, pin): &Fixed) -> Diagnostic {
+        let row = self.offers.iter().find_map(|offer| {
+            let row = offer.board.table.pin(pin.value.on(offer.index)?)?;
+            Some(offer.board.table_span(row.range.clone()))
+        });
+        let (needs, pins) = self.needs_and_pins(*role);
+        e0314_pin_cannot_serve::pin_cannot_serve(pin.span, &pin.value.shown(), &needs, row, &pins)
+    }
+
+    /// What a device needs from a pin, and the pins that have it, in the words of reports.
+    fn needs_and_pins(&self, role: Role) -> (String, String) {
+        let needs = format!("`{role}` of {}", self.wires.kind.name().with_article());
+        (needs, self.pins_of(role).join(", "))
+    }
+
+    /// The report for a fixed pin that an on-board part has left to the devices of its bus, if the
+    /// device could have the pin without the part.
+    fn bus_only(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
+        let row = |offer: &&Offer<'_>| {
+            let table = &offer.board.table;
+            let name = pin.value.on(offer.index)?;
+            Some((name.clone(), table.pin(name)?.onboard.as_ref()?.part.clone()))
+        };
+        let (name, part) = self.offers.iter().find_map(row)?;
+        let released: Vec<Offer<'_>> =
+            self.offers.iter().map(|offer| offer.with_released(&name)).collect();
+        let meanings = self.relaxed_on(&released, |wanted| {
             wanted.unit = None;
             wanted.side = None;
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
-        }) {
-            let report = swapped(design, &offers, wires, *role, pin);
-            let report = report.or_else(|| bus_only(design, &offers, wires, *role, pin));
-            let report = report.or_else(|| by_silicon(design, &offers, wires, *role, pin));
-            let report = report.or_else(|| analog_only(design, &offers, wires, *role, pin));
-            return Some(
-                report.unwrap_or_else(|| cannot_serve(design, &offers, wires, *role, pin)),
-            );
-        }
-    }
-    if let Some(report) = without_silicon(design, &offers, wires) {
-        return Some(report);
-    }
-    let unit = wires.placement.unit.as_ref()?;
-    let reachable = possible(design, &offers, wires, |wanted| {
-        wanted.pins.clear();
-        wanted.side = None;
-        wanted.header = None;
-    });
-    if reachable {
-        return None;
-    }
-    let units = units(design, &offers, wires);
-    let kind = wires.kind.name().with_article();
-    if let Some(because) = unit_lacks(&offers, wires, &unit.value) {
-        let (name, list) = (&unit.value, units.join(", "));
-        return Some(e0320_silicon_cannot::unit_cannot(unit.span, name, &kind, because, &list));
-    }
-    Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units.join(", ")))
-}
-
-fn offers<'f, 'a>(formulation: &'f Formulation<'a>, wires: &Connection) -> Vec<&'f Offer<'a>> {
-    let bound = |offer: &&Offer<'a>| wires.board.is_none_or(|board| board == offer.index);
-    formulation.offers.iter().filter(bound).collect()
-}
-
-/// The report for a fixed pin that is withheld on every board that has it.
-fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> {
-    let at = |offer: &&Offer<'_>| {
-        let name = pin.value.on(offer.index)?;
-        let index = offer.board.table.pins.iter().position(|one| one.name == *name)?;
-        Some(offer.why_withheld(index).cloned())
-    };
-    let all: Option<Vec<Withheld>> = offers.iter().filter_map(at).collect();
-    let first = all?.into_iter().next()?;
-    let name = pin.value.name();
-    let (by, place, help) = match &first {
-        Withheld::Reserved(rule) => (
-            "a `reserve` rule".to_owned(),
-            Some(*rule),
-            "take another pin, or change the rule".to_owned(),
-        ),
-        Withheld::Onboard(part) => (
-            format!("{part} on the board"),
-            None,
-            format!("take another pin, or write `release {name};` if {part} is not needed"),
-        ),
-        Withheld::NoConnector => (
-            "nothing: it is on no connector".to_owned(),
-            None,
-            format!("take another pin, or write `release {name};`"),
-        ),
-        Withheld::Link => {
-            let vbus = offers.iter().any(|offer| {
-                let usb = offer.board.profile().and_then(|profile| profile.usb(None));
-                usb.and_then(|usb| usb.vbus.as_ref()).is_some_and(|vbus| vbus.as_str() == name)
-            });
-            let help = if vbus {
-                "take another pin, or write `link { vbus = false; }` where the MCU need not notice the host"
-            } else {
-                "take another pin, or another link"
-            };
-            ("the USB link".to_owned(), None, help.to_owned())
-        }
-        Withheld::Needed(role) => {
-            let price = match role {
-                PinRole::Debug => "give up debugging",
-                PinRole::Reset => "make it a GPIO in the option bytes",
-                PinRole::Boot => "leave it alone at reset",
-                PinRole::Oscillator => "fit no crystal",
-            };
-            let help = format!("take another pin, or write `release {name};` and {price}");
-            (role.describe().to_owned(), None, help)
-        }
-    };
-    Some(e0316_pin_not_available::pin_not_available(
-        pin.span,
-        &pin.value.shown(),
-        &by,
-        place,
-        &help,
-    ))
-}
-
-/// The report for a device whose level none of its possible pins tolerates.
-fn too_much_voltage(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    level: Level,
-) -> Diagnostic {
-    let most = |offer: &&Offer<'_>| {
-        let pins = offer.pins().map(|(_, pin)| pin).filter(|pin| {
-            wires
-                .placement
-                .pins
-                .iter()
-                .all(|(_, fixed)| fixed.value.on(offer.index) == Some(&pin.name))
         });
-        let of_pin = |pin| match stands(offer.board, pin, &wires.kind, level.at_pin_mv()) {
-            Tolerates::No(most) => Some(most),
-            Tolerates::Yes | Tolerates::Unknown => None,
-        };
-        pins.filter_map(of_pin).max()
-    };
-    let supply = offers.iter().filter_map(|offer| supply_mv(offer.board)).max().unwrap_or(3_300);
-    let most = offers.iter().filter_map(most).max().unwrap_or(supply);
-    let help = if wires.kind.name().spec().sharing == Sharing::Own {
-        let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
-        format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
-    } else {
-        format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
-    };
-    let at_pin = level.at_pin_mv();
-    let (name, shown) = (design.part_name(wires.part), shown_mv(at_pin));
-    let at = design.part(wires.part).map_or(level.span, |part| part.name.span);
-    let most = if most < at_pin { most } else { supply };
-    let (device, stated) = ((at, name), (level.span, shown.as_str()));
-    e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
-}
+        let free = !meanings.is_empty();
+        let help = format!("take another pin, or write `release {name};` if {part} is not needed");
+        let by = format!("{part} on the board");
+        free.then(|| {
+            e0316_pin_not_available::pin_not_available(
+                pin.span,
+                &pin.value.shown(),
+                &by,
+                None,
+                &help,
+            )
+        })
+    }
 
-/// The report for two fixed pins that would be right if exchanged.
-fn swapped(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    let pins = &wires.placement.pins;
-    let (other, its_pin) = pins.iter().find(|(other, its_pin)| {
-        *other != role && its_pin.value.name() != pin.value.name() && {
-            let the_other_way = [(role, its_pin.value.clone()), (*other, pin.value.clone())];
-            possible(design, offers, wires, |wanted| wanted.pins = the_other_way.to_vec())
-        }
-    })?;
-    let needs = format!("`{role}` of {}", wires.kind.name().with_article());
-    let line = |role: Role, pin: &PinRef| format!("{} = {};", role.property(), pin.spelled);
-    let lines = format!("{} {}", line(role, &its_pin.value), line(*other, &pin.value));
-    let name = pin.value.shown();
-    let report = e0314_pin_cannot_serve::pins_swapped;
-    Some(report(pin.span, &name, &needs, its_pin.span, &lines))
-}
+    /// Whether the device could be connected to one of the boards with its placement relaxed.
+    fn is_possible(&self, relax: impl Fn(&mut RequestedWires<'_>)) -> bool {
+        !self.relaxed(relax).is_empty()
+    }
 
-fn cannot_serve(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Diagnostic {
-    let row = offers.iter().find_map(|offer| {
-        let row = offer.board.table.pin(pin.value.on(offer.index)?)?;
-        Some(offer.board.table_span(row.range.clone()))
-    });
-    let (needs, pins) = needs_and_pins(design, offers, wires, role);
-    e0314_pin_cannot_serve::pin_cannot_serve(pin.span, &pin.value.shown(), &needs, row, &pins)
-}
+    fn relaxed(&self, relax: impl Fn(&mut RequestedWires<'_>)) -> Vec<Meaning> {
+        let fresh: Vec<Offer<'_>> = self
+            .offers
+            .iter()
+            .map(|offer| Offer::new(self.design, offer.index, offer.board))
+            .collect();
+        self.relaxed_on(&fresh, relax)
+    }
 
-/// What a device needs from a pin, and the pins that have it, in the words of reports.
-fn needs_and_pins(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-) -> (String, String) {
-    let needs = format!("`{role}` of {}", wires.kind.name().with_article());
-    (needs, pins_of(design, offers, wires, role).join(", "))
-}
+    fn relaxed_on(
+        &self,
+        offers: &[Offer<'_>],
+        relax: impl Fn(&mut RequestedWires<'_>),
+    ) -> Vec<Meaning> {
+        let mut wanted = wanted(self.design, self.wires);
+        relax(&mut wanted);
+        let mut builder =
+            Builder::new(self.design, Converters::Later, sensedsl_solve::Cancel::NEVER);
+        wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
+        alternatives(&mut builder, offers, &wanted).1
+    }
 
-/// The report for a fixed pin that an on-board part has left to the devices of its bus, if the
-/// device could have the pin without the part.
-fn bus_only(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    let row = |offer: &&Offer<'_>| {
-        let table = &offer.board.table;
-        let name = pin.value.on(offer.index)?;
-        Some((name.clone(), table.pin(name)?.onboard.as_ref()?.part.clone()))
-    };
-    let (name, part) = offers.iter().find_map(row)?;
-    let released: Vec<Offer<'_>> = offers.iter().map(|offer| offer.with_released(&name)).collect();
-    let meanings = relaxed_on(design, &released, wires, |wanted| {
-        wanted.unit = None;
-        wanted.side = None;
-        wanted.header = None;
-        wanted.pins.retain(|(fixed, _)| *fixed == role);
-    });
-    let free = !meanings.is_empty();
-    let help = format!("take another pin, or write `release {name};` if {part} is not needed");
-    let by = format!("{part} on the board");
-    free.then(|| {
-        e0316_pin_not_available::pin_not_available(pin.span, &pin.value.shown(), &by, None, &help)
-    })
-}
-
-/// Whether the device could be connected to one of the boards with its placement relaxed.
-fn possible(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    relax: impl Fn(&mut RequestedWires<'_>),
-) -> bool {
-    !relaxed(design, offers, wires, relax).is_empty()
-}
-
-fn relaxed(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    relax: impl Fn(&mut RequestedWires<'_>),
-) -> Vec<Meaning> {
-    let fresh: Vec<Offer<'_>> =
-        offers.iter().map(|offer| Offer::new(design, offer.index, offer.board)).collect();
-    relaxed_on(design, &fresh, wires, relax)
-}
-
-fn relaxed_on(
-    design: &Design,
-    offers: &[Offer<'_>],
-    wires: &Connection,
-    relax: impl Fn(&mut RequestedWires<'_>),
-) -> Vec<Meaning> {
-    let mut wanted = wanted(design, wires);
-    relax(&mut wanted);
-    let mut builder = Builder::new(design, Converters::Later, sensedsl_solve::Cancel::NEVER);
-    wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
-    alternatives(&mut builder, offers, &wanted).1
-}
-
-fn units(design: &Design, offers: &[&Offer<'_>], wires: &Connection) -> Vec<String> {
-    let meanings = relaxed(design, offers, wires, free);
-    let mut units: Vec<String> = meanings.into_iter().filter_map(|one| one.unit).collect();
-    if units.is_empty() {
-        for meaning in relaxed(design, offers, wires, free) {
-            let Some(board) = design.board(meaning.board) else { continue };
-            for chosen in meaning.roles.iter().flatten() {
-                let pin = board.table.pins.get(chosen.pin);
-                let usage = pin.zip(chosen.usage).and_then(|(pin, at)| pin.usages.get(at));
-                let of = usage.map(|usage| usage.signal.function().units()).unwrap_or_default();
-                units.extend(of.iter().map(ToString::to_string));
+    fn units(&self) -> Vec<String> {
+        let meanings = self.relaxed(free);
+        let mut units: Vec<String> = meanings.into_iter().filter_map(|one| one.unit).collect();
+        if units.is_empty() {
+            for meaning in self.relaxed(free) {
+                let Some(board) = self.design.board(meaning.board) else { continue };
+                for chosen in meaning.roles.iter().flatten() {
+                    let pin = board.table.pins.get(chosen.pin);
+                    let usage = pin.zip(chosen.usage).and_then(|(pin, at)| pin.usages.get(at));
+                    let of = usage.map(|usage| usage.signal.function().units()).unwrap_or_default();
+                    units.extend(of.iter().map(ToString::to_string));
+                }
             }
         }
+        units.sort_by(|a, b| natural(a, b));
+        units.dedup();
+        units
     }
-    units.sort_by(|a, b| natural(a, b));
-    units.dedup();
-    units
-}
 
-fn pins_of(design: &Design, offers: &[&Offer<'_>], wires: &Connection, role: Role) -> Vec<String> {
-    let at = wires.kind.roles(wires.direction).iter().position(|one| *one == role);
-    let mut pins: Vec<String> = Vec::new();
-    for meaning in relaxed(design, offers, wires, free) {
-        let Some(board) = design.board(meaning.board) else { continue };
-        let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
-        let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
-        // With what is printed on the board, as this is what people look for.
-        pins.extend(names.map(|pin| {
-            let labels = pin.labels().into_iter().filter(|label| *label != pin.name.as_str());
-            match labels.collect::<Vec<_>>().as_slice() {
-                [] => pin.name.to_string(),
-                labels => format!("{} ({})", pin.name, visible(&labels.join(", "))),
-            }
-        }));
+    fn pins_of(&self, role: Role) -> Vec<String> {
+        let at = self.wires.kind.roles(self.wires.direction).iter().position(|one| *one == role);
+        let mut pins: Vec<String> = Vec::new();
+        for meaning in self.relaxed(free) {
+            let Some(board) = self.design.board(meaning.board) else { continue };
+            let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
+            let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
+            // With what is printed on the board, as this is what people look for.
+            pins.extend(names.map(|pin| {
+                let labels = pin.labels().into_iter().filter(|label| *label != pin.name.as_str());
+                match labels.collect::<Vec<_>>().as_slice() {
+                    [] => pin.name.to_string(),
+                    labels => format!("{} ({})", pin.name, visible(&labels.join(", "))),
+                }
+            }));
+        }
+        pins.sort_by(|a, b| natural(a, b));
+        pins.dedup();
+        pins
     }
-    pins.sort_by(|a, b| natural(a, b));
-    pins.dedup();
-    pins
 }
 
 /// Warnings about a wiring.

@@ -10,7 +10,7 @@ use sensedsl_model::design::{
 };
 use sensedsl_wire::Direction;
 
-use super::relaxed;
+use super::Placed;
 use crate::builder::Meaning;
 use crate::converters::units_of;
 use crate::formulate::Formulation;
@@ -60,8 +60,8 @@ impl Room {
 
 fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> Option<Diagnostic> {
     let asked = design.connections_of(first.part).count();
-    let offers = super::offers(formulation, first);
-    let meanings = relaxed(design, &offers, first, |wanted| wanted.pins.clear());
+    let placed = Placed::new(design, formulation, first);
+    let meanings = placed.relaxed(|wanted| wanted.pins.clear());
     // A device that cannot be connected at all gets another report.
     meanings.first()?;
     let device = design.device(first.device)?;

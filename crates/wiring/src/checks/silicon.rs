@@ -3,83 +3,63 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
-use sensedsl_model::design::{Connection, Design, PinRef, Spanned};
-use sensedsl_model::kind::Role;
 
-use super::needs_and_pins;
+use super::{Fixed, Placed};
 use crate::alternatives::served;
 use crate::alternatives::timers::{Channel, channel};
-use crate::offer::Offer;
 
-/// The report for a kind that the silicon of no board in question supports.
-pub(super) fn without_silicon(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-) -> Option<Diagnostic> {
-    let unable = offers.iter().map(|offer| {
-        let ability = served(&wires.kind).ability(offer.board)?;
-        ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
-    });
-    let all: Option<Vec<_>> = unable.collect();
-    let (ability, mcu) = all?.into_iter().next()?;
-    let (name, kind) = (&design.part(wires.part)?.name, wires.kind.name().with_article());
-    let because = &ability.because;
-    Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
-}
-
-/// The reason why a timer that a board has cannot do what the device needs on any pin.
-pub(super) fn unit_lacks(
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    unit: &str,
-) -> Option<&'static str> {
-    offers.iter().find_map(|offer| {
-        let ability = served(&wires.kind).ability(offer.board)?;
-        let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
-        let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
-        let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
-        channels.peek()?;
-        (!channels.any(|one| one.captures(Some(ability)))).then_some(ability.because.as_str())
-    })
-}
-
-/// The report for a fixed pin that cannot carry a digital signal.
-pub(super) fn analog_only(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    offers.iter().find(|offer| {
-        let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
-        row.is_some_and(|row| offer.is_analog_only(row))
-    })?;
-    let because = "the pad is an input of the converter alone";
-    let (needs, pins) = needs_and_pins(design, offers, wires, role);
-    let name = pin.value.shown();
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
-}
-
-/// The report for a fixed pin on a channel that the silicon cannot use in this way.
-pub(super) fn by_silicon(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    wires: &Connection,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    if let Some(report) = without_silicon(design, offers, wires) {
-        return Some(report);
+impl Placed<'_> {
+    /// The report for a kind that the silicon of no board in question supports.
+    pub(super) fn without_silicon(&self) -> Option<Diagnostic> {
+        let unable = self.offers.iter().map(|offer| {
+            let ability = served(&self.wires.kind).ability(offer.board)?;
+            ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
+        });
+        let all: Option<Vec<_>> = unable.collect();
+        let (ability, mcu) = all?.into_iter().next()?;
+        let (name, kind) =
+            (&self.design.part(self.wires.part)?.name, self.wires.kind.name().with_article());
+        let because = &ability.because;
+        Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
     }
-    let ability = offers.iter().find_map(|offer| {
-        let ability = served(&wires.kind).ability(offer.board)?;
-        let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
-        let mut channels = usages.iter().filter_map(channel);
-        channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
-    })?;
-    let (needs, pins) = needs_and_pins(design, offers, wires, role);
-    let name = pin.value.shown();
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, &ability.because, &pins))
+
+    /// The reason why a timer that a board has cannot do what the device needs on any pin.
+    pub(super) fn unit_lacks(&self, unit: &str) -> Option<&'static str> {
+        self.offers.iter().find_map(|offer| {
+            let ability = served(&self.wires.kind).ability(offer.board)?;
+            let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
+            let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
+            let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
+            channels.peek()?;
+            (!channels.any(|one| one.captures(Some(ability)))).then_some(ability.because.as_str())
+        })
+    }
+
+    /// The report for a fixed pin that cannot carry a digital signal.
+    pub(super) fn analog_only(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
+        self.offers.iter().find(|offer| {
+            let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
+            row.is_some_and(|row| offer.is_analog_only(row))
+        })?;
+        let because = "the pad is an input of the converter alone";
+        let (needs, pins) = self.needs_and_pins(*role);
+        let name = pin.value.shown();
+        Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
+    }
+
+    /// The report for a fixed pin on a channel that the silicon cannot use in this way.
+    pub(super) fn by_silicon(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
+        if let Some(report) = self.without_silicon() {
+            return Some(report);
+        }
+        let ability = self.offers.iter().find_map(|offer| {
+            let ability = served(&self.wires.kind).ability(offer.board)?;
+            let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
+            let mut channels = usages.iter().filter_map(channel);
+            channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
+        })?;
+        let (needs, pins) = self.needs_and_pins(*role);
+        let name = pin.value.shown();
+        Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, &ability.because, &pins))
+    }
 }
