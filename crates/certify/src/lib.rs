@@ -11,18 +11,11 @@
 //! use sensedsl_certify::{AlternativeLabels, Claim, Labels, Subject, certify};
 //! use sensedsl_proof::{read, verify};
 //! # use sensedsl_solve::problem::{Board, BoardId, Pin, Problem};
-//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, Holder, PinId, Role, SignalId};
+//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, PinId, Role, SignalId};
 //! use sensedsl_solve::{Cancel, Options, Outcome, solve_and_learn};
 //!
 //! # let device = |pins: [u32; 2]| {
-//! #     let candidate = |pin| Candidate {
-//! #         pin: PinId(pin),
-//! #         holder: Holder::Own,
-//! #         signal: SignalId(pin),
-//! #         claims: vec![],
-//! #         violates: vec![],
-//! #         moved: false,
-//! #     };
+//! #     let candidate = |pin| Candidate::new(PinId(pin), SignalId(pin));
 //! #     let roles = vec![Role { candidates: pins.map(candidate).to_vec() }];
 //! #     let board = BoardId(0);
 //! #     let way = Alternative { board, claims: vec![], violates: vec![], dma: vec![], roles };

@@ -174,8 +174,9 @@ impl<'a> Brute<'a> {
     fn next(&mut self, devices: &[&'a String], used: &Used<'a>) {
         let problem = &self.certificate.problem;
         let Some((device, rest)) = devices.split_first() else {
-            let requests: Vec<_> = used.dma.iter().flat_map(|user| &problem.dma[*user]).collect();
-            if serve(&requests, &mut BTreeSet::new()) {
+            let requests = used.dma.iter().flat_map(|user| &problem.dma[*user]);
+            let requests: Vec<Vec<&String>> = requests.map(|one| one.iter().collect()).collect();
+            if support::brute::serve(&requests, &mut BTreeSet::new()) {
                 let pins = used.held.keys().filter(|(kind, _)| *kind == "pin");
                 let shared = pins.clone().filter(|(_, pin)| problem.shared.contains(*pin)).count();
                 let cost = pins.map(|(_, pin)| u64::from(problem.pins[*pin])).sum();
@@ -205,19 +206,6 @@ impl<'a> Brute<'a> {
             }
         }
     }
-}
-
-fn serve<'a>(requests: &[&'a BTreeSet<String>], taken: &mut BTreeSet<&'a str>) -> bool {
-    let Some((request, rest)) = requests.split_first() else { return true };
-    for stream in *request {
-        if taken.insert(stream) {
-            if serve(rest, taken) {
-                return true;
-            }
-            taken.remove(stream.as_str());
-        }
-    }
-    false
 }
 
 /// Changes one place of a text of JSON: a number, a flag or a name, or removes an entry.
@@ -326,14 +314,7 @@ fn pairs() -> Problem {
     let claim = |resource, holder| of::Claim { resource: of::ResourceId(resource), holder };
     let way = |pair: u32, second: u32, place: u32| {
         let pin = 2 * place + second;
-        let candidate = of::Candidate {
-            pin: of::PinId(pin),
-            holder: Holder::Own,
-            signal: of::SignalId(pin),
-            claims: Vec::new(),
-            violates: Vec::new(),
-            moved: false,
-        };
+        let candidate = of::Candidate::new(of::PinId(pin), of::SignalId(pin));
         let mut claims = vec![claim(pair, Holder::Group(place))];
         if second == 0 && place < 3 {
             let others = [4 + place, 4 + (place + 1) % 3];
@@ -357,10 +338,9 @@ fn pairs() -> Problem {
             .collect(),
         boards: vec![of::Board { spare: false }],
         devices: (0..4).flat_map(|pair| [device(pair, 0), device(pair, 1)]).collect(),
-        dma: Vec::new(),
         rules: 4,
         resources: 7,
-        streams: 0,
+        ..Problem::default()
     }
 }
 

@@ -13,8 +13,8 @@ fn main() {
 }
 
 /// Analog, I2C and ICU devices on the paper's table.
-fn table_1(analog: u32, i2c: u32, icu: u32) -> Problem {
-    let mut builder = Builder::new(Target::Chibios, &[(TABLE_1, false)]);
+fn table_1(target: Target, analog: u32, i2c: u32, icu: u32) -> Problem {
+    let mut builder = Builder::new(target, &[(TABLE_1, false)]);
     (0..analog).for_each(|_| builder.device(&Kind::Analog, &[0]));
     for address in 0..i2c {
         builder.device(&Kind::I2c { address, exclusive: false }, &[0]);
@@ -44,28 +44,28 @@ fn solve_all(bencher: Bencher<'_, '_>, problems: &[Problem]) {
 
 #[divan::bench]
 fn the_example(bencher: Bencher<'_, '_>) {
-    solve_all(bencher, &[table_1(2, 1, 1)]);
+    solve_all(bencher, &[table_1(Target::Chibios, 2, 1, 1)]);
 }
 
 #[divan::bench]
 fn table_1_with_twelve_devices(bencher: Bencher<'_, '_>) {
-    solve_all(bencher, &[table_1(4, 3, 5)]);
+    solve_all(bencher, &[table_1(Target::Chibios, 4, 3, 5)]);
 }
 
 #[divan::bench]
 fn table_1_without_an_answer(bencher: Bencher<'_, '_>) {
-    solve_all(bencher, &[table_1(10, 0, 0)]);
+    solve_all(bencher, &[table_1(Target::Chibios, 10, 0, 0)]);
 }
 
 #[divan::bench]
 fn a_hundred_answers_of_the_example(bencher: Bencher<'_, '_>) {
-    let problem = table_1(2, 1, 1);
+    let problem = table_1(Target::Chibios, 2, 1, 1);
     bencher.bench(|| enumerate(black_box(&problem), Cancel::NEVER).take(100).count());
 }
 
 #[divan::bench]
 fn count_of_table_1(bencher: Bencher<'_, '_>) {
-    let problem = table_1(4, 1, 4);
+    let problem = table_1(Target::Chibios, 4, 1, 4);
     bencher.bench(|| count(black_box(&problem), Cancel::NEVER));
 }
 
@@ -97,11 +97,5 @@ fn eight_of_two_boards(bencher: Bencher<'_, '_>, devices: u64) {
 /// The problem of `benches/naive.pl`: only pins and signals.
 #[divan::bench(args = [(2, 1, 1), (3, 1, 3), (4, 1, 3)])]
 fn as_naive_prolog(bencher: Bencher<'_, '_>, (analog, i2c, icu): (u32, u32, u32)) {
-    let mut builder = Builder::new(Target::None, &[(TABLE_1, false)]);
-    (0..analog).for_each(|_| builder.device(&Kind::Analog, &[0]));
-    for address in 0..i2c {
-        builder.device(&Kind::I2c { address, exclusive: false }, &[0]);
-    }
-    (0..icu).for_each(|_| builder.device(&Kind::Icu, &[0]));
-    solve_all(bencher, &[builder.problem]);
+    solve_all(bencher, &[table_1(Target::None, analog, i2c, icu)]);
 }

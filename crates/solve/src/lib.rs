@@ -8,18 +8,11 @@
 //!
 //! ```
 //! use sensedsl_solve::problem::{Board, BoardId, Pin, Problem};
-//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, Holder, PinId, Role, SignalId};
+//! # use sensedsl_solve::problem::{Alternative, Candidate, Device, PinId, Role, SignalId};
 //! use sensedsl_solve::{Options, Outcome, check, solve};
 //!
 //! # let device = |pins: [u32; 2]| {
-//! #     let candidate = |pin| Candidate {
-//! #         pin: PinId(pin),
-//! #         holder: Holder::Own,
-//! #         signal: SignalId(pin),
-//! #         claims: vec![],
-//! #         violates: vec![],
-//! #         moved: false,
-//! #     };
+//! #     let candidate = |pin| Candidate::new(PinId(pin), SignalId(pin));
 //! #     let roles = vec![Role { candidates: pins.map(candidate).to_vec() }];
 //! #     let board = BoardId(0);
 //! #     let way = Alternative { board, claims: vec![], violates: vec![], dma: vec![], roles };

@@ -92,6 +92,16 @@ pub struct Candidate {
     pub moved: bool,
 }
 
+impl Candidate {
+    /// A candidate that takes its pin alone, and nothing else.
+    #[must_use]
+    pub const fn new(pin: PinId, signal: SignalId) -> Self {
+        let claims = Vec::new();
+        let violates = Vec::new();
+        Self { pin, holder: Holder::Own, signal, claims, violates, moved: false }
+    }
+}
+
 /// One role of an alternative: exactly one candidate is chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Role {

@@ -280,14 +280,7 @@ mod tests {
 
     /// One pin of a board, and the group as which the alternative holds the resource, if it does.
     fn on(board: u32, pin: u32, group: Option<u32>) -> Alternative {
-        let candidate = Candidate {
-            pin: PinId(pin),
-            holder: Holder::Own,
-            signal: SignalId(pin),
-            claims: Vec::new(),
-            violates: Vec::new(),
-            moved: false,
-        };
+        let candidate = Candidate::new(PinId(pin), SignalId(pin));
         let claim = |group| Claim { resource: ResourceId(0), holder: Holder::Group(group) };
         Alternative {
             board: BoardId(board),
@@ -308,10 +301,8 @@ mod tests {
             pins: (0..4).map(pin).collect(),
             boards: vec![Board { spare: false }, Board { spare: false }],
             devices: devices.to_vec(),
-            dma: Vec::new(),
-            rules: 0,
             resources: 1,
-            streams: 0,
+            ..Problem::default()
         };
         let model = Model::new(&problem).unwrap();
         let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();

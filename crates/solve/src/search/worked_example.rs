@@ -7,7 +7,7 @@ use crate::cancel::Cancel;
 use crate::index::{AltId, CandId};
 use crate::model::Model;
 use crate::problem::{
-    Alternative, Board, BoardId, Candidate, Device, Holder, Pin, PinId, Problem, Role, SignalId,
+    Alternative, Board, BoardId, Candidate, Device, Pin, PinId, Problem, Role, SignalId,
 };
 use crate::{Options, Outcome, count, solve};
 
@@ -21,14 +21,8 @@ const PB10: u32 = 4;
 const PB11: u32 = 5;
 
 fn alternative(roles: &[&[u32]]) -> Alternative {
-    let candidate = |(signal, &pin): (usize, &u32)| Candidate {
-        pin: PinId(pin),
-        holder: Holder::Own,
-        signal: SignalId(signal as u32),
-        claims: Vec::new(),
-        violates: Vec::new(),
-        moved: false,
-    };
+    let candidate =
+        |(signal, &pin): (usize, &u32)| Candidate::new(PinId(pin), SignalId(signal as u32));
     let role =
         |pins: &&[u32]| Role { candidates: pins.iter().enumerate().map(candidate).collect() };
     Alternative {
@@ -50,10 +44,7 @@ fn example() -> Problem {
         pins: PINS.map(pin).to_vec(),
         boards: vec![Board { spare: false }],
         devices: vec![device(compass), device(light), device(wheel)],
-        dma: Vec::new(),
-        rules: 0,
-        resources: 0,
-        streams: 0,
+        ..Problem::default()
     }
 }
 

@@ -37,9 +37,10 @@ PE11 TIM1_CH2
 ";
 
 /// The resources that a target takes in addition to pins.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub enum Target {
     /// Pins and signals only.
+    #[default]
     None,
     /// One capture per timer.
     Timers,
@@ -72,6 +73,7 @@ pub enum Kind {
 }
 
 /// Builds a problem device by device.
+#[derive(Default)]
 pub struct Builder {
     pub problem: Problem,
     pub names: Vec<String>,
@@ -93,17 +95,7 @@ fn natural(pin: &str) -> (char, u32) {
 impl Builder {
     /// Boards with their tables; `true` marks a spare one.
     pub fn new(target: Target, boards: &[(&str, bool)]) -> Self {
-        let mut builder = Self {
-            problem: Problem::default(),
-            names: Vec::new(),
-            signals: Vec::new(),
-            target,
-            usages: Vec::new(),
-            resources: BTreeMap::new(),
-            users: BTreeMap::new(),
-            dma: BTreeMap::new(),
-            streams_per_board: 0,
-        };
+        let mut builder = Self { target, ..Self::default() };
         let names: BTreeSet<&str> = boards
             .iter()
             .flat_map(|(table, _)| table.lines())
@@ -188,14 +180,8 @@ impl Builder {
                     Holder::Own
                 }
             };
-            candidates.push(Candidate {
-                pin,
-                holder,
-                signal: self.signal(&usage),
-                claims,
-                violates: Vec::new(),
-                moved: false,
-            });
+            let signal = self.signal(&usage);
+            candidates.push(Candidate { holder, claims, ..Candidate::new(pin, signal) });
         }
         candidates.sort_by_key(|c| (c.pin, c.signal));
         Role { candidates }

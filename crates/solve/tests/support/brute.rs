@@ -109,18 +109,16 @@ fn streams_suffice(problem: &Problem, chosen: &[(usize, Vec<usize>)]) -> bool {
     for (device, (alternative, _)) in chosen.iter().enumerate() {
         users.extend(&problem.devices[device].alternatives[*alternative].dma);
     }
-    let requests: Vec<&Vec<StreamId>> = users
-        .iter()
-        .flat_map(|u| &problem.dma[u.0 as usize].requests)
-        .map(|r| &r.streams)
-        .collect();
+    let requests = users.iter().flat_map(|u| &problem.dma[u.0 as usize].requests);
+    let requests: Vec<Vec<&StreamId>> = requests.map(|r| r.streams.iter().collect()).collect();
     serve(&requests, &mut BTreeSet::new())
 }
 
-fn serve(requests: &[&Vec<StreamId>], taken: &mut BTreeSet<StreamId>) -> bool {
+/// Whether each request can have a stream of its own that is not taken.
+pub fn serve<'a, T: Ord>(requests: &[Vec<&'a T>], taken: &mut BTreeSet<&'a T>) -> bool {
     let Some((first, rest)) = requests.split_first() else { return true };
-    for stream in *first {
-        if taken.insert(*stream) {
+    for stream in first {
+        if taken.insert(stream) {
             if serve(rest, taken) {
                 return true;
             }

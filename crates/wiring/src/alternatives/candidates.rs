@@ -71,14 +71,12 @@ impl Maker<'_, '_> {
         let mut claims = vec![claim];
         claims.extend(self.pad(index));
         claims.extend(self.remap(usage));
-        let candidate = Candidate {
-            pin: self.builder.pin(board, index),
-            holder,
-            signal: self.builder.signal(usage.signal.name()),
-            claims,
-            violates: self.violates(role, pin, Some(usage)),
-            moved: false,
-        };
+        let own = Candidate::new(
+            self.builder.pin(board, index),
+            self.builder.signal(usage.signal.name()),
+        );
+        let violates = self.violates(role, pin, Some(usage));
+        let candidate = Candidate { holder, claims, violates, ..own };
         (candidate, Chosen { pin: index, usage: Some(at) })
     }
 
@@ -96,14 +94,8 @@ impl Maker<'_, '_> {
             claims.push(self.builder.names.own(Resource::Exti(board, line)));
         }
         claims.extend(self.pad(index));
-        let candidate = Candidate {
-            pin: self.builder.pin(board, index),
-            holder: Holder::Own,
-            signal: self.builder.signal(GPIO),
-            claims,
-            violates: self.violates(role, pin, None),
-            moved: false,
-        };
+        let own = Candidate::new(self.builder.pin(board, index), self.builder.signal(GPIO));
+        let candidate = Candidate { claims, violates: self.violates(role, pin, None), ..own };
         (candidate, Chosen { pin: index, usage: None })
     }
 
