@@ -54,7 +54,6 @@ const BOUNDS: [&str; 4] = ["addresses", "speed_max", "clock_max", "supply"];
 
 /// A voltage, or a range of them.
 fn supply(fields: &mut Fields<'_>) -> Option<(u32, u32)> {
-    let field = fields.take("supply")?;
     let mv = |value: &Value| {
         let number = value.number()?;
         let is_volts = number.measure == Measure::Bare || number.dimension() == Dimension::VOLTAGE;
@@ -66,26 +65,18 @@ fn supply(fields: &mut Fields<'_>) -> Option<(u32, u32)> {
         )]
         (is_volts && (0.0..=1e9).contains(&mv)).then_some(mv as u32)
     };
-    let found = match field.value.range() {
+    let ends = |value: &Value| match value.range() {
         Some([first, last]) => mv(&first.value).zip(mv(&last.value)),
-        None => mv(&field.value).map(|one| (one, one)),
+        None => mv(value).map(|one| (one, one)),
     };
-    if found.is_none() {
-        fields.wrong(&field, "a voltage such as 5 V, or a range such as 2.4 V..3.6 V");
-    }
-    found
+    let takes = "a voltage such as 5 V, or a range such as 2.4 V..3.6 V";
+    fields.read("supply", takes, ends).map(|ends| ends.value)
 }
 
 fn addresses(fields: &mut Fields<'_>) -> Vec<u8> {
-    let Some(field) = fields.take("addresses") else { return Vec::new() };
     let one = |value: &Value| {
         let byte = u8::try_from(plain_integer(value)?).ok()?;
         Some(if byte >= EIGHT_BIT { byte >> 1 } else { byte })
     };
-    let found: Option<Vec<u8>> =
-        field.value.list().and_then(|list| list.iter().map(|item| one(&item.value)).collect());
-    if found.is_none() {
-        fields.wrong(&field, "a list of addresses such as [0x68, 0x69]");
-    }
-    found.unwrap_or_default()
+    fields.list("addresses", "a list of addresses such as [0x68, 0x69]", one)
 }

@@ -252,6 +252,32 @@ impl<'a> Fields<'a> {
         self.diagnostics.push(wrong);
     }
 
+    /// What a property's value says, read in some way; `takes` is what else it should be.
+    pub(crate) fn read<T>(
+        &mut self,
+        name: &str,
+        takes: &str,
+        read: impl FnOnce(&Value) -> Option<T>,
+    ) -> Option<Spanned<T>> {
+        let field = self.take(name)?;
+        let value = read(&field.value);
+        if value.is_none() {
+            self.wrong(&field, takes);
+        }
+        Some(Spanned { value: value?, span: field.value_span })
+    }
+
+    /// The values of a list, each read in the same way; empty if there is none.
+    pub(crate) fn list<T>(
+        &mut self,
+        name: &str,
+        takes: &str,
+        one: impl Fn(&Value) -> Option<T>,
+    ) -> Vec<T> {
+        let all = |value: &Value| value.list()?.iter().map(|item| one(&item.value)).collect();
+        self.read(name, takes, all).map(|all| all.value).unwrap_or_default()
+    }
+
     fn out_of_range(&mut self, field: &Field, written: &str, range: &str) {
         self.diagnostics.push(e0211_out_of_range::out_of_range(
             field.value_span,
@@ -313,14 +339,7 @@ impl<'a> Fields<'a> {
 
     /// Any number without a unit.
     pub(crate) fn number(&mut self, name: &str) -> Option<Spanned<f64>> {
-        let field = self.take(name)?;
-        match plain_number(&field.value) {
-            Some(value) => Some(Spanned { value, span: field.value_span }),
-            None => {
-                self.wrong(&field, "a number");
-                None
-            }
-        }
+        self.read(name, "a number", plain_number)
     }
 
     /// One of a few words.
@@ -362,21 +381,16 @@ impl<'a> Fields<'a> {
         name: &str,
         range: RangeInclusive<u8>,
     ) -> Option<Spanned<(u8, u8)>> {
-        let field = self.take(name)?;
-        let ends = match field.value.range() {
-            Some([first, last]) => plain_integer(&first.value).zip(plain_integer(&last.value)),
-            None => plain_integer(&field.value).map(|one| (one, one)),
+        let within = |value: &Value| {
+            u8::try_from(plain_integer(value)?).ok().filter(|number| range.contains(number))
         };
-        let within = |number: i128| u8::try_from(number).ok().filter(|n| range.contains(n));
-        let found = ends.and_then(|(first, last)| Some((within(first)?, within(last)?)));
-        if found.is_none() {
-            let (least, most) = (range.start(), range.end());
-            self.wrong(
-                &field,
-                &format!("a range of whole numbers from {least} to {most}, such as 7..0"),
-            );
-        }
-        Some(Spanned { value: found?, span: field.value_span })
+        let ends = |value: &Value| match value.range() {
+            Some([first, last]) => within(&first.value).zip(within(&last.value)),
+            None => within(value).map(|one| (one, one)),
+        };
+        let (least, most) = (range.start(), range.end());
+        let takes = format!("a range of whole numbers from {least} to {most}, such as 7..0");
+        self.read(name, &takes, ends)
     }
 
     /// One name, or a list of names.
@@ -410,14 +424,7 @@ impl<'a> Fields<'a> {
 
     /// A name, or a text that is a name.
     pub(crate) fn name(&mut self, name: &str, takes: &str) -> Option<Spanned<String>> {
-        let field = self.take(name)?;
-        match name_or_text(&field.value) {
-            Some(value) => Some(Spanned { value, span: field.value_span }),
-            None => {
-                self.wrong(&field, takes);
-                None
-            }
-        }
+        self.read(name, takes, name_or_text)
     }
 
     /// A text between quotes, or a single name.

@@ -7,6 +7,7 @@ use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Fields, name_or_text, plain_integer};
 use crate::spanned::Spanned;
+use crate::value::Value;
 use sensedsl_board::signal::{CanLine, Function};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -189,9 +190,8 @@ fn resend(fields: &mut Fields<'_>, direction: Direction) -> u32 {
 
 /// `mux = NAME = VALUE`.
 fn mux(fields: &mut Fields<'_>) -> Option<Mux> {
-    let field = fields.take("mux")?;
-    let read = |list: &[Spanned<crate::value::Value>]| {
-        let [selector, value] = list else { return None };
+    let read = |value: &Value| {
+        let [selector, value] = value.list()? else { return None };
         let number = u64::try_from(plain_integer(&value.value)?).ok()?;
         Some(Mux {
             selector: Spanned { value: name_or_text(&selector.value)?, span: selector.span },
@@ -199,11 +199,8 @@ fn mux(fields: &mut Fields<'_>) -> Option<Mux> {
             bits: None,
         })
     };
-    let found = field.value.list().and_then(read);
-    if found.is_none() {
-        fields.wrong(&field, "the value that selects and what it is, such as `mux = Page = 3`");
-    }
-    found
+    let takes = "the value that selects and what it is, such as `mux = Page = 3`";
+    fields.read("mux", takes, read).map(|mux| mux.value)
 }
 
 impl Default for Can {

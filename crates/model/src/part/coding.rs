@@ -299,11 +299,7 @@ fn invalid(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
 /// The points of a curve: pairs whose first numbers ascend.
 pub(crate) fn curve(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
     const TAKES: &str = "a list of pairs such as [[0.4, 80], [1.3, 20]], the first numbers rising";
-    let Some(field) = fields.take("curve") else { return Vec::new() };
-    points(&field.value).unwrap_or_else(|| {
-        fields.wrong(&field, TAKES);
-        Vec::new()
-    })
+    fields.read("curve", TAKES, points).map(|points| points.value).unwrap_or_default()
 }
 
 /// Reads how a chip is started and how its values are computed.
@@ -425,32 +421,22 @@ impl Fields<'_> {
 }
 
 fn calibration(fields: &mut Fields<'_>) -> Vec<(u16, u16)> {
-    let Some(field) = fields.take("calibration") else { return Vec::new() };
-    let pair = |value: &Spanned<Value>| {
-        let [register, count] = value.value.list()? else { return None };
+    let pair = |value: &Value| {
+        let [register, count] = value.list()? else { return None };
         let register = u16::try_from(plain_integer(&register.value)?).ok()?;
         let count = u16::try_from(plain_integer(&count.value)?).ok()?;
         (1..=255).contains(&count).then_some((register, count))
     };
-    let pairs: Option<Vec<(u16, u16)>> =
-        field.value.list().and_then(|list| list.iter().map(pair).collect());
-    pairs.unwrap_or_else(|| {
-        fields.wrong(&field, "a list of registers and counts such as [[0x88, 24], [0xA1, 1]]");
-        Vec::new()
-    })
+    let takes = "a list of registers and counts such as [[0x88, 24], [0xA1, 1]]";
+    fields.list("calibration", takes, pair)
 }
 
 /// Reads whole numbers; resistances are in ohms.
 fn parameters(fields: &mut Fields<'_>) -> Vec<i32> {
-    let Some(field) = fields.take("parameters") else { return Vec::new() };
-    let one = |value: &Spanned<Value>| {
-        let base = value.value.number()?.in_base_units().round();
+    let one = |value: &Value| {
+        let base = value.number()?.in_base_units().round();
         #[expect(clippy::cast_possible_truncation, reason = "compared with the range just before")]
         (base.abs() <= f64::from(i32::MAX)).then_some(base as i32)
     };
-    let all: Option<Vec<i32>> = field.value.list().and_then(|list| list.iter().map(one).collect());
-    all.unwrap_or_else(|| {
-        fields.wrong(&field, "a list of numbers such as [3950, 10 kOhm, 10 kOhm]");
-        Vec::new()
-    })
+    fields.list("parameters", "a list of numbers such as [3950, 10 kOhm, 10 kOhm]", one)
 }

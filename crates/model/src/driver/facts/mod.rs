@@ -22,6 +22,7 @@ use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, PROTOCOL};
 use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
+use crate::value::Value;
 use crate::value::constants::Constants;
 
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
@@ -398,15 +399,12 @@ fn contacts(entries: Vec<String>) -> (Vec<String>, Vec<(String, String)>) {
 
 /// Reads a text or a list of texts.
 fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
-    let Some(field) = fields.take(name) else { return Vec::new() };
-    let found = match field.value.list() {
+    let all = |value: &Value| match value.list() {
         Some(list) => list.iter().map(|one| name_or_text(&one.value)).collect(),
-        None => name_or_text(&field.value).map(|one| vec![one]),
+        None => name_or_text(value).map(|one| vec![one]),
     };
-    if found.is_none() {
-        fields.wrong(&field, "a text, or a list of texts");
-    }
-    found.unwrap_or_default()
+    let found = fields.read(name, "a text, or a list of texts", all);
+    found.map(|all| all.value).unwrap_or_default()
 }
 
 #[cfg(test)]
