@@ -8,7 +8,7 @@ use super::{NESTING_LIMIT, Parser};
 use crate::error::{Expected, SyntaxErrorKind};
 use crate::kind::{SenseDsl, SyntaxKind};
 use crate::unit::Unit;
-use rowan::{Checkpoint, Language};
+use rowan::{Checkpoint, Language, TextRange};
 
 /// Builds an operand and returns its height.
 type Operand<'a> = fn(&mut Parser<'a>) -> usize;
@@ -164,14 +164,25 @@ impl<'a> Parser<'a> {
             self.number();
             return 0;
         }
+        self.nested(SyntaxKind::Signed, |parser, _| parser.operand(Self::factor, Expected::Value))
+    }
+
+    /// A node that begins with this token and contains expressions. `inside` gets the token, and
+    /// returns their height.
+    fn nested(
+        &mut self,
+        kind: SyntaxKind,
+        inside: impl FnOnce(&mut Self, TextRange) -> usize,
+    ) -> usize {
         if self.depth >= NESTING_LIMIT {
             self.too_deep();
             return 0;
         }
         self.depth += 1;
-        self.start(SyntaxKind::Signed);
+        self.start(kind);
+        let open = self.here();
         self.bump();
-        let height = self.operand(Self::factor, Expected::Value);
+        let height = inside(self, open);
         self.finish();
         self.depth -= 1;
         height + 1
@@ -179,35 +190,28 @@ impl<'a> Parser<'a> {
 
     /// `(EXPRESSION)`, at the `(`.
     fn parentheses(&mut self) -> usize {
-        if self.depth >= NESTING_LIMIT {
-            self.too_deep();
-            return 0;
-        }
-        self.depth += 1;
-        self.start(SyntaxKind::Paren);
-        let open = self.here();
-        self.bump();
-        let height = self.operand(Self::expression, Expected::Value);
-        if self.at(SyntaxKind::Comma) && self.closes_soon() {
-            self.complain(SyntaxErrorKind::ParenthesesAroundList, open);
-            self.start(SyntaxKind::Error);
-            while self.kind().is_some() && !self.at(SyntaxKind::RParen) {
-                self.bump();
+        let height = self.nested(SyntaxKind::Paren, |parser, open| {
+            let height = parser.operand(Self::expression, Expected::Value);
+            if parser.at(SyntaxKind::Comma) && parser.closes_soon() {
+                parser.complain(SyntaxErrorKind::ParenthesesAroundList, open);
+                parser.start(SyntaxKind::Error);
+                while parser.kind().is_some() && !parser.at(SyntaxKind::RParen) {
+                    parser.bump();
+                }
+                parser.finish();
+            } else if parser.at(SyntaxKind::DotDot) {
+                parser.expected(Expected::CloseParen);
+                parser.skip_value();
             }
-            self.finish();
-        } else if self.at(SyntaxKind::DotDot) {
-            self.expected(Expected::CloseParen);
-            self.skip_value();
-        }
-        if !self.eat(SyntaxKind::RParen) {
-            self.complain(SyntaxErrorKind::MissingCloseParen { open }, self.gap());
-        }
-        self.finish();
-        self.depth -= 1;
-        if self.at_unit() {
+            if !parser.eat(SyntaxKind::RParen) {
+                parser.complain(SyntaxErrorKind::MissingCloseParen { open }, parser.gap());
+            }
+            height
+        });
+        if height > 0 && self.at_unit() {
             self.unit_alone();
         }
-        height + 1
+        height
     }
 
     /// Whether a `)` follows before the value must end. The limit keeps this from taking quadratic
@@ -256,21 +260,13 @@ impl<'a> Parser<'a> {
 
     /// `[VALUE, ...]`, at the `[`.
     fn list(&mut self) -> usize {
-        if self.depth >= NESTING_LIMIT {
-            self.too_deep();
-            return 0;
-        }
-        self.depth += 1;
-        self.start(SyntaxKind::List);
-        let open = self.here();
-        self.bump();
-        let height = self.list_values();
-        if !self.eat(SyntaxKind::RBracket) {
-            self.complain(SyntaxErrorKind::MissingCloseBracket { open }, self.gap());
-        }
-        self.finish();
-        self.depth -= 1;
-        height + 1
+        self.nested(SyntaxKind::List, |parser, open| {
+            let height = parser.list_values();
+            if !parser.eat(SyntaxKind::RBracket) {
+                parser.complain(SyntaxErrorKind::MissingCloseBracket { open }, parser.gap());
+            }
+            height
+        })
     }
 
     /// The values of a list, up to its `]` or to where a list without one must end.
