@@ -81,8 +81,9 @@ pub(crate) fn check_xml(text: &str, most: usize) -> Result<(), Refused> {
 }
 
 /// Where the scan is in an XML text.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 enum State {
+    #[default]
     Text,
     /// After `<`.
     Open,
@@ -99,7 +100,7 @@ enum State {
 }
 
 /// Reads XML byte by byte, in just enough detail to count.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Scan {
     state: State,
     most: usize,
@@ -199,11 +200,12 @@ impl Value {
 }
 
 /// Whether an element's attributes `r` and `ref` are places of cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Places {
     /// The element's name is still being read.
     Unknown,
     Yes,
+    #[default]
     No,
 }
 
@@ -231,20 +233,7 @@ const ROW_DIGITS_MAX: usize = 9;
 
 impl Scan {
     fn new(most: usize) -> Self {
-        Self {
-            state: State::Text,
-            most,
-            elements: 0,
-            depth: 0,
-            attributes: 0,
-            namespaces: 0,
-            closing: false,
-            places: Places::No,
-            last: 0,
-            word: [0; WORD_BYTES],
-            length: 0,
-            value: None,
-        }
+        Self { most, ..Self::default() }
     }
 
     fn feed(&mut self, bytes: &[u8]) -> Result<(), Refused> {
