@@ -7,8 +7,8 @@
 //! the signals on its pads and buses, and the parts here answer.
 //!
 //! [`world`] describes what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's
-//! job in this program, `emulated` does it with an image on the machine, and [`judge`] compares the board's reports
-//! with the world. Nothing in this crate reads a file or a clock.
+//! job in this program with [`tables`] of its parts, `emulated` does it with an image on the machine, and [`judge`]
+//! compares the board's reports with the world. Nothing in this crate reads a file or a clock.
 //!
 //! # Example
 //!
@@ -67,5 +67,6 @@ mod parts;
 mod ports;
 pub mod range;
 pub mod soft;
+pub mod tables;
 pub mod truth;
 pub mod world;

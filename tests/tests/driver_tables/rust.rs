@@ -361,9 +361,9 @@ impl Run<'_> {
 
     fn frame(&mut self, index: usize, bytes: &[u8]) {
         let (_, mut value) = self.empty(index);
-        let (how, byte) = self.tables.own[index].can.unwrap();
+        let field = self.tables.own[index].can.unwrap();
         let item = &self.tables.schema.items[index];
-        let outcome = how.decode(item, &bytes[usize::from(byte)..], &mut value);
+        let outcome = field.value.decode(item, &bytes[usize::from(field.byte)..], &mut value);
         self.record(index, outcome, &mut value);
     }
 
@@ -393,10 +393,11 @@ impl Run<'_> {
             self.out.push_str("commanded\n");
             return;
         }
-        if let Some((how, byte)) = self.tables.own[index].can {
+        if let Some(field) = self.tables.own[index].can {
             let mut data = [0; 8];
             let item = &self.tables.schema.items[index];
-            assert!(how.encode(item, &value, &mut data[usize::from(byte)..]) > 0);
+            let bytes = &mut data[usize::from(field.byte)..];
+            assert!(field.value.encode(item, &value, bytes) > 0);
             writeln!(self.out, "frame {}", upper(&data)).unwrap();
             return;
         }

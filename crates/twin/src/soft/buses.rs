@@ -8,9 +8,9 @@ use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
 use sensedsl_wire::Direction;
 
-use super::tables::{self, kept};
 use super::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
+use crate::tables::{self, kept};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Surroundings as _};
 
 /// The most transfers that a chip makes in a millisecond, so that no loop is endless.
@@ -202,7 +202,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
         let Some(plan) = job.bus_of(one) else {
             continue;
         };
-        let table: &'static ChipTable = kept(tables::chip(job, plan));
+        let table: &'static ChipTable = kept(tables::chip(plan, |name| place(job, name)));
         let commands = table.commands.len();
         all.push(Bus {
             table,
@@ -265,6 +265,12 @@ impl Port {
     }
 }
 
+/// The place of a device in the schema.
+fn place(job: &BoardJob<'_>, name: &str) -> u16 {
+    let place = job.devices.iter().position(|one| one.name() == name);
+    place.and_then(|place| u16::try_from(place).ok()).unwrap_or(u16::MAX)
+}
+
 /// The serial parts of a board.
 pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
     let units = Units::new(job);
@@ -274,7 +280,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             continue;
         };
         let Some(plan) = tables.message.as_ref() else { continue };
-        let table: &'static MessageTable = kept(tables::message(job, plan));
+        let table: &'static MessageTable = kept(tables::message(plan, |name| place(job, name)));
         all.push(Port {
             table,
             schema,

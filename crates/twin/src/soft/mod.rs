@@ -8,7 +8,6 @@
 mod buses;
 mod outputs;
 mod sensors;
-mod tables;
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -21,10 +20,10 @@ use sensedsl_model::design::Transport;
 use sensedsl_wire::Direction;
 
 use crate::bench::Bench;
+use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
-use tables::kept;
 
 const MS_NS: u64 = 1_000_000;
 /// The longest cycle of the reporter, unless the link sets its rate.

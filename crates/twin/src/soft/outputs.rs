@@ -3,19 +3,17 @@
 use std::collections::BTreeMap;
 
 use sense_rt::{
-    Bridge, BridgeMode, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
+    Bridge, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
 };
 use sensedsl_job::kinds::can;
-use sensedsl_job::part::BridgePlan;
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
-use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
-use super::tables;
 use crate::bench::{Bench, Units};
+use crate::tables;
 use sensedsl_surroundings::{CanFrame, Surroundings as _};
 
 const FULL_CODE: u64 = 4_095;
@@ -254,18 +252,10 @@ fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
     let pins: Vec<Pin> = own.iter().filter_map(|wire| pin(wire)).collect();
     let bridge = tables.and_then(|all| all.bridges.iter().find(|plan| plan.field == one.name()));
     match bridge {
-        Some(plan) => Some(Sink::Bridge(bridge_of(plan), BridgeState::NEW, pins)),
+        Some(plan) => Some(Sink::Bridge(tables::bridge(plan), BridgeState::NEW, pins)),
         None if pins.is_empty() => None,
         None => Some(Sink::Pins(pins)),
     }
-}
-
-const fn bridge_of(plan: &BridgePlan) -> Bridge {
-    let mode = match plan.drive {
-        Drive::DirectionPins => BridgeMode::DirectionPins,
-        Drive::TwoPwm => BridgeMode::TwoPwm,
-    };
-    Bridge { mode, full: plan.full }
 }
 
 fn pin(wire: &JobConnection<'_>) -> Option<Pin> {

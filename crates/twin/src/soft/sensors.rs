@@ -12,9 +12,10 @@ use sensedsl_model::kind::digital::{self, Pull};
 use sensedsl_model::kind::icu::{self, Mode};
 use sensedsl_wire::{Direction, ScalarType};
 
-use super::{Core, begins, tables, wrapped};
+use super::{Core, begins, wrapped};
 use crate::arith::rounded;
 use crate::bench::{Bench, converted};
+use crate::tables;
 
 /// The interval at which an unchanged count is reported again.
 const REPEAT_MS: u32 = 1_000;

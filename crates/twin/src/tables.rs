@@ -5,23 +5,23 @@
 //! freed.
 
 use sense_rt::{
-    Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat,
-    FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable,
-    Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
+    Bridge, BridgeMode, Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc,
+    FieldFormat, FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField,
+    MessageTable, Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
 };
 use sensedsl_job::BoardJob;
 use sensedsl_job::part::{
-    self, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
-    ValuePlan,
+    self, BridgePlan, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan,
+    MessagePlan, ValuePlan,
 };
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;
-use sensedsl_model::protocol::{self, Format};
+use sensedsl_model::protocol::{self, Drive, Format};
 use sensedsl_model::words::{self, Words};
 use sensedsl_wire::{Direction, ScalarType};
 
 /// A value that lives as long as the program.
-pub(super) fn kept<T>(one: T) -> &'static T {
+pub fn kept<T>(one: T) -> &'static T {
     Box::leak(Box::new(one))
 }
 
@@ -30,7 +30,7 @@ fn all<T>(items: impl IntoIterator<Item = T>) -> &'static [T] {
 }
 
 /// The schema of a board's link.
-pub(super) fn schema(job: &BoardJob<'_>) -> Schema {
+pub fn schema(job: &BoardJob<'_>) -> Schema {
     let items = job.schema.items.iter().map(|item| {
         let count = u16::try_from(item.value.count()).unwrap_or(u16::MAX);
         match item.direction {
@@ -50,7 +50,9 @@ pub(super) fn schema(job: &BoardJob<'_>) -> Schema {
     }
 }
 
-const fn scalar(of: ScalarType) -> Scalar {
+/// The runtime's scalar of that type.
+#[must_use]
+pub const fn scalar(of: ScalarType) -> Scalar {
     match of {
         ScalarType::Bool => Scalar::Bool,
         ScalarType::Uint8 => Scalar::Uint8,
@@ -70,13 +72,8 @@ fn bytes(of: &[u8]) -> &'static [u8] {
     all(of.iter().copied())
 }
 
-fn item(job: &BoardJob<'_>, name: &str) -> u16 {
-    let place = job.devices.iter().position(|one| one.name() == name);
-    place.and_then(|place| u16::try_from(place).ok()).unwrap_or(u16::MAX)
-}
-
 /// The runtime's formula of that name.
-pub(super) const fn formula(of: protocol::Formula) -> Formula {
+pub const fn formula(of: protocol::Formula) -> Formula {
     match of {
         protocol::Formula::Bmp280 => sense_rt::BMP280,
         protocol::Formula::Bme280 => sense_rt::BME280,
@@ -85,8 +82,8 @@ pub(super) const fn formula(of: protocol::Formula) -> Formula {
     }
 }
 
-/// A chip on a bus.
-pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
+/// A chip on a bus. `place` is the place of a device in the schema, by its name.
+pub fn chip(plan: &BusPlan, place: impl Fn(&str) -> u16) -> ChipTable {
     let transfers = plan.transfers.iter().map(|one| Transfer {
         trigger: bytes(&one.trigger),
         select: bytes(&one.select),
@@ -96,7 +93,7 @@ pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
         exchange: one.is_exchange,
     });
     let readings = plan.readings.iter().map(|one| Reading {
-        item: item(job, &one.field),
+        item: place(&one.field),
         offset: one.offset,
         transfer: u8::try_from(one.transfer).unwrap_or(u8::MAX),
         output: one.output,
@@ -104,7 +101,7 @@ pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
     });
     let commands = plan.commands.iter().map(|one| Command {
         prefix: bytes(&one.prefix),
-        item: item(job, &one.field),
+        item: place(&one.field),
         value: coding(&one.value),
         own: one.own.as_ref().map_or(&[], |own| bytes(&own.bits)),
         kept: one.own.as_ref().map_or(0, |own| own.kept),
@@ -135,7 +132,8 @@ fn init(steps: &[InitPlan]) -> &'static [InitStep] {
     all(steps.iter().map(|one| InitStep { bytes: bytes(&one.bytes), pause_ms: one.pause_ms }))
 }
 
-pub(super) fn coding(plan: &ValuePlan) -> Coding {
+/// How a value is coded.
+pub fn coding(plan: &ValuePlan) -> Coding {
     Coding {
         elements: all(plan.elements.iter().copied()),
         words: plan.words,
@@ -158,7 +156,7 @@ pub(super) fn coding(plan: &ValuePlan) -> Coding {
 }
 
 /// A value in a CAN frame.
-pub(super) fn in_frame(index: usize, device: &Device) -> Option<MessageField> {
+pub fn in_frame(index: usize, device: &Device) -> Option<MessageField> {
     let can = device.kind.can()?;
     let value = coding(&ValuePlan::new(&Words::of(device)?));
     let item = u16::try_from(index).ok()?;
@@ -166,8 +164,7 @@ pub(super) fn in_frame(index: usize, device: &Device) -> Option<MessageField> {
 }
 
 /// A value in a message.
-fn field(job: &BoardJob<'_>, plan: &MessageFieldPlan) -> MessageField {
-    let item = item(job, &plan.field);
+fn field(plan: &MessageFieldPlan, item: u16) -> MessageField {
     let text = match &plan.how {
         FieldCoding::Binary { byte, value } => {
             return MessageField { item, byte: *byte, value: coding(value), ..MessageField::NEW };
@@ -189,12 +186,12 @@ fn field(job: &BoardJob<'_>, plan: &MessageFieldPlan) -> MessageField {
     }
 }
 
-/// The messages of a serial part.
-pub(super) fn message(job: &BoardJob<'_>, plan: &MessagePlan) -> MessageTable {
+/// The messages of a serial part. `place` is the place of a device in the schema, by its name.
+pub fn message(plan: &MessagePlan, place: impl Fn(&str) -> u16) -> MessageTable {
     MessageTable {
         start: bytes(&plan.start),
         end: bytes(&plan.end),
-        fields: all(plan.fields.iter().map(|one| field(job, one))),
+        fields: all(plan.fields.iter().map(|one| field(one, place(&one.field)))),
         length: plan.length,
         bytes_max: plan.bytes_max,
         checksum: checksum(plan.checksum),
@@ -203,7 +200,7 @@ pub(super) fn message(job: &BoardJob<'_>, plan: &MessagePlan) -> MessageTable {
 }
 
 /// A message that is sent to a serial part.
-pub(super) fn compose(plan: &ComposePlan) -> Compose {
+pub fn compose(plan: &ComposePlan) -> Compose {
     Compose {
         start: bytes(&plan.start),
         end: bytes(&plan.end),
@@ -226,7 +223,7 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
 
 /// A number in its type, most significant byte first; the model has made sure that the type holds it.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
-pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
+pub fn value(scalar: Scalar, number: f64) -> Vec<u8> {
     match scalar {
         Scalar::Float32 => (number as f32).to_be_bytes().to_vec(),
         Scalar::Float64 => number.to_be_bytes().to_vec(),
@@ -247,7 +244,7 @@ pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
 }
 
 /// The processing of a value before it is reported.
-pub(super) fn filter(plan: &FilterPlan) -> FilterTable {
+pub fn filter(plan: &FilterPlan) -> FilterTable {
     let ranges = plan.invalid.iter();
     let ranges = ranges.map(|&(low, high)| Range { low: number(low), high: number(high) });
     FilterTable {
@@ -267,4 +264,14 @@ fn number(number: part::Number) -> Number {
         part::Number::Float32(number) => Number::float32(number),
         part::Number::Float64(number) => Number::float64(number),
     }
+}
+
+/// The outputs of a bridge.
+#[must_use]
+pub const fn bridge(plan: &BridgePlan) -> Bridge {
+    let mode = match plan.drive {
+        Drive::DirectionPins => BridgeMode::DirectionPins,
+        Drive::TwoPwm => BridgeMode::TwoPwm,
+    };
+    Bridge { mode, full: plan.full }
 }
