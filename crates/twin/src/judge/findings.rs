@@ -71,7 +71,7 @@ pub enum Finding {
 }
 
 /// The findings about a device.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeviceFindings {
     /// Its name.
     pub name: String,
@@ -93,17 +93,7 @@ pub struct DeviceFindings {
 
 impl DeviceFindings {
     pub(super) fn new(name: String, quantity: Option<String>) -> Self {
-        let quantity = quantity.unwrap_or_default();
-        Self {
-            name,
-            quantity,
-            reports: 0,
-            excused: 0,
-            wrong: 0,
-            worst: None,
-            age_ns: 0,
-            every_ns: None,
-        }
+        Self { name, quantity: quantity.unwrap_or_default(), ..Self::default() }
     }
 
     /// Counts a finding, and keeps the worst.

@@ -24,7 +24,7 @@ use crate::truth::Subject;
 const READ_BYTES_MAX: usize = 2_112;
 
 /// A value of the part.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Reading {
     /// The index of the subject.
     pub(crate) subject: usize,
@@ -68,7 +68,7 @@ struct Measurement {
 }
 
 /// A part with registers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Registers {
     protocol: Protocol,
     readings: Vec<Reading>,
@@ -97,25 +97,7 @@ pub(crate) struct Registers {
 
 impl Registers {
     pub(crate) fn new(protocol: Protocol, readings: Vec<Reading>, sleep: Option<Sleep>) -> Self {
-        Self {
-            protocol,
-            readings,
-            written: BTreeMap::new(),
-            sleep,
-            controls: BTreeMap::new(),
-            sent: Vec::new(),
-            pointer: None,
-            measurement: None,
-            answer: Vec::new(),
-            at: 0,
-            began_ns: 0,
-            is_asked: false,
-            is_used: false,
-            begun: 0,
-            odd: None,
-            waits: Waits::default(),
-            rest: Pause::default(),
-        }
+        Self { protocol, readings, sleep, ..Self::default() }
     }
 
     /// The supply was lost.

@@ -123,26 +123,14 @@ pub(super) fn hex(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Ranges, Reading};
+    use super::super::Reading;
     use super::*;
     use sensedsl_model::protocol::Protocol;
 
     /// The part of a driver that writes `6B 00` and reads two bytes from `3B` on.
     fn part() -> Registers {
         let init = vec![InitStep::Write(vec![0x6B, 0x00])];
-        let reading = Reading {
-            subject: 0,
-            trigger: Vec::new(),
-            wait_ns: 0,
-            register: Some(0x3B),
-            select: Vec::new(),
-            exchange: Vec::new(),
-            byte: 0,
-            length: 2,
-            words: None,
-            output: None,
-            ranges: Ranges::default(),
-        };
+        let reading = Reading { register: Some(0x3B), length: 2, ..Reading::default() };
         let protocol = Protocol { init, register_bytes: 1, ..Protocol::default() };
         Registers::new(protocol, vec![reading], None)
     }
