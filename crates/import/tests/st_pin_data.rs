@@ -1,13 +1,8 @@
 //! All MCU files and projects of ST's open pin data, in the folder that `SENSEDSL_ST_PIN_DATA`
 //! names: each is imported, or refused with a coded reason, and the output is read again without a
 //! mistake.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stderr,
-    clippy::disallowed_methods,
-    missing_docs,
-    reason = "a test over files of the machine"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, missing_docs, reason = "a test over files of the machine")]
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::{self, PinRole};

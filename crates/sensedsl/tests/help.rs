@@ -2,11 +2,8 @@
 //!
 //! The other tests of the program are in `tests/` of the repository. Because Cargo builds the
 //! program for this test, they need not build it.
-#![allow(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and runs the program"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "a test runs the program")]
 
 use std::process::Command;
 

@@ -1,11 +1,7 @@
 //! `--timeout` of the commands that ask many questions: they end with the results so far.
 #![allow(missing_docs, reason = "tests need none")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and runs the program"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "a test runs the program")]
 
 use std::fmt::Write as _;
 use std::fs;

@@ -1,13 +1,8 @@
 //! A snapshot after many edits is the same as a fresh reading of the same text; a mistake in one
 //! device leaves the others their wiring.
 #![allow(missing_docs, reason = "tests need none")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and reads the examples"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "a test reads the examples")]
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::{FileRequest, Files, NoFiles, ReadError};

@@ -1,14 +1,7 @@
 //! Whole files with everything in the language: they are read without a mistake, their layout does
 //! not change, and no mutation of them breaks what holds for every text.
 #![expect(clippy::disallowed_methods, reason = "a long run is asked for in the environment")]
-#![allow(
-    clippy::indexing_slicing,
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    reason = "a test reads its data, and a panic is its failure"
-)]
+#![cfg(test)]
 
 mod invariants;
 

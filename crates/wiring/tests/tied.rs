@@ -2,10 +2,8 @@
 //! search that tries every way there is.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
+#![cfg(test)]
 #![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
     clippy::disallowed_methods,
     clippy::wildcard_enum_match_arm,
     reason = "only tests, which ask the environment how much is wanted"

@@ -1,11 +1,6 @@
 //! The known parts, from outside: their table, and requests on them.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and asks the environment how much is wanted"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "a test asks the environment how much is wanted")]
 
 mod complete;
 mod designs;

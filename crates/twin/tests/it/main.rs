@@ -1,12 +1,7 @@
 //! Boards that do their job in this program, and the judge that compares their reports with the world.
 #![allow(missing_docs, reason = "tests need none")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and reads the examples"
-)]
+#![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "a test reads the examples")]
 
 mod boards;
 mod commanded;
