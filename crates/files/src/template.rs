@@ -1,5 +1,19 @@
 //! Printing of templates, for everything that generates files.
 
+/// Declares templates that print a value under a name. The crate has them in its folder, and depends on `askama`.
+#[macro_export]
+macro_rules! templates {
+    ($value:ident: $type:ty; $($name:ident = $path:literal;)+) => {
+        $(
+            #[derive(askama::Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                $value: &'a $type,
+            }
+        )+
+    };
+}
+
 /// Prints a template, and the final newline that the template engine removes. Templates are checked when this crate is
 /// compiled, and they write to memory, so this can be empty only if a formatter fails by itself.
 #[must_use]

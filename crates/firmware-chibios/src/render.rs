@@ -1,31 +1,16 @@
 //! Printing: each file of a board is one template over its plan.
 
-use askama::Template;
-
 use super::peripherals::PERIPHERALS;
 use super::plan::BoardPlan;
 use super::runtime;
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 use sensedsl_firmware_c as c;
 
 /// The user's file, as it is first written.
 const USER: &str = include_str!("templates/user.c.txt");
 
-/// Declares a template that prints a [`BoardPlan`] under the name `b`.
-macro_rules! templates {
-    ($($name:ident = $path:literal;)*) => {
-        $(
-            #[derive(Template)]
-            #[template(path = $path, escape = "none")]
-            struct $name<'a> {
-                b: &'a BoardPlan,
-            }
-        )*
-    };
-}
-
 templates! {
+    b: BoardPlan;
     Makefile = "templates/Makefile.txt";
     Readme = "templates/README.md.txt";
     Chconf = "templates/chconf.h.txt";

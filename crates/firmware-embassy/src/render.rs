@@ -1,28 +1,12 @@
 //! Printing. In: a plan. Out: the files of a project, each one template over the plan.
 
-use askama::Template;
-
 use super::cargo::Manifests;
 use super::item::{Constant, Entry, Item};
 use super::plan::Plan;
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 
 /// The user's file as it is first made.
 const USER: &str = include_str!("templates/user.rs.txt");
-
-/// Declares templates that print a plan under a name.
-macro_rules! templates {
-    ($plan:ident: $type:ty; $($name:ident = $path:literal;)*) => {
-        $(
-            #[derive(Template)]
-            #[template(path = $path, escape = "none")]
-            struct $name<'a> {
-                $plan: &'a $type,
-            }
-        )*
-    };
-}
 
 templates! {
     b: Plan;

@@ -42,22 +42,17 @@ pub use libcluon::Libcluon;
 pub use opendavinci::{OpenDavinci, OpenDavinci2014};
 pub use plain::Plain;
 
-use askama::Template;
-
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 use view::{BoardView, DesignView};
 
-#[derive(Template)]
-#[template(path = "shared/schema.hpp.txt", escape = "none")]
-struct SchemaHeader<'a> {
-    board: &'a BoardView,
+templates! {
+    board: BoardView;
+    SchemaHeader = "shared/schema.hpp.txt";
 }
 
-#[derive(Template)]
-#[template(path = "shared/sense.odvd.txt", escape = "none")]
-struct Odvd<'a> {
-    design: &'a DesignView,
+templates! {
+    design: DesignView;
+    Odvd = "shared/sense.odvd.txt";
 }
 
 /// The files that each of them has: the hand-written headers, and the tables of each board.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::digital::{Digital, Edge, Pull};
 use sensedsl_model::kind::{Kind, KindName, Role};
@@ -13,16 +12,15 @@ use crate::names::Setting;
 use crate::section::{Apply, Section, Work};
 use crate::stacks::Depth;
 use crate::timers;
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::{Cycle, JobConnection, JobDevice};
 
 /// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [224, 192], filtered: [416, 296] };
 
-#[derive(Template)]
-#[template(path = "digital/v1.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Levels,
+templates! {
+    s: Levels;
+    Tables = "digital/v1.c.txt";
 }
 
 #[derive(Default)]

@@ -1,7 +1,6 @@
 //! `TIMv1`: a timer in encoder mode for each pair of tracks. ChibiOS has no driver for it, so the timer is withdrawn
 //! from the drivers that it has.
 
-use askama::Template;
 use sensedsl_board::profile::Timer;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
@@ -10,13 +9,12 @@ use crate::context::{Context, Drive};
 use crate::names::Setting;
 use crate::section::Section;
 use crate::timers;
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::{JobConnection, JobDevice};
 
-#[derive(Template)]
-#[template(path = "encoder/v1.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Encoders,
+templates! {
+    s: Encoders;
+    Tables = "encoder/v1.c.txt";
 }
 
 struct Encoders {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use askama::Template;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
@@ -10,12 +9,11 @@ use sensedsl_diagnostics::codes::e0506_hardware_limit;
 
 use crate::context::Context;
 use crate::section::Section;
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 
-#[derive(Template)]
-#[template(path = "gpio/v1.c.txt", escape = "none")]
-struct Remaps<'a> {
-    s: &'a Plan,
+templates! {
+    s: Plan;
+    Remaps = "gpio/v1.c.txt";
 }
 
 struct Plan {

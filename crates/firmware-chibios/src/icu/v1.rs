@@ -1,6 +1,5 @@
 //! `TIMv1`: a driver object for each captured wire, served by callbacks.
 
-use askama::Template;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
@@ -11,16 +10,15 @@ use crate::context::{Context, Drive};
 use crate::names::Setting;
 use crate::section::Section;
 use crate::timers::{self, Channel};
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::{JobConnection, JobDevice};
 
 /// The time without an edge after which a frequency is 0.
 const SILENT_MS: u32 = 1_000;
 
-#[derive(Template)]
-#[template(path = "icu/v1.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Captures,
+templates! {
+    s: Captures;
+    Tables = "icu/v1.c.txt";
 }
 
 struct Captures {

@@ -1,23 +1,21 @@
 //! All versions: lines that get a pulse in each cycle.
 
-use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::Role;
 
 use crate::context::Context;
 use crate::section::{Section, Work};
 use crate::stacks::Depth;
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::Cycle;
 use sensedsl_job::kinds;
 
 /// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [168, 152], filtered: [168, 152] };
 
-#[derive(Template)]
-#[template(path = "pulse/v2.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Pulses,
+templates! {
+    s: Pulses;
+    Tables = "pulse/v2.c.txt";
 }
 
 struct Pulses {

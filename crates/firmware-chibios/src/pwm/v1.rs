@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use askama::Template;
 use sensedsl_board::profile::Timer;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
@@ -15,14 +14,13 @@ use crate::context::{Context, Drive};
 use crate::names::Setting;
 use crate::section::{Apply, Section};
 use crate::timers::{self, Channel};
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::snake;
 use sensedsl_job::{JobConnection, JobDevice};
 
-#[derive(Template)]
-#[template(path = "pwm/v1.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Pulses,
+templates! {
+    s: Pulses;
+    Tables = "pwm/v1.c.txt";
 }
 
 #[derive(Default)]

@@ -1,6 +1,5 @@
 //! A port with its device: its settings, what is sent and what is received.
 
-use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
@@ -10,7 +9,7 @@ use crate::names::Setting;
 use crate::section::{Apply, Section, Size, Work};
 use crate::stacks::Depth;
 use sensedsl_board::signal::UnitName;
-use sensedsl_files::block;
+use sensedsl_files::{block, templates};
 use sensedsl_job::kinds::serial::{self, QUEUE_BYTES};
 use sensedsl_job::part::MessagePlan;
 use sensedsl_job::{Cycle, JobConnection};
@@ -18,10 +17,9 @@ use sensedsl_job::{Cycle, JobConnection};
 /// The stack depth of its thread.
 const DEPTH: Depth = Depth { plain: [560, 488], filtered: [656, 500] };
 
-#[derive(Template)]
-#[template(path = "uart/v1.c.txt", escape = "none")]
-struct Tables<'a> {
-    s: &'a Ports,
+templates! {
+    s: Ports;
+    Tables = "uart/v1.c.txt";
 }
 
 struct Ports {

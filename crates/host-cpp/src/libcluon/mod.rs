@@ -1,32 +1,22 @@
 //! Host `libcluon`: one OD4 microservice per board, and the messages of all boards in one file.
 
-use askama::Template;
-
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
 /// The host `libcluon`.
 pub struct Libcluon;
 
-#[derive(Template)]
-#[template(path = "libcluon/service.cpp.txt", escape = "none")]
-struct Service<'a> {
-    board: &'a BoardView,
+templates! {
+    board: BoardView;
+    Service = "libcluon/service.cpp.txt";
 }
 
-#[derive(Template)]
-#[template(path = "libcluon/CMakeLists.txt.txt", escape = "none")]
-struct CMakeLists<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "libcluon/README.md.txt", escape = "none")]
-struct Readme<'a> {
-    design: &'a DesignView,
+templates! {
+    design: DesignView;
+    CMakeLists = "libcluon/CMakeLists.txt.txt";
+    Readme = "libcluon/README.md.txt";
 }
 
 impl Host for Libcluon {

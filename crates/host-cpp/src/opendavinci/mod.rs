@@ -3,12 +3,9 @@
 //! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for the version at the time of the paper, in C++98. What they
 //! have in common word for word is printed once and included by both.
 
-use askama::Template;
-
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
 /// The host for OpenDaVINCI 4.
@@ -17,64 +14,22 @@ pub struct OpenDavinci;
 /// The host for the OpenDaVINCI of 2014.
 pub struct OpenDavinci2014;
 
-#[derive(Template)]
-#[template(path = "opendavinci/v4/messages.h.txt", escape = "none")]
-struct Messages<'a> {
-    design: &'a DesignView,
+templates! {
+    design: DesignView;
+    Messages = "opendavinci/v4/messages.h.txt";
+    Printer = "opendavinci/v4/print.cpp.txt";
+    CMakeLists = "opendavinci/v4/CMakeLists.txt.txt";
+    Readme = "opendavinci/v4/README.md.txt";
+    Messages2014 = "opendavinci/v2014/messages.h.txt";
+    Printer2014 = "opendavinci/v2014/print.cpp.txt";
+    CMakeLists2014 = "opendavinci/v2014/CMakeLists.txt.txt";
+    Readme2014 = "opendavinci/v2014/README.md.txt";
 }
 
-#[derive(Template)]
-#[template(path = "opendavinci/v4/board.cpp.txt", escape = "none")]
-struct Application<'a> {
-    board: &'a BoardView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v4/print.cpp.txt", escape = "none")]
-struct Printer<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v4/CMakeLists.txt.txt", escape = "none")]
-struct CMakeLists<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v4/README.md.txt", escape = "none")]
-struct Readme<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v2014/messages.h.txt", escape = "none")]
-struct Messages2014<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v2014/board.cpp.txt", escape = "none")]
-struct Application2014<'a> {
-    board: &'a BoardView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v2014/print.cpp.txt", escape = "none")]
-struct Printer2014<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v2014/CMakeLists.txt.txt", escape = "none")]
-struct CMakeLists2014<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "opendavinci/v2014/README.md.txt", escape = "none")]
-struct Readme2014<'a> {
-    design: &'a DesignView,
+templates! {
+    board: BoardView;
+    Application = "opendavinci/v4/board.cpp.txt";
+    Application2014 = "opendavinci/v2014/board.cpp.txt";
 }
 
 impl Host for OpenDavinci {

@@ -1,39 +1,24 @@
 //! Host `cpp`: a header-only C++17 library and an example, without middleware.
 
-use askama::Template;
-
 use super::runtime;
 use super::shared;
 use super::view::{BoardView, DesignView};
-use sensedsl_files::FileSet;
-use sensedsl_files::print;
+use sensedsl_files::{FileSet, print, templates};
 use sensedsl_job::host::{About, Compile, Host, HostPlan};
 
 /// The host `cpp`.
 pub struct Plain;
 
-#[derive(Template)]
-#[template(path = "plain/board.hpp.txt", escape = "none")]
-struct BoardHeader<'a> {
-    board: &'a BoardView,
+templates! {
+    board: BoardView;
+    BoardHeader = "plain/board.hpp.txt";
+    Monitor = "plain/monitor.cpp.txt";
 }
 
-#[derive(Template)]
-#[template(path = "plain/monitor.cpp.txt", escape = "none")]
-struct Monitor<'a> {
-    board: &'a BoardView,
-}
-
-#[derive(Template)]
-#[template(path = "plain/CMakeLists.txt.txt", escape = "none")]
-struct CMakeLists<'a> {
-    design: &'a DesignView,
-}
-
-#[derive(Template)]
-#[template(path = "plain/README.md.txt", escape = "none")]
-struct Readme<'a> {
-    design: &'a DesignView,
+templates! {
+    design: DesignView;
+    CMakeLists = "plain/CMakeLists.txt.txt";
+    Readme = "plain/README.md.txt";
 }
 
 impl Host for Plain {
