@@ -17,6 +17,8 @@ use sensedsl_job::part::MessagePlan;
 
 /// A port with its device.
 struct Port<'a> {
+    context: &'a Context<'a>,
+    driver: &'a dyn Serial,
     wire: &'a JobConnection<'a>,
     unit: &'a str,
     uart: &'a Uart,
@@ -62,12 +64,12 @@ fn port(
     }
     let says = wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
     let tx_queue = says.then(|| format!("{}_TX", wire.ident.to_uppercase()));
-    let port = Port { wire, unit, uart, plan, tx_queue };
+    let port = Port { context, driver, wire, unit, uart, plan, tx_queue };
     section.tables.extend(message::tables(context, plan)?);
-    port.wiring(context, driver, section)?;
-    port.say(context, driver, section)?;
+    port.wiring(section)?;
+    port.say(section)?;
     if !plan.fields.is_empty() || !plan.init.is_empty() {
-        port.listen(context, driver, section)?;
+        port.listen(section)?;
     }
     Ok(())
 }
@@ -89,12 +91,7 @@ impl<'a> Port<'a> {
     }
 
     /// The driver of the port.
-    fn wiring(
-        &self,
-        context: &Context<'_>,
-        serial: &dyn Serial,
-        section: &mut Section,
-    ) -> Printed<()> {
+    fn wiring(&self, section: &mut Section) -> Printed<()> {
         let pins = self.pins()?;
         let half = match pins {
             PortPins::Both { .. } => Half::Both,
@@ -102,8 +99,8 @@ impl<'a> Port<'a> {
             PortPins::Tx(_) => Half::Tx,
         };
         let port = buses::Port { unit: self.unit, uart: self.uart, pins };
-        let make = serial.port(context, &port, section);
-        let made = Constructor { type_: serial.half_type(half), make };
+        let make = self.driver.port(self.context, &port, section);
+        let made = Constructor { type_: self.driver.half_type(half), make };
         section.fields.push(Field::of(self.wire.ident.clone(), self.wire.place(), made));
         // A task that has a half keeps its pin. If nothing is sent, the listening task has both halves.
         let ident = &self.wire.ident;
@@ -143,12 +140,7 @@ impl<'a> Port<'a> {
     }
 
     /// What is sent, and the task that does it.
-    fn say(
-        &self,
-        context: &Context<'_>,
-        serial: &dyn Serial,
-        section: &mut Section,
-    ) -> Printed<()> {
+    fn say(&self, section: &mut Section) -> Printed<()> {
         let Some(tx_queue) = &self.tx_queue else { return Ok(()) };
         let ident = &self.wire.ident;
         let (half, place) = self.half(false);
@@ -161,20 +153,20 @@ impl<'a> Port<'a> {
         )));
         let doc = format!("{}: what it is sent", self.wire.place());
         let mut task = Task::new(doc, format!("{ident}_say"));
-        task.parameters.push(format!("port: {}", serial.half_type(half)));
+        task.parameters.push(format!("port: {}", self.driver.half_type(half)));
         task.before.push(format!(
             "rt::{}::transmit({port}, &{tx_queue}, {}).await;",
-            serial.module(),
+            self.driver.module(),
             self.uart.baud
         ));
         section.items.push(Item::Task(task));
         let prio = self.wire.cycle.prio;
         section.starts.push(Start::Task(prio, format!("{ident}_say({place})")));
         for command in &self.plan.commands {
-            let index = context.item(&command.field)?;
+            let index = self.context.item(&command.field)?;
             section.sets.entry(index).or_default().push(format!(
                 "rt::serial::send(&{tx_queue}, &tables::{}, &SCHEMA, {index}, value, &mut [0; {}], &BOARD);",
-                message::compose_name(context, command)?,
+                message::compose_name(self.context, command)?,
                 command.bytes
             ));
         }
@@ -182,29 +174,24 @@ impl<'a> Port<'a> {
     }
 
     /// The interrupt of the port, and the task that takes what it has received.
-    fn listen(
-        &self,
-        context: &Context<'_>,
-        serial: &dyn Serial,
-        section: &mut Section,
-    ) -> Printed<()> {
+    fn listen(&self, section: &mut Section) -> Printed<()> {
         let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
         let has_fields = self.hears();
         let (half, place) = self.half(true);
         let title = format!("{}: what it says, each {} ms", self.wire.place(), cycle.delay_ms);
         let mut task = Task::in_turn(title, format!("{ident}_listen"), cycle);
         if has_fields {
-            self.interrupt(context, serial, section)?;
-            task.parameters.push(format!("_port: {}", serial.half_type(half)));
+            self.interrupt(section)?;
+            task.parameters.push(format!("_port: {}", self.driver.half_type(half)));
         }
         let is_own = |index: usize| self.wire.devices.contains(&index);
-        let (filters, pass) = filter::of_items(context, is_own, section);
+        let (filters, pass) = filter::of_items(self.context, is_own, section);
         task.before = filters;
         if !self.plan.init.is_empty() {
             task.before.push("let mut start = sense_rt::MessageStart::NEW;".to_owned());
         }
         if has_fields {
-            task.before.extend(self.device(context)?);
+            task.before.extend(self.device()?);
         }
         let constant = format!("{upper}_LISTEN");
         let until =
@@ -216,25 +203,20 @@ impl<'a> Port<'a> {
         section.items.push(Item::Task(task));
         let call = if has_fields { place } else { String::new() };
         section.starts.push(Start::Task(cycle.prio, format!("{ident}_listen({call})")));
-        section.watched.push(Watched::new(constant, cycle, context.id_of(self.wire)));
+        section.watched.push(Watched::new(constant, cycle, self.context.id_of(self.wire)));
         Ok(())
     }
 
     /// The handler of the port's interrupt, and what it fills.
-    fn interrupt(
-        &self,
-        context: &Context<'_>,
-        serial: &dyn Serial,
-        section: &mut Section,
-    ) -> Printed<()> {
+    fn interrupt(&self, section: &mut Section) -> Printed<()> {
         let upper = self.upper();
         let queue = serial::waiting_bytes(self.uart);
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
-        let interrupt = context.interrupt(self.unit, "GLOBAL")?;
+        let interrupt = self.context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Rx"));
-        let registers = serial.registers(&context.peripheral(self.unit));
+        let registers = self.driver.registers(&self.context.peripheral(self.unit));
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
-        let module = serial.module();
+        let module = self.driver.module();
         section.begins.extend([
             format!("rt::{module}::listen({registers});"),
             "// Its handler is there.".to_owned(),
@@ -254,9 +236,9 @@ impl<'a> Port<'a> {
     }
 
     /// The variables of the task for a device that sends something.
-    fn device(&self, context: &Context<'_>) -> Printed<Vec<String>> {
+    fn device(&self) -> Printed<Vec<String>> {
         let (upper, prefix) = (self.upper(), self.plan.prefix.to_uppercase());
-        let own = self.plan.fields.iter().map(|one| context.item(&one.field));
+        let own = self.plan.fields.iter().map(|one| self.context.item(&one.field));
         let own = own.collect::<Printed<Vec<_>>>()?;
         let gap_ms = serial::gap_ms(self.uart, self.plan);
         Ok(vec![
