@@ -127,6 +127,29 @@ pub(crate) trait Drivers {
     }
 }
 
+/// Makes the settings of a HAL its drivers, which it has for these kinds.
+macro_rules! drivers {
+    ($settings:ty; $($kind:ident: $driver:path,)+) => {
+        impl $crate::hal::contract::Drivers for $settings {
+            fn project(&self) -> &dyn $crate::hal::contract::Project {
+                self
+            }
+            fn pins(&self) -> &dyn $crate::hal::contract::outputs::Pins {
+                self
+            }
+            fn link(&self) -> &dyn $crate::hal::contract::link::Link {
+                self
+            }
+            $(
+                fn $kind(&self) -> Option<&dyn $driver> {
+                    Some(self)
+                }
+            )+
+        }
+    };
+}
+pub(crate) use drivers;
+
 /// What a project as a whole has of its HAL.
 pub(crate) trait Project {
     /// The mistakes in the names of a profile; empty if there are none.

@@ -6,9 +6,9 @@ use serde::Deserialize;
 
 use crate::context::Context;
 use crate::hal::contract::inputs::{Analog, AnalogInput, each_round};
-use crate::hal::contract::link::{Link, LinkPads, PortLink, UsbLink};
+use crate::hal::contract::link::{Link, LinkPads, PortLink};
 use crate::hal::contract::outputs::{Pins, Speed};
-use crate::hal::contract::{Begin, Drivers, Hal, Package, Project, Watchdog};
+use crate::hal::contract::{Begin, Drivers, Hal, Package, Project, Watchdog, drivers};
 use crate::missing::Printed;
 use crate::names::Names;
 use crate::section::{Constructor, Section};
@@ -44,19 +44,9 @@ impl Hal for Nrf {
     }
 }
 
-impl Drivers for Settings {
-    fn project(&self) -> &dyn Project {
-        self
-    }
-    fn pins(&self) -> &dyn Pins {
-        self
-    }
-    fn link(&self) -> &dyn Link {
-        self
-    }
-    fn analog(&self) -> Option<&dyn Analog> {
-        Some(self)
-    }
+drivers! {
+    Settings;
+    analog: Analog,
 }
 
 impl Project for Settings {
@@ -131,21 +121,6 @@ impl Analog for Settings {
 }
 
 impl Link for Settings {
-    fn usb(&self, context: &Context<'_>, section: &mut Section) -> Option<UsbLink> {
-        let usb = context.profile.usb(None)?;
-        let hal = context.peripheral(&usb.name);
-        let interrupt = context.names.interrupt(&usb.name, "LP")?;
-        section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
-        Some(UsbLink {
-            comment: "the link at the USB socket".to_owned(),
-            made: Constructor {
-                type_: format!("hal::usb::Driver<'static, {hal}>"),
-                make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
-            },
-            is_otg: false,
-        })
-    }
-
     fn port(
         &self,
         _context: &Context<'_>,

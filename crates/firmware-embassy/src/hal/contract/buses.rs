@@ -3,7 +3,7 @@
 use sensedsl_board::signal::UnitName;
 use sensedsl_job::kinds::can::{self, Identifier};
 use sensedsl_job::{JobConnection, Pad};
-use sensedsl_model::kind::uart::Uart;
+use sensedsl_model::kind::uart::{Parity, Uart};
 
 use crate::context::Context;
 use crate::missing::Printed;
@@ -69,6 +69,26 @@ pub(crate) enum Half {
     Both,
     Rx,
     Tx,
+}
+
+impl Half {
+    /// The type of its driver, which all HALs call the same.
+    pub(crate) const fn driver(self) -> &'static str {
+        match self {
+            Self::Both => "Uart",
+            Self::Rx => "UartRx",
+            Self::Tx => "UartTx",
+        }
+    }
+}
+
+/// The HAL's `Parity`, which all HALs call the same.
+pub(crate) const fn parity(uart: &Uart) -> &'static str {
+    match uart.parity {
+        Parity::None => "ParityNone",
+        Parity::Even => "ParityEven",
+        Parity::Odd => "ParityOdd",
+    }
 }
 
 /// The wires of a serial port with its settings.

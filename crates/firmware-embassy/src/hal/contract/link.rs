@@ -8,7 +8,21 @@ use crate::section::{Constructor, Section};
 /// The link to the host.
 pub(crate) trait Link {
     /// The USB device, with its interrupt bound in the section; `None` if it cannot have its clock, or there is none.
-    fn usb(&self, context: &Context<'_>, section: &mut Section) -> Option<UsbLink>;
+    /// Its data lines are not pins of the board table unless a HAL says so.
+    fn usb(&self, context: &Context<'_>, section: &mut Section) -> Option<UsbLink> {
+        let usb = context.profile.usb(None)?;
+        let hal = context.peripheral(&usb.name);
+        let interrupt = context.names.interrupt(&usb.name, "LP")?;
+        section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
+        Some(UsbLink {
+            comment: "the link at the USB socket".to_owned(),
+            made: Constructor {
+                type_: format!("hal::usb::Driver<'static, {hal}>"),
+                make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
+            },
+            is_otg: false,
+        })
+    }
 
     /// The serial port, whose queues are `tx` and `rx` of the wiring; `None` if the HAL has no driver for it.
     fn port(

@@ -2,27 +2,11 @@
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::link::{Link, LinkPads, PortLink, UsbLink};
+use crate::hal::contract::link::{Link, LinkPads, PortLink};
 use crate::hal::contract::outputs::Pins as _;
 use crate::section::{Constructor, Section};
 
 impl Link for Settings {
-    /// The USB device, whose data lines are not pins of the board table.
-    fn usb(&self, context: &Context<'_>, section: &mut Section) -> Option<UsbLink> {
-        let usb = context.profile.usb(None)?;
-        let hal = context.peripheral(&usb.name);
-        let interrupt = context.names.interrupt(&usb.name, "LP")?;
-        section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
-        Some(UsbLink {
-            comment: "the link at the USB socket".to_owned(),
-            made: Constructor {
-                type_: format!("hal::usb::Driver<'static, {hal}>"),
-                make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
-            },
-            is_otg: false,
-        })
-    }
-
     fn port(
         &self,
         context: &Context<'_>,

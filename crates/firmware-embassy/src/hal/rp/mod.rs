@@ -14,10 +14,9 @@ mod types;
 
 use super::contract::buses::{I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges};
-use super::contract::link::Link;
-use super::contract::outputs::{Pins, Pulses};
+use super::contract::outputs::Pulses;
 use super::contract::types::Types;
-use super::contract::{Drivers, Hal, Loader, Package, Project};
+use super::contract::{Drivers, Hal, Loader, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
 
@@ -49,38 +48,14 @@ impl Hal for Rp {
     }
 }
 
-impl Drivers for Settings {
-    fn project(&self) -> &dyn Project {
-        self
-    }
-    fn pins(&self) -> &dyn Pins {
-        self
-    }
-    fn link(&self) -> &dyn Link {
-        self
-    }
-    fn edges(&self) -> Option<&dyn Edges> {
-        Some(self)
-    }
-    fn analog(&self) -> Option<&dyn Analog> {
-        Some(self)
-    }
-    fn capture(&self) -> Option<&dyn Capture> {
-        Some(self)
-    }
-    fn pulses(&self) -> Option<&dyn Pulses> {
-        Some(self)
-    }
-    fn i2c(&self) -> Option<&dyn I2c> {
-        Some(self)
-    }
-    fn spi(&self) -> Option<&dyn Spi> {
-        Some(self)
-    }
-    fn serial(&self) -> Option<&dyn Serial> {
-        Some(self)
-    }
-    fn types(&self) -> Option<&dyn Types> {
-        Some(self)
-    }
+drivers! {
+    Settings;
+    edges: Edges,
+    analog: Analog,
+    capture: Capture,
+    pulses: Pulses,
+    i2c: I2c,
+    spi: Spi,
+    serial: Serial,
+    types: Types,
 }

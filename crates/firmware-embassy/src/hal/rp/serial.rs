@@ -1,11 +1,11 @@
 //! Serial ports of devices.
 
 use sensedsl_job::Pad;
-use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::uart::Uart;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{Half, Port, PortPins, Serial};
+use crate::hal::contract::buses::{Half, Port, PortPins, Serial, parity};
 use crate::hal::contract::outputs::Pins as _;
 use crate::section::Section;
 
@@ -15,7 +15,7 @@ impl Serial for Settings {
     }
 
     fn half_type(&self, half: Half) -> String {
-        format!("hal::uart::{}<'static, hal::uart::Blocking>", name(half))
+        format!("hal::uart::{}<'static, hal::uart::Blocking>", half.driver())
     }
 
     fn port(&self, context: &Context<'_>, port: &Port<'_>, section: &mut Section) -> String {
@@ -30,7 +30,7 @@ impl Serial for Settings {
             PortPins::Tx(tx) => (Half::Tx, pin(tx)),
         };
         let config = config(port.uart);
-        format!("hal::uart::{}::new_blocking(p.{hal}, {pins}, {config})", name(half))
+        format!("hal::uart::{}::new_blocking(p.{hal}, {pins}, {config})", half.driver())
     }
 }
 
@@ -45,23 +45,10 @@ impl Settings {
     }
 }
 
-/// The HAL's type of a port or of one of its directions.
-const fn name(half: Half) -> &'static str {
-    match half {
-        Half::Both => "Uart",
-        Half::Rx => "UartRx",
-        Half::Tx => "UartTx",
-    }
-}
-
 /// The HAL's configuration.
 fn config(uart: &Uart) -> String {
-    let Uart { baud, data_bits, parity, stop_bits, is_inverted, .. } = uart;
-    let parity = match parity {
-        Parity::None => "ParityNone",
-        Parity::Even => "ParityEven",
-        Parity::Odd => "ParityOdd",
-    };
+    let Uart { baud, data_bits, stop_bits, is_inverted, .. } = uart;
+    let parity = parity(uart);
     format!(
         "crate::rt::uart::config({baud}, {data_bits}, hal::uart::Parity::{parity}, {stop_bits}, {is_inverted})"
     )

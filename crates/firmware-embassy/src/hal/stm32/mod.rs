@@ -17,10 +17,9 @@ mod types;
 
 use super::contract::buses::{Can, I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
-use super::contract::link::Link;
-use super::contract::outputs::{Dac, Pins, Pulses};
+use super::contract::outputs::{Dac, Pulses};
 use super::contract::types::Types;
-use super::contract::{Drivers, Hal, Package, Project};
+use super::contract::{Drivers, Hal, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
 
@@ -63,47 +62,17 @@ impl Hal for Stm32 {
     }
 }
 
-impl Drivers for Settings {
-    fn project(&self) -> &dyn Project {
-        self
-    }
-    fn pins(&self) -> &dyn Pins {
-        self
-    }
-    fn link(&self) -> &dyn Link {
-        self
-    }
-    fn edges(&self) -> Option<&dyn Edges> {
-        Some(self)
-    }
-    fn analog(&self) -> Option<&dyn Analog> {
-        Some(self)
-    }
-    fn capture(&self) -> Option<&dyn Capture> {
-        Some(self)
-    }
-    fn encoder(&self) -> Option<&dyn Encoder> {
-        Some(self)
-    }
-    fn pulses(&self) -> Option<&dyn Pulses> {
-        Some(self)
-    }
-    fn dac(&self) -> Option<&dyn Dac> {
-        Some(self)
-    }
-    fn i2c(&self) -> Option<&dyn I2c> {
-        Some(self)
-    }
-    fn spi(&self) -> Option<&dyn Spi> {
-        Some(self)
-    }
-    fn serial(&self) -> Option<&dyn Serial> {
-        Some(self)
-    }
-    fn can(&self) -> Option<&dyn Can> {
-        Some(self)
-    }
-    fn types(&self) -> Option<&dyn Types> {
-        Some(self)
-    }
+drivers! {
+    Settings;
+    edges: Edges,
+    analog: Analog,
+    capture: Capture,
+    encoder: Encoder,
+    pulses: Pulses,
+    dac: Dac,
+    i2c: I2c,
+    spi: Spi,
+    serial: Serial,
+    can: Can,
+    types: Types,
 }

@@ -1,10 +1,10 @@
 //! Serial ports of devices.
 
-use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::uart::Uart;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{Half, Port, PortPins, Serial};
+use crate::hal::contract::buses::{Half, Port, PortPins, Serial, parity};
 use crate::section::Section;
 
 impl Serial for Settings {
@@ -17,7 +17,7 @@ impl Serial for Settings {
     }
 
     fn half_type(&self, half: Half) -> String {
-        format!("hal::usart::{}<'static, hal::mode::Blocking>", name(half))
+        format!("hal::usart::{}<'static, hal::mode::Blocking>", half.driver())
     }
 
     /// The HAL refuses rates that a unit cannot make, which is a fault of the runtime.
@@ -33,7 +33,7 @@ impl Serial for Settings {
         };
         format!(
             "crate::rt::usart::port(hal::usart::{}::new_blocking{}(p.{hal}, {pins}, {}))",
-            name(half),
+            half.driver(),
             self.generics(context, port.unit, &["_"]),
             config(port.uart)
         )
@@ -49,23 +49,10 @@ impl Serial for Settings {
     }
 }
 
-/// The HAL's type of a port or of one of its directions.
-const fn name(half: Half) -> &'static str {
-    match half {
-        Half::Both => "Uart",
-        Half::Rx => "UartRx",
-        Half::Tx => "UartTx",
-    }
-}
-
 /// The HAL's configuration.
 fn config(uart: &Uart) -> String {
-    let Uart { baud, data_bits, parity, stop_bits, is_inverted, .. } = uart;
-    let parity = match parity {
-        Parity::None => "ParityNone",
-        Parity::Even => "ParityEven",
-        Parity::Odd => "ParityOdd",
-    };
+    let Uart { baud, data_bits, stop_bits, is_inverted, .. } = uart;
+    let parity = parity(uart);
     let config = format!(
         "crate::rt::usart::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
     );
