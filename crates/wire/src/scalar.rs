@@ -87,12 +87,6 @@ impl ScalarType {
         }
     }
 
-    /// Whether every byte pattern of the right length is a value (true for all types but bool).
-    #[must_use]
-    pub const fn accepts_every_byte(self) -> bool {
-        !matches!(self, Self::Bool)
-    }
-
     /// Reads one value from exactly [`Self::size_bytes`] bytes in network byte order.
     #[must_use]
     pub fn read(self, bytes: &[u8]) -> Option<Scalar> {
