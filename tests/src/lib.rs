@@ -289,6 +289,15 @@ impl RunOutput {
     }
 }
 
+/// Bytes in hexadecimal; `-` if there are none.
+#[must_use]
+pub fn hex(bytes: &[u8]) -> String {
+    if bytes.is_empty() {
+        return "-".to_owned();
+    }
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// A test's own folder, empty at first and removed at the end.
 #[derive(Debug)]
 pub struct TempDir(PathBuf);

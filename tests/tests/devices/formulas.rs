@@ -1,9 +1,9 @@
 //! The formulas of the BME280, in integers that are wide enough for any value and in floating
 //! point.
 
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, hex};
 
-use super::{ask, hex, program, rounds};
+use super::{ask, program, rounds};
 
 /// The trimming values of one part.
 struct Trimming {

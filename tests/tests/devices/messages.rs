@@ -1,9 +1,9 @@
 //! Messages in streams: however the stream is cut, damaged or filled with other data, the decoder
 //! finds the same messages as a search from byte to byte.
 
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, hex};
 
-use super::{check, hex, rounds};
+use super::{check, rounds};
 
 const NONE: usize = 0;
 const SUM8: usize = 1;

@@ -51,14 +51,6 @@ fn check(cases: &[(String, String)]) {
     }
 }
 
-/// The bytes in hexadecimal; `-` if there are none.
-fn hex(bytes: &[u8]) -> String {
-    if bytes.is_empty() {
-        return "-".to_owned();
-    }
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// The number of rounds; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
     let wanted = std::env::var("SENSEDSL_DEVICE_ROUNDS").ok();

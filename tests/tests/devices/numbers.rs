@@ -1,8 +1,8 @@
 //! Numbers in text: decimals, degrees and hexadecimal digits.
 
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, hex};
 
-use super::{SCALARS, Scalar, check, hex, rounds};
+use super::{SCALARS, Scalar, check, rounds};
 
 const DECIMAL: usize = 1;
 const DEGREES: usize = 2;

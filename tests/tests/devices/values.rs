@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, hex};
 
-use super::{SCALARS, Scalar, check, hex, rounds};
+use super::{SCALARS, Scalar, check, rounds};
 
 /// Codes in the order of the C enumeration; 0 is a plain integer.
 const FLOAT: usize = 1;

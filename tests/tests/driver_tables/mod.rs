@@ -19,6 +19,7 @@ use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;
+use sensedsl_tests::hex;
 use sensedsl_wire::Direction;
 
 use library::{Unit, others, units};
@@ -164,7 +165,7 @@ fn request(index: usize, unit: &Unit, case: &Case) -> String {
         let (size, mask) = (protocol.register_bytes, protocol.read_mask);
         lines.push(format!("registers {size} {mask} {}", u8::from(protocol.is_one_by_one)));
         if let Some(identity) = &protocol.identity {
-            let (at, bytes) = (identity.register, program::hex(&identity.expected));
+            let (at, bytes) = (identity.register, hex(&identity.expected));
             lines.push(format!("register {at} {bytes}"));
         }
     }
@@ -184,7 +185,6 @@ fn request(index: usize, unit: &Unit, case: &Case) -> String {
 }
 
 fn given_line(unit: &Unit, given: &Given) -> String {
-    let hex = program::hex;
     match given {
         Given::Registers(None, at, bytes) | Given::WrongIdentity(at, bytes) => {
             format!("register {at} {}", hex(bytes))

@@ -28,14 +28,6 @@ pub struct Outcome {
     pub is_wrong_identity: Option<bool>,
 }
 
-/// The bytes in hexadecimal; `-` if there are none.
-pub fn hex(bytes: &[u8]) -> String {
-    if bytes.is_empty() {
-        return "-".to_owned();
-    }
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// The program, or `None` without a compiler.
 pub fn program(units: &[Unit]) -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();

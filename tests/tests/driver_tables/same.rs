@@ -2,11 +2,11 @@
 //! for any answers of parts, failures of buses and passage of time.
 
 use sensedsl_model::kind::Kind;
-use sensedsl_tests::{Random, is_thorough};
+use sensedsl_tests::{Random, hex, is_thorough};
 use sensedsl_wire::Direction;
 
 use super::library::{Unit, units};
-use super::program::{hex, program, read, say};
+use super::program::{program, read, say};
 use super::rust::answer;
 use super::rust_tables::Tables;
 use super::{Wrong, judge, request};

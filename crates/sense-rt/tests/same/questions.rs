@@ -1,7 +1,7 @@
 //! Questions with random numbers, near the ends of ranges more often than elsewhere.
 
 use sense_rt::Scalar;
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, hex};
 
 use super::answer::SCALARS;
 
@@ -19,13 +19,6 @@ fn number(random: &mut Random) -> u64 {
         3 => (1_u64 << random.below(64)).wrapping_add(wide % 5).wrapping_sub(2),
         _ => u64::MAX.wrapping_sub(wide % 4),
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    if bytes.is_empty() {
-        return "-".to_owned();
-    }
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn bytes(random: &mut Random, count: usize) -> Vec<u8> {
