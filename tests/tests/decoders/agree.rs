@@ -3,7 +3,7 @@
 use sensedsl_tests::{Random, few, is_thorough};
 use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
-use super::program::{Answer, Program, rust, schema_bytes};
+use super::program::{Answer, Input, Program, rust, schema_bytes};
 use super::streams::{frame, hard_schemas, hard_stream, overlapping_walks, schema, wide_schema};
 use super::{OTHERS, naive, scratch, tools};
 
@@ -85,7 +85,7 @@ fn c_and_cpp_agree(folder: &str, more: &[&str]) {
         let schema_bytes = schema_bytes(schema, direction);
         for who in OTHERS {
             for pieces in [&[0][..], &[1], pieces] {
-                let answer = program.say(who, &schema_bytes, stream, pieces);
+                let answer = program.say(who, Input { schema: &schema_bytes, stream, pieces });
                 assert_eq!(answer, wanted, "{who} {schema:?} {stream:02x?} {pieces:?}");
             }
         }
@@ -120,7 +120,8 @@ fn all_agree(folder: &str, schema: &Schema, streams: &[Vec<u8>]) {
             assert_eq!(answer, wanted, "{pieces} {stream:02x?}");
             for who in OTHERS {
                 if let Some(program) = &mut program {
-                    let answer = program.say(who, &bytes, stream, &[pieces]);
+                    let answer =
+                        program.say(who, Input { schema: &bytes, stream, pieces: &[pieces] });
                     assert_eq!(answer, wanted, "{who} {pieces} {stream:02x?}");
                 }
             }
@@ -237,7 +238,8 @@ fn ns_per_byte(program: &mut Program, who: &str, payload_bytes: u16, bytes: usiz
     let stream = nearly.repeat(bytes.div_ceil(nearly.len()));
     let schema = schema_bytes(&schema, Direction::Sensor);
     // The minimum of several runs: other programs can only increase the time.
-    let times = (0..5).map(|_| program.time(who, 1, &schema, &stream, &[64]));
+    let input = Input { schema: &schema, stream: &stream, pieces: &[64] };
+    let times = (0..5).map(|_| program.time(who, 1, input));
     times.min().unwrap() as f64 / stream.len() as f64
 }
 

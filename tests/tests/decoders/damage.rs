@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use sensedsl_tests::Random;
 use sensedsl_wire::{Checksum, Direction, Schema};
 
-use super::program::{Program, rust, schema_bytes};
+use super::program::{Input, Program, rust, schema_bytes};
 use super::streams::{fig2, frame};
 use super::{OTHERS, scratch, tools};
 
@@ -139,8 +139,9 @@ fn stream(
     let answer = rust(schema, Direction::Sensor, &stream, &[0]);
     let bytes = schema_bytes(schema, Direction::Sensor);
     let pieces = [1 + random.below(600) as u32, 1 + random.below(40) as u32];
+    let input = Input { schema: &bytes, stream: &stream, pieces: &pieces };
     for who in OTHERS {
-        assert!(program.say(who, &bytes, &stream, &pieces) == answer, "{who} says otherwise");
+        assert!(program.say(who, input) == answer, "{who} says otherwise");
     }
     for payload in payloads(&answer) {
         if sent.remove(payload).is_none() {

@@ -105,6 +105,14 @@ pub(crate) fn schema_bytes(schema: &Schema, direction: Direction) -> Vec<u8> {
     bytes
 }
 
+/// A stream that is cut into pieces, with its schema in the byte format.
+#[derive(Clone, Copy)]
+pub(crate) struct Input<'a> {
+    pub(crate) schema: &'a [u8],
+    pub(crate) stream: &'a [u8],
+    pub(crate) pieces: &'a [u32],
+}
+
 /// The running program.
 pub(crate) struct Program {
     child: Child,
@@ -148,15 +156,8 @@ impl Program {
         Self { child, answers }
     }
 
-    fn ask(
-        &mut self,
-        who: &str,
-        how: &str,
-        repeats: u32,
-        schema: &[u8],
-        stream: &[u8],
-        pieces: &[u32],
-    ) {
+    fn ask(&mut self, who: &str, how: &str, repeats: u32, input: Input<'_>) {
+        let Input { schema, stream, pieces } = input;
         let stdin = self.child.stdin.as_mut().unwrap();
         let (schema_size, stream_size) = (schema.len(), stream.len());
         let sizes = format!("{schema_size} {} {stream_size}", pieces.len());
@@ -170,14 +171,8 @@ impl Program {
     }
 
     /// The answer of a decoder (`c` or `cpp`) to a stream that is cut into pieces.
-    pub(crate) fn say(
-        &mut self,
-        who: &str,
-        schema: &[u8],
-        stream: &[u8],
-        pieces: &[u32],
-    ) -> Vec<u8> {
-        self.ask(who, "say", 1, schema, stream, pieces);
+    pub(crate) fn say(&mut self, who: &str, input: Input<'_>) -> Vec<u8> {
+        self.ask(who, "say", 1, input);
         let mut size = [0; 4];
         self.answers.read_exact(&mut size).unwrap();
         let mut answer = vec![0; u32::from_ne_bytes(size) as usize];
@@ -186,15 +181,8 @@ impl Program {
     }
 
     /// The time in nanoseconds that a decoder takes to decode the stream `repeats` times.
-    pub(crate) fn time(
-        &mut self,
-        who: &str,
-        repeats: u32,
-        schema: &[u8],
-        stream: &[u8],
-        pieces: &[u32],
-    ) -> u64 {
-        self.ask(who, "time", repeats, schema, stream, pieces);
+    pub(crate) fn time(&mut self, who: &str, repeats: u32, input: Input<'_>) -> u64 {
+        self.ask(who, "time", repeats, input);
         let mut line = String::new();
         self.answers.read_line(&mut line).unwrap();
         line.trim().parse().unwrap()
