@@ -59,77 +59,41 @@ fn block<S: AsRef<str>>(lines: &[S]) -> &[S] {
     &lines[1..=below.count()]
 }
 
-#[test]
-fn command_line() {
-    check("command_line");
+/// A test for each file.
+macro_rules! scripts {
+    ($($file:ident,)+) => {
+        const ALL: &[&str] = &[$(stringify!($file)),+];
+
+        $(
+            #[test]
+            fn $file() {
+                check(stringify!($file));
+            }
+        )+
+    };
 }
 
-#[test]
-fn firmware() {
-    check("firmware");
-}
-
-#[test]
-fn foreseen() {
-    check("foreseen");
-}
-
-#[test]
-fn generate() {
-    check("generate");
-}
-
-#[test]
-fn import() {
-    check("import");
-}
-
-#[test]
-fn parts() {
-    check("parts");
-}
-
-#[test]
-fn silicon() {
-    check("silicon");
-}
-
-#[test]
-fn simulate() {
-    check("simulate");
-}
-
-#[test]
-fn single_files() {
-    check("single_files");
-}
-
-#[test]
-fn timing() {
-    check("timing");
-}
-
-#[test]
-fn ways_out() {
-    check("ways_out");
-}
-
-#[test]
-fn wiring() {
-    check("wiring");
-}
-
-#[test]
-fn wrong_designs() {
-    check("wrong_designs");
+scripts! {
+    command_line,
+    firmware,
+    foreseen,
+    generate,
+    import,
+    parts,
+    silicon,
+    simulate,
+    single_files,
+    timing,
+    ways_out,
+    wiring,
+    wrong_designs,
 }
 
 #[test]
 fn every_script_is_run() {
-    let own = include_str!("mod.rs");
     for path in files(&root().join("tests/scripts"), "txt") {
-        let call = format!("check({:?})", path.file_stem().unwrap());
-        assert!(own.contains(&call), "there is no {call}");
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert!(ALL.contains(&name), "there is no test of {name}");
     }
 }
 
