@@ -136,6 +136,23 @@ fn build_libcluon(tree: &Path, folder: PathBuf) -> (PathBuf, PathBuf) {
     (folder, build)
 }
 
+/// Starts another program of the session, which receives all messages and sends these.
+fn peer(folder: &Path, cid: &str, sent: &[&str]) -> Background {
+    let mut command = Command::new("python3");
+    command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"));
+    command.arg(cid).arg(folder.join("sense.odvd")).args(sent);
+    let peer = Background::start(&mut command, folder);
+    peer.wait_for("ready");
+    peer
+}
+
+/// Starts the host of a board, which shows what it receives.
+fn service(program: &Path, folder: &Path, cid: &str, device: &Path) -> Background {
+    let mut command = Command::new(program);
+    command.arg(format!("--cid={cid}")).arg(format!("--device={}", device.display()));
+    Background::start(command.arg("--verbose"), folder)
+}
+
 #[test]
 fn libcluon_comes_back() {
     let Some(tree) = tools::tree("LIBCLUON") else { return };
@@ -145,12 +162,8 @@ fn libcluon_comes_back() {
     let (folder, build) =
         build_libcluon(&tree, files::generate("libcluon", "link", &link::design()));
     let cid = session(5);
-    let start = |device: &Path| {
-        let mut command = Command::new(build.join("robot_STM32F4DiscoveryBoard"));
-        command.arg(format!("--cid={cid}")).arg(format!("--device={}", device.display()));
-        Background::start(command.arg("--verbose"), &folder)
-    };
     let program = "robot_STM32F4DiscoveryBoard";
+    let start = |device: &Path| service(&build.join(program), &folder, &cid, device);
     link::scenes(&link::Application { name: "libcluon", program, start: &start });
 }
 
@@ -164,23 +177,13 @@ fn libcluon_speaks_with_an_independent_peer() {
     let (folder, build) = build_libcluon(&tree, files::generate("libcluon", "peer", &boards));
     let cid = session(0);
     let mut line = Line::new();
-    let peer = Background::start(
-        Command::new("python3")
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
-            .arg(&cid)
-            .arg(folder.join("sense.odvd"))
-            .arg("21068:sense_robot_T7:raw=18446744073709551615,is_raw=True")
-            .arg("21095:sense_robot_B4:raw0=-300,raw1=32767")
-            .arg("21061:sense_robot_T0:raw=True"),
-        &folder,
-    );
-    peer.wait_for("ready");
-    let _service = Background::start(
-        Command::new(build.join("robot_Everything"))
-            .arg(format!("--cid={cid}"))
-            .arg(format!("--device={}", line.device.display())),
-        &folder,
-    );
+    let sent = [
+        "21068:sense_robot_T7:raw=18446744073709551615,is_raw=True",
+        "21095:sense_robot_B4:raw0=-300,raw1=32767",
+        "21061:sense_robot_T0:raw=True",
+    ];
+    let peer = peer(&folder, &cid, &sent);
+    let _service = service(&build.join("robot_Everything"), &folder, &cid, &line.device);
     greet(&mut line, &boards[0]);
     line.say(&full_report(&boards[0]));
     // Number and sender stamp, the raw value, and the scaled value if the design has one.
@@ -212,29 +215,18 @@ fn libcluon_shows_values_through_curves() {
     let (folder, build) = build_libcluon(&tree, folder);
     let cid = session(8);
     let mut line = Line::new();
-    let peer = Background::start(
-        Command::new("python3")
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
-            .arg(&cid)
-            .arg(folder.join("sense.odvd"))
-            .arg("21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535,is_raw=True")
-            .arg("21022:sense_curves_Winch:raw=3001")
-            .arg("21022:sense_curves_Winch:value=100")
-            .arg("21022:sense_curves_Winch:value=101")
-            .arg("21022:sense_curves_Winch:value=100")
-            .arg("21022:sense_curves_Winch:raw=3001,is_raw=True")
-            .arg("21021:sense_curves_Lamps:raw0=True,raw2=True")
-            .arg("21022:sense_curves_Winch:value=100"),
-        &folder,
-    );
-    peer.wait_for("ready");
-    let service = Background::start(
-        Command::new(build.join("curves_Rover"))
-            .arg(format!("--cid={cid}"))
-            .arg(format!("--device={}", line.device.display()))
-            .arg("--verbose"),
-        &folder,
-    );
+    let sent = [
+        "21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535,is_raw=True",
+        "21022:sense_curves_Winch:raw=3001",
+        "21022:sense_curves_Winch:value=100",
+        "21022:sense_curves_Winch:value=101",
+        "21022:sense_curves_Winch:value=100",
+        "21022:sense_curves_Winch:raw=3001,is_raw=True",
+        "21021:sense_curves_Lamps:raw0=True,raw2=True",
+        "21022:sense_curves_Winch:value=100",
+    ];
+    let peer = peer(&folder, &cid, &sent);
+    let service = service(&build.join("curves_Rover"), &folder, &cid, &line.device);
     let board = &shown::boards()[0];
     greet(&mut line, board);
     line.say(&shown::stream());
@@ -330,6 +322,16 @@ impl OpenDavinci {
         Background::start(&mut command, folder)
     }
 
+    /// Starts what the modules of a session get their configuration from.
+    fn supercomponent(&self, cid: &str, folder: &Path, configuration: &str) -> Background {
+        let path = folder.join("configuration");
+        std::fs::write(&path, configuration).unwrap();
+        let configured = format!("--configuration={}", path.display());
+        let supercomponent = self.start(&self.supercomponent, cid, folder, &[&configured]);
+        std::thread::sleep(Duration::from_secs(1));
+        supercomponent
+    }
+
     fn can_run(&self) -> bool {
         let found = self.library.exists() && self.supercomponent.exists();
         if !found {
@@ -347,11 +349,7 @@ impl OpenDavinci {
         let folder = files::generate(self.host, "link", &link::design());
         let source = folder.join("src/STM32F4DiscoveryBoard.cpp");
         let application = self.build(&folder, &source, "robot_Board");
-        let configuration = folder.join("configuration");
-        std::fs::write(&configuration, "robot.nothing = 1\n").unwrap();
-        let configured = format!("--configuration={}", configuration.display());
-        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
-        std::thread::sleep(Duration::from_secs(1));
+        let _supercomponent = self.supercomponent(cid, &folder, "robot.nothing = 1\n");
         let start = |device: &Path| {
             let device = format!("--device={}", device.display());
             self.start(&application, cid, &folder, &[&device, "--verbose=1"])
@@ -369,11 +367,7 @@ impl OpenDavinci {
         let printer = self.build(&folder, &folder.join("src/print.cpp"), "curves_print");
         let commander = self.commander(&folder, shown::COMMANDS);
         let mut line = Line::new();
-        let configuration = folder.join("configuration");
-        std::fs::write(&configuration, "curves.nothing = 1\n").unwrap();
-        let configured = format!("--configuration={}", configuration.display());
-        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
-        std::thread::sleep(Duration::from_secs(1));
+        let _supercomponent = self.supercomponent(cid, &folder, "curves.nothing = 1\n");
         let printer = self.start(&printer, cid, &folder, &[]);
         let device = format!("--device={}", line.device.display());
         let application = self.start(&application, cid, &folder, &[&device, "--verbose=1"]);
@@ -405,12 +399,8 @@ impl OpenDavinci {
         let commander = self.commander(&folder, BIG_AND_PAIR);
         let mut line = Line::new();
         let device = format!("robot_Everything.device = {}\n", line.device.display());
-        let configuration = folder.join("configuration");
-        std::fs::write(&configuration, device).unwrap();
         let start = |program: &Path| self.start(program, cid, &folder, &[]);
-        let configured = format!("--configuration={}", configuration.display());
-        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
-        std::thread::sleep(Duration::from_secs(1));
+        let _supercomponent = self.supercomponent(cid, &folder, &device);
         let printer = start(&printer);
         let _application = start(&application);
         greet(&mut line, &boards[0]);
