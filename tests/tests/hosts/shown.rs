@@ -3,15 +3,15 @@
 //! `schema.json` only.
 
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 use sensedsl_job::host::HostBoard;
 use sensedsl_tests::{has, printed, read, run, sensedsl};
-use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, encode_hello, encode_report};
+use sensedsl_twin::truth::real;
+use sensedsl_wire::{Checksum, Direction, Event, Scalar, encode_report};
 use serde_json::{Value, json};
 
-use super::terminal::{Line, is_command};
+use super::terminal::commanded;
 use super::{designs, files};
 
 /// Raw values at the points of each curve, between them and beyond them, one for each report.
@@ -63,16 +63,6 @@ pub(crate) fn stream() -> Vec<u8> {
     let schema = &boards()[0].schema;
     let frame = |values: &Vec<_>| encode_report(schema, Direction::Sensor, values).unwrap();
     reports().iter().flat_map(frame).collect()
-}
-
-fn number(scalar: &Scalar) -> f64 {
-    match scalar {
-        Scalar::Bool(value) => f64::from(u8::from(*value)),
-        Scalar::Unsigned(value) => *value as f64,
-        Scalar::Signed(value) => *value as f64,
-        Scalar::Float32(value) => f64::from(*value),
-        Scalar::Float64(value) => *value,
-    }
 }
 
 /// The value shown for a raw one, computed from its item in `schema.json`.
@@ -144,7 +134,7 @@ pub(crate) fn check(output: &str, schema: &Value) {
         };
         let (printed, behind) = rest.split_once(')').unwrap();
         let (found, unit) = numbers(printed);
-        let expected: Vec<f64> = raw.iter().map(|one| shown(item, number(one))).collect();
+        let expected: Vec<f64> = raw.iter().map(|one| shown(item, real(*one))).collect();
         assert_eq!(unit.trim_start(), item["quantity"].as_str().unwrap_or_default(), "{start}");
         assert_eq!(found.len(), expected.len(), "{start} {rest}");
         for (found, expected) in found.iter().zip(&expected) {
@@ -234,33 +224,12 @@ pub(crate) const REFUSED: &str = "(above the maximum of 100 N)";
 #[test]
 fn cpp_takes_arrays_and_limits_behind_curves() {
     let Some((_, program, _)) = plain("commands") else { return };
-    let board = &boards()[0];
-    let mut line = Line::new();
-    let mut child = Command::new(program)
-        .args(["--no-reconnect".as_ref(), line.device.as_os_str()])
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let second = Duration::from_secs(10);
-    line.hear(4, second);
-    line.say(&encode_hello(&board.schema));
-    std::thread::sleep(Duration::from_millis(200));
     let typed = "Escs raw 1000 1500 2000 65535\nWinch raw 900\nWinch raw 3001\nWinch 3001\n\
                  Lamps 1 2 0\nEscs 1 2\nEscs 0 50 % 101 100\nLamps true false 1\nWinch 100 N\n";
-    std::io::Write::write_all(&mut child.stdin.take().unwrap(), typed.as_bytes()).unwrap();
-    let mut events = Vec::new();
-    let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
-    let start = Instant::now();
-    while events.len() < 3 && start.elapsed() < second {
-        let bytes = line.hear(1, Duration::from_millis(100));
-        decoder.feed(&bytes, |event| events.extend(Some(event).filter(is_command)));
-    }
+    let (events, errors) = commanded(&program, &boards()[0], typed, 3);
     let expected: Vec<Event> =
         commands().into_iter().map(|command| Event::Report(None, vec![command])).collect();
     assert_eq!(events, expected);
-    drop(line);
-    let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
     for expected in [
         "not sent: Winch raw 900: Winch = 900 (-27.5 N) (below the minimum of -25 N)\n",
         "not sent: Winch raw 3001: Winch = 3001 (100.1 N) (above the maximum of 100 N)\n",

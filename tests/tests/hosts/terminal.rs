@@ -103,6 +103,39 @@ pub(crate) fn is_command(event: &Event) -> bool {
     !matches!(event, Event::HelloRequest | Event::HealthRequest)
 }
 
+/// Types lines into the example until the board has received so many commands. Returns these, and what the example
+/// says.
+pub(crate) fn commanded(
+    program: &Path,
+    board: &HostBoard,
+    typed: &str,
+    count: usize,
+) -> (Vec<Event>, String) {
+    let mut line = Line::new();
+    let mut child = Command::new(program)
+        .args(["--no-reconnect".as_ref(), line.device.as_os_str()])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let second = Duration::from_secs(10);
+    let request = encode_hello_request(&board.schema);
+    assert_eq!(line.hear(request.len(), second), request);
+    line.say(&encode_hello(&board.schema));
+    std::thread::sleep(Duration::from_millis(200));
+    child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
+    let mut events = Vec::new();
+    let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
+    let start = Instant::now();
+    while events.len() < count && start.elapsed() < second {
+        let bytes = line.hear(1, Duration::from_millis(100));
+        decoder.feed(&bytes, |event| events.extend(Some(event).filter(is_command)));
+    }
+    assert_eq!(decoder.dropped_bytes(), 0);
+    drop(line);
+    (events, String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap())
+}
+
 fn fig2_frame(front: u64, right: u64, rear: u64, encoder: u64) -> Vec<u8> {
     let values = [(17, front), (18, right), (19, rear), (20, encoder)]
         .map(|(id, value)| (id, vec![Scalar::Unsigned(value)]));
@@ -181,30 +214,12 @@ fn typed_lines_become_commands() {
     };
     boards[0].presentations.insert(66, fast);
     let Some((_, program)) = build("commands", &boards, "Everything") else { return };
-    let mut line = Line::new();
-    let mut child = Command::new(program)
-        .args(["--no-reconnect".as_ref(), line.device.as_os_str()])
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let second = Duration::from_secs(10);
-    assert_eq!(line.hear(7, second), encode_hello_request(&boards[0].schema));
-    line.say(&encode_hello(&boards[0].schema));
-    std::thread::sleep(Duration::from_millis(200));
     let typed = "T0 true\nT2 raw -0128\nT7 raw 18446744073709551615\n\
                  T8 raw -9223372036854775808\nT9 raw 0.1\n\
                  B3 raw 1 65535\nT2 raw 128\nT1 raw -1\nB3 1\nnothing 1\nT6 raw 4e9\nT4 61\nT4 raw 61\n\
                  T4 20 m\nT4 40000\nT4 raw 40 deg\nT10 raw -2.5\nT4 -12.5 deg\nT4 raw 50\nT4 20deg\n\
                  T5 9.8m/s^2\nT5 1e1m/s^2\n";
-    child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
-    let mut events = Vec::new();
-    let mut decoder = Decoder::new(&boards[0].schema, Direction::Actuator);
-    let start = Instant::now();
-    while events.len() < 12 && start.elapsed() < second {
-        let bytes = line.hear(1, Duration::from_millis(100));
-        decoder.feed(&bytes, |event| events.extend(Some(event).filter(is_command)));
-    }
+    let (events, errors) = commanded(&program, &boards[0], typed, 12);
     let expected = [
         (61, vec![Scalar::Bool(true)]),
         (63, vec![Scalar::Signed(-128)]),
@@ -220,9 +235,6 @@ fn typed_lines_become_commands() {
         (66, vec![Scalar::Unsigned(100)]),
     ];
     assert_eq!(events, expected.map(|value| Event::Report(None, vec![value])));
-    assert_eq!(decoder.dropped_bytes(), 0);
-    drop(line);
-    let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
     for expected in [
         "not sent: T2 raw 128: 128 is not in the range -128 to 127\n",
         "not sent: T1 raw -1: -1 is not in the range 0 to 255\n",

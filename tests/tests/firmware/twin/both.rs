@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_wire::Scalar;
+use sensedsl_twin::truth::real;
 
 use super::examples::{UART, USB, on_discovery};
 use super::trial::{System, Trial, run};
@@ -16,23 +16,13 @@ const STEP_MS: u64 = 5;
 /// The programs may differ in time by the cycle of the device plus this.
 const APART_MS: u64 = 40;
 
-fn number(scalar: Scalar) -> f64 {
-    match scalar {
-        Scalar::Bool(value) => f64::from(u8::from(value)),
-        Scalar::Unsigned(value) => value as f64,
-        Scalar::Signed(value) => value as f64,
-        Scalar::Float32(value) => f64::from(value),
-        Scalar::Float64(value) => value,
-    }
-}
-
 /// The values of a device in order of arrival.
 type Course = Vec<(u64, Vec<f64>)>;
 
 fn courses(trial: &Trial) -> BTreeMap<u8, Course> {
     let mut all: BTreeMap<u8, Course> = BTreeMap::new();
     for (at, id, elements) in &trial.reported {
-        let elements = elements.iter().map(|one| number(*one)).collect();
+        let elements = elements.iter().map(|one| real(*one)).collect();
         all.entry(*id).or_default().push((*at, elements));
     }
     all
