@@ -10,7 +10,7 @@ use super::examples::{UART, USB, on_discovery};
 use super::trial::System;
 use crate::false_alarms::{drivers, is_wired};
 
-const EXAMPLES: [&str; 7] =
+pub(super) const EXAMPLES: [&str; 7] =
     ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
 /// A serial link at the default speed.
 const SLOW_UART: &str = "link { transport = uart; unit = USART3; }";
@@ -46,11 +46,6 @@ fn designs(target: &str) -> Vec<String> {
     examples.chain(groups).collect()
 }
 
-/// The complaint of the command about the program of a design; `None` if there is none.
-fn alarm(system: System, name: &str, text: &str) -> Option<String> {
-    alarm_of(system, name, text, &system.image(name, text)?)
-}
-
 /// The complaint of the command about a given program.
 pub(super) fn alarm_of(system: System, name: &str, text: &str, image: &[u8]) -> Option<String> {
     let scratch = TempDir::new(name);
@@ -64,24 +59,30 @@ pub(super) fn alarm_of(system: System, name: &str, text: &str, image: &[u8]) -> 
     (ran.status != 0).then(|| format!("{name}: {text}\n{}\n{}", ran.stdout, ran.stderr))
 }
 
+/// Builds and judges the programs of both systems: at least so many, each of the name and the text of a design for a
+/// target.
+pub(super) fn judge_all(least: usize, designs: impl Fn(&str) -> Vec<(String, String)>) {
+    let (mut count, mut alarms) = (0, Vec::new());
+    for system in [System::Chibios, System::Embassy] {
+        for (name, text) in designs(system.target().unwrap_or("chibios")) {
+            let name = format!("{name}_{system:?}");
+            let Some(image) = system.image(&name, &text) else { return };
+            count += 1;
+            alarms.extend(alarm_of(system, &name, &text, &image));
+        }
+    }
+    assert!(alarms.is_empty(), "{} of {count}: {}", alarms.len(), alarms.join("\n\n"));
+    assert!(count >= least, "only {count} images were judged");
+    eprintln!("{count} images, no alarm");
+}
+
 #[test]
 fn no_image_is_called_wrong() {
     if !is_exhaustive() {
         return;
     }
-    let (mut count, mut alarms) = (0, Vec::new());
-    for system in [System::Chibios, System::Embassy] {
-        let designs = designs(system.target().unwrap_or("chibios"));
-        for (place, text) in designs.iter().enumerate() {
-            let name = format!("images_{system:?}_{place}");
-            if system.image(&name, text).is_none() {
-                return;
-            }
-            count += 1;
-            alarms.extend(alarm(system, &name, text));
-        }
-    }
-    assert!(alarms.is_empty(), "{} of {count}: {}", alarms.len(), alarms.join("\n\n"));
-    assert!(count >= IMAGES_MIN, "only {count} images were judged");
-    eprintln!("{count} images, no alarm");
+    judge_all(IMAGES_MIN, |target| {
+        let named = |(place, text)| (format!("images_{place}"), text);
+        designs(target).into_iter().enumerate().map(named).collect()
+    });
 }

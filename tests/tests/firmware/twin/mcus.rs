@@ -7,7 +7,7 @@ use sensedsl_tests::is_exhaustive;
 
 use super::bench::folder;
 use super::examples::{USB, on_board, on_discovery};
-use super::images::alarm_of;
+use super::images::{EXAMPLES, alarm_of, judge_all};
 use super::trial::System;
 use crate::false_alarms::is_wired;
 use crate::firmware::chibios::{build, tree};
@@ -24,8 +24,6 @@ const BOARDS: [&str; 9] = [
     "NUCLEO_F446RE",
     "NUCLEO_G474RE",
 ];
-const EXAMPLES: [&str; 7] =
-    ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
 /// Devices of most kinds that the smallest of these boards can carry.
 const SMALL: &str = "{
     sensor Light returns uint16 { type = analog; }
@@ -42,11 +40,12 @@ const SMALL: &str = "{
 /// The minimum number of programs that must be judged.
 const IMAGES_MIN: usize = 30;
 
-/// The designs that a board can carry, over its own default link.
-fn designs(board: &str, target: &str) -> Vec<String> {
+/// The designs that a board can carry, over its own default link, with their names.
+fn designs(board: &str, target: &str) -> Vec<(String, String)> {
     let examples = EXAMPLES.iter().map(|example| on_board(example, board, ""));
     let all = std::iter::once(format!("board {board} {SMALL}")).chain(examples);
-    all.filter(|text| is_wired(text, target)).collect()
+    let wired = all.filter(|text| is_wired(text, target)).enumerate();
+    wired.map(|(place, text)| (format!("mcus_{board}_{place}"), text)).collect()
 }
 
 #[test]
@@ -54,22 +53,9 @@ fn images_of_all_mcus_agree_with_the_world() {
     if !is_exhaustive() {
         return;
     }
-    let (mut count, mut alarms) = (0, Vec::new());
-    for system in [System::Chibios, System::Embassy] {
-        for board in BOARDS {
-            for (place, text) in
-                designs(board, system.target().unwrap_or("chibios")).iter().enumerate()
-            {
-                let name = format!("mcus_{system:?}_{board}_{place}");
-                let Some(image) = system.image(&name, text) else { return };
-                count += 1;
-                alarms.extend(alarm_of(system, &name, text, &image));
-            }
-        }
-    }
-    assert!(alarms.is_empty(), "{} of {count}: {}", alarms.len(), alarms.join("\n\n"));
-    assert!(count >= IMAGES_MIN, "only {count} images were judged");
-    eprintln!("{count} images, no alarm");
+    judge_all(IMAGES_MIN, |target| {
+        BOARDS.iter().flat_map(|board| designs(board, target)).collect()
+    });
 }
 
 /// A shell has the link until a host sends a request, including a host that closes its port and
