@@ -23,7 +23,11 @@ use sensedsl_tests::{
 const KINDS: &str = include_str!("../../firmware/designs/bench.sense");
 
 /// Hands on the job of a text's first board.
-fn with_job<T>(text: &str, target: Option<&str>, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
+pub(crate) fn with_job<T>(
+    text: &str,
+    target: Option<&str>,
+    then: impl FnOnce(&BoardJob<'_>) -> T,
+) -> T {
     let mut workspace = Workspace::default();
     workspace.open("x.sense", text.to_owned());
     let snapshot = workspace.snapshot("x.sense", On { board: None, target }, &NoFiles);
@@ -319,54 +323,36 @@ fn a_part_on_two_buses_has_two_tables() {
 /// firmware sets of that clock. Those with banks share them.
 #[test]
 fn controllers_of_all_sorts_are_started() {
-    let fd = "hal::can::IT0InterruptHandler<";
-    let cases: [(&str, &[&str], &str, &str, &str); 8] = [
-        ("STM32C092RCT6", &["FDCAN1"], "divider: 6, before: 13, after: 2", "", fd),
-        ("STM32G0B1RET6", &["FDCAN1", "FDCAN2"], "divider: 8, before: 13, after: 2", "", fd),
+    // The bit is a divider, with steps before and after the sample.
+    let cases: [(&str, &[&str], [u8; 3], &str); 8] = [
+        ("STM32C092RCT6", &["FDCAN1"], [6, 13, 2], ""),
+        ("STM32G0B1RET6", &["FDCAN1", "FDCAN2"], [8, 13, 2], ""),
         (
             "STM32G474RET6",
             &["FDCAN1", "FDCAN2", "FDCAN3"],
-            "divider: 17, before: 16, after: 3",
+            [17, 16, 3],
             "mux.fdcansel = mux::Fdcansel::PCLK1",
-            fd,
         ),
         (
             "STM32H563ZIT6",
             &["FDCAN1", "FDCAN2"],
-            "divider: 5, before: 16, after: 3",
+            [5, 16, 3],
             "mux.fdcan12sel = mux::Fdcansel::PLL1_Q",
-            fd,
         ),
         (
             "STM32H743ZIT6",
             &["FDCAN1", "FDCAN2"],
-            "divider: 5, before: 13, after: 2",
+            [5, 13, 2],
             "mux.fdcansel = mux::Fdcansel::PLL1_Q",
-            fd,
         ),
-        (
-            "STM32U575ZIT6",
-            &["FDCAN1"],
-            "divider: 5, before: 13, after: 2",
-            "mux.fdcan1sel = mux::Fdcansel::PLL1_Q",
-            fd,
-        ),
-        (
-            "STM32F105RCT6",
-            &["CAN1", "CAN2"],
-            "divider: 1, before: 13, after: 2",
-            "registers: hal::pac::CAN1, first: 14",
-            "hal::can::Rx0InterruptHandler<",
-        ),
-        (
-            "STM32L496ZGT6",
-            &["CAN2"],
-            "divider: 10, before: 13, after: 2",
-            "hal::rcc::enable_and_reset::<CAN1>();",
-            "hal::can::Rx0InterruptHandler<",
-        ),
+        ("STM32U575ZIT6", &["FDCAN1"], [5, 13, 2], "mux.fdcan1sel = mux::Fdcansel::PLL1_Q"),
+        ("STM32F105RCT6", &["CAN1", "CAN2"], [1, 13, 2], "registers: hal::pac::CAN1, first: 14"),
+        ("STM32L496ZGT6", &["CAN2"], [10, 13, 2], "hal::rcc::enable_and_reset::<CAN1>();"),
     ];
-    for (mcu, units, bit, also, handler) in cases {
+    for (mcu, units, [divider, before, after], also) in cases {
+        let bit = format!("divider: {divider}, before: {before}, after: {after}");
+        let has_memory = units[0].starts_with("FD");
+        let handler = if has_memory { "IT0InterruptHandler" } else { "Rx0InterruptHandler" };
         let device = |(at, unit): (usize, &&str)| {
             format!(
                 "sensor S{at} returns uint8 {{ type = can; unit = {unit}; bitrate = 500 kHz; frame = 1; }}\n"
@@ -379,10 +365,13 @@ fn controllers_of_all_sorts_are_started() {
             let read =
                 |path: &str| String::from_utf8(files.get(path).unwrap().bytes.clone()).unwrap();
             let (main, wiring) = (read("src/main.rs"), read("src/wiring.rs"));
-            assert_eq!(main.matches(bit).count(), units.len(), "{mcu}: {main}");
+            assert_eq!(main.matches(&bit).count(), units.len(), "{mcu}: {main}");
             assert!(main.contains(also), "{mcu}: {main}");
             for unit in units {
-                assert!(wiring.contains(&format!("{handler}{unit}>")), "{mcu}: {wiring}");
+                assert!(
+                    wiring.contains(&format!("hal::can::{handler}<{unit}>")),
+                    "{mcu}: {wiring}"
+                );
             }
         });
     }

@@ -5,9 +5,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_generate::target;
+use sensedsl_model::NoFiles;
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::Kind;
-use sensedsl_model::{FileRequest, Files, ReadError};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
@@ -17,20 +17,11 @@ use super::details;
 /// The files of one board, by their path in its folder.
 pub(crate) type Folder = BTreeMap<String, String>;
 
-/// A source of files that has none, because no design here names another file.
-struct Alone;
-
-impl Files for Alone {
-    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
-        Err(ReadError::Missing)
-    }
-}
-
 /// Solves and generates a design with one board, and passes the results to `then`.
 pub(crate) fn with<T>(text: &str, then: impl FnOnce(&Design, &Assignment, Folder) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("facts.sense", text);
-    let snapshot = workspace.snapshot("facts.sense", On::default(), &Alone);
+    let snapshot = workspace.snapshot("facts.sense", On::default(), &NoFiles);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = answer.wired().unwrap();
     let files = target::firmware(design, wiring).unwrap();

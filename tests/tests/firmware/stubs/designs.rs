@@ -4,7 +4,7 @@ use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_files::FileEntry;
 use sensedsl_generate::host::HOSTS;
 use sensedsl_generate::{Selection, project};
-use sensedsl_model::{FileRequest, Files, ReadError};
+use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 
 use super::super::facts::Folder;
@@ -19,20 +19,11 @@ pub(super) enum Made {
     Refused(Vec<&'static str>),
 }
 
-/// A source of files that has none, because no design here names another file.
-struct Alone;
-
-impl Files for Alone {
-    fn read(&self, _: &FileRequest<'_>) -> Result<String, ReadError> {
-        Err(ReadError::Missing)
-    }
-}
-
 /// Solves and generates, for the boards of the text.
 pub(super) fn make(text: &str) -> Made {
     let mut workspace = Workspace::default();
     workspace.open("stub.sense", text);
-    let snapshot = workspace.snapshot("stub.sense", On::default(), &Alone);
+    let snapshot = workspace.snapshot("stub.sense", On::default(), &NoFiles);
     let answer = snapshot.solve(&Ask::default());
     let Some((design, wiring)) = answer.wired() else {
         return Made::NoWiring(errors(&answer.diagnostics));

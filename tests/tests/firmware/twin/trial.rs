@@ -5,10 +5,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use sensedsl_diagnostics::SourceMap;
-use sensedsl_job::{BoardJob, jobs};
+use sensedsl_job::BoardJob;
 use sensedsl_machine::{Event as Told, Lockup};
-use sensedsl_model::NoFiles;
-use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::root;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
@@ -21,6 +19,7 @@ use sensedsl_wire::{
 };
 
 use super::bench::{MS, STEERING, folder};
+use crate::embassy::with_job;
 use crate::firmware::chibios::{build, tree};
 use crate::firmware::embassy;
 
@@ -95,18 +94,6 @@ impl System {
     }
 }
 
-/// Makes the job of the first board of a text, and passes it to `then`.
-fn with_job<T>(system: System, text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
-    let mut workspace = Workspace::default();
-    workspace.open("board.sense", text);
-    let on = On { board: None, target: system.target() };
-    let snapshot = workspace.snapshot("board.sense", on, &NoFiles);
-    let answer = snapshot.solve(&Ask::default());
-    let Some((design, wiring)) = answer.wired() else { panic!("{:#?}", answer.diagnostics) };
-    let job = jobs(design, wiring).next().unwrap();
-    then(&job)
-}
-
 /// Runs an image for the board of a text, with a host that greets it and requests health at the
 /// given times.
 pub(super) fn run(
@@ -134,7 +121,7 @@ pub(super) fn run_with(
     seconds: u64,
     host: impl FnMut(u64, &[u8], &Schema) -> Vec<u8>,
 ) -> Trial {
-    with_job(system, text, |job| run_job(job, world, image, seconds, host))
+    with_job(text, system.target(), |job| run_job(job, world, image, seconds, host))
 }
 
 /// A host that only sends a greeting.
