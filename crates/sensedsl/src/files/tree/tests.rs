@@ -160,97 +160,106 @@ fn clean(scratch: &TempDir) {
     assert!(!scratch.out().join(WORK).exists());
 }
 
+/// Runs a test for each change that may be the last one, in a folder of its own, until the test says that none struck.
+fn at_each_change(mut test: impl FnMut(usize, &TempDir, &Tree) -> bool) {
+    for n in 0.. {
+        let (scratch, old) = before();
+        if !test(n, &scratch, &old) {
+            break;
+        }
+    }
+}
+
+/// Writes the new tree; returns whether that was done, and whether the fault struck.
+fn renew(out: &Path, fault: Fault) -> (bool, bool) {
+    write(out, fault, NEW, &[OLD_ONCE, NEW_ONCE])
+}
+
+/// Another run comes, and nothing stops it.
+fn completes(scratch: &TempDir, wanted: &Tree, n: usize) {
+    assert_eq!(renew(&scratch.out(), Fault::default()), (true, false), "{n}");
+    assert_eq!(seen(&scratch.out()), *wanted, "{n}");
+    clean(scratch);
+}
+
 #[test]
 fn a_tree_replaces_another_and_what_is_the_user_s_stays_what_it_was() {
     let (scratch, old) = before();
     let out = scratch.out();
     let own = identity(&out);
-    assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false));
-    assert_eq!(seen(&out), after(&old));
+    completes(&scratch, &after(&old), 0);
     assert_eq!(identity(&out), own, "the folder is the same for a shell that works in it");
     assert!(!out.join("host").exists(), "empty folders go");
-    clean(&scratch);
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn whatever_change_is_the_last_one_the_tree_is_the_old_or_the_new_one() {
     let mut states = [0, 0];
-    for n in 0.. {
-        let (scratch, old) = before();
+    at_each_change(|n, scratch, old| {
         let (out, own) = (scratch.out(), identity(&scratch.out()));
-        let (done, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
+        let (done, struck) = renew(&out, Fault::killed_at(n));
         if !struck {
             assert!(done && n > 50, "{n} changes");
-            break;
+            return false;
         }
         let now = seen(&out);
-        assert!(now == old || now == after(&old), "after {n} changes: {now:#?}");
-        states[usize::from(now != old)] += 1;
+        assert!(now == *old || now == after(old), "after {n} changes: {now:#?}");
+        states[usize::from(now != *old)] += 1;
         // Another run comes, and is stopped as well.
         for m in (n % 17..).step_by(17) {
-            let fault = Fault::killed_at(m);
-            let (_, struck) = write(&out, fault, NEW, &[OLD_ONCE, NEW_ONCE]);
+            let (_, struck) = renew(&out, Fault::killed_at(m));
             let now = seen(&out);
-            assert!(now == old || now == after(&old), "after {n} and {m} changes: {now:#?}");
+            assert!(now == *old || now == after(old), "after {n} and {m} changes: {now:#?}");
             if !struck {
                 break;
             }
         }
-        assert_eq!(seen(&out), after(&old), "{n}");
+        assert_eq!(seen(&out), after(old), "{n}");
         assert_eq!(identity(&out), own, "{n}");
-        clean(&scratch);
-    }
+        clean(scratch);
+        true
+    });
     assert!(states.iter().all(|count| *count > 5), "{states:?}");
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn whoever_comes_after_a_kill_may_want_the_old_tree_again() {
-    for n in 0.. {
-        let (scratch, old) = before();
+    at_each_change(|n, scratch, old| {
         let out = scratch.out();
-        let (_, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
+        let (_, struck) = renew(&out, Fault::killed_at(n));
         assert_eq!(write(&out, Fault::default(), OLD, &[OLD_ONCE]), (true, false), "{n}");
         let mut now = seen(&out);
         now.remove(NEW_ONCE);
-        assert_eq!(now, old, "{n}");
-        clean(&scratch);
-        if !struck {
-            break;
-        }
-    }
+        assert_eq!(now, *old, "{n}");
+        clean(scratch);
+        struck
+    });
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn a_change_that_fails_leaves_the_old_tree_or_the_new_one_and_no_leftovers() {
-    for n in 0.. {
-        let (scratch, old) = before();
-        let out = scratch.out();
-        let (done, struck) = write(&out, Fault::full_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
-        let now = seen(&out);
-        if !done && now == old {
-            clean(&scratch);
+    at_each_change(|n, scratch, old| {
+        let (done, struck) = renew(&scratch.out(), Fault::full_at(n));
+        let now = seen(&scratch.out());
+        if !done && now == *old {
+            clean(scratch);
         }
-        assert!(now == old || now == after(&old), "{n}: {now:#?}");
-        assert!(!done || now == after(&old), "{n}");
-        assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false));
-        assert_eq!(seen(&out), after(&old), "{n}");
-        clean(&scratch);
-        if !struck {
-            break;
-        }
-    }
+        assert!(now == *old || now == after(old), "{n}: {now:#?}");
+        assert!(!done || now == after(old), "{n}");
+        completes(scratch, &after(old), n);
+        struck
+    });
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn what_the_user_does_between_a_kill_and_the_next_run_is_kept() {
-    for n in 0.. {
-        let (scratch, old) = before();
+    at_each_change(|n, scratch, old| {
         let out = scratch.out();
-        let (_, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
+        let (_, struck) = renew(&out, Fault::killed_at(n));
         let switched = out.join("fw/B").exists();
         // Some editors write in place, others replace the old file by a new one.
         fs::write(out.join(OLD_ONCE), "edited").unwrap();
@@ -262,8 +271,7 @@ fn what_the_user_does_between_a_kill_and_the_next_run_is_kept() {
         if switched {
             fs::write(out.join(NEW_ONCE), "edited too").unwrap();
         }
-        assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false), "{n}");
-        let mut expected = after(&old);
+        let mut expected = after(old);
         for (path, text) in [
             (OLD_ONCE, "edited"),
             ("fw/A/user/deep/more.h", "new"),
@@ -273,19 +281,15 @@ fn what_the_user_does_between_a_kill_and_the_next_run_is_kept() {
         ] {
             expected.insert(path.into(), text.into());
         }
-        assert_eq!(seen(&out), expected, "{n}");
-        clean(&scratch);
-        if !struck {
-            break;
-        }
-    }
+        completes(scratch, &expected, n);
+        struck
+    });
 }
 
 #[test]
 fn a_journal_is_completed_by_the_next_run() {
     let mut between = 0;
-    for n in 0.. {
-        let (scratch, old) = before();
+    at_each_change(|n, scratch, old| {
         let out = scratch.out();
         let work = out.join(WORK);
         let journal = |fault| {
@@ -300,16 +304,12 @@ fn a_journal_is_completed_by_the_next_run() {
         };
         let (done, struck) = journal(Fault::killed_at(n));
         let now = seen(&out);
-        between += usize::from(now != old && now != after(&old));
+        between += usize::from(now != *old && now != after(old));
         assert_eq!(done, !struck);
         // The next run repairs it, in whichever way it works.
-        assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false), "{n}");
-        assert_eq!(seen(&out), after(&old), "{n}");
-        clean(&scratch);
-        if !struck {
-            break;
-        }
-    }
+        completes(scratch, &after(old), n);
+        struck
+    });
     assert!(between > 3, "a journal has states in between: {between}");
 }
 
@@ -322,7 +322,7 @@ fn where_nothing_can_stand_beside_the_folder_there_is_a_journal() {
         assert_eq!(write(&out, Fault::default(), OLD, &[OLD_ONCE]), (true, false));
         fs::write(out.join(OLD_ONCE), "mine").unwrap();
         let old = seen(&out);
-        assert_eq!(write(&out, Fault::default(), NEW, &[OLD_ONCE, NEW_ONCE]), (true, false));
+        assert_eq!(renew(&out, Fault::default()), (true, false));
         assert_eq!(seen(&out), after(&old));
         assert!(!out.join(WORK).exists());
     }
@@ -347,10 +347,9 @@ fn a_second_run_waits_and_gives_up() {
 #[cfg(target_os = "linux")]
 fn an_unfinished_tree_whose_folder_was_replaced_is_not_removed() {
     let mut orphans = 0;
-    for n in 0.. {
-        let (scratch, _) = before();
+    at_each_change(|n, scratch, _| {
         let out = scratch.out();
-        let (_, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
+        let (_, struck) = renew(&out, Fault::killed_at(n));
         fs::rename(&out, scratch.0.join("moved")).unwrap();
         fs::create_dir(&out).unwrap();
         if let Err(Trouble::Orphan(left)) = take(&out, Duration::ZERO, &mut || {}) {
@@ -360,10 +359,8 @@ fn an_unfinished_tree_whose_folder_was_replaced_is_not_removed() {
         let places = ["moved", ".out.sensedsl-unfinished", "out"];
         let mut texts = places.iter().map(|place| scratch.0.join(place).join(OLD_ONCE));
         assert!(texts.any(|path| fs::read_to_string(path).is_ok_and(|text| text == "mine")), "{n}");
-        if !struck {
-            break;
-        }
-    }
+        struck
+    });
     assert!(orphans > 3, "{orphans}");
 }
 
