@@ -46,7 +46,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         );
         terminal.diagnostics(snapshot.diagnostics(), sources)?;
         let wiring = Wiring::within(design, keep.as_ref(), cancel);
-        return problem(args, terminal, &wiring, sources);
+        return Printer { args, terminal, sources }.problem(&wiring);
     }
     // A certificate for the standard output is the result.
     let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
@@ -84,12 +84,15 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let status = if args.proof.is_some() && file.is_none() {
         status(&answer, &args.on)
     } else {
-        print_answer(args, terminal, &answer, keep, sources)?
+        Printer { args, terminal, sources }.answer(&answer, keep)?
     };
     match (answer.certificate, file) {
         (Some(Ok(text)), Some(path)) => write_whole(path, text.as_bytes())?,
         (Some(Ok(text)), None) => terminal.result(&text)?,
-        (Some(Err(report)), _) => return wrong(*report, terminal, sources),
+        (Some(Err(report)), _) => {
+            terminal.diagnostics(&[*report], sources)?;
+            return Ok(Status::Wrong);
+        }
         (None, _) => {}
     }
     Ok(status)
@@ -101,147 +104,131 @@ fn status(answer: &Answer<'_>, on: &On) -> Status {
     input::status(&answer.diagnostics, on).max(least)
 }
 
-/// Reports why there is no answer.
-fn wrong(why: Diagnostic, terminal: &Terminal, sources: &SourceMap) -> Result<Status> {
-    terminal.diagnostics(&[why], sources)?;
-    Ok(Status::Wrong)
+/// How an answer is printed.
+struct Printer<'a> {
+    args: &'a SolveArgs,
+    terminal: &'a mut Terminal,
+    sources: &'a SourceMap,
 }
 
-/// Prints the problem for another program.
-fn problem(
-    args: &SolveArgs,
-    terminal: &mut Terminal,
-    wiring: &Wiring<'_>,
-    sources: &SourceMap,
-) -> Result<Status> {
-    if args.format == SolveFormat::Prolog {
-        terminal.result(&prolog(wiring.problem(), &wiring.labels()))?;
-        return Ok(Status::Done);
+impl Printer<'_> {
+    /// Reports why there is no answer.
+    fn wrong(&self, why: Diagnostic) -> Result<Status> {
+        self.terminal.diagnostics(&[why], self.sources)?;
+        Ok(Status::Wrong)
     }
-    match wiring.posed() {
-        Ok(posed) => {
-            terminal.result(&alloy(&posed.problem, &posed.labels, &posed.outcome))?;
-            Ok(Status::Done)
+
+    /// Prints the problem for another program.
+    fn problem(&mut self, wiring: &Wiring<'_>) -> Result<Status> {
+        if self.args.format == SolveFormat::Prolog {
+            self.terminal.result(&prolog(wiring.problem(), &wiring.labels()))?;
+            return Ok(Status::Done);
         }
-        Err(failure) => wrong(*failure, terminal, sources),
-    }
-}
-
-fn print_answer(
-    args: &SolveArgs,
-    terminal: &mut Terminal,
-    answer: &Answer<'_>,
-    keep: Option<&Keep>,
-    sources: &SourceMap,
-) -> Result<Status> {
-    let Some(design) = &answer.design else { return Ok(status(answer, &args.on)) };
-    match &answer.solved {
-        Some(Solved::Wired(best)) if args.partial && has_errors(&answer.diagnostics) => {
-            let left_out: Vec<&str> =
-                answer.left_out.iter().map(|one| one.value.as_str()).collect();
-            if args.format == SolveFormat::Json {
-                let value = json::with_left_out(json::wired(design, best), &left_out);
-                terminal.result(&render::json_text(&value))?;
-            } else {
-                terminal.result(&printed(args, terminal, design, best))?;
+        match wiring.posed() {
+            Ok(posed) => {
+                self.terminal.result(&alloy(&posed.problem, &posed.labels, &posed.outcome))?;
+                Ok(Status::Done)
             }
-            terminal.aside(&format!("left out for their errors: {}", left_out.join(", ")))?;
-            Ok(Status::Wrong)
+            Err(failure) => self.wrong(*failure),
         }
-        solved if has_errors(&answer.diagnostics) => {
-            if let Some(Solved::Infeasible(conflict)) = solved
-                && args.format == SolveFormat::Json
-            {
-                let mut value = json::infeasible(design, conflict);
-                if args.count {
-                    value = json::with_count(value, "0");
+    }
+
+    fn answer(&mut self, answer: &Answer<'_>, keep: Option<&Keep>) -> Result<Status> {
+        let Some(design) = &answer.design else { return Ok(status(answer, &self.args.on)) };
+        match &answer.solved {
+            Some(Solved::Wired(best)) if self.args.partial && has_errors(&answer.diagnostics) => {
+                let left_out: Vec<&str> =
+                    answer.left_out.iter().map(|one| one.value.as_str()).collect();
+                if self.args.format == SolveFormat::Json {
+                    let value = json::with_left_out(json::wired(design, best), &left_out);
+                    self.terminal.result(&render::json_text(&value))?;
+                } else {
+                    self.terminal.result(&self.printed(design, best))?;
                 }
-                terminal.result(&print(&value, args))?;
+                self.terminal
+                    .aside(&format!("left out for their errors: {}", left_out.join(", ")))?;
+                Ok(Status::Wrong)
             }
-            Ok(Status::Wrong)
-        }
-        Some(Solved::Wired(best)) if args.count => {
-            count(args, terminal, design, best, keep, sources)
-        }
-        Some(Solved::Wired(_)) if args.all || args.limit.is_some() => {
-            several(args, terminal, design, keep, sources)
-        }
-        Some(Solved::Wired(best)) => {
-            terminal.result(&printed(args, terminal, design, best))?;
-            Ok(Status::Done)
-        }
-        Some(Solved::Infeasible(_) | Solved::Failed(_)) | None => Ok(Status::Wrong),
-    }
-}
-
-fn print(value: &serde_json::Value, args: &SolveArgs) -> String {
-    if args.all || args.limit.is_some() {
-        format!("{}\n", visible_json(&value.to_string()))
-    } else {
-        render::json_text(value)
-    }
-}
-
-fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assignment) -> String {
-    match args.format {
-        SolveFormat::Human => human::human(design, wiring, terminal.colour()),
-        SolveFormat::Json => print(&json::wired(design, wiring), args),
-        SolveFormat::Csv => csv::csv(design, wiring),
-        SolveFormat::Markdown => sheet::markdown::markdown(design, wiring),
-        SolveFormat::Svg => svg::svg(design, wiring),
-        // These are answered before solving: they need no answer.
-        SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
-    }
-}
-
-fn count(
-    args: &SolveArgs,
-    terminal: &Terminal,
-    design: &Design,
-    best: &Assignment,
-    keep: Option<&Keep>,
-    sources: &SourceMap,
-) -> Result<Status> {
-    match Wiring::new(design, keep).count() {
-        Ok(count) if args.format == SolveFormat::Json => {
-            let value = json::with_count(json::wired(design, best), &count.to_string());
-            terminal.result(&render::json_text(&value))?;
-            Ok(Status::Done)
-        }
-        Ok(count) => {
-            terminal.result(&format!("{count}\n"))?;
-            Ok(Status::Done)
-        }
-        Err(failure) => wrong(*failure, terminal, sources),
-    }
-}
-
-fn several(
-    args: &SolveArgs,
-    terminal: &Terminal,
-    design: &Design,
-    keep: Option<&Keep>,
-    sources: &SourceMap,
-) -> Result<Status> {
-    let wiring = Wiring::new(design, keep);
-    let most = usize::try_from(args.limit.unwrap_or(u64::MAX)).unwrap_or(usize::MAX);
-    for (number, solved) in wiring.enumerate().take(most).enumerate() {
-        match solved {
-            Solved::Wired(assignment) => {
-                if args.format == SolveFormat::Human {
-                    terminal.result(&format!("wiring {}\n", number + 1))?;
+            solved if has_errors(&answer.diagnostics) => {
+                if let Some(Solved::Infeasible(conflict)) = solved
+                    && self.args.format == SolveFormat::Json
+                {
+                    let mut value = json::infeasible(design, conflict);
+                    if self.args.count {
+                        value = json::with_count(value, "0");
+                    }
+                    self.terminal.result(&self.json(&value))?;
                 }
-                let mut text = printed(args, terminal, design, &assignment);
-                if args.format == SolveFormat::Csv && number > 0 {
-                    text = text.split_once('\n').map_or(String::new(), |(_, rows)| rows.into());
-                }
-                terminal.result(&text)?;
+                Ok(Status::Wrong)
             }
-            Solved::Infeasible(conflict) => {
-                return wrong(conflict.diagnostic(design), terminal, sources);
+            Some(Solved::Wired(best)) if self.args.count => self.count(design, best, keep),
+            Some(Solved::Wired(_)) if self.args.all || self.args.limit.is_some() => {
+                self.several(design, keep)
             }
-            Solved::Failed(failure) => return wrong(*failure, terminal, sources),
+            Some(Solved::Wired(best)) => {
+                self.terminal.result(&self.printed(design, best))?;
+                Ok(Status::Done)
+            }
+            Some(Solved::Infeasible(_) | Solved::Failed(_)) | None => Ok(Status::Wrong),
         }
     }
-    Ok(Status::Done)
+
+    fn json(&self, value: &serde_json::Value) -> String {
+        if self.args.all || self.args.limit.is_some() {
+            format!("{}\n", visible_json(&value.to_string()))
+        } else {
+            render::json_text(value)
+        }
+    }
+
+    fn printed(&self, design: &Design, wiring: &Assignment) -> String {
+        match self.args.format {
+            SolveFormat::Human => human::human(design, wiring, self.terminal.colour()),
+            SolveFormat::Json => self.json(&json::wired(design, wiring)),
+            SolveFormat::Csv => csv::csv(design, wiring),
+            SolveFormat::Markdown => sheet::markdown::markdown(design, wiring),
+            SolveFormat::Svg => svg::svg(design, wiring),
+            // These are answered before solving: they need no answer.
+            SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
+        }
+    }
+
+    fn count(&mut self, design: &Design, best: &Assignment, keep: Option<&Keep>) -> Result<Status> {
+        match Wiring::new(design, keep).count() {
+            Ok(count) if self.args.format == SolveFormat::Json => {
+                let value = json::with_count(json::wired(design, best), &count.to_string());
+                self.terminal.result(&render::json_text(&value))?;
+                Ok(Status::Done)
+            }
+            Ok(count) => {
+                self.terminal.result(&format!("{count}\n"))?;
+                Ok(Status::Done)
+            }
+            Err(failure) => self.wrong(*failure),
+        }
+    }
+
+    fn several(&mut self, design: &Design, keep: Option<&Keep>) -> Result<Status> {
+        let wiring = Wiring::new(design, keep);
+        let most = usize::try_from(self.args.limit.unwrap_or(u64::MAX)).unwrap_or(usize::MAX);
+        for (number, solved) in wiring.enumerate().take(most).enumerate() {
+            match solved {
+                Solved::Wired(assignment) => {
+                    if self.args.format == SolveFormat::Human {
+                        self.terminal.result(&format!("wiring {}\n", number + 1))?;
+                    }
+                    let mut text = self.printed(design, &assignment);
+                    if self.args.format == SolveFormat::Csv && number > 0 {
+                        text = text.split_once('\n').map_or(String::new(), |(_, rows)| rows.into());
+                    }
+                    self.terminal.result(&text)?;
+                }
+                Solved::Infeasible(conflict) => {
+                    return self.wrong(conflict.diagnostic(design));
+                }
+                Solved::Failed(failure) => return self.wrong(*failure),
+            }
+        }
+        Ok(Status::Done)
+    }
 }
