@@ -12,7 +12,7 @@ use std::thread;
 use sensedsl_diagnostics::render;
 use sensedsl_generate::Selection;
 use sensedsl_model::{FileRequest, Files, ReadError, Request, apply_allows, resolve};
-use sensedsl_report::{csv, human, json, markdown, svg};
+use sensedsl_report::{csv, human, json, sheet, svg};
 use sensedsl_tests::{Random, files, is_thorough, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -52,7 +52,7 @@ fn pipeline(input: &Input) {
                     diagnostics.extend(wiring.warnings(&assignment));
                     let _ = human::human(design, &assignment, false);
                     let _ = csv::csv(design, &assignment);
-                    let _ = markdown::markdown(design, &assignment);
+                    let _ = sheet::markdown::markdown(design, &assignment);
                     let _ = svg::svg(design, &assignment);
                     let _ = json::wired(design, &assignment);
                     let _ =

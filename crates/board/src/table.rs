@@ -365,10 +365,14 @@ impl Table {
             push_row(&mut csv, columns.iter().map(cell));
         }
         for (signal, places) in self.contact_rows() {
-            let cell = |column: &&Column| match column.role {
-                Role::Label => signal.to_owned(),
-                Role::Places => places.join(" "),
-                _ => String::new(),
+            let cell = |column: &&Column| {
+                if column.role == Role::Label {
+                    signal.to_owned()
+                } else if column.role == Role::Places {
+                    places.join(" ")
+                } else {
+                    String::new()
+                }
             };
             push_row(&mut csv, columns.iter().map(cell));
         }

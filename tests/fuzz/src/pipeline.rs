@@ -11,7 +11,7 @@ use sensedsl_generate::Selection;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
-use sensedsl_report::{csv, human, json, markdown, svg};
+use sensedsl_report::{csv, human, json, sheet, svg};
 use sensedsl_session::{self as session, Goal, On, Workspace};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
@@ -188,7 +188,7 @@ fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
 fn reports(design: &Design, assignment: &Assignment) {
     let _ = human::human(design, assignment, false);
     let _ = csv::csv(design, assignment);
-    let _ = markdown::markdown(design, assignment);
+    let _ = sheet::markdown::markdown(design, assignment);
     let picture = svg::svg(design, assignment);
     let parsed = roxmltree::Document::parse(&picture);
     assert!(parsed.is_ok(), "{parsed:?}\n{picture}");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_model::design::{Board, Connection, Design, PartIndex};
+use sensedsl_model::design::{Board, Connection, Design, Level, PartIndex};
 use sensedsl_model::facts::{self, PartFacts};
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wiring::assignment::{BoardAssignment, ConnectionWiring, Wire};
@@ -79,11 +79,10 @@ fn signal(
         Some(facts) => printed(facts, connection, wire.role),
         None => crossed(wire.role).map(str::to_owned),
     };
-    let at_part = match connection.kind.name() {
-        KindName::Can => {
-            Some(format!("transceiver {}", if wire.role == Role::Tx { "TXD" } else { "RXD" }))
-        }
-        _ => at_part,
+    let at_part = if connection.kind.name() == KindName::Can {
+        Some(format!("transceiver {}", if wire.role == Role::Tx { "TXD" } else { "RXD" }))
+    } else {
+        at_part
     };
     let element = connection.element.map_or(String::new(), |element| format!("[{element}]"));
     let unit = wiring.unit.as_deref().unwrap_or_default();
@@ -112,11 +111,10 @@ fn can_bus(facts: &PartFacts) -> Vec<Line> {
 
 /// What the other end of a serial wire is called.
 pub(super) fn crossed(role: Role) -> Option<&'static str> {
-    match role {
-        Role::Tx => Some("RX"),
-        Role::Rx => Some("TX"),
-        _ => None,
+    if role == Role::Tx {
+        return Some("RX");
     }
+    (role == Role::Rx).then_some("TX")
 }
 
 /// What is printed at the part's end of a wire.
@@ -137,7 +135,7 @@ fn notes(facts: Option<&PartFacts>, own: &[(&Connection, &ConnectionWiring)]) ->
     let mut notes = Vec::new();
     for (connection, _) in own {
         if connection.element.is_none_or(|element| element == 0)
-            && let Some(divided) = connection.level.as_ref().and_then(|level| level.divided())
+            && let Some(divided) = connection.level.as_ref().and_then(Level::divided)
         {
             notes.push(format!("A voltage divider is needed: {divided}."));
         }
