@@ -36,6 +36,7 @@ mod parts;
 mod prolog;
 mod proof;
 mod scripts;
+mod sheet;
 mod shown_values;
 mod simulate;
 mod single_files;

@@ -38,6 +38,36 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     folded.iter().find(|(folded, _)| folded == found).map(|(_, name)| *name)
 }
 
+/// Boards and MCUs that people own and that are not built in yet: how their names begin, and what they are.
+const NOT_YET: &[(&str, &str)] = &[
+    ("esp32", "ESP32"),
+    ("esp8266", "ESP8266"),
+    ("wemosd1", "ESP8266"),
+    ("nodemcu", "ESP8266"),
+    ("teensy", "Teensy"),
+    ("imxrt", "i.MX RT"),
+    ("nrf5", "nRF52 and nRF53"),
+    ("microbit", "micro:bit"),
+    ("samd", "SAMD"),
+    ("feather", "Feather"),
+    ("xiao", "XIAO"),
+    ("arduinodue", "Arduino Due"),
+    ("arduinozero", "Arduino Zero"),
+    ("arduinomkr", "Arduino MKR"),
+    ("arduinogiga", "Arduino Giga"),
+    ("arduinonano33", "Arduino Nano 33"),
+    ("arduinonanoesp32", "Arduino Nano ESP32"),
+    ("arduinounor4", "Arduino Uno R4"),
+    ("ra4m1", "RA4M1"),
+];
+
+/// What a name means that is of no built-in board, but of one that people own: `ESP32`.
+#[must_use]
+pub fn not_yet(name: &str) -> Option<&'static str> {
+    let folded = fold(name);
+    NOT_YET.iter().find(|(start, _)| folded.starts_with(start)).map(|(_, what)| *what)
+}
+
 /// A board with that MCU, preferably one that a system supports. If only a user's table states the
 /// MCU, clocks and folders are taken from this board.
 #[must_use]

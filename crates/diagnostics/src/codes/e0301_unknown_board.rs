@@ -13,6 +13,13 @@ Without `on`, the board's own name must be a built-in one, or `--board TABLE` mu
 Way out: correct the name, or say which table is meant."#,
 });
 
+/// The name is of a board that people own, of the family `what`, and that is not built in yet.
+pub fn board_not_yet(span: Span, name: &str, what: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` is not supported yet"))
+        .here(format!("{what} boards are not built in"))
+        .help("take a board that `sensedsl boards` lists; or name a table of its pins with `on \"table.csv\"`, which gives wiring, sheet and picture without firmware (docs/board-tables.md)")
+}
+
 /// `meant` is the nearest built-in board or part, shown as a file has to spell it. `is_own` is true if the block has no
 /// `on`, so that its own name was looked up.
 pub fn unknown_board(span: Span, name: &str, meant: Option<&str>, is_own: bool) -> Diagnostic {

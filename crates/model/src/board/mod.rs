@@ -124,6 +124,11 @@ fn built_in(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> 
 /// The pins of a bare MCU.
 fn part(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> Option<Pins> {
     let Some(found) = sensedsl_parts::find(&name.value) else {
+        if let Some(what) = catalog::not_yet(&name.value) {
+            let not_yet = e0301_unknown_board::board_not_yet(name.span, &name.value, what);
+            context.diagnostics.push(not_yet);
+            return None;
+        }
         let meant = catalog::nearest_name(&name.value).map(str::to_owned);
         let meant = meant.or_else(|| sensedsl_parts::nearest_name(&name.value));
         let unknown =

@@ -8,6 +8,7 @@ mod rail;
 
 use std::collections::BTreeSet;
 
+use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design, PartIndex};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
 
@@ -35,7 +36,9 @@ pub(crate) struct BoardSheet<'a> {
 impl BoardSheet<'_> {
     /// The make of the board and its MCU, to stand behind its name.
     fn what(&self) -> String {
+        let name = &self.board.name.value;
         let make = self.board.facts.as_ref().filter(|_| self.board.built_in);
+        let make = make.filter(|facts| !facts.name.eq_ignore_ascii_case(&name.replace('_', "-")));
         let make = make.map_or(String::new(), |facts| format!(", {}", facts.name));
         let mcu = self.board.mcu.as_deref().map_or(String::new(), |mcu| format!(" ({mcu})"));
         format!("{make}{mcu}")
@@ -94,6 +97,12 @@ fn part_indices(design: &Design, on: &BoardAssignment) -> Vec<PartIndex> {
     parts.into_iter().collect()
 }
 
+/// Where a wire to a pin goes: its places, or the pin of the MCU where these are not known.
+fn destination(pin: &Pin) -> String {
+    let places = place::text(pin);
+    if places.is_empty() { format!("pin {}", pin.name) } else { places }
+}
+
 /// The wires of a serial link to the host.
 fn of_link(on: &BoardAssignment, board: &Board, rails: &mut Rails<'_>) -> Option<PartSheet> {
     let link = on.link.as_ref()?;
@@ -107,7 +116,7 @@ fn of_link(on: &BoardAssignment, board: &Board, rails: &mut Rails<'_>) -> Option
         let pin = wire.pin(board)?;
         lines.push(Line {
             at_part: part::crossed(wire.role).unwrap_or(wire.role.name()).to_owned(),
-            to: place::text(pin),
+            to: destination(pin),
             pin: pin.name.to_string(),
             purpose: format!("{} of {}", wire.role.name(), link.unit),
         });

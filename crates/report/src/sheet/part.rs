@@ -8,8 +8,8 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wiring::assignment::{BoardAssignment, ConnectionWiring, Wire};
 
 use super::rail::Rails;
-use super::{Line, PartSheet};
-use crate::{contact, place};
+use super::{Line, PartSheet, destination};
+use crate::contact;
 
 /// The CAN units that have been met on a board: each needs a transceiver.
 #[derive(Default)]
@@ -95,7 +95,7 @@ fn signal(
         _ => format!("{name}, {signal}"),
     };
     let at_part = at_part.map_or_else(|| name.clone(), |contact| format!("{contact}{element}"));
-    Some(Line { at_part, to: place::text(pin), pin: pin.name.to_string(), purpose })
+    Some(Line { at_part, to: destination(pin), pin: pin.name.to_string(), purpose })
 }
 
 /// The wires from a transceiver to a part on a CAN bus.

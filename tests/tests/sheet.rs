@@ -1,0 +1,51 @@
+//! The sheet alone says where every wire goes: for each driver of the library, each line names a contact at the part
+//! and one at the board.
+
+use sensedsl_model::facts;
+use sensedsl_tests::{one_in, sensedsl};
+
+/// Boards with connectors of all shapes.
+const BOARDS: [&str; 3] = ["NUCLEO_F446RE", "STM32F407G_DISC1", "BLACKPILL_F411CE"];
+
+/// The lines of the tables above that of all pins, as cells.
+fn lines(sheet: &str) -> Vec<Vec<String>> {
+    let (parts, _) = sheet.split_once("### Pins").expect("a table of all pins");
+    let rows = parts.lines().filter(|line| line.starts_with("| ") && !line.contains("---"));
+    let cells = |row: &str| {
+        let inner = row.trim_matches('|').replace('\\', "");
+        inner.split(" | ").map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
+    };
+    rows.map(cells).filter(|cells| cells[0] != "At the part").collect()
+}
+
+/// Whether a text names a contact: a connector, a dot, a number.
+fn names_a_contact(text: &str) -> bool {
+    text.split([' ', ',']).any(|word| {
+        let contact = word.rsplit_once('.');
+        contact.is_some_and(|(header, number)| !header.is_empty() && number.parse::<u32>().is_ok())
+    })
+}
+
+#[test]
+fn every_wire_of_every_driver_can_be_plugged() {
+    let mut checked = 0;
+    for (index, part) in one_in(10, facts::all().into_iter().enumerate()) {
+        let board = BOARDS[index % BOARDS.len()];
+        let text = facts::example_on(&part, board);
+        let ran = sensedsl(["solve", "-", "-q", "--format", "markdown"]).stdin(text).run();
+        if ran.status != 0 {
+            // A board may lack what the part needs; `driver_tables` tells where that is wrong.
+            continue;
+        }
+        let lines = lines(&ran.stdout);
+        assert!(lines.len() >= 2, "{}:\n{}", part.name, ran.stdout);
+        for line in &lines {
+            let (at_part, to) = (&line[0], &line[1]);
+            let is_elsewhere = to.starts_with("transceiver ") || to.starts_with("a supply of its own");
+            assert!(is_elsewhere || names_a_contact(to), "{}: {line:?}", part.name);
+            assert!(!at_part.is_empty(), "{}: {line:?}", part.name);
+        }
+        checked += lines.len();
+    }
+    assert!(checked >= 30, "{checked} wires");
+}
