@@ -2,7 +2,7 @@
 //! and one at the board.
 
 use sensedsl_model::facts;
-use sensedsl_tests::{one_in, sensedsl};
+use sensedsl_tests::{one_in, read, root, sensedsl};
 
 /// Boards with connectors of all shapes.
 const BOARDS: [&str; 3] = ["NUCLEO_F446RE", "STM32F407G_DISC1", "BLACKPILL_F411CE"];
@@ -41,11 +41,38 @@ fn every_wire_of_every_driver_can_be_plugged() {
         assert!(lines.len() >= 2, "{}:\n{}", part.name, ran.stdout);
         for line in &lines {
             let (at_part, to) = (&line[0], &line[1]);
-            let is_elsewhere = to.starts_with("transceiver ") || to.starts_with("a supply of its own");
+            let is_elsewhere =
+                to.starts_with("transceiver ") || to.starts_with("a supply of its own");
             assert!(is_elsewhere || names_a_contact(to), "{}: {line:?}", part.name);
             assert!(!at_part.is_empty(), "{}: {line:?}", part.name);
         }
         checked += lines.len();
     }
     assert!(checked >= 30, "{checked} wires");
+}
+
+/// The netlist joins each contact at a part with the one of the board that the sheet names.
+#[test]
+fn the_netlist_says_what_the_sheet_says() {
+    let text = read(&root().join("examples/line_follower.sense"));
+    let solve = |form| {
+        let ran = sensedsl(["solve", "-", "-q", "--format", form]).stdin(text.clone()).run();
+        ran.exits(0).stdout
+    };
+    let nets: Vec<Vec<String>> = solve("kicad")
+        .split("(net (code ")
+        .skip(1)
+        .map(|net| {
+            let nodes = net.split("(pin \"").skip(1);
+            nodes.map(|node| node.split_once("\")").unwrap().0.to_owned()).collect()
+        })
+        .collect();
+    let lines = lines(&solve("markdown"));
+    assert!(lines.len() > 20, "{lines:?}");
+    for line in lines {
+        let contact = line[1].split([' ', ',']).find(|word| names_a_contact(word)).unwrap();
+        let is_joined =
+            |net: &&Vec<String>| net.iter().any(|node| node == contact) && net.contains(&line[0]);
+        assert_eq!(nets.iter().filter(is_joined).count(), 1, "{line:?} in {nets:#?}");
+    }
 }

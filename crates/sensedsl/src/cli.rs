@@ -166,8 +166,12 @@ pub(crate) enum SolveFormat {
     Csv,
     /// The wiring sheet
     Markdown,
+    /// The wiring sheet as a page to print
+    Html,
     /// A picture of the board
     Svg,
+    /// A netlist for KiCad
+    Kicad,
     /// The problem itself, as a program for SWI-Prolog
     Prolog,
     /// The problem itself, as a model for the Alloy Analyzer that confirms the answer

@@ -2,12 +2,14 @@
 //! included, in the order in which one plugs. [`markdown`] and [`html`] print it.
 
 pub mod html;
+pub mod kicad;
 pub mod markdown;
 mod part;
 mod rail;
 
 use std::collections::BTreeSet;
 
+use sensedsl_board::place::Place;
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design, PartIndex};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
@@ -69,6 +71,25 @@ pub(crate) struct Line {
     pub(crate) pin: String,
     /// What the wire is for.
     pub(crate) purpose: String,
+    /// What the board has at its end; none where the wire does not go to the board.
+    pub(crate) end: Option<End>,
+}
+
+/// The board's end of a wire.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct End {
+    /// What all wires that are connected there carry: the pin, or the supply.
+    pub(crate) net: String,
+    /// A contact that carries it, if one is known: `CN7.28`.
+    pub(crate) contact: Option<String>,
+}
+
+impl End {
+    /// The end at a pin.
+    fn at(pin: &Pin) -> Self {
+        let contact = pin.places.iter().find_map(Place::contact);
+        Self { net: pin.name.to_string(), contact }
+    }
 }
 
 /// The sheets of all boards that carry a part.
@@ -119,6 +140,7 @@ fn of_link(on: &BoardAssignment, board: &Board, rails: &mut Rails<'_>) -> Option
             to: destination(pin),
             pin: pin.name.to_string(),
             purpose: format!("{} of {}", wire.role.name(), link.unit),
+            end: Some(End::at(pin)),
         });
     }
     Some(PartSheet {

@@ -8,7 +8,7 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wiring::assignment::{BoardAssignment, ConnectionWiring, Wire};
 
 use super::rail::Rails;
-use super::{Line, PartSheet, destination};
+use super::{End, Line, PartSheet, destination};
 use crate::contact;
 
 /// The CAN units that have been met on a board: each needs a transceiver.
@@ -95,7 +95,8 @@ fn signal(
         _ => format!("{name}, {signal}"),
     };
     let at_part = at_part.map_or_else(|| name.clone(), |contact| format!("{contact}{element}"));
-    Some(Line { at_part, to: destination(pin), pin: pin.name.to_string(), purpose })
+    let (to, end) = (destination(pin), Some(End::at(pin)));
+    Some(Line { at_part, to, pin: pin.name.to_string(), purpose, end })
 }
 
 /// The wires from a transceiver to a part on a CAN bus.
@@ -104,7 +105,7 @@ fn can_bus(facts: &PartFacts) -> Vec<Line> {
         let is_it = |entry: &&String| entry.replace('_', "").eq_ignore_ascii_case(wire);
         let at_part = facts.connector.iter().find(is_it)?.clone();
         let to = format!("transceiver {wire}");
-        Some(Line { at_part, to, pin: String::new(), purpose: "the bus".to_owned() })
+        Some(Line { at_part, to, purpose: "the bus".to_owned(), ..Line::default() })
     };
     ["CANH", "CANL"].into_iter().filter_map(line).collect()
 }

@@ -5,7 +5,7 @@ use sensedsl_board::place::Place;
 use sensedsl_model::design::Board;
 use sensedsl_model::written::shown_mv;
 
-use super::Line;
+use super::{End, Line};
 
 /// The contacts of a board that carry a supply or ground, and how often each has been given out.
 pub(super) struct Rails<'a> {
@@ -48,8 +48,7 @@ impl<'a> Rails<'a> {
 
     /// The wire to ground, at one of the `headers` if that is free.
     pub(super) fn ground(&mut self, at_part: &str, headers: &[String]) -> Line {
-        let to = self.take(0, headers).unwrap_or_else(|| "GND of the board".to_owned());
-        Line { at_part: at_part.to_owned(), to, pin: String::new(), purpose: "ground".to_owned() }
+        self.line(at_part, (0, "ground".to_owned()), headers)
     }
 
     /// The wire to the supply of a part that takes `least` to `most` millivolts.
@@ -66,18 +65,36 @@ impl<'a> Rails<'a> {
         } else {
             format!("{} to {}", shown_mv(least), shown_mv(most))
         };
-        let (to, purpose) = match mv {
-            Some(mv) => (
-                self.take(mv, headers).unwrap_or_else(|| format!("{} of the board", shown_mv(mv))),
-                format!("supply, {range}"),
-            ),
-            None => (format!("a supply of its own, {range}"), "supply".to_owned()),
-        };
-        Line { at_part: at_part.to_owned(), to, pin: String::new(), purpose }
+        if let Some(mv) = mv {
+            return self.line(at_part, (mv, format!("supply, {range}")), headers);
+        }
+        let (at_part, purpose) = (at_part.to_owned(), "supply".to_owned());
+        Line { at_part, to: format!("a supply of its own, {range}"), purpose, ..Line::default() }
     }
 
-    /// A contact of that voltage: the one given out least, at one of the headers if there is.
-    fn take(&mut self, mv: u32, headers: &[String]) -> Option<String> {
+    /// A wire to a contact of that voltage.
+    fn line(&mut self, at_part: &str, (mv, purpose): (u32, String), headers: &[String]) -> Line {
+        let net = match mv {
+            0 => "GND",
+            3_300 => "3V3",
+            _ => "5V",
+        };
+        let end = |contact| Some(End { net: net.to_owned(), contact });
+        let at_part = at_part.to_owned();
+        match self.take(mv, headers) {
+            Some((contact, to)) => {
+                Line { at_part, to, pin: String::new(), purpose, end: end(Some(contact)) }
+            }
+            None => {
+                let to = if mv == 0 { "GND".to_owned() } else { shown_mv(mv) };
+                let to = format!("{to} of the board");
+                Line { at_part, to, pin: String::new(), purpose, end: end(None) }
+            }
+        }
+    }
+
+    /// A contact of that voltage, by itself and in words: the one given out least, at one of the headers if there is.
+    fn take(&mut self, mv: u32, headers: &[String]) -> Option<(String, String)> {
         let is_near =
             |rail: &Rail<'_>| headers.iter().any(|header| rail.place.is_at_header(header));
         let candidates = self.contacts.iter_mut().filter(|rail| rail.mv == mv);
@@ -86,7 +103,9 @@ impl<'a> Rails<'a> {
         self.is_shared |= rail.taken > 1;
         let printed = rail.place.label.as_deref().unwrap_or(rail.signal);
         let side = rail.place.side.as_ref().map_or(String::new(), |side| format!("{side} "));
-        Some(format!("{side}{} \"{printed}\"", rail.place.contact()?))
+        let contact = rail.place.contact()?;
+        let words = format!("{side}{contact} \"{printed}\"");
+        Some((contact, words))
     }
 
     /// What the builder needs because contacts are shared.

@@ -187,7 +187,9 @@ impl Printer<'_> {
             SolveFormat::Json => self.json(&json::wired(design, wiring)),
             SolveFormat::Csv => csv::csv(design, wiring),
             SolveFormat::Markdown => sheet::markdown::markdown(design, wiring),
+            SolveFormat::Html => sheet::html::html(design, wiring),
             SolveFormat::Svg => svg::svg(design, wiring),
+            SolveFormat::Kicad => sheet::kicad::kicad(design, wiring),
             // These are answered before solving: they need no answer.
             SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
         }
