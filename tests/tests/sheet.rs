@@ -2,7 +2,7 @@
 //! and one at the board.
 
 use sensedsl_model::facts;
-use sensedsl_tests::{one_in, read, root, sensedsl};
+use sensedsl_tests::{is_exhaustive, one_in, read, root, sensedsl};
 
 /// Boards with connectors of all shapes.
 const BOARDS: [&str; 3] = ["NUCLEO_F446RE", "STM32F407G_DISC1", "BLACKPILL_F411CE"];
@@ -29,7 +29,9 @@ fn names_a_contact(text: &str) -> bool {
 #[test]
 fn every_wire_of_every_driver_can_be_plugged() {
     let mut checked = 0;
-    for (index, part) in one_in(10, facts::all().into_iter().enumerate()) {
+    let step = if is_exhaustive() { 1 } else { 4 };
+    let parts = facts::all().into_iter().enumerate().step_by(step);
+    for (index, part) in one_in(4, parts) {
         let board = BOARDS[index % BOARDS.len()];
         let text = facts::example_on(&part, board);
         let ran = sensedsl(["solve", "-", "-q", "--format", "markdown"]).stdin(text).run();
@@ -48,7 +50,7 @@ fn every_wire_of_every_driver_can_be_plugged() {
         }
         checked += lines.len();
     }
-    assert!(checked >= 30, "{checked} wires");
+    assert!(checked >= 15, "{checked} wires");
 }
 
 /// The netlist joins each contact at a part with the one of the board that the sheet names.
