@@ -48,7 +48,9 @@ macro_rules! target {
 pub(crate) const BOARDS: &[Entry] = &[
     board!("ARDUINO-LEONARDO", &["LEONARDO"], "ATMEGA32U4-AU", "Arduino Leonardo, the pins of its connectors"),
     board!("ARDUINO-MEGA-2560", &["ARDUINO-MEGA", "MEGA-2560"], "ATMEGA2560-16AU", "Arduino Mega 2560, the pins of its connectors"),
+    board!("ARDUINO-MICRO", &["MICRO"], "ATMEGA32U4-AU", "Arduino Micro, the pins of its edges"),
     board!("ARDUINO-NANO", &["NANO-V3"], "ATMEGA328P-AU", "Arduino Nano, the pins of its edges"),
+    board!("ARDUINO-PRO-MINI", &["PRO-MINI"], "ATMEGA328P-AU", "Arduino Pro Mini, the pins of its edges"),
     board!("ARDUINO-UNO-R3", &["ARDUINO-UNO", "UNO-R3"], "ATMEGA328P-PU", "Arduino Uno R3, the pins of its connectors"),
     board!("B-G474E-DPOW1", &["ST_STM32G474RE_DISCOVERY_DPOW1"], "STM32G474RET6", "B-G474E-DPOW1, Discovery kit, all pins of its MCU"),
     board!("BLACKPILL-F401CC", &["WEACT-F401CC"], "STM32F401CCU6", "Black Pill F401CC, all pins of its MCU"),
@@ -88,6 +90,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("NUCLEO-G071RB", &["ST_NUCLEO64_G071RB", "NUCLEO64-G071RB"], "STM32G071RBT6", "Nucleo-64 G071RB, the pins of its Morpho connectors"),
     board!("NUCLEO-G431RB", &["ST_NUCLEO64_G431RB", "NUCLEO64-G431RB"], "STM32G431RBT6", "Nucleo-64 G431RB, the pins of its Morpho connectors"),
     board!("NUCLEO-G474RE", &["ST_NUCLEO64_G474RE", "NUCLEO64-G474RE"], "STM32G474RET6", "Nucleo-64 G474RE, the pins of its Morpho connectors"),
+    board!("NUCLEO-G491RE", &["NUCLEO64-G491RE"], "STM32G491RET6", "Nucleo-64 G491RE, the pins of its Morpho connectors"),
     board!("NUCLEO-H7A3ZI-Q", &["ST_NUCLEO144_H7A3ZI_Q", "NUCLEO144-H7A3ZI-Q"], "STM32H7A3ZIT6Q", "Nucleo-144 H7A3ZI, all pins of its MCU"),
     board!("NUCLEO-H503RB", &["ST_NUCLEO64_H503RB", "NUCLEO64-H503RB"], "STM32H503RBT6", "Nucleo-64 H503RB, the pins of its Morpho connectors"),
     board!("NUCLEO-H563ZI", &["ST_NUCLEO144_H563ZI", "NUCLEO144-H563ZI"], "STM32H563ZIT6", "Nucleo-144 H563ZI, all pins of its MCU"),
@@ -115,6 +118,8 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("P-NUCLEO-WB55-USBDONGLE", &["ST_NUCLEO48_WB55CG_USB", "NUCLEO48-WB55CG-USB"], "STM32WB55CGU6", "P-NUCLEO-WB55-USBDONGLE, all pins of its MCU"),
     board!("RASPBERRYPI-PICO", &["RPI-PICO", "PICO", "RP_PICO_RP2040"], "RP2040", "Raspberry Pi Pico, all its pins"),
     board!("RASPBERRYPI-PICO-2", &["RPI-PICO-2", "PICO-2"], "RP2350A", "Raspberry Pi Pico 2, all its pins"),
+    board!("RASPBERRYPI-PICO-2-W", &["RPI-PICO-2-W", "PICO-2-W"], "RP2350A", "Raspberry Pi Pico 2 W, all its pins"),
+    board!("RASPBERRYPI-PICO-W", &["RPI-PICO-W", "PICO-W"], "RP2040", "Raspberry Pi Pico W, all its pins"),
     board!("STM32C0116-DK", &["ST_STM32C011F6_DISCOVERY"], "STM32C011F6U6", "STM32C0116-DK, Discovery kit, all pins of its MCU"),
     board!("STM32F0DISCOVERY", &["ST_STM32F0_DISCOVERY"], "STM32F051R8T6", "STM32F0DISCOVERY, Discovery kit, all pins of its MCU"),
     board!("STM32F3DISCOVERY", &["ST_STM32F3_DISCOVERY"], "STM32F303VCT6", "STM32F3DISCOVERY, Discovery kit, all pins of its MCU"),
@@ -134,10 +139,12 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("STM32L0538-DISCO", &["ST_STM32L053_DISCOVERY"], "STM32L053C8T6", "STM32L0538-DISCO, Discovery kit, all pins of its MCU"),
     board!("STM32L-DISCOVERY", &["ST_STM32L_DISCOVERY"], "STM32L152RBT6", "STM32L-DISCOVERY, Discovery kit, all pins of its MCU"),
     board!("STM32VLDISCOVERY", &["ST_STM32VL_DISCOVERY"], "STM32F100RBT6", "STM32VLDISCOVERY, Discovery kit, all pins of its MCU"),
+    board!("XIAO-RP2040", &["SEEED-XIAO-RP2040"], "RP2040", "Seeed Studio XIAO RP2040, the pins of its edges"),
 ];
 
 #[rustfmt::skip]
 pub(crate) const FORMS: &[(&str, &str)] = &[
+    form!("arduino-micro"),
     form!("bluepill"),
     form!("maple-mini"),
     form!("mega"),
@@ -147,6 +154,7 @@ pub(crate) const FORMS: &[(&str, &str)] = &[
     form!("nucleo64p"),
     form!("nucleo144"),
     form!("pico"),
+    form!("pro-mini"),
     form!("stm32f3-discovery"),
     form!("stm32f4-discovery"),
     form!("stm32f429i-disc1"),
@@ -155,6 +163,7 @@ pub(crate) const FORMS: &[(&str, &str)] = &[
     form!("stm32vl-discovery"),
     form!("uno-r3-micro-usb"),
     form!("uno-r3"),
+    form!("xiao"),
 ];
 
 #[rustfmt::skip]
