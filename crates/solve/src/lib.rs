@@ -41,6 +41,7 @@ mod domains;
 mod index;
 mod matching;
 mod model;
+pub mod neat;
 pub mod problem;
 mod questions;
 mod search;

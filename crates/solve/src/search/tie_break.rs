@@ -83,6 +83,8 @@ struct Least {
     /// ended with.
     number: usize,
     budget: Budget,
+    /// Whether alike devices are put in order: only if nothing distinguishes them by now.
+    in_order: bool,
     /// Whether each entry so far has been shown to be the least.
     is_proved: bool,
 }
@@ -91,7 +93,8 @@ impl Least {
     /// Continues from a smaller answer.
     fn improve(&mut self, model: &Model, better: Choices) {
         // Reordering may change an entry that was given up, which is fixed by now.
-        self.known = if self.is_proved { earliest(model, better) } else { better };
+        let may_reorder = self.is_proved && self.in_order;
+        self.known = if may_reorder { earliest(model, better) } else { better };
         self.number = 1;
     }
 }
@@ -160,12 +163,25 @@ impl Engine<'_> {
     /// The least answer within the limit, as far as the effort shows, given an answer within it.
     /// Leaves the domains restricted to it.
     pub(crate) fn least(&mut self, limit: u64, known: Choices) -> Choices {
-        let model = self.model;
         if self.narrow(limit + 1).is_err() {
             return known;
         }
-        let known = earliest(model, known);
-        let mut answer = Least { limit, known, number: 1, budget: Budget::new(), is_proved: true };
+        let known = earliest(self.model, known);
+        self.least_from(limit, known, true)
+    }
+
+    /// Like [`Self::least`], but of domains in which alike devices may differ.
+    pub(crate) fn least_here(&mut self, limit: u64, known: Choices) -> Choices {
+        if self.narrow(limit + 1).is_err() {
+            return known;
+        }
+        self.least_from(limit, known, false)
+    }
+
+    fn least_from(&mut self, limit: u64, known: Choices, in_order: bool) -> Choices {
+        let model = self.model;
+        let budget = Budget::new();
+        let mut answer = Least { limit, known, number: 1, budget, in_order, is_proved: true };
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;
@@ -181,7 +197,7 @@ impl Engine<'_> {
     /// Makes the known answer the one with the least value of the entry, as far as the effort shows.
     fn least_value(&mut self, entry: Entry, answer: &mut Least) {
         let model = self.model;
-        let floor = self.floor(entry, &answer.known);
+        let floor = answer.in_order.then(|| self.floor(entry, &answer.known)).flatten();
         let mut values = self.values(entry);
         values.retain(|value| *value >= floor);
         let saved = self.flow.save();

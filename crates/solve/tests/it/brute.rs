@@ -91,7 +91,7 @@ fn device(boards: u32, pins: u32) -> impl Strategy<Value = Device> {
 }
 
 /// A problem in which some devices occur several times.
-fn problem() -> impl Strategy<Value = Problem> {
+pub(crate) fn problem() -> impl Strategy<Value = Problem> {
     let shape = (1..3u32, 3..6u32);
     let devices = move |(boards, pins): (u32, u32)| {
         let device = (device(boards, pins), 1..3usize);
@@ -129,7 +129,7 @@ fn problem() -> impl Strategy<Value = Problem> {
 }
 
 /// A problem for one board, on several equal boards: most devices may go to any of them.
-fn on_equal_boards() -> impl Strategy<Value = Problem> {
+pub(crate) fn on_equal_boards() -> impl Strategy<Value = Problem> {
     let device = (device(1, 4), 1..3usize, prop::option::weighted(0.25, 0..3u32));
     let devices = prop::collection::vec(device, 1..4);
     let costs = prop::collection::vec((0..3u32, prop::bool::weighted(0.2)), 4);
@@ -185,7 +185,7 @@ fn copied(alternative: &Alternative, board: u32) -> Alternative {
 
 /// A problem with one or two devices in several copies: two resources and a rule belong to each
 /// copy alone, the others to all. It has up to two boards, and possibly a device of another sort.
-fn with_equal_bundles() -> impl Strategy<Value = Problem> {
+pub(crate) fn with_equal_bundles() -> impl Strategy<Value = Problem> {
     let devices = prop::collection::vec(device(2, 3), 1..3);
     (devices, 2..4u32, prop::option::of(device(2, 3)), problem(), any::<bool>()).prop_map(
         |(bundle, copies, other, base, other_first)| {

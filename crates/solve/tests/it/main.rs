@@ -4,4 +4,5 @@
 mod support;
 
 mod brute;
+mod neat;
 mod table1;
