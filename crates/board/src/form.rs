@@ -94,6 +94,23 @@ impl Connector {
         self.row.iter().find_map(|row| row.contact(number))
     }
 
+    /// How far along the connector a contact is, counted in contacts: those of two rows that are
+    /// beside each other are equally far. None if the connector has no such contact.
+    #[must_use]
+    pub fn along(&self, number: u32) -> Option<u32> {
+        let at = self.contact(number)?;
+        let first = self.row.first()?;
+        let [dx, dy] = first.to_next_mm;
+        let pitch_mm = dx.abs().max(dy.abs());
+        let along_mm = |at: &At| if at.is_vertical { at.y_mm } else { at.x_mm };
+        let beside = self.numbers().filter_map(|number| self.contact(number));
+        let beside = beside.filter(|other| other.is_vertical == at.is_vertical);
+        let nearest_mm = beside.map(|other| along_mm(&other)).fold(f64::INFINITY, f64::min);
+        let contacts = ((along_mm(&at) - nearest_mm) / pitch_mm).round();
+        // A form that a person wrote may have no distance between contacts.
+        (0..=i32::MAX).contains(&(contacts as i32)).then_some(contacts as u32)
+    }
+
     /// The numbers of all its contacts, row by row.
     pub fn numbers(&self) -> impl Iterator<Item = u32> {
         self.row.iter().flat_map(|row| (0..row.count).map(|index| row.first + index * row.step))
@@ -137,4 +154,23 @@ fn all() -> &'static BTreeMap<&'static str, Form> {
         let read = |(name, text): &(&'static str, &str)| Some((*name, toml::from_str(text).ok()?));
         FORMS.iter().filter_map(read).collect()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::find;
+
+    #[test]
+    fn contacts_beside_each_other_are_equally_far_along() {
+        let along = |form: &str, connector: &str, number: u32| {
+            find(form).and_then(|form| form.connector(connector)?.along(number))
+        };
+        for (number, far) in [(1, 0), (2, 0), (27, 13), (28, 13), (38, 18)] {
+            assert_eq!(along("nucleo64", "CN7", number), Some(far), "{number}");
+        }
+        for (number, far) in [(1, 0), (40, 0), (20, 19), (21, 19), (30, 10)] {
+            assert_eq!(along("pico", "Pico", number), Some(far), "{number}");
+        }
+        assert_eq!(along("pico", "Pico", 41), None);
+    }
 }

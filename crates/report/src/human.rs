@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
-use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
+use sensedsl_wiring::assignment::{Assignment, Neatness, SharedPin, Status};
 
 use crate::rows::{Row, dividers, rows};
 
@@ -149,6 +149,9 @@ fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Sty
         Status::Optimal => {
             let _ = write!(out, ", {}proved optimal{}", style.good, style.reset);
         }
+        Status::Feasible if assignment.rise() > 0 => {
+            let _ = write!(out, ", {} more than the cheapest, to be neater", assignment.rise());
+        }
         Status::Feasible => match assignment.bound {
             Some(bound) => {
                 let _ = write!(out, ", best so far (no wiring costs less than {})", bound.cost);
@@ -167,4 +170,20 @@ fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Sty
         let _ = write!(out, ", {} moved wires", assignment.moved);
     }
     out.push('\n');
+    neatness(out, assignment);
+}
+
+/// How neat the wires are, if any of them is on a connector.
+fn neatness(out: &mut String, assignment: &Assignment) {
+    let Neatness { sides, span, is_proved, before, .. } = assignment.neatness;
+    if sides == 0 {
+        return;
+    }
+    let known = match (is_proved, before) {
+        (true, _) => ", proved neatest",
+        (false, Some(_)) => ", neat as found",
+        (false, None) => "",
+    };
+    let noun = if sides == 1 { "side" } else { "sides" };
+    let _ = writeln!(out, "{sides} connector {noun}, span {span}{known}");
 }

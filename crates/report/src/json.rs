@@ -1,7 +1,7 @@
 //! `solve --format json`: the machine-readable form that scripts rely on.
 
 use sensedsl_model::design::{Board, Design};
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Bound, Wire};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Bound, Neatness, Wire};
 use sensedsl_wiring::{Keep, NoWiring, Repaired};
 use serde_json::{Value, json};
 
@@ -23,6 +23,7 @@ pub fn wired(design: &Design, assignment: &Assignment) -> Value {
         "violated": assignment.violated,
         "shared": assignment.shared,
         "cost": assignment.cost,
+        "neatness": neatness(assignment),
         "count": null,
         "boards": boards,
     });
@@ -32,6 +33,11 @@ pub fn wired(design: &Design, assignment: &Assignment) -> Value {
         object.insert("bound".into(), bound);
     }
     value
+}
+
+fn neatness(assignment: &Assignment) -> Value {
+    let Neatness { sides, span, is_proved, .. } = assignment.neatness;
+    json!({ "sides": sides, "span": span, "proved": is_proved })
 }
 
 fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {

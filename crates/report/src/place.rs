@@ -3,11 +3,14 @@
 use sensedsl_board::place::Place;
 use sensedsl_board::table::Pin;
 
-/// All places of a pin with what is printed there: `right CN10.21, CN5.1 "D8"`. The side is named
-/// where it changes; a label that repeats the pin's name is left out.
-pub(crate) fn text(pin: &Pin) -> String {
+/// All places of a pin with what is printed there: `right CN10.21, CN5.1 "D8"`. The one that is
+/// nearest to the part's other wires comes first, if it is known. The side is named where it
+/// changes; a label that repeats the pin's name is left out.
+pub(crate) fn text(pin: &Pin, nearest: Option<usize>) -> String {
     let (mut texts, mut side) = (Vec::new(), None);
-    for place in &pin.places {
+    let first = nearest.and_then(|number| pin.places.get(number));
+    let others = pin.places.iter().enumerate().filter(|(number, _)| Some(*number) != nearest);
+    for place in first.into_iter().chain(others.map(|(_, place)| place)) {
         let mut words = Vec::new();
         if place.side.is_some() && place.side != side {
             words.extend(place.side.clone());

@@ -113,7 +113,7 @@ fn row(
         pin: pin.name.to_string(),
         signal: wire.signal(board).to_owned(),
         unit: who.unit.to_owned(),
-        place: crate::place::text(pin),
+        place: crate::place::text(pin, wire.place),
         shared: on.shared_with(wire).unwrap_or_default().to_owned(),
         usages: pin.cost(),
     })

@@ -143,6 +143,10 @@ pub(crate) struct SolveArgs {
     /// With --keep: refuse a wiring that moves more wires
     #[arg(long, value_name = "N", requires = "keep")]
     pub(crate) max_moves: Option<u32>,
+    /// Let the wiring cost so much more than the cheapest if the parts then use fewer sides of
+    /// connectors, or shorter runs of contacts
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with_all = ["any", "all", "limit", "count", "proof"])]
+    pub(crate) neat: u32,
     /// Stop after that time with the best wiring so far and a bound for what may be missed
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["all", "limit", "count"])]
     pub(crate) timeout: Option<f64>,
@@ -202,6 +206,10 @@ pub(crate) struct GenerateArgs {
     /// Move as few wires as possible from this earlier answer (JSON)
     #[arg(long, value_name = "WIRING")]
     pub(crate) keep: Option<PathBuf>,
+    /// Let the wiring cost so much more than the cheapest if the parts then use fewer sides of
+    /// connectors, or shorter runs of contacts
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) neat: u32,
 }
 
 /// What `generate` can leave out.
@@ -226,6 +234,9 @@ pub(crate) struct ExplainArgs {
     pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) on: On,
+    /// With `wiring`: let the wiring cost so much more than the cheapest if it is neater
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "device")]
+    pub(crate) neat: u32,
     /// With `wiring` and `timing`: how to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,

@@ -31,6 +31,9 @@ pub struct Ask<'a> {
     pub goal: Goal<'a>,
     /// The earlier wiring, from which as few wires as possible may move.
     pub keep: Option<&'a Keep>,
+    /// By how much more the wiring may cost than the cheapest, if it is neater; a certificate is
+    /// always of one of the cheapest.
+    pub rise: u32,
     /// Whether to leave out everything in error and wire the rest.
     pub partly: bool,
     /// Tells the search when time is up.
@@ -147,8 +150,14 @@ fn in_part<'s>(
 
 fn asked(wiring: &Wiring<'_>, ask: &Ask<'_>) -> Proved {
     match ask.goal {
-        Goal::Best => Proved { solved: wiring.solve(&Search { any: false }), certificate: None },
-        Goal::Any => Proved { solved: wiring.solve(&Search { any: true }), certificate: None },
+        Goal::Best => {
+            let search = Search { any: false, rise: ask.rise };
+            Proved { solved: wiring.solve(&search), certificate: None }
+        }
+        Goal::Any => {
+            let search = Search { any: true, rise: 0 };
+            Proved { solved: wiring.solve(&search), certificate: None }
+        }
         Goal::Proved(of) => wiring.solve_with_proof(of),
     }
 }

@@ -16,6 +16,8 @@ use crate::conflict::NoWiring;
 pub struct Search {
     /// True if any wiring will do.
     pub any: bool,
+    /// By how much more the wiring may cost than the cheapest, if it is neater.
+    pub rise: u32,
 }
 
 /// The things that were found, and whether time ran out before all of them were.

@@ -40,8 +40,44 @@ pub struct Assignment {
     /// Proved: no wiring is better than this. If the search was cut off, it is below what was
     /// found. `None` if it was not asked for.
     pub bound: Option<Bound>,
+    /// How neat its wires are at the connectors.
+    pub neatness: Neatness,
     /// One for each board of the design, in its order.
     pub boards: Vec<BoardAssignment>,
+}
+
+/// How neat a wiring is; all 0 if no pin is on a connector.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Neatness {
+    /// Sides of connectors in use, summed over parts.
+    pub sides: u32,
+    /// The distance of the first from the last contact in use, summed over these sides.
+    pub span: u32,
+    /// Proved: no wiring that may cost as much is neater.
+    pub is_proved: bool,
+    /// The first by name of the cheapest wirings; none if no neater one was looked for.
+    pub before: Option<Plain>,
+    /// The steps of the search for a neater one.
+    pub steps: u64,
+}
+
+/// The wiring that would be chosen if neatness did not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plain {
+    /// Its sides of connectors.
+    pub sides: u32,
+    /// Its distances of contacts.
+    pub span: u32,
+    /// Its opportunity cost.
+    pub cost: u32,
+}
+
+impl Assignment {
+    /// By how much more it costs than the cheapest, to be neater.
+    #[must_use]
+    pub fn rise(&self) -> u32 {
+        self.neatness.before.map_or(0, |plain| self.cost.saturating_sub(plain.cost))
+    }
 }
 
 /// A bound that no wiring can beat, compared in field order.
@@ -150,6 +186,9 @@ pub struct Wire {
     pub pin: usize,
     /// Index into the usages of that pin; `None` for a plain GPIO.
     pub usage: Option<usize>,
+    /// Index into the places of that pin: the contact that is nearest to the part's other wires.
+    /// `None` if the pin is on no connector.
+    pub place: Option<usize>,
 }
 
 impl Wire {

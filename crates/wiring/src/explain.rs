@@ -19,8 +19,9 @@ impl Wiring<'_> {
     /// The best wiring, or any; otherwise the reason with its repairs.
     #[must_use]
     pub fn solve(&self, search: &Search) -> Solved {
-        match self.named(self.search(search)) {
-            OutcomeMeaning::Solved(solved) => solved,
+        let (outcome, shown) = self.neatened(self.search(search), search);
+        match self.named(outcome) {
+            OutcomeMeaning::Solved(solved) => shown.note(solved),
             OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve(search),
                 None => self.no_streams(),
@@ -33,13 +34,15 @@ impl Wiring<'_> {
     /// is none. `of` is what the design was made of.
     #[must_use]
     pub fn solve_with_proof(&self, of: &Subject) -> Proved {
-        let (outcome, learned) = match self.search_and_learn(&Search { any: false }) {
+        let search = Search::default();
+        let (outcome, learned) = match self.search_and_learn(&search) {
             Ok((outcome, learned)) => (Ok(outcome), learned),
             Err(fault) => (Err(fault), Experience::default()),
         };
+        let (outcome, shown) = self.neatened(outcome, &search);
         let certificate = self.certificate(&outcome, &learned, of);
         let solved = match self.named(outcome) {
-            OutcomeMeaning::Solved(solved) => solved,
+            OutcomeMeaning::Solved(solved) => shown.note(solved),
             OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => return wiring.solve_with_proof(of),
                 None => self.no_streams(),

@@ -4,11 +4,13 @@
 use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Link, Transport};
 use sensedsl_model::kind::{Kind, uart};
 use sensedsl_solve::Cancel;
-use sensedsl_solve::problem::{self as solver, Problem};
+use sensedsl_solve::neat::Layout;
+use sensedsl_solve::problem::{self as solver, PinId, Problem};
 
 use crate::alternatives::alternatives;
 use crate::builder::{Builder, Converters, Meaning, board_id, pins};
 use crate::keep::Keep;
+use crate::layout;
 use crate::names::{Group, Resource};
 use crate::offer::Offer;
 use crate::requested::RequestedWires;
@@ -36,10 +38,20 @@ pub(crate) struct Formulation<'a> {
     pub(crate) streams: Vec<(BoardIndex, String)>,
     /// For each pin of the problem, its board and index in the table.
     pub(crate) pins: Vec<(BoardIndex, usize)>,
+    /// Where these pins are on connectors.
+    pub(crate) layout: Layout,
     /// When converters are chosen.
     pub(crate) converters: Converters,
     /// False if time ran out before the problem was complete; it is meaningless then.
     pub(crate) complete: bool,
+}
+
+impl Formulation<'_> {
+    /// The problem's pin for a pin of a board's table.
+    pub(crate) fn pin(&self, board: BoardIndex, pin: usize) -> Option<PinId> {
+        let at = self.pins.binary_search(&(board, pin)).ok()?;
+        Some(PinId(u32::try_from(at).ok()?))
+    }
 }
 
 /// The form in which the problem is put.
@@ -110,6 +122,7 @@ pub(crate) fn formulate<'a>(
         resources: u32::try_from(resources.len()).unwrap_or(u32::MAX),
         streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
     };
+    let layout = layout::layout(design, &askers, &pins);
     Formulation {
         problem,
         offers,
@@ -119,6 +132,7 @@ pub(crate) fn formulate<'a>(
         groups,
         streams,
         pins,
+        layout,
         converters,
         complete: !cancel.is_over(),
     }

@@ -9,11 +9,12 @@ use sensedsl_solve::{Answer, Optimality};
 
 use crate::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, DmaAssignment, LinkWiring,
-    SharedPin, Status, Wire,
+    Neatness, SharedPin, Status, Wire,
 };
-use crate::builder::Converters;
+use crate::builder::{Chosen, Converters, Meaning};
 use crate::converters::{self, Choice};
 use crate::formulate::{Formulation, Requester};
+use crate::layout;
 use crate::streams;
 
 /// The answer in names. `None` if a board's DMA requests, including those of its converters, cannot
@@ -34,19 +35,16 @@ pub(crate) fn read_back(
             dma: Vec::new(),
         })
         .collect();
+    let used = formulation.layout.used(&formulation.problem, answer);
     let choices = formulation.askers.iter().zip(&formulation.meanings).zip(&answer.choices);
-    for ((asker, meanings), choice) in choices {
+    for (((asker, meanings), choice), part) in choices.zip(&formulation.layout.parts) {
         let Some(meaning) = meanings.get(choice.alternative) else { continue };
         let Some(board) = boards.get_mut(meaning.board.0) else { continue };
-        let chosen = meaning.roles.iter().zip(&choice.candidates);
-        let chosen = chosen.filter_map(|(role, candidate)| role.get(*candidate));
-        let wires = roles(design, *asker).into_iter().zip(chosen);
-        let connection = match asker {
-            Requester::Connection(connection) => Some(*connection),
-            Requester::Link(_) => None,
-        };
-        let wires = wires.map(|(role, at)| Wire { connection, role, pin: at.pin, usage: at.usage });
-        let wires = wires.collect();
+        let mut wires = wires(design, *asker, meaning, &choice.candidates);
+        if let (Some(used), Some(on)) = (used.get(part), design.board(meaning.board)) {
+            let pin = |pin| formulation.pin(meaning.board, pin);
+            layout::name_places(on, &used.contacts, pin, &mut wires);
+        }
         match asker {
             Requester::Connection(connection) => {
                 let connection = *connection;
@@ -85,8 +83,27 @@ pub(crate) fn read_back(
         shared: answer.objective.shared,
         cost: answer.objective.cost,
         bound: None,
+        neatness: Neatness::default(),
         boards,
     })
+}
+
+/// The wires of an asker, whose places are not known yet.
+fn wires(design: &Design, asker: Requester, meaning: &Meaning, candidates: &[usize]) -> Vec<Wire> {
+    let connection = match asker {
+        Requester::Connection(connection) => Some(connection),
+        Requester::Link(_) => None,
+    };
+    let chosen = meaning.roles.iter().zip(candidates);
+    let chosen = chosen.filter_map(|(role, candidate)| role.get(*candidate));
+    let wire = |(role, at): (Role, &Chosen)| Wire {
+        connection,
+        role,
+        pin: at.pin,
+        usage: at.usage,
+        place: None,
+    };
+    roles(design, asker).into_iter().zip(chosen).map(wire).collect()
 }
 
 /// The roles of an asker, in order.

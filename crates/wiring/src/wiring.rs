@@ -111,7 +111,7 @@ impl<'a> Wiring<'a> {
     /// Like [`Self::solve`], but without looking for repairs.
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
-        match self.named(self.search(&Search { any })) {
+        match self.named(self.search(&Search { any, rise: 0 })) {
             OutcomeMeaning::Solved(solved) => solved,
             OutcomeMeaning::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve_only(any),
@@ -230,7 +230,7 @@ impl<'a> Wiring<'a> {
     /// # Errors
     /// The diagnostic of a fault in the solver.
     pub fn posed(&self) -> Result<Posed, Box<Diagnostic>> {
-        let outcome = self.search(&Search { any: false });
+        let outcome = self.search(&Search::default());
         let outcome = outcome.map_err(|fault| Box::new(self.fault(&fault)))?;
         if let Outcome::Solved(answer) = &outcome
             && let (OutcomeMeaning::NoStreams, Some(wiring)) =
@@ -245,8 +245,9 @@ impl<'a> Wiring<'a> {
     fn read(&self, answer: &solver::Answer, bound: Option<Bound>) -> OutcomeMeaning {
         match read_back::read_back(self.design, &self.formulation, answer) {
             Some(wiring) => {
-                let bound = bound.or(wiring.bound);
-                OutcomeMeaning::Solved(Solved::Wired(Box::new(Assignment { bound, ..wiring })))
+                let (bound, neatness) = (bound.or(wiring.bound), self.neatness(answer));
+                let wiring = Assignment { bound, neatness, ..wiring };
+                OutcomeMeaning::Solved(Solved::Wired(Box::new(wiring)))
             }
             None => OutcomeMeaning::NoStreams,
         }

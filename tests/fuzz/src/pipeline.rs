@@ -128,8 +128,12 @@ fn in_part(input: &Input) {
     let steps = AtomicU32::new(0);
     let stop = || stop_after(&steps, STEPS_MAX);
     let cancel = Cancel::when(&stop);
-    let answer =
-        snapshot.solve(&session::Ask { goal: Goal::Any, partly: true, cancel, keep: None });
+    let answer = snapshot.solve(&session::Ask {
+        goal: Goal::Any,
+        partly: true,
+        cancel,
+        ..session::Ask::default()
+    });
     assert!(has_errors(&answer.diagnostics), "a mistake is gone");
     if let Some((design, wiring)) = answer.wired() {
         let count = |boards: &[BoardAssignment]| -> usize {
@@ -166,7 +170,7 @@ fn modelled(wiring: &Wiring<'_>) {
 
 fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
     if !ask.proof {
-        return wiring.solve(&Search { any: ask.any });
+        return wiring.solve(&Search { any: ask.any, rise: 0 });
     }
     let proved = wiring.solve_with_proof(&Subject::default());
     let Some(Ok(text)) = &proved.certificate else { return proved.solved };
@@ -243,7 +247,7 @@ fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnost
     let steps = AtomicU32::new(0);
     let stop = || stop_after(&steps, STEPS_MAX);
     let wiring = Wiring::within(design, before.as_ref(), Cancel::when(&stop));
-    match wiring.solve(&Search { any: false }) {
+    match wiring.solve(&Search::default()) {
         Solved::Wired(again) if again.bound.is_none() => {
             assert_eq!(again.moved, 0, "what is kept has moved");
         }
@@ -284,7 +288,7 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let steps = AtomicU32::new(0);
     let stop = || stop_after(&steps, STEPS_MAX);
     let wiring = Wiring::within(&design, None, Cancel::when(&stop));
-    let Solved::Wired(again) = wiring.solve(&Search { any: false }) else {
+    let Solved::Wired(again) = wiring.solve(&Search::default()) else {
         panic!("a file that is laid out has no wiring");
     };
     let again = sensedsl_generate::project("robot", &design, &again, &Selection::ALL);

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use sensedsl_board::place::Place;
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design, PartIndex};
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring, Wire};
 
 use crate::place;
 
@@ -85,9 +85,10 @@ pub(crate) struct End {
 }
 
 impl End {
-    /// The end at a pin.
-    fn at(pin: &Pin) -> Self {
-        let contact = pin.places.iter().find_map(Place::contact);
+    /// The end of a wire at its pin: the contact that is nearest to the part's other wires.
+    fn at(pin: &Pin, wire: &Wire) -> Self {
+        let nearest = wire.place.and_then(|number| pin.places.get(number));
+        let contact = nearest.into_iter().chain(&pin.places).find_map(Place::contact);
         Self { net: pin.name.to_string(), contact }
     }
 }
@@ -119,8 +120,8 @@ fn part_indices(design: &Design, on: &BoardAssignment) -> Vec<PartIndex> {
 }
 
 /// Where a wire to a pin goes: its places, or the pin of the MCU where these are not known.
-fn destination(pin: &Pin) -> String {
-    let places = place::text(pin);
+fn destination(pin: &Pin, wire: &Wire) -> String {
+    let places = place::text(pin, wire.place);
     if places.is_empty() { format!("pin {}", pin.name) } else { places }
 }
 
@@ -137,10 +138,10 @@ fn of_link(on: &BoardAssignment, board: &Board, rails: &mut Rails<'_>) -> Option
         let pin = wire.pin(board)?;
         lines.push(Line {
             at_part: part::crossed(wire.role).unwrap_or(wire.role.name()).to_owned(),
-            to: destination(pin),
+            to: destination(pin, wire),
             pin: pin.name.to_string(),
             purpose: format!("{} of {}", wire.role.name(), link.unit),
-            end: Some(End::at(pin)),
+            end: Some(End::at(pin, wire)),
         });
     }
     Some(PartSheet {

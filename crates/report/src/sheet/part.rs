@@ -95,7 +95,7 @@ fn signal(
         _ => format!("{name}, {signal}"),
     };
     let at_part = at_part.map_or_else(|| name.clone(), |contact| format!("{contact}{element}"));
-    let (to, end) = (destination(pin), Some(End::at(pin)));
+    let (to, end) = (destination(pin, wire), Some(End::at(pin, wire)));
     Some(Line { at_part, to, pin: pin.name.to_string(), purpose, end })
 }
 
@@ -126,8 +126,9 @@ fn printed(facts: &PartFacts, connection: &Connection, role: Role) -> Option<Str
 
 /// The connectors that the part's wires go to.
 fn headers(board: &Board, own: &[(&Connection, &ConnectionWiring)]) -> Vec<String> {
-    let pins = own.iter().flat_map(|(_, wiring)| &wiring.wires).filter_map(|wire| wire.pin(board));
-    let headers: BTreeSet<String> = pins.flat_map(|pin| pin.headers()).map(str::to_owned).collect();
+    let wires = own.iter().flat_map(|(_, wiring)| &wiring.wires);
+    let places = wires.filter_map(|wire| wire.pin(board)?.places.get(wire.place?));
+    let headers: BTreeSet<String> = places.filter_map(|place| place.header.clone()).collect();
     headers.into_iter().collect()
 }
 

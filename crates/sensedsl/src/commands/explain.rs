@@ -51,7 +51,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let snapshot = input::load(file, &args.on);
     // A misspelled name is reported before anything is solved.
     snapshot.design().map(|design| connections(design, name)).transpose()?;
-    let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
+    let answer = snapshot.solve(&Ask { cancel, rise: args.neat, ..Ask::default() });
     let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
     let found = Wiring::within(design, None, cancel).why(wiring, &connections(design, name)?);
     let alternatives = found.all;

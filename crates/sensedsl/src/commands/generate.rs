@@ -60,7 +60,7 @@ pub(super) fn made(
     let keep = input::keep(args.keep.as_deref())?;
     let snapshot = input::load(&args.file, &args.on);
     let sources = snapshot.sources();
-    let answer = snapshot.solve(&Ask { keep: keep.as_ref(), ..Ask::default() });
+    let answer = snapshot.solve(&Ask { keep: keep.as_ref(), rise: args.neat, ..Ask::default() });
     let (design, assignment) = input::wired(&answer, &snapshot, &args.on, terminal)?;
     let mut diagnostics = answer.diagnostics.clone();
     let files = match files(args, design, assignment) {

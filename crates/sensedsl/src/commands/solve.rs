@@ -72,7 +72,8 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         None => Goal::Best,
     };
     let keep = keep.as_ref();
-    let mut answer = snapshot.solve(&Ask { goal, keep, partly: args.partial, cancel });
+    let mut answer =
+        snapshot.solve(&Ask { goal, keep, rise: args.neat, partly: args.partial, cancel });
     if let (Some((design, wiring)), Some(most)) = (answer.wired(), args.max_moves)
         && wiring.moved > most
     {

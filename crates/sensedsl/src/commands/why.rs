@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::Alternative;
-use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::assignment::{Assignment, Neatness};
 
 use super::table::table;
 
@@ -23,6 +23,7 @@ const PINS_AT: usize = 32;
 enum Verdict {
     Chosen,
     Better,
+    Cheaper,
     AsGood,
     Costs(u64),
     Shared(u64),
@@ -46,6 +47,7 @@ impl Verdict {
             Some(best) if best.cost > wiring.cost => {
                 Self::Costs(u64::from(best.cost - wiring.cost))
             }
+            Some(best) if best.cost < wiring.cost => Self::Cheaper,
             Some(_) => Self::AsGood,
         }
     }
@@ -56,15 +58,17 @@ impl Verdict {
             Self::Costs(_) => Self::Costs(0),
             Self::Shared(_) => Self::Shared(0),
             Self::Unmet(_) => Self::Unmet(0),
-            Self::Chosen | Self::Better | Self::AsGood | Self::Impossible => self,
+            Self::Chosen | Self::Better | Self::Cheaper | Self::AsGood | Self::Impossible => self,
         }
     }
 
     /// The title of a group of pins.
-    const fn title(self) -> &'static str {
+    const fn title(self, is_neat: bool) -> &'static str {
         match self {
             Self::Chosen => "chosen",
             Self::Better => "better",
+            Self::Cheaper => "costs less, less neat",
+            Self::AsGood if is_neat => "as good but for neatness",
             Self::AsGood => "as good, later in order",
             Self::Costs(_) => "costs more in all",
             Self::Shared(_) => "shared with the board",
@@ -83,16 +87,20 @@ impl Verdict {
     }
 
     /// The last column of the table.
-    fn long(self, design: &Design, one: &Alternative) -> String {
+    fn long(self, design: &Design, one: &Alternative, is_neat: bool) -> String {
         match (self, &one.shared_with) {
             (Self::Chosen, _) => "chosen".to_owned(),
             (Self::Impossible, _) => "no wiring: the others need it".to_owned(),
             (Self::Unmet(more), _) => format!("{more} more unmet wishes"),
             (Self::Better, _) => "better".to_owned(),
+            (Self::Cheaper, _) => "costs less, less neat".to_owned(),
             (Self::Shared(1), Some(with)) => format!("shared with {}", visible(with)),
             (Self::Shared(1), None) => "one more shared pin".to_owned(),
             (Self::Shared(more), _) => format!("{more} more shared pins"),
             (Self::Costs(more), _) => format!("costs {more} more in all"),
+            (Self::AsGood, _) if is_neat => {
+                "as good in cost; less neat or later in order".to_owned()
+            }
             (Self::AsGood, _) => {
                 let has_spares = one.best.is_some_and(|best| best.spares > 0)
                     && design.boards.iter().any(|board| board.spare);
@@ -110,7 +118,7 @@ impl Verdict {
 /// The table of every possible pin.
 pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
     let row = |one: &Alternative| {
-        let why = Verdict::of(wiring, one).long(design, one);
+        let why = Verdict::of(wiring, one).long(design, one, is_neat(wiring));
         [one.wire.clone(), pin(design, one), one.signal.clone(), one.usages.to_string(), why]
     };
     let rows: Vec<[String; 5]> = alternatives.iter().map(row).collect();
@@ -133,11 +141,37 @@ pub(super) fn summary(
             None => wires.push(vec![judged]),
         }
     }
-    let chosen: Vec<[String; 4]> = wires.iter().filter_map(|wire| row(design, wire)).collect();
+    let is_neat = is_neat(wiring);
+    let chosen = wires.iter().filter_map(|wire| row(design, wire, is_neat));
+    let chosen: Vec<[String; 4]> = chosen.collect();
     let heads = ["Role", "Pin", "Signal", "Why"];
     let mut out = table(heads, &chosen);
-    out.push_str(&others(design, &wires));
+    out.push_str(&others(design, &wires, is_neat));
+    out.push_str(&neatness(wiring));
     out
+}
+
+/// Whether some pin of the wiring is on a connector, so that neatness decides between pins that cost the same.
+const fn is_neat(wiring: &Assignment) -> bool {
+    wiring.neatness.sides > 0
+}
+
+/// What neatness saved, and what it cost.
+fn neatness(wiring: &Assignment) -> String {
+    let Neatness { sides, span, is_proved, before, .. } = wiring.neatness;
+    let Some(plain) = before.filter(|_| is_neat(wiring)) else { return String::new() };
+    let known = if is_proved { "proved neatest" } else { "neat as found" };
+    let compared = if (plain.sides, plain.span) == (sides, span) {
+        "Without regard for neatness, the wiring would be as neat.".to_owned()
+    } else {
+        let rise = wiring.rise();
+        let costs = if rise == 0 { "nothing".to_owned() } else { format!("{rise}") };
+        format!(
+            "Without regard for neatness: connector sides {}, span {}. Neatness costs {costs}.",
+            plain.sides, plain.span
+        )
+    };
+    format!("\nAll parts: connector sides {sides}, span {span}, {known}.\n{compared}\n")
 }
 
 fn is_same(wire: &[(Verdict, &Alternative)], one: &Alternative) -> bool {
@@ -155,14 +189,14 @@ fn pin(design: &Design, one: &Alternative) -> String {
 }
 
 /// The row of a wire: its pin, and the reason for it.
-fn row(design: &Design, wire: &[(Verdict, &Alternative)]) -> Option<[String; 4]> {
+fn row(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> Option<[String; 4]> {
     let (_, chosen) = wire.iter().find(|(verdict, _)| *verdict == Verdict::Chosen)?;
-    let why = reason(design, wire);
+    let why = reason(design, wire, is_neat);
     Some([chosen.wire.clone(), pin(design, chosen), chosen.signal.clone(), why])
 }
 
 /// The reason why the chosen pin was chosen.
-fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
+fn reason(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> String {
     let mut rest: Vec<&(Verdict, &Alternative)> =
         wire.iter().filter(|(verdict, _)| *verdict != Verdict::Chosen).collect();
     rest.sort_by_key(|(verdict, _)| *verdict);
@@ -174,8 +208,14 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
             let count = rest.iter().filter(|(verdict, _)| *verdict == Verdict::AsGood).count();
             let them =
                 if count == 1 { format!("{next} is") } else { format!("{count} others are") };
-            format!("costs least; {them} as good and later in order")
+            let than = if is_neat {
+                "in cost, and less neat or later in order"
+            } else {
+                "and later in order"
+            };
+            format!("costs least; {them} as good {than}")
         }
+        Verdict::Cheaper => format!("neater; {next} costs less"),
         Verdict::Costs(more) => format!("costs least; the next, {next}, costs {more} more in all"),
         Verdict::Shared(_) => "all others are shared with something on the board".to_owned(),
         Verdict::Unmet(_) => "with any other a wish would be unmet".to_owned(),
@@ -186,12 +226,12 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
 }
 
 /// The pins that were not chosen; wires with the same ones share an entry.
-fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>]) -> String {
+fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>], is_neat: bool) -> String {
     let mut texts: Vec<(Vec<&str>, String)> = Vec::new();
     let mut count = 0;
     for wire in wires {
         count += wire.len();
-        let text = groups(design, wire);
+        let text = groups(design, wire, is_neat);
         let name = wire.first().map_or("", |(_, one)| one.wire.as_str());
         match texts.iter_mut().find(|(_, other)| *other == text) {
             Some((names, _)) => names.push(name),
@@ -210,7 +250,7 @@ fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>]) -> String {
 }
 
 /// A line for each group of pins of a wire.
-fn groups(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
+fn groups(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> String {
     let mut groups: BTreeMap<Verdict, Vec<(Verdict, String, String)>> = BTreeMap::new();
     for (verdict, one) in wire.iter().filter(|(verdict, _)| *verdict != Verdict::Chosen) {
         let group = groups.entry(verdict.group()).or_default();
@@ -226,7 +266,7 @@ fn groups(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
     let line = |(group, mut pins): (Verdict, Vec<(Verdict, String, String)>)| {
         pins.sort_by_key(|(verdict, ..)| *verdict);
         let pins: Vec<String> = pins.into_iter().map(|(_, pin, mark)| pin + &mark).collect();
-        format!("    {:<1$}{2}\n", group.title(), PINS_AT - 4, listed(&pins))
+        format!("    {:<1$}{2}\n", group.title(is_neat), PINS_AT - 4, listed(&pins))
     };
     groups.into_iter().map(line).collect()
 }

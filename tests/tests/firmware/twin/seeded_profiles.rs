@@ -103,14 +103,14 @@ impl Case {
             return Err("the profile's own check".to_owned());
         }
         let right = self.design(self.profile());
-        let keep = match Wiring::new(&right, None).solve(&Search { any: false }) {
+        let keep = match Wiring::new(&right, None).solve(&Search::default()) {
             Solved::Wired(wiring) => json::keep(&json::wired(&right, &wiring)).unwrap(),
             other => panic!("{other:?}"),
         };
         let design = self.design(profile);
         let wiring = Wiring::new(&design, Some(&keep));
         let mut found = wiring.check();
-        let solved = wiring.solve(&Search { any: false });
+        let solved = wiring.solve(&Search::default());
         let wiring = match solved {
             Solved::Wired(wiring) => *wiring,
             Solved::Infeasible(conflict) => return Err(codes(&[conflict.diagnostic(&design)])),
