@@ -1,5 +1,6 @@
 //! The search for neat answers against an oracle that tries all of them, on random problems with
 //! random contacts.
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "only tests")]
 
 use crate::brute::{on_equal_boards, problem, with_equal_bundles};
 use crate::support::{brute, generate};
