@@ -33,6 +33,7 @@ mod no_panic;
 mod pages;
 mod paper;
 mod parts;
+mod pictures;
 mod prolog;
 mod proof;
 mod scripts;

@@ -78,6 +78,7 @@ fn kinds_can_be_told_apart() {
     };
     distinct(|spec| spec.name.to_owned());
     distinct(|spec| spec.colour.to_owned());
+    distinct(|spec| spec.colour_on_dark.to_owned());
     distinct(|spec| spec.letter.to_string());
 }
 

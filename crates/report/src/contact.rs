@@ -12,6 +12,15 @@ pub(crate) fn wire(connection: &ConnectionFacts, role: Role) -> String {
     }
 }
 
+/// The contact of the usual module that a wire goes to, by the wire's name in a design: `TRIG` for
+/// `trigger`.
+pub(crate) fn of_wire<'a>(part: &'a PartFacts, name: &str) -> Option<&'a str> {
+    part.connections.iter().find_map(|connection| {
+        let role = connection.roles.iter().find(|role| wire(connection, **role) == name)?;
+        contact(part, connection, *role)
+    })
+}
+
 /// The contact of the usual module that the wire goes to: the one that the driver states, or that its name tells.
 pub(crate) fn contact<'a>(
     part: &'a PartFacts,

@@ -123,9 +123,10 @@ import sys, xml.etree.ElementTree as tree
 root = tree.parse(sys.argv[1]).getroot()
 for element in root.iter():
     name = element.tag.split('}')[1]
-    assert name in ('svg', 'title', 'rect', 'text'), name
+    assert name in ('svg', 'title', 'style', 'g', 'rect', 'circle', 'path', 'text'), name
+    assert name != 'style' or not any(word in element.text for word in ('url', 'import', 'expression'))
     assert not any(key.startswith('on') or 'href' in key for key in element.attrib), element.attrib
-    if name == 'text':
+    if name in ('text', 'title'):
         print(element.text)";
     for project in projects() {
         let mut command = Command::new("python3");

@@ -26,7 +26,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "one ADC input",
     example: "",
-    colour: "#E69F00",
+    colour: "#A56301",
+    colour_on_dark: "#FFCA77",
     letter: 'A',
 };
 

@@ -33,7 +33,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "RX and TX of one unit, shared by devices of one bit rate",
     example: "frame = 0x120;",
-    colour: "#8E6BBF",
+    colour: "#7E5AAB",
+    colour_on_dark: "#7356A8",
     letter: 'N',
 };
 

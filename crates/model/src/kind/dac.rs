@@ -25,7 +25,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "one DAC output",
     example: "",
-    colour: "#B8860B",
+    colour: "#653C00",
+    colour_on_dark: "#DF8E1B",
     letter: 'D',
 };
 

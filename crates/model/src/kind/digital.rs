@@ -22,7 +22,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::AnyPin,
     wires: "one GPIO; as a sensor with `edge` also the interrupt line of its number",
     example: "",
-    colour: "#999999",
+    colour: "#405160",
+    colour_on_dark: "#DCE3EB",
     letter: 'G',
 };
 

@@ -23,7 +23,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "CH1 and CH2 of one timer, which is taken",
     example: "",
-    colour: "#2E7D5B",
+    colour: "#337F5C",
+    colour_on_dark: "#72CE9C",
     letter: 'E',
 };
 

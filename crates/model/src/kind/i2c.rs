@@ -39,7 +39,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "SCL and SDA of one unit, shared by devices with different addresses",
     example: "address = 0x40; register = 0;",
-    colour: "#56B4E9",
+    colour: "#2FB5F5",
+    colour_on_dark: "#1184F1",
     letter: 'I',
 };
 

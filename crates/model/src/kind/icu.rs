@@ -26,7 +26,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "one input-capture channel (CH1 or CH2; B of an RP2 slice, ICP of an AVR timer); the whole timer is taken. With `pulse` also a GPIO",
     example: "",
-    colour: "#009E73",
+    colour: "#80B67A",
+    colour_on_dark: "#9A9655",
     letter: 'C',
 };
 

@@ -24,7 +24,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "one timer output; outputs of one timer share its frequency",
     example: "",
-    colour: "#D55E00",
+    colour: "#FF8822",
+    colour_on_dark: "#B24C00",
     letter: 'P',
 };
 

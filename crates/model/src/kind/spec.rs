@@ -40,9 +40,11 @@ pub struct KindSpec {
     pub wires: &'static str,
     /// What a device has besides `id` and `type` in tests of all kinds, which need its value to come.
     pub example: &'static str,
-    /// Its colour in pictures, `#RRGGBB`, from a palette that people with colour blindness can
-    /// distinguish (Okabe and Ito, 2008), and shades of it.
+    /// Its colour in pictures on a light ground, `#RRGGBB`. People with any of the common colour
+    /// blindnesses can distinguish all of them: `report` has the test.
     pub colour: &'static str,
+    /// Its colour in pictures on a dark ground.
+    pub colour_on_dark: &'static str,
     /// Its letter in pictures, for people who cannot distinguish the colours.
     pub letter: char,
 }

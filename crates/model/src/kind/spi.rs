@@ -27,7 +27,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
     example: "",
-    colour: "#0072B2",
+    colour: "#001138",
+    colour_on_dark: "#A09EE9",
     letter: 'S',
 };
 

@@ -37,7 +37,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`",
     example: "",
-    colour: "#CC79A7",
+    colour: "#DF8AB6",
+    colour_on_dark: "#C07AA5",
     letter: 'U',
 };
 
