@@ -12,11 +12,6 @@ pub use human::{listing, one};
 pub use json::{value, values};
 pub use page::{index, page};
 
-/// The supply that a part needs, in words.
-pub(crate) fn supply(part: &PartFacts) -> Option<String> {
-    words::supply(part)
-}
-
 /// Whether the part is of the kind, if one is asked for, and all words of `search` occur in what is
 /// known about it: anywhere in a name, at the beginning of a word in a sentence.
 #[must_use]

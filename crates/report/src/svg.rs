@@ -29,6 +29,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
 use crate::rows::{Row, dividers, rows};
+use crate::sheet;
 use area::Area;
 use draw::Use;
 use legend::Legend;
@@ -123,7 +124,8 @@ fn board_picture(
     let resistors: Vec<(&str, String)> = dividers(design, on).collect();
     let resistors_of =
         |name: &str| resistors.iter().find(|(part, _)| *part == name).map(|(_, text)| text.clone());
-    let parts = parts::parts(&mine, driver, resistors_of);
+    let sheet = sheet::sheet(design, on, board);
+    let parts = parts::parts(&mine, &sheet, driver, resistors_of);
     let is_in_use = |contact: &shape::Contact<'_>| contact.pin().is_some_and(is_used);
     let picture = board::picture(&shape, &parts, &is_in_use);
     legend.add(&shape, &use_of);

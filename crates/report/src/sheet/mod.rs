@@ -98,7 +98,11 @@ pub(crate) fn sheets<'a>(design: &'a Design, assignment: &'a Assignment) -> Vec<
     assignment.used(design).map(|(on, board)| sheet(design, on, board)).collect()
 }
 
-fn sheet<'a>(design: &'a Design, on: &'a BoardAssignment, board: &'a Board) -> BoardSheet<'a> {
+pub(crate) fn sheet<'a>(
+    design: &'a Design,
+    on: &'a BoardAssignment,
+    board: &'a Board,
+) -> BoardSheet<'a> {
     let (mut rails, mut buses) = (Rails::of(board), CanBuses::default());
     let mut parts: Vec<PartSheet> = part_indices(design, on)
         .into_iter()

@@ -73,14 +73,8 @@ pub(super) fn stack(boxes: &mut [PartBox<'_>], wanted: &[f64], height: f64) {
 }
 
 /// Draws a box whose inner edge is at `x`, and returns its area. `marks` gives the height of the end
-/// of each wire, by the wire's index; `supply` what the lines about supply say.
-pub(super) fn draw(
-    out: &mut String,
-    one: &PartBox<'_>,
-    x: f64,
-    marks: &[f64],
-    supply: &[String],
-) -> Area {
+/// of each wire, by the wire's index.
+pub(super) fn draw(out: &mut String, one: &PartBox<'_>, x: f64, marks: &[f64]) -> Area {
     let (left, right) = match one.side {
         Side::Left => (x - WIDTH, x),
         Side::Right => (x, x + WIDTH),
@@ -109,7 +103,7 @@ pub(super) fn draw(
             pen.line("sd-soft", &format!("shared with {}", wire.shared));
         }
     }
-    for text in one.part.remarks.iter().chain(supply) {
+    for text in one.part.remarks.iter().chain(&one.part.supply) {
         pen.line("sd-soft", text);
     }
     area

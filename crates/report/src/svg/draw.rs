@@ -8,7 +8,6 @@ use super::area::{Area, Point};
 use super::board::{Picture, Placed, Wire};
 use super::boxes;
 use super::marks::{self, Unused};
-use super::parts::Supply;
 use super::shape::{Carries, Contact, Shape};
 use super::text::{Anchor, Text, cut, escaped, number};
 
@@ -49,9 +48,7 @@ pub(super) fn draw(
     }
     for placed in &picture.boxes {
         let Placed { part, x, marks } = placed;
-        let supply: Vec<String> =
-            part.part.supply.iter().map(|one| supply(one, placed, shape)).collect();
-        room = room.with(&boxes::draw(out, part, *x, marks, &supply).grown(PAD));
+        room = room.with(&boxes::draw(out, part, *x, marks).grown(PAD));
     }
     room
 }
@@ -160,29 +157,6 @@ fn title(contact: &Contact<'_>, used: Option<&Use>) -> String {
 /// A text of the table, which may be of any length.
 fn shortened(text: &str) -> String {
     cut(text, 1.0, 14.0)
-}
-
-/// The line of a box about supply or ground: the contact of the module, and one of the board's.
-fn supply(one: &Supply, placed: &Placed<'_>, shape: &Shape<'_>) -> String {
-    let Supply { contact, signals, need } = one;
-    let middle = placed.part.top + placed.part.height() / 2.0;
-    let distance = |at: Point| (at.0 - placed.x).abs() + (at.1 - middle).abs();
-    let nearest_of = |wanted: &&'static str| {
-        let carrying = shape.contacts.iter().filter(|contact| match contact.carries {
-            Carries::Signal(signal) => signal.eq_ignore_ascii_case(wanted),
-            Carries::Pin(_) | Carries::Unknown => false,
-        });
-        let nearest = carrying.min_by(|a, b| distance(a.at).total_cmp(&distance(b.at)))?;
-        Some((*wanted, nearest))
-    };
-    let nearest = signals.iter().find_map(nearest_of);
-    match nearest {
-        Some((signal, board)) => match &board.name {
-            Some(name) => format!("{contact}: {signal} at {name}"),
-            None => format!("{contact}: {signal}"),
-        },
-        None => format!("{contact}: {need}"),
-    }
 }
 
 /// The board's name and MCU in the middle of the board, where they touch nothing; nothing if there is

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use sensedsl_model::facts::{self, PartFacts};
 
 use crate::contact::of_wire;
-use crate::drivers;
 use crate::rows::Row;
+use crate::sheet::{BoardSheet, Line, PartSheet};
 
 /// The longest name of a module's contact that is shown.
 const CONTACT_MAX: usize = 14;
@@ -22,8 +22,8 @@ pub(super) struct Part {
     pub(super) wires: Vec<WireLine>,
     /// Supply, resistors: what else has to be connected.
     pub(super) remarks: Vec<String>,
-    /// The names of the module's contacts for supply and ground, and what they need.
-    pub(super) supply: Vec<Supply>,
+    /// What its contacts for supply and ground are connected to.
+    pub(super) supply: Vec<String>,
 }
 
 /// A wire of a part.
@@ -36,20 +36,10 @@ pub(super) struct WireLine {
     pub(super) shared: String,
 }
 
-/// A contact of a module for supply or ground.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Supply {
-    /// As the module prints it.
-    pub(super) contact: String,
-    /// The signals of the board that it can be connected to, the best first.
-    pub(super) signals: &'static [&'static str],
-    /// What it needs, in words.
-    pub(super) need: String,
-}
-
-/// The parts of one board, whose rows are given. `driver_of` gives the driver of a part.
+/// The parts of one board, whose rows and sheet are given. `driver_of` gives the driver of a part.
 pub(super) fn parts(
     rows: &[&Row],
+    sheet: &BoardSheet<'_>,
     driver_of: impl Fn(&str) -> Option<String>,
     resistors_of: impl Fn(&str) -> Option<String>,
 ) -> Vec<Part> {
@@ -57,7 +47,10 @@ pub(super) fn parts(
     let part = |group: &[&Row]| {
         let first = group.first()?;
         let facts = driver_of(&first.device).and_then(|name| facts_of(&name));
-        Some(part(first, group, facts, resistors_of(&first.device)))
+        let mut part = part(first, group, facts, resistors_of(&first.device));
+        let own = sheet.parts.iter().find(|own| own.name == first.device);
+        part.supply = own.map(supply).unwrap_or_default();
+        Some(part)
     };
     groups.filter_map(part).collect()
 }
@@ -70,7 +63,7 @@ fn part(first: &Row, rows: &[&Row], facts: Option<&PartFacts>, resistors: Option
         values: values.collect(),
         wires: rows.iter().map(|row| wire(row, facts)).collect(),
         remarks: resistors.into_iter().collect(),
-        supply: facts.map(supply).unwrap_or_default(),
+        supply: Vec::new(),
     }
 }
 
@@ -95,28 +88,17 @@ fn short(contact: &str) -> &str {
     contact.split(" (").next().unwrap_or(contact)
 }
 
-/// The contacts of a part's usual module for supply and ground.
-fn supply(facts: &PartFacts) -> Vec<Supply> {
-    const GROUND: &[&str] = &["GND", "0V", "-", "VSS"];
-    const SUPPLY: &[&str] = &["VCC", "VDD", "VIN", "5V", "+5V", "3V3", "3.3V", "3.3V-5V", "+"];
-    let called = |names: &[&str]| {
-        let is_called = |entry: &&String| names.iter().any(|name| entry.eq_ignore_ascii_case(name));
-        facts.connector.iter().find(is_called)
+/// The lines about supply and ground, as the sheet gives them out.
+fn supply(part: &PartSheet) -> Vec<String> {
+    let line = |line: &Line| {
+        let end = line.end.as_ref().filter(|_| line.pin.is_empty())?;
+        let to = match &end.contact {
+            Some(contact) => format!("{} at {contact}", end.net),
+            None => line.to.clone(),
+        };
+        Some(format!("{}: {to}", short(&line.at_part)))
     };
-    let one = |contact: &String, signals, need: &str| Supply {
-        contact: short(contact).to_owned(),
-        signals,
-        need: need.to_owned(),
-    };
-    let need = drivers::supply(facts).unwrap_or_default();
-    let signals: &'static [&'static str] = match facts.supply_mv {
-        Some((least, most)) if (least..=most).contains(&3_300) => &["3V3", "3V", "VDD"],
-        Some((least, most)) if (least..=most).contains(&5_000) => &["5V", "VBUS"],
-        Some(_) | None => &[],
-    };
-    let plus = called(SUPPLY).filter(|_| !need.is_empty());
-    let ground = called(GROUND).map(|contact| one(contact, &["GND"], "ground"));
-    plus.map(|contact| one(contact, signals, &need)).into_iter().chain(ground).collect()
+    part.lines.iter().filter_map(line).collect()
 }
 
 /// What the library knows about a driver of its own.
