@@ -55,7 +55,7 @@ fn built_in(text: &str) -> Design {
 fn solved(design: &Design, keep: Option<&Keep>, search: Search) -> Assignment {
     match Wiring::new(design, keep).solve(&search) {
         Solved::Wired(wiring) => *wiring,
-        other => panic!("{other:?}"),
+        other @ (Solved::Infeasible(_) | Solved::Failed(_)) => panic!("{other:?}"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The sheet as a netlist of `KiCad`: boards and parts as components, each net with all its contacts.
+//! The sheet as a netlist of KiCad: boards and parts as components, each net with all its contacts.
 //!
 //! The form is that of Eeschema's export, version E, which Pcbnew and other programs read.
 

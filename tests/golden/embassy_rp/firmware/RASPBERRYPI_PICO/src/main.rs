@@ -153,7 +153,7 @@ async fn stick_edges(gate: rt::gate::Gate) {
 
 static NEAR_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
-/// Near at GP13 (PWM6_B), GP3 (GPIO).
+/// Near at GP13 (PWM6_B), GP12 (GPIO).
 #[embassy_executor::task]
 async fn near_edges(gate: rt::gate::Gate) {
     rt::gate::measure(gate, &NEAR_SEEN).await;

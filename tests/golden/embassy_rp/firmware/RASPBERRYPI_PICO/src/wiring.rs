@@ -37,7 +37,7 @@ pub struct Wiring {
     pub wheel: crate::rt::gate::Edges,
     /// Stick at GP9 (PWM4_B)
     pub stick: crate::rt::gate::Gate,
-    /// Near at GP13 (PWM6_B), GP3 (GPIO)
+    /// Near at GP13 (PWM6_B), GP12 (GPIO)
     pub near: crate::rt::gate::Gate,
     /// Near: the pulse that makes it measure
     pub near_trigger: Output<'static>,
@@ -80,7 +80,7 @@ pub fn wire(p: Peripherals) -> Wiring {
         wheel: crate::rt::gate::Edges::new(p.PWM_SLICE3, p.PIN_7, hal::pwm::InputMode::RisingEdge),
         stick: crate::rt::gate::Gate::new(p.PWM_SLICE4, p.PIN_9, 2000, false),
         near: crate::rt::gate::Gate::new(p.PWM_SLICE6, p.PIN_13, 2000, true),
-        near_trigger: Output::new(p.PIN_3, Level::Low),
+        near_trigger: Output::new(p.PIN_12, Level::Low),
         touch: Input::new(p.PIN_10, Pull::None),
         bump: Input::new(p.PIN_11, Pull::None),
         outputs: Outputs {

@@ -201,17 +201,17 @@ async fn speed_edges(timer: hal::timer::pwm_input::PwmInput<'static, TIM2>) {
     rt::timer::measure(timer, false, 1000000, &SPEED_SEEN).await;
 }
 
-/// Bumper at PC13 (GPIO).
+/// Bumper at PC5 (GPIO).
 static BUMPER_STATE: rt::edges::SampledInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 20000, edge: sense_rt::Edge::Both });
 
-/// Drops at PD3 (GPIO).
+/// Drops at PC13 (GPIO).
 static DROPS_STATE: rt::edges::InterruptInput = rt::contact::Watched::new(sense_rt::ContactConfig { lasting: 0, edge: sense_rt::Edge::Rising });
 
 /// Edges on the lines of this interrupt.
 #[allow(non_camel_case_types, reason = "it is called as the interrupt")]
-pub struct EXTI3_EDGES;
+pub struct EXTI15_10_EDGES;
 
-impl interrupt::typelevel::Handler<interrupt::typelevel::EXTI3> for EXTI3_EDGES {
+impl interrupt::typelevel::Handler<interrupt::typelevel::EXTI15_10> for EXTI15_10_EDGES {
     unsafe fn on_interrupt() {
         DROPS_STATE.on_interrupt();
     }
@@ -293,8 +293,8 @@ async fn reporter(
     mut led: Output<'static>,
     mut link: rt::link_uart::Port<hal::usart::BufferedUart<'static>>,
     mut can1_tx: rt::can::Sender,
-    turns_qei: hal::timer::qei::Qei<'static, TIM4>,
-    drive_encoder_qei: hal::timer::qei::Qei<'static, TIM1>,
+    turns_qei: hal::timer::qei::Qei<'static, TIM1>,
+    drive_encoder_qei: hal::timer::qei::Qei<'static, TIM4>,
 ) {
     let config = ReporterConfig { schema: &SCHEMA, cycle_ms: 10, silence_ms: 300 };
     let mut reporter: Reporter<[u8; SCHEMA.reporter_bytes()]> = Reporter::new(config);
@@ -386,7 +386,7 @@ async fn main(spawner: Spawner) {
     BUMPER_STATE.begin(wiring.bumper);
     DROPS_STATE.begin(wiring.drops);
     // Its handler is there.
-    unsafe { interrupt::EXTI3.enable() };
+    unsafe { interrupt::EXTI15_10.enable() };
     let adc1: &'static ADC1Unit = ADC1_UNIT.init(Mutex::new(wiring.adc1));
     start!(spawner, adc1_20ms(adc1, wiring.distance));
     start!(spawner, adc1_100ms(adc1, wiring.motor));

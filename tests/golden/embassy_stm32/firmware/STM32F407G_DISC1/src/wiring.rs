@@ -17,7 +17,7 @@ bind_interrupts!(pub struct Irqs {
     DMA1_STREAM2 => hal::dma::InterruptHandler<DMA1_CH2>;
     DMA1_STREAM4 => hal::dma::InterruptHandler<DMA1_CH4>;
     DMA1_STREAM5 => hal::dma::InterruptHandler<DMA1_CH5>;
-    EXTI3 => crate::EXTI3_EDGES;
+    EXTI15_10 => crate::EXTI15_10_EDGES;
     I2C3_ER => hal::i2c::ErrorInterruptHandler<I2C3>;
     I2C3_EV => hal::i2c::EventInterruptHandler<I2C3>;
     TIM2 => hal::timer::CaptureCompareInterruptHandler<TIM2>;
@@ -39,7 +39,7 @@ pub struct Wiring {
     pub i2c3: hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>,
     /// SPI3 at PC10 (SCK), PC12 (MOSI) and PB4 (MISO): Angle
     pub spi3: hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>,
-    /// Angle, selected by PC5
+    /// Angle, selected by PD3
     pub angle_select: Output<'static>,
     /// Ahead at PD6 (USART2_RX)
     pub ahead: hal::usart::UartRx<'static, hal::mode::Blocking>,
@@ -47,14 +47,14 @@ pub struct Wiring {
     pub can1: hal::can::Can<'static>,
     /// Speed at PA15 (TIM2_CH1)
     pub speed: hal::timer::pwm_input::PwmInput<'static, TIM2>,
-    /// Bumper at PC13 (GPIO)
+    /// Bumper at PC5 (GPIO)
     pub bumper: Input<'static>,
-    /// Drops at PD3 (GPIO)
+    /// Drops at PC13 (GPIO)
     pub drops: hal::exti::ExtiInput<'static, hal::mode::Blocking>,
-    /// Turns at PB6 (TIM4_CH1), PB7 (TIM4_CH2)
-    pub turns: hal::timer::qei::Qei<'static, TIM4>,
-    /// Drive.encoder at PE9 (TIM1_CH1), PE11 (TIM1_CH2)
-    pub drive_encoder: hal::timer::qei::Qei<'static, TIM1>,
+    /// Turns at PE9 (TIM1_CH1), PE11 (TIM1_CH2)
+    pub turns: hal::timer::qei::Qei<'static, TIM1>,
+    /// Drive.encoder at PB6 (TIM4_CH1), PB7 (TIM4_CH2)
+    pub drive_encoder: hal::timer::qei::Qei<'static, TIM4>,
     pub outputs: Outputs,
     /// A light at PD12 that shines when it is high
     pub led: Output<'static>,
@@ -64,13 +64,13 @@ pub struct Wiring {
 /// What the host sets.
 #[allow(dead_code, reason = "some keep their level for good")]
 pub struct Outputs {
-    /// Drive.in1 at PD7 (GPIO)
+    /// Drive.in1 at PE2 (GPIO)
     pub drive_in1: Output<'static>,
-    /// Drive.in2 at PD10 (GPIO)
+    /// Drive.in2 at PE4 (GPIO)
     pub drive_in2: Output<'static>,
-    /// Drive.standby at PE2 (GPIO)
+    /// Drive.standby at PE6 (GPIO)
     pub drive_standby: Output<'static>,
-    /// Light at PE4 (GPIO)
+    /// Light at PD7 (GPIO)
     pub light: Output<'static>,
     /// TIM3: Steering at PC8 (TIM3_CH3)
     pub tim3: hal::timer::simple_pwm::SimplePwm<'static, TIM3>,
@@ -97,19 +97,19 @@ pub fn wire(p: Peripherals) -> Wiring {
         motor: hal::adc::AdcChannel::degrade_adc(p.PC4),
         i2c3: hal::i2c::I2c::new(p.I2C3, p.PA8, p.PC9, p.DMA1_CH4, p.DMA1_CH2, Irqs, crate::rt::i2c::config(100000)),
         spi3: hal::spi::Spi::new(p.SPI3, p.PC10, p.PC12, p.PB4, p.DMA1_CH5, p.DMA1_CH0, Irqs, Default::default()),
-        angle_select: Output::new(p.PC5, Level::High, Speed::Medium),
+        angle_select: Output::new(p.PD3, Level::High, Speed::Medium),
         ahead: crate::rt::usart::port(hal::usart::UartRx::new_blocking(p.USART2, p.PD6, crate::rt::usart::config(115200, 8, hal::usart::Parity::ParityNone, 1))),
         can1: hal::can::Can::new(p.CAN1, p.PD0, p.PD1, Irqs),
         speed: hal::timer::pwm_input::PwmInput::new_ch1(p.TIM2, p.PA15, Irqs, Pull::None, hz(1000000)),
-        bumper: Input::new(p.PC13, Pull::Up),
-        drops: hal::exti::ExtiInput::new_blocking(p.PD3, p.EXTI3, Pull::None, hal::exti::TriggerEdge::Rising),
-        turns: hal::timer::qei::Qei::new::<hal::timer::Ch1, hal::timer::Ch2>(p.TIM4, p.PB6, p.PB7, Default::default()),
-        drive_encoder: hal::timer::qei::Qei::new::<hal::timer::Ch1, hal::timer::Ch2>(p.TIM1, p.PE9, p.PE11, Default::default()),
+        bumper: Input::new(p.PC5, Pull::Up),
+        drops: hal::exti::ExtiInput::new_blocking(p.PC13, p.EXTI13, Pull::None, hal::exti::TriggerEdge::Rising),
+        turns: hal::timer::qei::Qei::new::<hal::timer::Ch1, hal::timer::Ch2>(p.TIM1, p.PE9, p.PE11, Default::default()),
+        drive_encoder: hal::timer::qei::Qei::new::<hal::timer::Ch1, hal::timer::Ch2>(p.TIM4, p.PB6, p.PB7, Default::default()),
         outputs: Outputs {
-            drive_in1: Output::new(p.PD7, Level::Low, Speed::Low),
-            drive_in2: Output::new(p.PD10, Level::Low, Speed::Low),
-            drive_standby: Output::new(p.PE2, Level::High, Speed::Low),
-            light: Output::new(p.PE4, Level::High, Speed::Low),
+            drive_in1: Output::new(p.PE2, Level::Low, Speed::Low),
+            drive_in2: Output::new(p.PE4, Level::Low, Speed::Low),
+            drive_standby: Output::new(p.PE6, Level::High, Speed::Low),
+            light: Output::new(p.PD7, Level::High, Speed::Low),
             tim3: hal::timer::simple_pwm::SimplePwm::new(p.TIM3, None, None, Some(hal::timer::simple_pwm::PwmPin::new(p.PC8, OutputType::PushPull)), None, hz(50), CountingMode::EdgeAlignedUp),
             tim9: hal::timer::simple_pwm::SimplePwm::new(p.TIM9, Some(hal::timer::simple_pwm::PwmPin::new(p.PE5, OutputType::PushPull)), None, None, None, hz(20000), CountingMode::EdgeAlignedUp),
             level: hal::dac::DacChannel::new_blocking(p.DAC1, p.PA4),
