@@ -215,7 +215,7 @@ fn a_chip_is_explained() {
     }
     // The most useful facts come first; `--all` prints the whole list.
     assert!(
-        why.lines().count() < 30 && why.lines().all(|line| line.chars().count() <= 100),
+        why.lines().count() < 34 && why.lines().all(|line| line.chars().count() <= 100),
         "{why}"
     );
     let all = sensedsl(["explain", "wiring", &file, "Left", "-q", "--all"]).run().exits(0).stdout;
