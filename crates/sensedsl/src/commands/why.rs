@@ -209,7 +209,7 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> S
             let them =
                 if count == 1 { format!("{next} is") } else { format!("{count} others are") };
             let than = if is_neat {
-                "in cost, and less neat or later in order"
+                "in cost, less neat or later in order"
             } else {
                 "and later in order"
             };
