@@ -208,11 +208,8 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> S
             let count = rest.iter().filter(|(verdict, _)| *verdict == Verdict::AsGood).count();
             let them =
                 if count == 1 { format!("{next} is") } else { format!("{count} others are") };
-            let than = if is_neat {
-                "in cost, less neat or later in order"
-            } else {
-                "and later in order"
-            };
+            let than =
+                if is_neat { "in cost, less neat or later in order" } else { "and later in order" };
             format!("costs least; {them} as good {than}")
         }
         Verdict::Cheaper => format!("neater; {next} costs less"),
