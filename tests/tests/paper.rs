@@ -46,7 +46,7 @@ fn fig2_on_table1_has_the_known_answer_in_the_fixed_form() {
     let answer = ran.json();
     assert_eq!(
         keys(&answer),
-        ["version", "status", "moved", "violated", "shared", "cost", "count", "boards"]
+        ["version", "status", "moved", "violated", "shared", "cost", "neatness", "count", "boards"]
     );
     assert_eq!(answer["version"], 1);
     assert_eq!(answer["status"], "optimal");
