@@ -332,6 +332,13 @@ impl Table {
         self.pins.iter().any(|pin| pin.places.iter().any(|place| place.header.is_some()))
     }
 
+    /// Whether the table says of all pins at which connectors they are, and the pin is at none.
+    #[must_use]
+    pub fn is_off_connectors(&self, pin: &Pin) -> bool {
+        let lists_places = self.columns.iter().any(|column| column.role == Role::Places);
+        lists_places && pin.headers().is_empty()
+    }
+
     /// The row of a pin.
     #[must_use]
     pub fn pin(&self, name: &PinName) -> Option<&Pin> {

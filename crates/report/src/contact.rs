@@ -1,78 +1,86 @@
 //! What is printed beside the contacts of modules: a wire of a driver in, the contact out.
 
-use sensedsl_model::facts::{ConnectionFacts, PartFacts};
+use sensedsl_model::design::{Connection, Module};
+use sensedsl_model::facts::ConnectionFacts;
 use sensedsl_model::kind::{Kind, Role};
 
-/// The tool's name for a wire: `scl`, `pwm_a`, `encoder.a`.
-pub(crate) fn wire(connection: &ConnectionFacts, role: Role) -> String {
-    match &connection.name {
-        None => role.name().to_owned(),
-        Some(name) if connection.roles.len() == 1 => name.clone(),
-        Some(name) => format!("{name}.{role}"),
-    }
+/// Wires of a part: the driver's name for them, their kind, and how many they are.
+#[derive(Clone, Copy)]
+pub(crate) struct Wires<'a> {
+    name: Option<&'a str>,
+    kind: &'a Kind,
+    count: usize,
 }
 
-/// The contact of the usual module that a wire goes to, by the wire's name in a design: `TRIG` for
-/// `trigger`.
-pub(crate) fn of_wire<'a>(part: &'a PartFacts, name: &str) -> Option<&'a str> {
-    part.connections.iter().find_map(|connection| {
-        let role = connection.roles.iter().find(|role| wire(connection, **role) == name)?;
-        contact(part, connection, *role)
-    })
-}
-
-/// The contact of the usual module that the wire goes to: the one that the driver states, or that its name tells.
-pub(crate) fn contact<'a>(
-    part: &'a PartFacts,
-    connection: &ConnectionFacts,
-    role: Role,
-) -> Option<&'a str> {
-    if let Some(stated) = stated(part, &wire(connection, role)) {
-        return Some(stated);
+impl<'a> Wires<'a> {
+    /// Those of a driver.
+    pub(crate) fn of_driver(facts: &'a ConnectionFacts) -> Self {
+        Self { name: facts.name.as_deref(), kind: &facts.kind, count: facts.roles.len() }
     }
-    let own = connection.name.as_deref().filter(|_| connection.roles.len() == 1);
-    let own = own.map(spelled).unwrap_or_default();
-    let known = names_of(&connection.kind, role).iter().filter(|_| own.is_empty());
-    let names = own.iter().map(String::as_str).chain(known.copied());
-    names.into_iter().find_map(|wanted| {
-        let mut found = called(part, wanted);
-        let first = found.next()?;
-        found.next().is_none().then_some(first)
-    })
+
+    /// Those of a design.
+    pub(crate) fn of_design(own: &'a Connection) -> Self {
+        let count = own.kind.roles(own.direction).len();
+        Self { name: own.name.as_deref(), kind: &own.kind, count }
+    }
+
+    /// The tool's name for one: `scl`, `pwm_a`, `encoder.a`.
+    pub(crate) fn wire(self, role: Role) -> String {
+        match self.name {
+            None => role.name().to_owned(),
+            Some(name) if self.count == 1 => name.to_owned(),
+            Some(name) => format!("{name}.{role}"),
+        }
+    }
+
+    /// The contact of the module that one goes to: the one that the driver states, or that its name tells.
+    pub(crate) fn contact(self, module: &Module, role: Role) -> Option<&str> {
+        if let Some(stated) = stated(module, &self.wire(role)) {
+            return Some(stated);
+        }
+        let own = self.name.filter(|_| self.count == 1).map(spelled).unwrap_or_default();
+        let known = names_of(self.kind, role).iter().filter(|_| own.is_empty());
+        let names = own.iter().map(String::as_str).chain(known.copied());
+        names.into_iter().find_map(|wanted| {
+            let mut found = called(module, wanted);
+            let first = found.next()?;
+            found.next().is_none().then_some(first)
+        })
+    }
 }
 
 /// The contact for the part's supply.
-pub(crate) fn supply(part: &PartFacts) -> Option<&str> {
+pub(crate) fn supply(module: &Module) -> Option<&str> {
     const NAMES: [&str; 10] =
         ["VCC", "VIN", "VDD", "5V", "3V3", "3.3V", "+5V", "+5", "3.3v-5v", "6 V+"];
-    let known = || NAMES.iter().find_map(|name| whole(part, name));
-    stated(part, "supply").or_else(known)
+    let known = || NAMES.iter().find_map(|name| whole(module, name));
+    stated(module, "supply").or_else(known)
 }
 
 /// The contact for the part's ground.
-pub(crate) fn ground(part: &PartFacts) -> Option<&str> {
-    let known = || called(part, "GND").next().or_else(|| called(part, "0V").next());
-    stated(part, "ground").or_else(known)
+pub(crate) fn ground(module: &Module) -> Option<&str> {
+    let known = || called(module, "GND").next().or_else(|| called(module, "0V").next());
+    stated(module, "ground").or_else(known)
 }
 
 /// The contact that the driver states.
-fn stated<'a>(part: &'a PartFacts, wire: &str) -> Option<&'a str> {
-    let found = part.contacts.iter().find(|(name, _)| name == wire)?;
+fn stated<'a>(module: &'a Module, wire: &str) -> Option<&'a str> {
+    let found = module.contacts.iter().find(|(name, _)| name == wire)?;
     Some(&found.1)
 }
 
 /// The contacts that have a word in their names.
-fn called<'a>(part: &'a PartFacts, wanted: &str) -> impl Iterator<Item = &'a str> {
+fn called<'a>(module: &'a Module, wanted: &str) -> impl Iterator<Item = &'a str> {
     let is_called = move |entry: &&str| {
         let mut words = entry.split(|letter: char| !letter.is_ascii_alphanumeric());
         words.any(|word| word.eq_ignore_ascii_case(wanted))
     };
-    part.connector.iter().map(String::as_str).filter(is_called)
+    module.connector.iter().map(String::as_str).filter(is_called)
 }
 
 /// The contact of that very name.
-fn whole<'a>(part: &'a PartFacts, name: &str) -> Option<&'a str> {
-    part.connector.iter().map(String::as_str).find(|entry| entry.eq_ignore_ascii_case(name))
+fn whole<'a>(module: &'a Module, name: &str) -> Option<&'a str> {
+    module.connector.iter().map(String::as_str).find(|entry| entry.eq_ignore_ascii_case(name))
 }
 
 /// How modules print the name of a connection: `in1_a` as `IN1A` or `AIN1`, `standby` as `STBY`.
@@ -131,25 +139,26 @@ mod tests {
         let mut unknown = Vec::new();
         for part in sensedsl_model::facts::all() {
             for connection in &part.connections {
+                let wires = Wires::of_driver(connection);
                 for role in &connection.roles {
                     // The wires of a CAN controller go to a transceiver.
                     let is_can = connection.kind.name().name() == "can";
-                    let name = format!("{} {}", part.name, wire(connection, *role));
+                    let name = format!("{} {}", part.name, wires.wire(*role));
                     if !is_can
                         && !NOT_AT_THE_PART.contains(&name.as_str())
-                        && contact(&part, connection, *role).is_none()
+                        && wires.contact(&part.module, *role).is_none()
                     {
                         unknown.push(name);
                     }
                 }
             }
-            if ground(&part).is_none() {
-                unknown.push(format!("{} ground: {:?}", part.name, part.connector));
+            if ground(&part.module).is_none() {
+                unknown.push(format!("{} ground: {:?}", part.name, part.module.connector));
             }
             let has_supply =
                 part.supply_mv.is_some() && !WITHOUT_SUPPLY.contains(&part.name.as_str());
-            if has_supply && supply(&part).is_none() {
-                unknown.push(format!("{} supply: {:?}", part.name, part.connector));
+            if has_supply && supply(&part.module).is_none() {
+                unknown.push(format!("{} supply: {:?}", part.name, part.module.connector));
             }
         }
         assert!(unknown.is_empty(), "{unknown:#?}");

@@ -27,7 +27,7 @@ pub fn is_wanted(part: &PartFacts, kind: Option<KindName>, search: &str) -> bool
     let names = [part.name.as_str(), part.field, &part.part].into_iter();
     let names = names.chain(part.aliases.iter().map(String::as_str)).chain(kinds).chain(values);
     let names: Vec<String> = names.map(str::to_lowercase).collect();
-    let sentences = part.notes.iter().chain([&part.about]).map(|text| text.to_lowercase());
+    let sentences = part.module.notes.iter().chain([&part.about]).map(|text| text.to_lowercase());
     let sentences: Vec<String> = sentences.collect();
     let is_in = |word: &str| {
         let begins = |text: &String| {

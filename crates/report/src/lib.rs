@@ -26,6 +26,7 @@ pub mod diff;
 pub mod drivers;
 pub mod human;
 pub mod json;
+mod markup;
 mod place;
 mod rows;
 pub mod schema;

@@ -117,15 +117,11 @@ fn board_picture(
         Some(form) => shape::of_form(form, &board.table, &is_used),
         None => columns::of_table(&board.table, &is_used),
     };
-    let driver = |name: &str| {
-        let part = design.parts.iter().find(|part| part.name.value == name)?;
-        part.driver.clone()
-    };
     let resistors: Vec<(&str, String)> = dividers(design, on).collect();
     let resistors_of =
         |name: &str| resistors.iter().find(|(part, _)| *part == name).map(|(_, text)| text.clone());
     let sheet = sheet::sheet(design, on, board);
-    let parts = parts::parts(&mine, &sheet, driver, resistors_of);
+    let parts = parts::parts(&mine, &sheet, resistors_of);
     let is_in_use = |contact: &shape::Contact<'_>| contact.pin().is_some_and(is_used);
     let picture = board::picture(&shape, &parts, &is_in_use);
     legend.add(&shape, &use_of);

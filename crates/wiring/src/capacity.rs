@@ -211,6 +211,7 @@ fn add(
         allows: Vec::new(),
         chip: None,
         bounds: Bounds::default(),
+        module: None,
     });
 }
 

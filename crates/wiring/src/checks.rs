@@ -28,7 +28,7 @@ use crate::assignment::{Assignment, BoardAssignment};
 use crate::builder::{Builder, Converters, Meaning};
 use crate::formulate::{Formulation, wanted};
 use crate::levels::{Tolerates, stands, supply_mv};
-use crate::offer::{Offer, Withheld, has_places, roles};
+use crate::offer::{Offer, Withheld, roles};
 use crate::requested::{RequestedWires, free};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
@@ -131,7 +131,7 @@ impl<'d> Placed<'d> {
                 format!("take another pin, or write `release {name};` if {part} is not needed"),
             ),
             Withheld::NoConnector => (
-                "nothing: it is on no connector".to_owned(),
+                "the board, which leads it to no connector".to_owned(),
                 None,
                 format!("take another pin, or write `release {name};`"),
             ),
@@ -459,7 +459,7 @@ fn releases(design: &Design, index: BoardIndex, board: &Board) -> Vec<Diagnostic
     let (mut names, mut parts) = (BTreeMap::<&str, bool>::new(), BTreeMap::<String, bool>::new());
     for (at, pin) in board.table.pins.iter().enumerate() {
         let linked = offer.why_withheld(at) == Some(&Withheld::Link);
-        let is_off = has_places(board) && pin.headers().is_empty();
+        let is_off = board.table.is_off_connectors(pin);
         if pin.onboard.is_some() || roles.contains_key(&pin.name) || is_off {
             *names.entry(pin.name.as_str()).or_default() |= linked;
         }

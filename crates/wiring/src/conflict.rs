@@ -3,15 +3,15 @@
 //! In: the solver's conflict. Out: the devices, and what they compete for, as a diagnostic. The
 //! rules and repairs in it are found in `explain.rs`, with more questions to the solver.
 
+use sensedsl_board::pin::PinName;
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
-use sensedsl_model::design::{BoardIndex, Design, PartIndex};
+use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex};
 use sensedsl_solve::Conflict;
 
 use crate::formulate::{Formulation, Requester};
 use crate::names::list;
-use crate::offer::has_places;
 use crate::repairs::{Repair, Repaired};
 use crate::rule::Rule;
 
@@ -242,11 +242,14 @@ impl NoWiring {
 
     /// That a board has free pins which are not offered because they are on no connector.
     fn off_connectors(&self, design: &Design) -> Option<String> {
-        let is_free = |pin: &&Pin| pin.headers().is_empty() && pin.onboard.is_none();
         let mut boards = self.resources.iter().filter_map(|one| design.board(one.board));
-        let board = boards.find(|board| has_places(board))?;
-        let first = board.table.pins.iter().find(is_free)?;
-        let (count, name) = (board.table.pins.iter().filter(is_free).count(), &first.name);
+        let free = |board: &Board| -> Vec<PinName> {
+            let off = board.table.pins.iter().filter(|pin| board.table.is_off_connectors(pin));
+            off.filter(|pin| pin.onboard.is_none()).map(|pin| pin.name.clone()).collect()
+        };
+        let (board, pins) = boards
+            .find_map(|board| Some((board, free(board))).filter(|(_, pins)| !pins.is_empty()))?;
+        let (count, name) = (pins.len(), pins.first()?);
         let (pins, are) = if count == 1 { ("pin", "is") } else { ("pins", "are") };
         let on = &board.name.value;
         Some(format!(

@@ -10,7 +10,7 @@ use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::silicon::{self, PinRole, Silicon};
 use sensedsl_board::table::{Occupation, Pin, Role, Usage, release_name};
 use sensedsl_diagnostics::Span;
-use sensedsl_model::design::{Board, BoardIndex, Design, Transport};
+use sensedsl_model::design::{Board, BoardIndex, Design, PreferenceSubject, Transport};
 
 /// The part that may be on the pins of an oscillator.
 const CRYSTAL: &str = "the oscillator's crystal";
@@ -40,7 +40,7 @@ struct Rules<'a> {
     released: BTreeSet<String>,
     /// The names that are released, in capitals, as on-board parts are compared in capitals.
     released_parts: BTreeSet<String>,
-    /// The pins that devices are fixed to.
+    /// The pins that devices are fixed to, or prefer.
     named: BTreeSet<PinName>,
 }
 
@@ -93,7 +93,17 @@ pub(crate) struct Offer<'a> {
 impl<'a> Offer<'a> {
     pub(crate) fn new(design: &Design, index: BoardIndex, board: &'a Board) -> Self {
         let fixed = design.connections.iter().flat_map(|one| &one.placement.pins);
-        let named = fixed.filter_map(|(_, pin)| pin.value.on(index).cloned()).collect();
+        let fixed = fixed.map(|(_, pin)| &pin.value);
+        let wishes = design.connections.iter().flat_map(|one| &one.wishes).chain(&board.wishes);
+        let preferred = wishes.filter(|wish| wish.prefer).filter_map(|wish| match &wish.what {
+            PreferenceSubject::Pin(_, pin) => Some(pin),
+            PreferenceSubject::Unit(_)
+            | PreferenceSubject::Side(_)
+            | PreferenceSubject::Header(_)
+            | PreferenceSubject::Together(_)
+            | PreferenceSubject::Sequence => None,
+        });
+        let named = fixed.chain(preferred).filter_map(|pin| pin.on(index).cloned()).collect();
         Self::by_rules(index, board, Rules::of(board, named))
     }
 
@@ -294,13 +304,8 @@ fn withheld(
     if let Some(role) = role {
         return Some(Withheld::Needed(role));
     }
-    let is_off = has_places(board) && pin.headers().is_empty() && !rules.named.contains(&pin.name);
+    let is_off = board.table.is_off_connectors(pin) && !rules.named.contains(&pin.name);
     is_off.then_some(Withheld::NoConnector)
-}
-
-/// Whether the board's table says of all pins at which connectors they are.
-pub(crate) fn has_places(board: &Board) -> bool {
-    board.table.columns.iter().any(|column| column.role == Role::Places)
 }
 
 /// The other thing that is on the pin, whether or not the pin is withheld. The board's table states

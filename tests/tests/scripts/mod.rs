@@ -93,7 +93,7 @@ scripts! {
 fn every_script_is_run() {
     for path in files(&root().join("tests/scripts"), "txt") {
         let name = path.file_stem().unwrap().to_str().unwrap();
-        assert!(ALL.contains(&name), "there is no test of {name}");
+        assert!(ALL.contains(&name), "{name} has no test");
     }
 }
 

@@ -97,10 +97,12 @@ fn oddity(kind: &FindingKind) -> String {
             format!("`{spelled}` is no MCU that is known{}", meant(nearest))
         }
         Kind::UnknownForm { spelled, nearest } => {
-            format!("`{spelled}` is no form of a board that is known{}", meant(nearest))
+            format!("`{spelled}` is not a known form of a board{}", meant(nearest))
         }
         Kind::BadPlace { spelled } => {
-            format!("`{spelled}` is no place: write connector, dot and contact, as in `CN7.28`")
+            format!(
+                "`{spelled}` is not a place: write the connector, a dot and the contact, as in `CN7.28`"
+            )
         }
         Kind::NoContact { contact, form } => {
             format!("boards of the form `{form}` have no contact `{contact}`")

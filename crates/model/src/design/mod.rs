@@ -3,6 +3,7 @@
 
 mod bounds;
 mod index;
+mod module;
 mod pin_ref;
 mod placement;
 mod presentation;
@@ -23,6 +24,7 @@ use protocol::{Coding, Filter, Protocol};
 
 pub use bounds::Bounds;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
+pub use module::Module;
 pub use pin_ref::PinRef;
 pub use placement::{Placement, Preference, PreferenceSubject, Together};
 pub use presentation::{Bare, Presentation};
@@ -176,6 +178,8 @@ pub struct Part {
     pub chip: Option<Protocol>,
     /// The limits from its data sheet.
     pub bounds: Bounds,
+    /// What it is for the people who wire it; none without a driver.
+    pub module: Option<Module>,
 }
 
 /// A sensor or an actuator.

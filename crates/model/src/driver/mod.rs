@@ -5,6 +5,7 @@ pub(crate) mod bounds;
 pub mod facts;
 pub(crate) mod known;
 pub(crate) mod library;
+pub(crate) mod module;
 
 use std::cell::OnceCell;
 

@@ -11,7 +11,7 @@ use sensedsl_wire::{Direction, ValueType};
 use crate::design::protocol::Protocol;
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, Part};
 use crate::driver::known::Known;
-use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds};
+use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds, module};
 use crate::fields::{Field, Fields, name_or_text};
 use crate::kind::{KindName, Role, i2c};
 use crate::part::block::{Next, ReadPart};
@@ -99,8 +99,9 @@ pub(crate) fn read(
         filter: own.filter,
         connections: (next.connection.0..).take(connections.len()).map(ConnectionIndex).collect(),
     };
-    let bounds = bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
-    let part = Part { name, block, board, driver, allows, chip: None, bounds };
+    let found = driver.as_deref().and_then(|name| known.drivers.look_up(name));
+    let (bounds, module) = (bounds::of(found, known), module::of(found, known));
+    let part = Part { name, block, board, driver, allows, chip: None, bounds, module };
     Some(ReadPart { part, devices: vec![device], connections })
 }
 

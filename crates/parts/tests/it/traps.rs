@@ -28,7 +28,7 @@ fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, B
     let held = if tells { needed(mcu) } else { pin_roles(mcu).into_keys().collect() };
     let clean = table.pins.iter();
     let clean = clean.filter(|pin| pin.onboard.is_none() && !held.contains(&pin.name));
-    let clean = clean.filter(|pin| !table.has_places() || !pin.headers().is_empty());
+    let clean = clean.filter(|pin| !table.is_off_connectors(pin));
     let link = &design.boards[0].link;
     let usb = design.boards[0].profile().filter(|_| link.transport == Transport::Usb);
     let of_link = usb.map_or(&[][..], |profile| profile.link_pins(profile::Transport::Usb, None));

@@ -6,7 +6,7 @@ use sensedsl_model::facts::{PartFacts, example};
 use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
-use crate::contact;
+use crate::contact::Wires;
 
 /// Characters in a line.
 const WIDTH: usize = 80;
@@ -70,9 +70,9 @@ pub fn one(part: &PartFacts) -> String {
     }
     out.push_str(&wires(part));
     out.push_str(&values(part));
-    if !part.notes.is_empty() {
+    if !part.module.notes.is_empty() {
         out.push_str("\nNotes\n");
-        for note in &part.notes {
+        for note in &part.module.notes {
             out.push_str(&wrapped(note, WIDTH, "  - ", "    "));
         }
     }
@@ -85,7 +85,7 @@ pub fn one(part: &PartFacts) -> String {
 
 fn facts(part: &PartFacts) -> Vec<(&'static str, String)> {
     let aliases = Some(part.aliases.join(", ")).filter(|text| !text.is_empty());
-    let connector = Some(part.connector.join(" | ")).filter(|text| !text.is_empty());
+    let connector = Some(part.module.connector.join(" | ")).filter(|text| !text.is_empty());
     let pull = part.needs_pull_up.then(|| "needs resistors to the supply".to_owned());
     let not_checked = "with nothing: the figures are from the sheet alone";
     let compared = part.checked.clone().unwrap_or_else(|| not_checked.to_owned());
@@ -105,12 +105,13 @@ fn facts(part: &PartFacts) -> Vec<(&'static str, String)> {
 
 fn wires(part: &PartFacts) -> String {
     let rows = part.connections.iter().flat_map(|connection| {
+        let wires = Wires::of_driver(connection);
         connection.roles.iter().enumerate().map(move |(at, role)| {
             let first = at == 0;
             let settings = if first { words::settings(&connection.kind) } else { String::new() };
             let kind = if first { connection.kind.name().name() } else { "" };
-            let contact = contact::contact(part, connection, *role).unwrap_or("-");
-            [contact::wire(connection, *role), kind.to_owned(), contact.to_owned(), settings]
+            let contact = wires.contact(&part.module, *role).unwrap_or("-");
+            [wires.wire(*role), kind.to_owned(), contact.to_owned(), settings]
         })
     });
     columns(["Wire", "Kind", "At the part", "Settings"], &rows.collect::<Vec<_>>())

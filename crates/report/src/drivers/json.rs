@@ -28,8 +28,8 @@ pub fn value(part: &PartFacts) -> Value {
         "needs_pull_up": part.needs_pull_up,
         "addresses": part.addresses,
         "address": part.address,
-        "connector": part.connector,
-        "notes": part.notes,
+        "connector": part.module.connector,
+        "notes": part.module.notes,
         "identity": identity.map(|one| json!({
             "register": one.register,
             "bytes": one.expected,
@@ -43,7 +43,7 @@ pub fn value(part: &PartFacts) -> Value {
 
 fn connection(part: &PartFacts, one: &ConnectionFacts) -> Value {
     let wires = one.roles.iter().map(
-        |role| json!({ "role": role.name(), "contact": crate::contact::contact(part, one, *role) }),
+        |role| json!({ "role": role.name(), "contact": crate::contact::Wires::of_driver(one).contact(&part.module, *role) }),
     );
     json!({
         "name": one.name,

@@ -7,7 +7,7 @@ use sensedsl_model::written::shown_hz;
 use sensedsl_wire::Direction;
 
 use super::words::{self, wrapped};
-use crate::contact;
+use crate::contact::Wires;
 
 /// Characters in a line.
 const WIDTH: usize = 120;
@@ -51,9 +51,9 @@ pub fn page(part: &PartFacts) -> String {
     let _ = write!(out, "\n{}", wrapped(&names, WIDTH, "", ""));
     out.push_str("\n[All parts](README.md) · [the language](../language.md)\n");
     wiring(&mut out, part);
-    if !part.notes.is_empty() {
+    if !part.module.notes.is_empty() {
         out.push_str("\n## Notes\n\n");
-        for note in &part.notes {
+        for note in &part.module.notes {
             out.push_str(&wrapped(note, WIDTH, "- ", "  "));
         }
     }
@@ -68,6 +68,7 @@ fn wiring(out: &mut String, part: &PartFacts) {
         "\n## Wiring\n\n| wire | kind | at the part | settings |\n| --- | --- | --- | --- |\n",
     );
     for connection in &part.connections {
+        let wires = Wires::of_driver(connection);
         for (at, role) in connection.roles.iter().enumerate() {
             let first = at == 0;
             let kind = if first { connection.kind.name().name() } else { "" };
@@ -75,12 +76,12 @@ fn wiring(out: &mut String, part: &PartFacts) {
             let _ = writeln!(
                 out,
                 "| `{}` | {kind} | {} | {settings} |",
-                contact::wire(connection, *role),
-                cell(contact::contact(part, connection, *role).unwrap_or_default()),
+                wires.wire(*role),
+                cell(wires.contact(&part.module, *role).unwrap_or_default()),
             );
         }
     }
-    let connector = part.connector.join(" · ");
+    let connector = part.module.connector.join(" · ");
     let pull =
         "The lines need resistors to the supply, 2.2 kOhm to 10 kOhm; most modules have them.";
     let facts = [
@@ -89,7 +90,7 @@ fn wiring(out: &mut String, part: &PartFacts) {
         part.needs_pull_up.then(|| format!("**Pull-up**: {pull}")),
         part.clock_max_hz.map(|hz| format!("**Clock**: {} at most.", shown_hz(hz))),
         words::addresses(part).map(|text| format!("**Address**: {text}.")),
-        (!part.connector.is_empty())
+        (!part.module.connector.is_empty())
             .then(|| format!("**Connector**, in the order of the usual module: {connector}.")),
         words::identity(part).map(|text| {
             format!("**Identity**: the board looks for {text}, and reports another part.")

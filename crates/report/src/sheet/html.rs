@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin};
 
 use super::{BoardSheet, Line, PartSheet, sheets};
+use crate::markup::escaped;
 use crate::svg;
 
 const STYLE: &str = "\
@@ -84,19 +84,4 @@ fn table(out: &mut String, lines: &[Line]) {
         let _ = writeln!(out, "<tr><td class=\"tick\"></td>{}</tr>", cells.concat());
     }
     out.push_str("</table>\n");
-}
-
-/// Text for a page: no markup, and hidden characters as codes.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in visible(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c => out.push(c),
-        }
-    }
-    out
 }

@@ -16,7 +16,7 @@ use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring,
 
 use crate::place;
 
-use part::{CanBuses, of_part};
+use part::{Buses, of_part};
 use rail::Rails;
 
 /// The title of the wires to the host.
@@ -52,7 +52,7 @@ impl BoardSheet<'_> {
 pub(crate) struct PartSheet {
     /// The name in the design.
     pub(crate) name: String,
-    /// What it is, from the driver library; empty if that does not say.
+    /// What it is, by its driver; empty if that does not say.
     pub(crate) about: String,
     /// Its wires, in the order in which they are plugged: ground, signals, supply.
     pub(crate) lines: Vec<Line>,
@@ -65,6 +65,8 @@ pub(crate) struct PartSheet {
 pub(crate) struct Line {
     /// What is printed at the part's end, or the name of the wire.
     pub(crate) at_part: String,
+    /// The name of the wire in the design; empty for supply and ground.
+    pub(crate) wire: String,
     /// The contact of the board, or what else the wire goes to.
     pub(crate) to: String,
     /// The pin of the MCU; empty for supply and ground.
@@ -103,7 +105,7 @@ pub(crate) fn sheet<'a>(
     on: &'a BoardAssignment,
     board: &'a Board,
 ) -> BoardSheet<'a> {
-    let (mut rails, mut buses) = (Rails::of(board), CanBuses::default());
+    let (mut rails, mut buses) = (Rails::of(board), Buses::default());
     let mut parts: Vec<PartSheet> = part_indices(design, on)
         .into_iter()
         .map(|index| of_part(design, (on, board), index, (&mut rails, &mut buses)))
@@ -142,6 +144,7 @@ fn of_link(on: &BoardAssignment, board: &Board, rails: &mut Rails<'_>) -> Option
         let pin = wire.pin(board)?;
         lines.push(Line {
             at_part: part::crossed(wire.role).unwrap_or(wire.role.name()).to_owned(),
+            wire: wire.role.name().to_owned(),
             to: destination(pin, wire),
             pin: pin.name.to_string(),
             purpose: format!("{} of {}", wire.role.name(), link.unit),

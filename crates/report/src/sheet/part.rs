@@ -2,27 +2,44 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_model::design::{Board, Connection, Design, Level, PartIndex};
-use sensedsl_model::facts::{self, PartFacts};
+use sensedsl_model::design::{Board, Connection, Design, Level, Module, PartIndex};
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wiring::assignment::{BoardAssignment, ConnectionWiring, Wire};
 
 use super::rail::Rails;
 use super::{End, Line, PartSheet, destination};
-use crate::contact;
+use crate::contact::{self, Wires};
 
-/// The CAN units that have been met on a board: each needs a transceiver.
+/// The units that have been met on a board.
 #[derive(Default)]
-pub(super) struct CanBuses(BTreeSet<String>);
+pub(super) struct Buses {
+    /// Each needs a transceiver.
+    can: BTreeSet<String>,
+    /// Each needs its resistors, which are noted at the first part.
+    i2c: BTreeSet<String>,
+}
 
-impl CanBuses {
+impl Buses {
     pub(super) fn needs(&self) -> Vec<String> {
         let need = |unit: &String| {
             format!(
                 "a CAN transceiver for {unit} (3.3 V, such as an SN65HVD230), and 120 Ohm between CANH and CANL at both ends of the bus"
             )
         };
-        self.0.iter().map(need).collect()
+        self.can.iter().map(need).collect()
+    }
+
+    /// Notes a connection's bus, and says whether it is an I2C bus that was not met before.
+    fn meet(&mut self, kind: KindName, unit: Option<&String>) -> bool {
+        let Some(unit) = unit.cloned() else { return false };
+        match kind {
+            KindName::Can => {
+                self.can.insert(unit);
+                false
+            }
+            KindName::I2c => self.i2c.insert(unit),
+            _ => false,
+        }
     }
 }
 
@@ -31,38 +48,34 @@ pub(super) fn of_part(
     design: &Design,
     (on, board): (&BoardAssignment, &Board),
     index: PartIndex,
-    (rails, buses): (&mut Rails<'_>, &mut CanBuses),
+    (rails, buses): (&mut Rails<'_>, &mut Buses),
 ) -> PartSheet {
     let Some(part) = design.part(index) else { return PartSheet::default() };
-    let facts = part.driver.as_deref().and_then(facts::find);
+    let module = part.module.as_ref();
     let own: Vec<(&Connection, &ConnectionWiring)> = on
         .connections
         .iter()
         .filter_map(|wiring| Some((design.connection(wiring.connection)?, wiring)))
         .filter(|(connection, _)| connection.part == index)
         .collect();
-    let mut signals = Vec::new();
+    let (mut signals, mut needs_pulls) = (Vec::new(), false);
     for (connection, wiring) in &own {
-        if connection.kind.name() == KindName::Can {
-            buses.0.extend(wiring.unit.clone());
-        }
-        let line = |wire: &Wire| signal(design, board, (connection, wiring, wire), facts.as_ref());
+        needs_pulls |= buses.meet(connection.kind.name(), wiring.unit.as_ref());
+        let line = |wire: &Wire| signal(design, board, (connection, wiring, wire), module);
         signals.extend(wiring.wires.iter().filter_map(line));
     }
     let headers = headers(board, &own);
-    let ground = facts.as_ref().and_then(contact::ground).unwrap_or("GND");
+    let ground = module.and_then(contact::ground).unwrap_or("GND");
     let mut lines = vec![rails.ground(ground, &headers)];
     lines.append(&mut signals);
-    if let Some(facts) = &facts {
-        lines.extend(can_bus(facts));
-    }
-    if let Some(facts) = &facts
-        && let (Some(contact), Some(range_mv)) = (contact::supply(facts), facts.supply_mv)
+    lines.extend(module.into_iter().flat_map(can_bus));
+    if let (Some(contact), Some(range_mv)) =
+        (module.and_then(contact::supply), part.bounds.supply_mv)
     {
         lines.push(rails.supply(contact, range_mv, &headers));
     }
-    let about = facts.as_ref().map_or(String::new(), |facts| facts.part.clone());
-    let notes = notes(facts.as_ref(), &own);
+    let about = module.map_or(String::new(), |module| module.title.clone());
+    let notes = notes(module, &own, needs_pulls);
     PartSheet { name: part.name.value.clone(), about, lines, notes }
 }
 
@@ -71,14 +84,16 @@ fn signal(
     design: &Design,
     board: &Board,
     (connection, wiring, wire): (&Connection, &ConnectionWiring, &Wire),
-    facts: Option<&PartFacts>,
+    module: Option<&Module>,
 ) -> Option<Line> {
     let pin = wire.pin(board)?;
     let name = wire.name(design);
-    let at_part = match facts {
-        Some(facts) => printed(facts, connection, wire.role),
-        None => crossed(wire.role).map(str::to_owned),
+    let wires = Wires::of_design(connection);
+    let at_part = match module {
+        Some(module) => wires.contact(module, wire.role),
+        None => crossed(wire.role),
     };
+    let at_part = at_part.map(str::to_owned);
     let at_part = if connection.kind.name() == KindName::Can {
         Some(format!("transceiver {}", if wire.role == Role::Tx { "TXD" } else { "RXD" }))
     } else {
@@ -96,14 +111,14 @@ fn signal(
     };
     let at_part = at_part.map_or_else(|| name.clone(), |contact| format!("{contact}{element}"));
     let (to, end) = (destination(pin, wire), Some(End::at(pin, wire)));
-    Some(Line { at_part, to, pin: pin.name.to_string(), purpose, end })
+    Some(Line { at_part, wire: name, to, pin: pin.name.to_string(), purpose, end })
 }
 
 /// The wires from a transceiver to a part on a CAN bus.
-fn can_bus(facts: &PartFacts) -> Vec<Line> {
+fn can_bus(module: &Module) -> Vec<Line> {
     let line = |wire: &str| {
         let is_it = |entry: &&String| entry.replace('_', "").eq_ignore_ascii_case(wire);
-        let at_part = facts.connector.iter().find(is_it)?.clone();
+        let at_part = module.connector.iter().find(is_it)?.clone();
         let to = format!("transceiver {wire}");
         Some(Line { at_part, to, purpose: "the bus".to_owned(), ..Line::default() })
     };
@@ -118,12 +133,6 @@ pub(super) fn crossed(role: Role) -> Option<&'static str> {
     (role == Role::Rx).then_some("TX")
 }
 
-/// What is printed at the part's end of a wire.
-fn printed(facts: &PartFacts, connection: &Connection, role: Role) -> Option<String> {
-    let own = facts.connections.iter().find(|one| one.name == connection.name)?;
-    contact::contact(facts, own, role).map(str::to_owned)
-}
-
 /// The connectors that the part's wires go to.
 fn headers(board: &Board, own: &[(&Connection, &ConnectionWiring)]) -> Vec<String> {
     let wires = own.iter().flat_map(|(_, wiring)| &wiring.wires);
@@ -132,8 +141,12 @@ fn headers(board: &Board, own: &[(&Connection, &ConnectionWiring)]) -> Vec<Strin
     headers.into_iter().collect()
 }
 
-/// What anyone who connects it must know: resistors first, then the library's notes.
-fn notes(facts: Option<&PartFacts>, own: &[(&Connection, &ConnectionWiring)]) -> Vec<String> {
+/// What anyone who connects it must know: resistors first, then the driver's notes.
+fn notes(
+    module: Option<&Module>,
+    own: &[(&Connection, &ConnectionWiring)],
+    needs_pulls: bool,
+) -> Vec<String> {
     let mut notes = Vec::new();
     for (connection, _) in own {
         if connection.element.is_none_or(|element| element == 0)
@@ -142,13 +155,12 @@ fn notes(facts: Option<&PartFacts>, own: &[(&Connection, &ConnectionWiring)]) ->
             notes.push(format!("A voltage divider is needed: {divided}."));
         }
     }
-    let is_i2c = own.iter().any(|(connection, _)| connection.kind.name() == KindName::I2c);
-    if facts.is_some_and(|facts| facts.needs_pull_up) && is_i2c {
+    if needs_pulls {
         notes.push(
-            "SDA and SCL need a resistor of 2.2 to 10 kOhm each to the supply, once a bus; most modules have them."
+            "SDA and SCL of this bus need a resistor of 2.2 to 10 kOhm each to the supply; most modules have them."
                 .to_owned(),
         );
     }
-    notes.extend(facts.into_iter().flat_map(|facts| facts.notes.clone()));
+    notes.extend(module.into_iter().flat_map(|module| module.notes.clone()));
     notes
 }

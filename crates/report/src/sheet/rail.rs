@@ -83,12 +83,12 @@ impl<'a> Rails<'a> {
         let at_part = at_part.to_owned();
         match self.take(mv, headers) {
             Some((contact, to)) => {
-                Line { at_part, to, pin: String::new(), purpose, end: end(Some(contact)) }
+                Line { at_part, to, purpose, end: end(Some(contact)), ..Line::default() }
             }
             None => {
                 let to = if mv == 0 { "GND".to_owned() } else { shown_mv(mv) };
                 let to = format!("{to} of the board");
-                Line { at_part, to, pin: String::new(), purpose, end: end(None) }
+                Line { at_part, to, purpose, end: end(None), ..Line::default() }
             }
         }
     }

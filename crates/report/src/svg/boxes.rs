@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use super::area::{Area, Point, Side};
 use super::marks;
 use super::parts::Part;
-use super::text::{Anchor, Text, cut, escaped, number, width};
+use super::text::{Anchor, Text, cut, number, width};
+use crate::markup::escaped;
 
 pub(super) const WIDTH: f64 = 236.0;
 const HEAD: f64 = 24.0;

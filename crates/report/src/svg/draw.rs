@@ -9,7 +9,8 @@ use super::board::{Picture, Placed, Wire};
 use super::boxes;
 use super::marks::{self, Unused};
 use super::shape::{Carries, Contact, Shape};
-use super::text::{Anchor, Text, cut, escaped, number};
+use super::text::{Anchor, Text, cut, number};
+use crate::markup::escaped;
 
 /// The room that marks take around them.
 const PAD: f64 = 13.0;

@@ -1,10 +1,5 @@
 //! What is said in the box of a part: its rows in, lines of text out.
 
-use std::sync::OnceLock;
-
-use sensedsl_model::facts::{self, PartFacts};
-
-use crate::contact::of_wire;
 use crate::rows::Row;
 use crate::sheet::{BoardSheet, Line, PartSheet};
 
@@ -36,39 +31,36 @@ pub(super) struct WireLine {
     pub(super) shared: String,
 }
 
-/// The parts of one board, whose rows and sheet are given. `driver_of` gives the driver of a part.
+/// The parts of one board, whose rows and sheet are given.
 pub(super) fn parts(
     rows: &[&Row],
     sheet: &BoardSheet<'_>,
-    driver_of: impl Fn(&str) -> Option<String>,
     resistors_of: impl Fn(&str) -> Option<String>,
 ) -> Vec<Part> {
     let groups = rows.chunk_by(|one, next| one.device == next.device);
     let part = |group: &[&Row]| {
         let first = group.first()?;
-        let facts = driver_of(&first.device).and_then(|name| facts_of(&name));
-        let mut part = part(first, group, facts, resistors_of(&first.device));
         let own = sheet.parts.iter().find(|own| own.name == first.device);
-        part.supply = own.map(supply).unwrap_or_default();
-        Some(part)
+        Some(part(first, group, own, resistors_of(&first.device)))
     };
     groups.filter_map(part).collect()
 }
 
-fn part(first: &Row, rows: &[&Row], facts: Option<&PartFacts>, resistors: Option<String>) -> Part {
+fn part(first: &Row, rows: &[&Row], own: Option<&PartSheet>, resistors: Option<String>) -> Part {
     let values = first.values.iter().zip(&first.ids).map(|(value, id)| format!("{id} {value}"));
     Part {
         name: first.device.clone(),
         note: if first.values.is_empty() { first.ids() } else { String::new() },
         values: values.collect(),
-        wires: rows.iter().map(|row| wire(row, facts)).collect(),
+        wires: rows.iter().map(|row| wire(row, own)).collect(),
         remarks: resistors.into_iter().collect(),
-        supply: Vec::new(),
+        supply: own.map(supply).unwrap_or_default(),
     }
 }
 
-fn wire(row: &Row, facts: Option<&PartFacts>) -> WireLine {
-    let contact = facts.and_then(|facts| of_wire(facts, &row.role)).map(short);
+fn wire(row: &Row, own: Option<&PartSheet>) -> WireLine {
+    let line = own.and_then(|own| own.lines.iter().find(|line| line.wire == row.role));
+    let contact = line.map(|line| short(&line.at_part));
     let letters = |text: &str| text.to_lowercase().replace(|c: char| !c.is_alphanumeric(), "");
     let end = match contact.filter(|contact| contact.len() <= CONTACT_MAX) {
         Some(contact) if letters(contact) == letters(&row.role) => contact.to_owned(),
@@ -99,10 +91,4 @@ fn supply(part: &PartSheet) -> Vec<String> {
         Some(format!("{}: {to}", short(&line.at_part)))
     };
     part.lines.iter().filter_map(line).collect()
-}
-
-/// What the library knows about a driver of its own.
-fn facts_of(name: &str) -> Option<&'static PartFacts> {
-    static LIBRARY: OnceLock<Vec<PartFacts>> = OnceLock::new();
-    LIBRARY.get_or_init(facts::all).iter().find(|part| part.name == name)
 }

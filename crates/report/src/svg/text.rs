@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 use sensedsl_diagnostics::visible;
 
 use super::area::{Area, Point};
+use crate::markup::escaped;
 
 /// The height of a line of text, as a multiple of the font size.
 const HEIGHT: f64 = 1.15;
@@ -151,21 +152,6 @@ pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.1}");
     let short = text.strip_suffix(".0").unwrap_or(&text);
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
-}
-
-/// Text for an XML document.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in visible(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]

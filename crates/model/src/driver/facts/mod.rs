@@ -12,17 +12,16 @@ use sensedsl_syntax::parse;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::protocol::{Coding, Filter, Formula, Protocol};
-use crate::design::{Bounds, Level, Presentation};
+use crate::design::{Bounds, Level, Module, Presentation};
 use crate::driver::known::Known;
 use crate::driver::library::SEARCH;
-use crate::driver::{Driver, Drivers, bounds};
-use crate::fields::{Fields, name_or_text};
+use crate::driver::{Driver, Drivers, bounds, module};
+use crate::fields::Fields;
 use crate::kind::{Kind, KindName, Role, Values};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, PROTOCOL};
 use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
-use crate::value::Value;
 use crate::value::constants::Constants;
 
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
@@ -58,12 +57,8 @@ pub struct PartFacts {
     pub addresses: Vec<u8>,
     /// Its default address; none if a design must state it.
     pub address: Option<u8>,
-    /// The names on the connector of the usual module, in order.
-    pub connector: Vec<String>,
-    /// The wires, or `supply` and `ground`, whose contact the driver states: name and contact.
-    pub contacts: Vec<(String, String)>,
-    /// What anyone who wires it must know.
-    pub notes: Vec<String>,
+    /// What it is for the people who wire it.
+    pub module: Module,
     /// How it is started and identified; none for a part with one value that has no name.
     pub protocol: Option<Protocol>,
     /// Its wires.
@@ -237,15 +232,15 @@ impl Library {
     ) -> Option<PartFacts> {
         let mut fields = self.fields(driver, reported);
         let mut text = |name: &str| fields.text(name).map(|text| text.value);
-        let (part, about) = (text("part"), text("about"));
+        let about = text("about");
         let (sheet, checked) = (text("sheet"), text("checked"));
-        let [aliases, connector, notes] =
-            ["aliases", "connector", "note"].map(|name| texts(&mut fields, name));
-        let (connector, contacts) = contacts(connector);
+        let aliases = module::texts(&mut fields, "aliases");
+        let module = module::read(&mut fields);
         let Bounds { addresses, clock_max_hz, supply_mv } = bounds::read(&mut fields);
         let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
         let pull = fields.peek_name("pull");
         drop(fields);
+        let part = Some(module.title.clone()).filter(|title| !title.is_empty());
         let first = addresses.first().filter(|_| address.is_none()).copied();
         let read = self.whole(driver, first, reported)?;
         let kinds = kinds(&read);
@@ -266,9 +261,7 @@ impl Library {
             needs_pull_up: is_outside && pull.as_deref() == Some("up"),
             addresses,
             address,
-            connector,
-            contacts,
-            notes,
+            module,
             protocol: read.part.chip.clone(),
             values: values(&read),
             connections: connections(&read),
@@ -382,29 +375,6 @@ fn connections(read: &ReadPart) -> Vec<ConnectionFacts> {
         level: one.level,
     });
     connections.collect()
-}
-
-/// The contacts of a connector, and the wires that are stated at them: `RPWM = forward`.
-fn contacts(entries: Vec<String>) -> (Vec<String>, Vec<(String, String)>) {
-    let mut wires = Vec::new();
-    let contact = |entry: String| match entry.split_once(" = ") {
-        Some((contact, wire)) => {
-            wires.push((wire.trim().to_owned(), contact.trim().to_owned()));
-            contact.trim().to_owned()
-        }
-        None => entry,
-    };
-    (entries.into_iter().map(contact).collect(), wires)
-}
-
-/// Reads a text or a list of texts.
-fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
-    let all = |value: &Value| match value.list() {
-        Some(list) => list.iter().map(|one| name_or_text(&one.value)).collect(),
-        None => name_or_text(value).map(|one| vec![one]),
-    };
-    let found = fields.read(name, "a text, or a list of texts", all);
-    found.map(|all| all.value).unwrap_or_default()
 }
 
 #[cfg(test)]

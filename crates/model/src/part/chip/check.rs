@@ -5,9 +5,10 @@ use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::AstNode as _;
 
 use super::reader::DriverValue;
+use super::sockets::Socket;
 use super::{protocol, values_and_sockets};
 use crate::driver::known::Known;
-use crate::driver::{Driver, bounds};
+use crate::driver::{Driver, bounds, module};
 use crate::kind::KindName;
 use crate::part::coding::{CODING, FILTER, PROTOCOL};
 use crate::part::properties::{ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
@@ -25,6 +26,7 @@ fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnos
     let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
     protocol(driver.file, driver, &[], known, diagnostics);
     bounds::of_driver(driver, known, diagnostics);
+    contacts(driver, &sockets, known, diagnostics);
     let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
     let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
     let of_part = driver.node.properties().map(|one| (one, true));
@@ -50,6 +52,25 @@ fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnos
         }
     }
     twice(driver, &given, diagnostics);
+}
+
+/// Reports contacts of the connector at wires that the part has not.
+fn contacts(
+    driver: &Driver,
+    sockets: &[Socket],
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let module = module::of_driver(driver, known, diagnostics);
+    let wires: Vec<String> = sockets.iter().flat_map(Socket::wires).collect();
+    let names = || wires.iter().map(String::as_str).chain(["supply", "ground"]);
+    for (wire, contact) in &module.contacts {
+        if names().all(|name| name != wire) {
+            let has = names().collect::<Vec<_>>().join(", ");
+            let message = format!("`{contact} = {wire}` in `connector`: the wires are {has}");
+            diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
+        }
+    }
 }
 
 /// Reports readings of the same bits of the same register.

@@ -19,7 +19,7 @@ use sensedsl_wire::ValueType;
 use crate::design::protocol::Protocol;
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part};
 use crate::driver::known::Known;
-use crate::driver::{Driver, bounds};
+use crate::driver::{Driver, bounds, module};
 use crate::fields::{Fields, name_or_text};
 use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
@@ -404,8 +404,9 @@ impl ChipReader<'_> {
         let (name, block) = (self.name, self.block);
         let driver = Some(self.driver.name.value.clone());
         let bounds = bounds::of(Some(self.driver), self.known);
+        let module = module::of(Some(self.driver), self.known);
         let chip = Some(self.protocol);
-        let part = Part { name, block, board, driver, allows, chip, bounds };
+        let part = Part { name, block, board, driver, allows, chip, bounds, module };
         Some(ReadPart { part, devices, connections })
     }
 }

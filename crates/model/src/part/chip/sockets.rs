@@ -1,5 +1,7 @@
 //! The connections of a chip: those that its driver names, with what the chip adds to each.
 
+use std::iter;
+
 use sensedsl_diagnostics::codes::{
     e0204_duplicate_name, e0209_wrong_value, e0229_wrong_driver, e0230_unknown_reading,
 };
@@ -12,7 +14,7 @@ use super::values;
 use crate::design::{DeviceIndex, Level, PinRef, Placement};
 use crate::driver::{Driver, bounds, kind_of};
 use crate::fields::{Fields, name_or_text};
-use crate::kind::{Kind, KindName};
+use crate::kind::{Kind, KindName, Role};
 use crate::part::{placement, properties};
 use crate::spanned::{Spanned, span};
 
@@ -108,6 +110,15 @@ impl Socket {
             node,
             block: None,
         }
+    }
+
+    /// The names that its wires can have in a driver's `connector`: `sda`, `pwm_a`, `encoder.a`.
+    pub(super) fn wires(&self) -> Vec<String> {
+        let properties = self.kind.spec().properties;
+        let roles = Role::ALL.into_iter().filter(|role| properties.contains(&role.property()));
+        let Some(name) = &self.name else { return roles.map(|role| role.to_string()).collect() };
+        let qualified = roles.map(|role| format!("{name}.{role}"));
+        iter::once(name.clone()).chain(qualified).collect()
     }
 
     /// Records that a device's value goes over it.

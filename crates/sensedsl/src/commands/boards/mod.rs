@@ -4,7 +4,7 @@ mod features;
 
 use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
-use sensedsl_board::table::{Occupation, Pin, Role, Table};
+use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_board::{catalog, mcu};
 use sensedsl_generate::target;
 use sensedsl_session::printed_board;
@@ -80,8 +80,7 @@ fn row(board: &catalog::Entry) -> [String; 8] {
 /// Whether no part of the board has the pin, and it is at a connector if it is known which are.
 fn is_free(table: &Table, pin: &Pin) -> bool {
     let is_left = pin.onboard.as_ref().is_none_or(|part| part.how != Occupation::Taken);
-    let knows_places = table.columns.iter().any(|column| column.role == Role::Places);
-    is_left && (!knows_places || !pin.headers().is_empty())
+    is_left && !table.is_off_connectors(pin)
 }
 
 /// The systems for which there is firmware, with their versions, the usual one first.
