@@ -4,7 +4,7 @@
 /// target profiles determine which parts are known in detail.
 const STARTS: [&str; 17] = [
     "STM32", "STM8", "RP20", "RP23", "ATMEGA", "ATTINY", "ATXMEGA", "AVR", "ATSAM", "SAM", "NRF5",
-    "ESP32", "LPC", "MIMXRT", "MSP430", "GD32", "PIC",
+    "ESP", "LPC", "MIMXRT", "MSP430", "GD32", "PIC",
 ];
 
 /// The canonical spelling: upper case, without white space.
@@ -29,7 +29,7 @@ pub fn family(name: &str) -> &str {
         STARTS.iter().find(|start| name.starts_with(**start)).map_or(0, |start| start.len());
     let end = match name.get(..start) {
         Some("STM32") => start + 2,
-        Some("RP20" | "RP23") => start + 2,
+        Some("RP20" | "RP23" | "ESP") => start + 2,
         _ => start,
     };
     name.get(..end).filter(|family| !family.is_empty()).unwrap_or(name)
@@ -54,7 +54,8 @@ mod tests {
 
     #[test]
     fn plausible_names() {
-        for name in ["STM32F407VGT6", "stm32g031j6", "RP2040", "ATmega328P", "nRF52840", "AT90CAN"]
+        for name in
+            ["STM32F407VGT6", "stm32g031j6", "RP2040", "ATmega328P", "nRF52840", "ESP32", "AT90CAN"]
         {
             assert_eq!(is_plausible(name), name != "AT90CAN", "{name}");
         }
@@ -69,6 +70,7 @@ mod tests {
         assert_eq!(family("STM32WB55RGV6"), "STM32WB");
         assert_eq!(family("ATMEGA328P-PU"), "ATMEGA");
         assert_eq!(family("RP2350A"), "RP2350");
+        assert_eq!(family("ESP32-S3"), "ESP32");
         assert_eq!(family("Z80"), "Z80");
         assert_eq!(family("STM32"), "STM32");
     }

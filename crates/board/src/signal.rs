@@ -4,6 +4,7 @@
 //! same for every MCU; the table and the target profile determine which units exist.
 
 mod spelling;
+mod vendors;
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -35,7 +36,7 @@ pub enum Function {
         /// The wire of the bus.
         line: I2cLine,
     },
-    /// `TIM1_CH2`, `TIM1_CH2N`; `PWM4_A` of RP2040; `OC1A` and `ICP1` of AVR.
+    /// `TIM1_CH2`, `TIM1_CH2N`; `PWM4_A` of RP2040; `OC1A` and `ICP1` of AVR; `LEDC0_CH1` of ESP32.
     Timer {
         /// The unit: `TIM1`, `PWM4`, `TC1`.
         unit: UnitName,
@@ -252,6 +253,30 @@ impl Function {
         }
     }
 
+    /// Whether the pin can be an input for it.
+    #[must_use]
+    pub const fn is_input(&self) -> bool {
+        match self {
+            Self::Uart { line, .. } => matches!(line, UartLine::Rx),
+            Self::Can { line, .. } => matches!(line, CanLine::Rx),
+            Self::Spi { line, .. } => matches!(line, SpiLine::Miso),
+            Self::Timer { line, .. } => line.is_input(),
+            Self::Dac { .. } => false,
+            Self::Adc { .. } | Self::I2c { .. } | Self::Other => true,
+        }
+    }
+
+    /// Whether the pin can be an output for it; a bus that devices hold low is both.
+    #[must_use]
+    pub const fn is_output(&self) -> bool {
+        match self {
+            Self::Adc { .. } => false,
+            Self::I2c { .. } | Self::Other => true,
+            Self::Timer { line, .. } => !matches!(line, TimerLine::Input),
+            _ => !self.is_input(),
+        }
+    }
+
     /// Whether the function bypasses the alternate-function multiplexer, as analog functions do.
     #[must_use]
     pub fn is_analog(&self) -> bool {
@@ -307,6 +332,10 @@ mod tests {
             ("SPI0_RX", "SPI0_MISO"),
             ("SPI0_TX", "SPI0_MOSI"),
             ("SPI1_CSn", "SPI1_NSS"),
+            ("LEDC3_CH6", "LEDC3_CH6"),
+            ("sercom4-mosi", "SERCOM4_MOSI"),
+            ("TIMER1_CC0", "TIMER1_CC0"),
+            ("TWAI0_TX", "TWAI0_TX"),
             ("tacho", "TACHO"),
         ] {
             assert_eq!(read(spelled), expected, "{spelled}");
@@ -359,6 +388,11 @@ mod tests {
             ("OC1C", timer("TC1", 3, TimerLine::Output)),
             ("OC4DN", timer("TC4", 4, TimerLine::Inverted)),
             ("ICP5", timer("TC5", 1, TimerLine::Input)),
+            ("PWM3_OUT2", timer("PWM3", 3, TimerLine::Output)),
+            ("LEDC1_CH3", timer("LEDC1", 4, TimerLine::Output)),
+            ("QDEC_B", timer("QDEC", 2, TimerLine::Input)),
+            ("PDEC_QDI1", timer("PDEC", 2, TimerLine::Input)),
+            ("TCC0_WO3", timer("TCC0", 4, TimerLine::Output)),
         ] {
             assert_eq!(Signal::parse(spelled).0.function(), &expected, "{spelled}");
         }
@@ -367,7 +401,7 @@ mod tests {
     proptest::proptest! {
         /// A canonical name reads as itself, and a suggestion is well formed.
         #[test]
-        fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN|PWM|TWI|OC|ICP)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
+        fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN|PWM|TWI|OC|ICP|LEDC|SERCOM|TCC|UARTE|LPSPI)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
             let (signal, malformed) = Signal::parse(&spelled);
             if let Some(nearest) = malformed.clone().and_then(|malformed| malformed.nearest) {
                 proptest::prop_assert_eq!(Signal::parse(&nearest).1, None);

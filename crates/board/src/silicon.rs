@@ -15,7 +15,10 @@ use crate::pin::PinName;
 /// The files of `silicon/`.
 const FILES: &[&str] = &[
     include_str!("../silicon/atmega.toml"),
+    include_str!("../silicon/esp32.toml"),
+    include_str!("../silicon/nrf52.toml"),
     include_str!("../silicon/rp2.toml"),
+    include_str!("../silicon/samd.toml"),
     include_str!("../silicon/stm32.toml"),
 ];
 
@@ -33,7 +36,10 @@ pub struct Silicon {
     pub pins: Vec<Needed>,
     /// Pins that are converter inputs and nothing else.
     #[serde(default)]
-    pub analog: Vec<AnalogOnly>,
+    pub analog: Vec<Pads>,
+    /// Pins that cannot put anything out.
+    #[serde(default)]
+    pub inputs: Vec<Pads>,
     /// The voltages that its pins tolerate.
     #[serde(default)]
     pub volts: Vec<Volts>,
@@ -46,10 +52,10 @@ pub struct Silicon {
     pub units: BTreeMap<String, String>,
 }
 
-/// Pins of some MCUs in a family that have no digital circuit.
+/// Pins of some MCUs in a family that lack a circuit.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct AnalogOnly {
+pub struct Pads {
     /// Part-number prefixes.
     pub parts: Vec<String>,
     /// The pins.
@@ -113,6 +119,8 @@ pub enum PinRole {
     Boot,
     /// A crystal is connected to it, if one is fitted.
     Oscillator,
+    /// The memory with the program is connected to it.
+    Memory,
 }
 
 impl PinRole {
@@ -124,6 +132,7 @@ impl PinRole {
             Self::Reset => "the reset input",
             Self::Boot => "BOOT, which the MCU reads at reset",
             Self::Oscillator => "the oscillator",
+            Self::Memory => "the flash memory or RAM in its package or module",
         }
     }
 }
@@ -136,6 +145,10 @@ pub struct Timers {
     pub capture: Option<Ability>,
     /// The ability to decode quadrature.
     pub encoder: Option<Ability>,
+    /// Whether devices share its timers also where no system that could drive them is known: outputs of one
+    /// have one frequency, and captures and encoders take one whole.
+    #[serde(default)]
+    pub are_shared: bool,
 }
 
 /// The channels that have an ability.
@@ -144,10 +157,23 @@ pub struct Timers {
 pub struct Ability {
     /// The channels that have it; empty if the silicon does not have it at all.
     pub channels: Vec<u8>,
+    /// Starts of the names of the units that have it; empty if all have it.
+    #[serde(default)]
+    pub units: Vec<String>,
     /// The reason why the others do not, as a clause.
     pub because: String,
     /// The source.
     pub source: String,
+}
+
+impl Ability {
+    /// Whether a channel of a unit has it.
+    #[must_use]
+    pub fn is_of(&self, unit: &str, channel: u8) -> bool {
+        let is_unit =
+            self.units.is_empty() || self.units.iter().any(|start| unit.starts_with(start));
+        is_unit && self.channels.contains(&channel)
+    }
 }
 
 /// The facts of an MCU, beyond what most MCUs can do.
@@ -173,10 +199,19 @@ pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
 /// The pins of an MCU that are converter inputs and nothing else.
 #[must_use]
 pub fn analog_only(mcu: &str) -> BTreeSet<PinName> {
+    of(mcu).map(|silicon| pads(&silicon.analog, mcu)).unwrap_or_default()
+}
+
+/// The pins of an MCU that cannot put anything out.
+#[must_use]
+pub fn input_only(mcu: &str) -> BTreeSet<PinName> {
+    of(mcu).map(|silicon| pads(&silicon.inputs, mcu)).unwrap_or_default()
+}
+
+fn pads(all: &[Pads], mcu: &str) -> BTreeSet<PinName> {
     let name = mcu::normalise(mcu);
-    let all = of(mcu).into_iter().flat_map(|silicon| &silicon.analog);
-    let of_part = all.filter(|analog| covers(&analog.parts, &name));
-    of_part.flat_map(|analog| &analog.names).filter_map(|name| PinName::parse(name)).collect()
+    let of_part = all.iter().filter(|pads| covers(&pads.parts, &name));
+    of_part.flat_map(|pads| &pads.names).filter_map(|name| PinName::parse(name)).collect()
 }
 
 /// Why the serial ports of an MCU cannot invert their wires; none if they can, or if it is not
@@ -232,8 +267,12 @@ impl Volts {
     }
 }
 
+/// Whether the name starts with one of the parts, or is one that ends with `$`.
 fn covers(parts: &[String], name: &str) -> bool {
-    parts.iter().any(|part| name.starts_with(part))
+    parts.iter().any(|part| match part.strip_suffix('$') {
+        Some(whole) => name == whole,
+        None => name.starts_with(part),
+    })
 }
 
 /// All families; a damaged file, which tests rule out, is skipped.
@@ -266,7 +305,7 @@ mod tests {
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {
                 assert!(!ability.because.is_empty() && !ability.source.is_empty());
             }
-            for analog in &silicon.analog {
+            for analog in silicon.analog.iter().chain(&silicon.inputs) {
                 assert!(!analog.parts.is_empty() && !analog.source.is_empty(), "{analog:?}");
                 assert!(analog.names.iter().all(|name| PinName::parse(name).is_some()));
             }
@@ -282,7 +321,7 @@ mod tests {
             for needed in &silicon.pins {
                 assert!(!needed.parts.is_empty() && !needed.source.is_empty(), "{needed:?}");
                 assert!(needed.names.iter().all(|name| PinName::parse(name).is_some()));
-                let inside = |part: &String| covers(&silicon.parts, part);
+                let inside = |part: &String| covers(&silicon.parts, part.trim_end_matches('$'));
                 assert!(needed.parts.iter().all(inside), "{needed:?}");
             }
         }

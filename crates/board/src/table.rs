@@ -216,10 +216,15 @@ impl Pin {
         there.filter_map(|place| place.position.as_deref()).min_by(|a, b| natural(a, b))
     }
 
-    /// The opportunity cost of taking the pin, which is its number of usages over all columns.
+    /// The opportunity cost of taking the pin, which is its number of usages over all columns. What the MCU can
+    /// route to any pin is not lost with this one: of all that, an input and an output count.
     #[must_use]
     pub fn cost(&self) -> u32 {
-        u32::try_from(self.usages.len()).unwrap_or(u32::MAX)
+        let own = self.usages.iter().filter(|usage| !usage.is_routed).count();
+        let routed = || self.usages.iter().filter(|usage| usage.is_routed);
+        let is_input = routed().any(|usage| usage.signal.function().is_input());
+        let is_output = routed().any(|usage| usage.signal.function().is_output());
+        u32::try_from(own).map_or(u32::MAX, |own| own + u32::from(is_input) + u32::from(is_output))
     }
 
     /// The usage of a signal, by its canonical name.
@@ -228,6 +233,9 @@ impl Pin {
         self.usages.iter().find(|usage| usage.signal == *signal)
     }
 }
+
+/// What stands before a usage that the MCU can route to any pin.
+pub const ROUTED: char = '*';
 
 /// A use that a pin can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -241,6 +249,9 @@ pub struct Usage {
     /// The remap blocks of its peripheral that put it on this pin; none if it is always on this
     /// pin.
     pub blocks: Option<Blocks>,
+    /// Whether the MCU can route it to any pin, so that it is not this pin's own: the table marks it with
+    /// [`ROUTED`].
+    pub is_routed: bool,
     /// The header of the column that it is in.
     pub column: String,
     /// The bytes of the usage.
@@ -425,7 +436,8 @@ fn cell(pin: &Pin, column: &Column, described: Option<&Place>, others: &[Place])
                     let blocks = usage.blocks.map_or(String::new(), |blocks| format!("#{blocks}"));
                     let number =
                         usage.alternate.map_or(String::new(), |number| format!("@{number}"));
-                    format!("{}{blocks}{number}", usage.spelled)
+                    let mark = if usage.is_routed { ROUTED.to_string() } else { String::new() };
+                    format!("{mark}{}{blocks}{number}", usage.spelled)
                 })
                 .collect();
             if usages.is_empty() { "-".to_owned() } else { usages.join(" ") }

@@ -153,7 +153,7 @@ fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
 
 fn usage(signal: Signal, spelled: String, alternate: Option<u8>) -> Usage {
     let column = column(&signal).into();
-    Usage { column, signal, spelled, alternate, blocks: None, range: 0..0 }
+    Usage { column, signal, spelled, alternate, blocks: None, is_routed: false, range: 0..0 }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::place::Place;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::Signal;
-use sensedsl_board::table::{Column, Property, Role, Table, Usage};
+use sensedsl_board::table::{Column, Property, ROUTED, Role, Table, Usage};
 
 use crate::find::{Found, find};
 use crate::sheet::{column_of, columns};
@@ -55,8 +55,10 @@ pub fn complete(table: &mut Table) -> Completion {
         for column in columns() {
             let of_column = usages.iter().filter(|(signal, _)| column_of(signal) == column);
             pin.usages.extend(of_column.map(|(usage, alternate)| {
-                let (spelled, blocks) = Blocks::split(usage);
+                let own = usage.strip_prefix(ROUTED);
+                let (spelled, blocks) = Blocks::split(own.unwrap_or(usage));
                 Usage {
+                    is_routed: own.is_some(),
                     spelled: spelled.to_owned(),
                     signal: Signal::parse(spelled).0,
                     alternate: *alternate,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::table::ROUTED;
 
 use crate::listing::{Origin, Part};
 use crate::shipped::data;
@@ -15,12 +16,18 @@ pub type Usage = (String, Option<u8>);
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
-    ("I2C", &["I2C", "TWI"]),
-    ("TIM", &["TIM", "PWM", "OC0", "OC1", "OC2", "OC3", "OC4", "OC5", "ICP"]),
+    ("I2C", &["I2C", "TWI", "LPI2C", "SERCOM"]),
+    (
+        "TIM",
+        &[
+            "TIM", "PWM", "OC0", "OC1", "OC2", "OC3", "OC4", "OC5", "ICP", "LEDC", "PCNT", "RMT",
+            "QDEC", "PDEC", "TC",
+        ],
+    ),
     ("UART", &["USART", "UART", "LPUART"]),
-    ("SPI", &["SPI"]),
+    ("SPI", &["SPI", "LPSPI"]),
     ("I2S", &["I2S"]),
-    ("CAN", &["CAN", "FDCAN"]),
+    ("CAN", &["CAN", "FDCAN", "TWAI"]),
     ("USB", &["USB"]),
     ("Other", &[""]),
 ];
@@ -161,6 +168,7 @@ pub(crate) fn columns() -> impl Iterator<Item = &'static str> {
 }
 
 pub(crate) fn column_of(signal: &str) -> &'static str {
+    let signal = signal.trim_start_matches(ROUTED);
     let fits = |starts: &[&str]| starts.iter().any(|start| signal.starts_with(start));
     COLUMNS.iter().find(|(_, starts)| fits(starts)).map_or("Other", |(column, _)| column)
 }

@@ -82,7 +82,7 @@ impl<'d> Placed<'d> {
             }) {
                 let report = self.swapped(fixed).or_else(|| self.bus_only(fixed));
                 let report = report.or_else(|| self.by_silicon(fixed));
-                let report = report.or_else(|| self.analog_only(fixed));
+                let report = report.or_else(|| self.no_gpio(fixed));
                 return Some(report.unwrap_or_else(|| self.cannot_serve(fixed)));
             }
         }
@@ -153,6 +153,7 @@ impl<'d> Placed<'d> {
                     PinRole::Reset => "make it a GPIO in the option bytes",
                     PinRole::Boot => "leave it alone at reset",
                     PinRole::Oscillator => "fit no crystal",
+                    PinRole::Memory => "have a module that leaves it free",
                 };
                 let help = format!("take another pin, or write `release {name};` and {price}");
                 (role.describe().to_owned(), None, help)

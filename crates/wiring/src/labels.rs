@@ -94,8 +94,8 @@ impl Namer<'_> {
         | Group::Tie(board, ..)) = group;
         let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
         let name = match group {
-            Group::Bus(_, unit, 0) => format!("bus {unit}"),
-            Group::Bus(_, unit, setting) => format!("bus {unit} at {setting}"),
+            Group::Bus(_, unit, _, 0) => format!("bus {unit}"),
+            Group::Bus(_, unit, _, setting) => format!("bus {unit} at {setting}"),
             Group::Frequency(_, timer, frequency_hz) => format!("{timer} at {frequency_hz} Hz"),
             Group::Pin(_, unit, role, at, _) => {
                 format!("{} of {unit} on {}", role.name(), pin(*at).unwrap_or_default())

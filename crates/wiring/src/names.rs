@@ -6,7 +6,7 @@ use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{BoardIndex, PartIndex, Together};
-use sensedsl_model::kind::Role;
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_solve::problem::{Claim, Holder, ResourceId};
 
 /// A resource other than a pin.
@@ -141,8 +141,8 @@ pub(crate) fn list(names: &[&str], and: &str) -> String {
 /// their index in the board's table.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Group {
-    /// The devices of a bus that agree on a setting (0 if there is none to agree on).
-    Bus(BoardIndex, String, u32),
+    /// The devices on a bus of a kind that agree on a setting (0 if there is none to agree on).
+    Bus(BoardIndex, String, KindName, u32),
     /// The outputs of a timer that run at one frequency.
     Frequency(BoardIndex, String, u32),
     /// The devices that use a pin, with that signal, for one wire of their bus.

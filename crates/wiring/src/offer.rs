@@ -11,6 +11,7 @@ use sensedsl_board::silicon::{self, PinRole, Silicon};
 use sensedsl_board::table::{Occupation, Pin, Role, Usage, release_name};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Design, PreferenceSubject, Transport};
+use sensedsl_model::kind;
 
 /// The part that may be on the pins of an oscillator.
 const CRYSTAL: &str = "the oscillator's crystal";
@@ -79,6 +80,8 @@ pub(crate) struct Offer<'a> {
     silicon: Option<&'static Silicon>,
     /// Pins that are inputs of a converter and nothing else.
     analog_only: BTreeSet<PinName>,
+    /// Pins that cannot put anything out.
+    input_only: BTreeSet<PinName>,
     rules: Rules<'a>,
     /// For each pin of the table, why it is withheld.
     withheld: Vec<Option<Withheld>>,
@@ -131,8 +134,20 @@ impl<'a> Offer<'a> {
         };
         let sides = board.table.pins.iter().filter(is_beside).map(|pin| pin.name.clone());
         analog_only.extend(sides);
+        let input_only = board.mcu.as_deref().map(silicon::input_only).unwrap_or_default();
         let remaps = remaps(pins);
-        Self { index, board, silicon, analog_only, rules, withheld, shared, pads, remaps }
+        Self {
+            index,
+            board,
+            silicon,
+            analog_only,
+            input_only,
+            rules,
+            withheld,
+            shared,
+            pads,
+            remaps,
+        }
     }
 
     /// The other thing that is on a pin that devices may use all the same.
@@ -178,6 +193,12 @@ impl<'a> Offer<'a> {
     /// True for a pin that cannot carry a digital signal.
     pub(crate) fn is_analog_only(&self, pin: &Pin) -> bool {
         self.analog_only.contains(&pin.name)
+    }
+
+    /// Whether the pin can be the wire as a GPIO, given which end drives it.
+    pub(crate) fn is_gpio(&self, pin: &Pin, role: kind::Role) -> bool {
+        let drives = !role.is_driven_by_device();
+        !self.is_analog_only(pin) && !(drives && self.input_only.contains(&pin.name))
     }
 
     /// Whether a name in a file means this peripheral instance of the board.

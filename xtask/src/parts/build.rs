@@ -8,8 +8,11 @@ use sensedsl_board::pin::natural;
 use sensedsl_parts::format::{Data, Layout, PartData, Row};
 
 use super::avr::Avr;
+use super::esp::Esp;
 use super::metapac::{Chip, Pins};
 use super::modm::Device;
+use super::nrf;
+use super::sam::Sam;
 
 /// The parts for which the source has the pinout of their variant with a voltage converter (`Q`), each with a part that
 /// has the same pins in the same package according to the data sheets DS12737 and DS12736.
@@ -45,27 +48,24 @@ struct Part<'a> {
     ram_bytes: usize,
 }
 
+/// The parts of other vendors than ST.
+pub(crate) struct Others {
+    pub(crate) avrs: Vec<Avr>,
+    pub(crate) esps: Vec<Esp>,
+    pub(crate) nrfs: Vec<nrf::Part>,
+    pub(crate) sams: Vec<Sam>,
+}
+
 /// The table, and figures for the person who makes it.
 pub(crate) fn build(
     chips: &BTreeMap<String, Chip>,
     devices: &[Device],
-    avrs: &[Avr],
+    others: &Others,
 ) -> Result<(Data, String)> {
     let (mut parts, left_out) = stm32(chips, devices)?;
-    for avr in avrs {
-        for (code, (package, places)) in &avr.variants {
-            parts.push(Part {
-                base: &avr.base,
-                codes: vec![code.clone()],
-                pins: Cow::Borrowed(&avr.pins),
-                layout: Some((package, places)),
-                core: &avr.core,
-                flash_bytes: avr.flash_bytes,
-                ram_bytes: avr.ram_bytes,
-            });
-        }
-    }
+    parts.extend(others.parts());
     parts.sort_by(|a, b| (a.base, &a.codes).cmp(&(b.base, &b.codes)));
+
     let numbers: usize = parts.iter().map(|part| part.codes.len()).sum();
     let bare = parts.iter().filter(|part| part.layout.is_none()).count();
     let bases: BTreeSet<&str> = parts.iter().map(|part| part.base).collect();
@@ -81,6 +81,51 @@ pub(crate) fn build(
         data.layouts.len(),
     );
     Ok((data, summary))
+}
+
+impl Others {
+    fn parts(&self) -> Vec<Part<'_>> {
+        let mut parts = Vec::new();
+        for avr in &self.avrs {
+            parts.extend(avr.variants.iter().map(|(code, (package, places))| Part {
+                base: &avr.base,
+                codes: vec![code.clone()],
+                pins: Cow::Borrowed(&avr.pins),
+                layout: Some((package.as_str(), places.as_slice())),
+                core: &avr.core,
+                flash_bytes: avr.flash_bytes,
+                ram_bytes: avr.ram_bytes,
+            }));
+        }
+        parts.extend(self.esps.iter().map(|esp| Part {
+            base: esp.base,
+            codes: vec![String::new()],
+            pins: Cow::Borrowed(&esp.pins),
+            layout: None,
+            core: esp.core,
+            flash_bytes: 0,
+            ram_bytes: esp.ram_bytes,
+        }));
+        parts.extend(self.nrfs.iter().map(|nrf| Part {
+            base: &nrf.base,
+            codes: vec![nrf.code.clone()],
+            pins: Cow::Borrowed(&nrf.pins),
+            layout: nrf.layout.as_ref().map(|(package, places)| (package.as_str(), &places[..])),
+            core: nrf.core,
+            flash_bytes: nrf.flash_bytes,
+            ram_bytes: nrf.ram_bytes,
+        }));
+        parts.extend(self.sams.iter().map(|sam| Part {
+            base: &sam.base,
+            codes: sam.codes.clone(),
+            pins: Cow::Borrowed(&sam.pins),
+            layout: None,
+            core: sam.core,
+            flash_bytes: sam.flash_bytes,
+            ram_bytes: sam.ram_bytes,
+        }));
+        parts
+    }
 }
 
 fn stm32<'a>(

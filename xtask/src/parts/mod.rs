@@ -8,8 +8,11 @@
 mod avr;
 mod build;
 mod compare;
+mod esp;
 pub(crate) mod metapac;
 mod modm;
+mod nrf;
+mod sam;
 pub(crate) mod sources;
 
 use std::path::Path;
@@ -33,9 +36,14 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         fetched => fetched?,
     };
     let chips = metapac::read(&sources.metapac)?;
-    let devices = modm::read(&sources.modm)?;
-    let avrs = avr::read(&sources.avr)?;
-    let (data, summary) = build::build(&chips, &devices, &avrs)?;
+    let devices = modm::read(&sources.modm.join("stm32"))?;
+    let others = build::Others {
+        avrs: avr::read(&sources.avr)?,
+        esps: esp::read(&sources.esp)?,
+        nrfs: nrf::read(&sources.modm.join("nrf"))?,
+        sams: sam::read(&sources.modm.join("sam"))?,
+    };
+    let (data, summary) = build::build(&chips, &devices, &others)?;
     let packed = format::pack(&data);
     ensure!(format::unpack(&packed).as_ref() == Some(&data), "the table does not read back");
     let path = root.join("crates/parts/data/parts.bin");

@@ -36,7 +36,7 @@ impl Device {
 }
 
 /// The attributes that tell the devices of a file apart.
-type Identity = BTreeMap<String, String>;
+pub(super) type Identity = BTreeMap<String, String>;
 
 /// All part numbers.
 pub(crate) fn read(folder: &Path) -> Result<Vec<Device>> {
@@ -61,17 +61,20 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Device>> {
     Ok(devices)
 }
 
-fn child<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> Option<Node<'a, 'i>> {
+pub(super) fn child<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> Option<Node<'a, 'i>> {
     children(node, name).next()
 }
 
-fn children<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+pub(super) fn children<'a, 'i>(
+    node: Node<'a, 'i>,
+    name: &'static str,
+) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children().filter(move |node| node.has_tag_name(name))
 }
 
 /// The devices of a file: all combinations of the values that it lists for the fields of its
 /// schema, without those that it marks as invalid; if it marks any as valid, only those.
-fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
+pub(super) fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
     let fields = schema.split('{').filter_map(|part| Some(part.split_once('}')?.0));
     let mut all = vec![Identity::new()];
     for field in fields {
@@ -98,7 +101,7 @@ fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
 }
 
 /// The name of a device.
-fn spell(schema: &str, identity: &Identity) -> String {
+pub(super) fn spell(schema: &str, identity: &Identity) -> String {
     let value = |part: &str| match part.split_once('}') {
         Some((field, rest)) => {
             format!("{}{rest}", identity.get(field).map(String::as_str).unwrap_or_default())
@@ -109,7 +112,7 @@ fn spell(schema: &str, identity: &Identity) -> String {
 }
 
 /// Whether a node's `device-…` attributes apply to the device.
-fn applies(node: Node<'_, '_>, identity: &Identity) -> bool {
+pub(super) fn applies(node: Node<'_, '_>, identity: &Identity) -> bool {
     node.attributes().all(|attribute| match attribute.name().strip_prefix("device-") {
         Some(field) => {
             identity.get(field).is_none_or(|own| attribute.value().split('|').any(|one| one == own))
@@ -128,16 +131,7 @@ fn device(root: Node<'_, '_>, cores: &[Identity]) -> Result<Option<Device>> {
         .flat_map(|driver| children(driver, "package"))
         .filter(|package| applies(*package, identity));
     let Some(package) = packages.next() else { return Ok(None) };
-    let pins = children(package, "pin").filter(|pin| applies(*pin, identity));
-    let places = pins.filter_map(|pin| {
-        let name = pin.attribute("name")?;
-        let port = name.strip_prefix('P')?.strip_prefix(|c: char| c.is_ascii_uppercase())?;
-        let pin_name = port.starts_with(|c: char| c.is_ascii_digit()).then_some(name)?;
-        Some((pin.attribute("position")?.to_owned(), PinName::parse(pin_name)?.to_string()))
-    });
-    let mut places: Vec<(String, String)> = places.collect();
-    places.sort_by(|(a, p), (b, q)| natural(a, b).then_with(|| natural(p, q)));
-    places.dedup();
+    let places = places(package, identity);
     Ok(Some(Device {
         base: format!("STM32{}{}{}{}", field("family"), field("name"), field("pin"), field("size")),
         package_code: field("package"),
@@ -148,6 +142,21 @@ fn device(root: Node<'_, '_>, cores: &[Identity]) -> Result<Option<Device>> {
         core: core(root, cores)?,
         ram_bytes: ram(root, cores)?,
     }))
+}
+
+/// The positions of a package, with their pins.
+pub(super) fn places(package: Node<'_, '_>, identity: &Identity) -> Vec<(String, String)> {
+    let pins = children(package, "pin").filter(|pin| applies(*pin, identity));
+    let places = pins.filter_map(|pin| {
+        let name = pin.attribute("name")?;
+        let port = name.strip_prefix('P')?.trim_start_matches(|c: char| c.is_ascii_uppercase());
+        let pin_name = port.starts_with(|c: char| c.is_ascii_digit()).then_some(name)?;
+        Some((pin.attribute("position")?.to_owned(), PinName::parse(pin_name)?.to_string()))
+    });
+    let mut places: Vec<(String, String)> = places.collect();
+    places.sort_by(|(a, p), (b, q)| natural(a, b).then_with(|| natural(p, q)));
+    places.dedup();
+    places
 }
 
 /// The driver that describes the cores.

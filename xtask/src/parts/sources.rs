@@ -9,13 +9,17 @@ use anyhow::{Context as _, Result, ensure};
 const METAPAC: (&str, &str) = ("stm32-metapac", "21.0.0");
 /// ATDF files of the AVRs.
 const AVR: (&str, &str) = ("avr-device", "0.9.0");
-/// Packages and positions of STM32.
+/// Pins and signals of ESP32.
+const ESP: (&str, &str) = ("esp-metadata-generated", "0.5.3");
+/// Packages and positions of STM32; all of nRF52 and SAM D.
 const MODM: (&str, &str) = ("modm-devices", "0.13.1");
 
 /// Folders of the unpacked packages.
 pub(crate) struct Sources {
     pub(crate) metapac: PathBuf,
     pub(crate) avr: PathBuf,
+    pub(crate) esp: PathBuf,
+    /// The folders of the families.
     pub(crate) modm: PathBuf,
 }
 
@@ -32,7 +36,7 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
     let vendor = folder.join("vendor");
     let crate_folder = |(name, _): (&str, &str)| vendor.join(name);
     let python = folder.join(format!("{}-{}", MODM.0, MODM.1));
-    if !(crate_folder(METAPAC).exists() && crate_folder(AVR).exists()) {
+    if [METAPAC, AVR, ESP].iter().any(|of| !crate_folder(*of).exists()) {
         std::fs::create_dir_all(folder.join("src"))?;
         write(&folder.join("src/lib.rs"), b"")?;
         let dependency = |(name, version): (&str, &str)| {
@@ -40,9 +44,10 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
         };
         let manifest = format!(
             "[package]\nname = \"parts-sources\"\nedition = \"2024\"\n\n[workspace]\n\n\
-             [dependencies]\n{}{}",
+             [dependencies]\n{}{}{}",
             dependency(METAPAC),
-            dependency(AVR)
+            dependency(AVR),
+            dependency(ESP)
         );
         write(&folder.join("Cargo.toml"), manifest.as_bytes())?;
         call(Command::new("cargo").args(["vendor", "--quiet"]).arg(&vendor).current_dir(folder))?;
@@ -55,7 +60,8 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
     Ok(Sources {
         metapac: crate_folder(METAPAC).join("src/chips"),
         avr: crate_folder(AVR).join("vendor"),
-        modm: python.join("modm_devices/resources/devices/stm32"),
+        esp: crate_folder(ESP).join("src"),
+        modm: python.join("modm_devices/resources/devices"),
     })
 }
 

@@ -8,7 +8,7 @@ use crate::cells::Cell;
 use crate::finding::FindingKind;
 use crate::remap::Blocks;
 use crate::signal::Signal;
-use crate::table::{Column, Occupation, Onboard, Pin, Usage};
+use crate::table::{Column, Occupation, Onboard, Pin, ROUTED, Usage};
 
 impl Loader<'_> {
     /// Reads a cell of usages.
@@ -26,6 +26,8 @@ impl Loader<'_> {
             if self.usages_left == 0 {
                 return self.too_large("usages", USAGES_MAX, &range);
             }
+            let own = text.strip_prefix(ROUTED);
+            let (is_routed, text) = (own.is_some(), own.unwrap_or(&text).to_owned());
             let (spelled, alternate) = match text.split_once('@') {
                 Some((spelled, number)) => (spelled.to_owned(), Some(number)),
                 None => (text.clone(), None),
@@ -62,7 +64,15 @@ impl Loader<'_> {
             let column = column.header.clone();
             known.insert(signal.name().to_owned(), (pin.usages.len(), range.clone()));
             self.usages_left -= 1;
-            pin.usages.push(Usage { spelled, signal, alternate: number, blocks, column, range });
+            pin.usages.push(Usage {
+                spelled,
+                signal,
+                alternate: number,
+                blocks,
+                is_routed,
+                column,
+                range,
+            });
         }
     }
 

@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::nearest;
 
-use super::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine, UnitName};
+use super::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine, UnitName, vendors};
 
 /// Upper case, `²` as 2, and `_` for every other separator.
 pub(super) fn normalise(spelled: &str) -> String {
@@ -25,7 +25,7 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
             let units: String = units.iter().map(u8::to_string).collect();
             Some(format!("ADC{units}_IN{channel}"))
         }
-        Function::Timer { unit, channel, line } if unit.as_str().starts_with("TIM") => {
+        Function::Timer { unit, channel, line } if is_tim(unit) => {
             let inverted = if *line == TimerLine::Inverted { "N" } else { "" };
             Some(format!("{unit}_CH{channel}{inverted}"))
         }
@@ -37,6 +37,12 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
         | Function::Can { .. }
         | Function::Other => None,
     }
+}
+
+/// Whether it is a timer of STM32, not one of nRF (`TIMER1`).
+fn is_tim(unit: &UnitName) -> bool {
+    let number = unit.as_str().strip_prefix("TIM");
+    number.is_some_and(|number| number.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// The result of reading a normalised name.
@@ -67,8 +73,7 @@ const FAMILIES: [(&str, &[&str]); 11] = [
 const NEIGHBOURS: [&str; 9] = ["I2S", "I3C", "SAI", "QSPI", "OSPI", "HSPI", "XSPI", "FSPI", "VSPI"];
 
 pub(super) fn read(name: &str) -> Reading {
-    let others = pwm_slice(name).or_else(|| avr_timer(name)).or_else(|| spi_by_direction(name));
-    if let Some(function) = others {
+    if let Some(function) = vendors::function(name) {
         return Reading::Function(function);
     }
     let Some((stem, number, line)) = split(name) else {
@@ -156,59 +161,6 @@ fn timer(unit: UnitName, line: &str) -> Option<Function> {
     Some(Function::Timer { unit, channel, line })
 }
 
-/// `PWM4_A`: a channel of a slice of RP2040 and RP2350.
-fn pwm_slice(name: &str) -> Option<Function> {
-    let (slice, channel) = name.strip_prefix("PWM")?.split_once('_')?;
-    let channel = match channel {
-        "A" => 1,
-        "B" => 2,
-        _ => return None,
-    };
-    small(slice)?;
-    let unit = UnitName(format!("PWM{slice}"));
-    Some(Function::Timer { unit, channel, line: TimerLine::Both })
-}
-
-/// `SPI0_RX`, `SPI0_TX`, `SPI0_CSn` of RP2040, and `SPI_SS` of AVR. No misspelling is corrected to
-/// one of these: too many other peripherals have such lines.
-fn spi_by_direction(name: &str) -> Option<Function> {
-    let (unit, line) = name.split_once('_')?;
-    let number = unit.strip_prefix("SPI")?;
-    let line = match line {
-        "RX" => SpiLine::Miso,
-        "TX" => SpiLine::Mosi,
-        "CSN" | "CS" | "SS" => SpiLine::Nss,
-        _ => return None,
-    };
-    if !number.is_empty() {
-        small(number)?;
-    }
-    Some(Function::Spi { unit: UnitName(unit.to_owned()), line })
-}
-
-/// `OC1A`, `OC4AN` and `ICP1`: AVR's names for the outputs and the capture input of a
-/// timer/counter.
-fn avr_timer(name: &str) -> Option<Function> {
-    let (number, channel, line) = if let Some(number) = name.strip_prefix("ICP") {
-        (number, 1, TimerLine::Input)
-    } else {
-        let output = name.strip_prefix("OC")?;
-        let plain = output.strip_suffix('N');
-        let line = if plain.is_some() { TimerLine::Inverted } else { TimerLine::Output };
-        let output = plain.unwrap_or(output);
-        let number = output.strip_suffix(['A', 'B', 'C', 'D'])?;
-        let channel = match output.strip_prefix(number)? {
-            "A" => 1,
-            "B" => 2,
-            "C" => 3,
-            _ => 4,
-        };
-        (number, channel, line)
-    };
-    small(number)?;
-    Some(Function::Timer { unit: UnitName(format!("TC{number}")), channel, line })
-}
-
 /// One digit per unit, in ascending order; `ADC_IN5` belongs to the only unit.
 fn adc_units(digits: &str) -> Option<Vec<u8>> {
     if digits.is_empty() {
@@ -220,7 +172,7 @@ fn adc_units(digits: &str) -> Option<Vec<u8>> {
 }
 
 /// A number from 0 to 99 without sign or leading zero.
-fn small(digits: &str) -> Option<u8> {
+pub(super) fn small(digits: &str) -> Option<u8> {
     let plain = digits.len() <= 2
         && digits.bytes().all(|b| b.is_ascii_digit())
         && (digits.len() == 1 || !digits.starts_with('0'));

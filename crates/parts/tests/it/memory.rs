@@ -49,6 +49,10 @@ fn memory_is_that_of_the_data_sheets() {
         ("ATMEGA32U4-AU", "AVR8", 32.0, 2.5),
         ("ATMEGA1284P-AU", "AVR8", 128.0, 16.0),
         ("ATMEGA2560-16AU", "AVR8", 256.0, 8.0),
+        ("ESP32-S3", "Xtensa LX7 + Xtensa LX7", 0.0, 480.0),
+        ("NRF52840-QIAA", "Cortex-M4", 1024.0, 256.0),
+        ("ATSAMD21G18A-AU", "Cortex-M0+", 256.0, 32.0),
+        ("ATSAMD51J19A-AU", "Cortex-M4", 512.0, 192.0),
     ] {
         let found = find(name).unwrap_or_else(|| panic!("{name}"));
         assert_eq!(facts(found.parts[0]), (core.to_owned(), flash, ram), "{name}");
@@ -65,15 +69,16 @@ fn every_part_has_a_core_and_ram() {
         assert!((1.0..8192.0).contains(&ram), "{}: {ram}", part.name());
         assert!(flash <= 4096.0, "{}: {flash}", part.name());
         if part.flash_bytes().is_none() {
-            without_flash.insert(part.name().get(..6).unwrap_or_default().to_owned());
+            without_flash.insert(part.name().chars().take(6).collect::<String>());
         }
     }
     let names: Vec<&str> = cores.keys().map(String::as_str).collect();
     let expected = "AVR8, Cortex-M0, Cortex-M0+, Cortex-M0+ + Cortex-M0+, Cortex-M3, Cortex-M33, \
                     Cortex-M33 + Cortex-M33, Cortex-M4, Cortex-M4 + Cortex-M0+, Cortex-M55, \
-                    Cortex-M7, Cortex-M7 + Cortex-M4";
+                    Cortex-M7, Cortex-M7 + Cortex-M4, RISC-V, Xtensa LX6 + Xtensa LX6, Xtensa LX7, \
+                    Xtensa LX7 + Xtensa LX7";
     assert_eq!(names.join(", "), expected);
-    assert_eq!(Vec::from_iter(without_flash), ["RP2040", "RP2350", "STM32N"]);
+    assert_eq!(Vec::from_iter(without_flash), ["ESP32", "ESP32-", "RP2040", "RP2350", "STM32N"]);
 }
 
 /// The facts of ST's file of an MCU, by part number.

@@ -52,7 +52,8 @@ impl Maker<'_, '_> {
                 None
             }
             Sharing::Bus(setting) => {
-                let group = Group::Bus(board, unit.to_owned(), setting);
+                let kind = self.wanted.kind.name();
+                let group = Group::Bus(board, unit.to_owned(), kind, setting);
                 claims.push(names.shared(resource, group.clone()));
                 Some(group)
             }

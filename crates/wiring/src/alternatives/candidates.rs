@@ -36,7 +36,7 @@ impl Maker<'_, '_> {
                     }
                 }
                 Need::Gpio | Need::Interrupt => {
-                    if !offer.bus_only(pin) && !offer.is_analog_only(pin) {
+                    if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
                         made.push(self.bare(role, index, pin, interrupt));
                     }

@@ -57,11 +57,17 @@ impl Maker<'_, '_> {
 
     /// Drivers take timers whole, and so does a kind that needs several channels of one.
     pub(super) fn channels(&self) -> Channels {
-        if self.profile().is_some() || served(self.wanted.kind).takes_whole_timer() {
+        let is_whole = self.profile().is_some() || self.are_timers_shared();
+        if is_whole || served(self.wanted.kind).takes_whole_timer() {
             Channels::OfWholeTimer
         } else {
             Channels::Single
         }
+    }
+
+    /// Whether timers are claimed without a system that drives them.
+    fn are_timers_shared(&self) -> bool {
+        self.offer.board.silicon().is_some_and(|silicon| silicon.timers.are_shared)
     }
 
     fn timer(&mut self, using: &TimerUse, unit: &str, timer: Option<&Timer>) -> Vec<Alternatives> {
@@ -94,7 +100,8 @@ impl Maker<'_, '_> {
             }
             None => self.builder.names.own(resource),
         };
-        let claims = if timer.is_some() { vec![claim] } else { Vec::new() };
+        let is_claimed = timer.is_some() || self.are_timers_shared();
+        let claims = if is_claimed { vec![claim] } else { Vec::new() };
         self.finish(Some(unit), &claims, roles)
     }
 
@@ -123,7 +130,7 @@ pub(crate) struct Channel<'a> {
 impl Channel<'_> {
     /// Whether it can be an input of the timer, as far as the silicon allows.
     pub(crate) fn captures(self, ability: Option<&Ability>) -> bool {
-        let able = ability.is_none_or(|ability| ability.channels.contains(&self.number));
+        let able = ability.is_none_or(|ability| ability.is_of(self.unit.as_str(), self.number));
         able && self.line.is_input()
     }
 }

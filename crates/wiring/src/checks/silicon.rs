@@ -35,13 +35,17 @@ impl Placed<'_> {
         })
     }
 
-    /// The report for a fixed pin that cannot carry a digital signal.
-    pub(super) fn analog_only(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
-        self.offers.iter().find(|offer| {
-            let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
-            row.is_some_and(|row| offer.is_analog_only(row))
+    /// The report for a fixed pin that cannot carry a digital signal, or not in the direction of the wire.
+    pub(super) fn no_gpio(&self, (role, pin): &Fixed) -> Option<Diagnostic> {
+        let because = self.offers.iter().find_map(|offer| {
+            let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name))?;
+            let because = if offer.is_analog_only(row) {
+                "the pad is an input of the converter alone"
+            } else {
+                "the pad is an input alone"
+            };
+            (!offer.is_gpio(row, *role)).then_some(because)
         })?;
-        let because = "the pad is an input of the converter alone";
         let (needs, pins) = self.needs_and_pins(*role);
         let name = pin.value.shown();
         Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
