@@ -8,6 +8,7 @@ use sensedsl_board::catalog::{self, Entry};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::signal::Function;
+use sensedsl_board::silicon;
 use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_firmware_chibios::Facts;
 use sensedsl_model::design::Design;
@@ -42,7 +43,7 @@ fn there_are_many_and_each_has_its_names() {
             assert_eq!(other, None, "{}: {name} is taken", entry.name);
         }
     }
-    assert!(catalog::all().len() >= 80, "{} boards", catalog::all().len());
+    assert!(catalog::all().len() >= 120, "{} boards", catalog::all().len());
     let with_headers = catalog::all().iter().filter(|entry| {
         entry.table().pins.iter().filter(|pin| !pin.headers().is_empty()).count() >= 10
     });
@@ -160,10 +161,18 @@ fn fig2_on(entry: &Entry) -> String {
             sensor Rear returns uint16 {{
                 id = 19; type = i2c; driver = srf08; address = 0x73; delay = 70; prio = 2;
             }}
-            sensor Wheel returns uint32 {{ id = 20; type = icu; }}
+            {}
         }}",
-        entry.name.replace('-', "_")
+        entry.name.replace('-', "_"),
+        // Where nothing captures, there is no wheel.
+        if captures(entry) { "sensor Wheel returns uint32 { id = 20; type = icu; }" } else { "" }
     )
+}
+
+/// Whether any timer of the board's MCU captures.
+fn captures(entry: &Entry) -> bool {
+    let capture = silicon::of(entry.mcu).and_then(|silicon| silicon.timers.capture.as_ref());
+    capture.is_none_or(|ability| !ability.channels.is_empty())
 }
 
 #[track_caller]

@@ -40,24 +40,13 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
 
 /// Boards and MCUs that people own and that are not built in yet: how their names begin, and what they are.
 const NOT_YET: &[(&str, &str)] = &[
-    ("esp32", "ESP32"),
     ("esp8266", "ESP8266"),
     ("wemosd1", "ESP8266"),
     ("nodemcu", "ESP8266"),
     ("teensy", "Teensy"),
     ("imxrt", "i.MX RT"),
-    ("nrf5", "nRF52 and nRF53"),
-    ("microbit", "micro:bit"),
-    ("samd", "SAMD"),
-    ("feather", "Feather"),
-    ("xiaoesp32", "ESP32"),
-    ("xiaosamd", "SAMD"),
     ("arduinodue", "Arduino Due"),
-    ("arduinozero", "Arduino Zero"),
-    ("arduinomkr", "Arduino MKR"),
     ("arduinogiga", "Arduino Giga"),
-    ("arduinonano33", "Arduino Nano 33"),
-    ("arduinonanoesp32", "Arduino Nano ESP32"),
     ("arduinounor4", "Arduino Uno R4"),
     ("ra4m1", "RA4M1"),
 ];

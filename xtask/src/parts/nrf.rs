@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use roxmltree::Document;
+use roxmltree::{Document, Node};
 use sensedsl_board::table::ROUTED;
 
 use super::metapac::Pins;
@@ -95,13 +95,17 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Part>> {
     Ok(parts)
 }
 
-fn pins(chip: &Chip, gpio: roxmltree::Node<'_, '_>, identity: &Identity) -> Result<Pins> {
+fn pins(chip: &Chip, gpio: Node<'_, '_>, identity: &Identity) -> Result<Pins> {
     let mut pins = Pins::new();
     for node in children(gpio, "gpio").filter(|node| applies(*node, identity)) {
         let attribute = |name: &str| node.attribute(name).context("no name");
         let number: u8 = attribute("pin")?.parse()?;
         let usages = pins.entry(format!("P{}.{number:02}", attribute("port")?)).or_default();
-        for signal in children(node, "signal").filter(|node| applies(*node, identity)) {
+        // The file does not say which inputs nRF52832 has; its product specification has the same.
+        let has = |node: &Node<'_, '_>| {
+            applies(*node, identity) || node.attribute("driver") == Some("saadc")
+        };
+        for signal in children(node, "signal").filter(has) {
             let of = |name: &str| signal.attribute(name).unwrap_or_default();
             match (of("driver"), of("name")) {
                 ("saadc", input) => {
