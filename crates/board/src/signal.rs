@@ -391,6 +391,9 @@ mod tests {
             ("PWM3_OUT2", timer("PWM3", 3, TimerLine::Output)),
             ("LEDC1_CH3", timer("LEDC1", 4, TimerLine::Output)),
             ("QDEC_B", timer("QDEC", 2, TimerLine::Input)),
+            ("FLEXPWM2_PWMB3", timer("FLEXPWM2_3", 2, TimerLine::Output)),
+            ("QTIMER1_TIMER2", timer("QTIMER1_2", 1, TimerLine::Both)),
+            ("ENC4_A", timer("ENC4", 1, TimerLine::Input)),
             ("PDEC_QDI1", timer("PDEC", 2, TimerLine::Input)),
             ("TCC0_WO3", timer("TCC0", 4, TimerLine::Output)),
         ] {

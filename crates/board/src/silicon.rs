@@ -16,6 +16,7 @@ use crate::pin::PinName;
 const FILES: &[&str] = &[
     include_str!("../silicon/atmega.toml"),
     include_str!("../silicon/esp32.toml"),
+    include_str!("../silicon/imxrt.toml"),
     include_str!("../silicon/nrf52.toml"),
     include_str!("../silicon/rp2.toml"),
     include_str!("../silicon/samd.toml"),

@@ -21,13 +21,13 @@ const COLUMNS: [(&str, &[&str]); 10] = [
         "TIM",
         &[
             "TIM", "PWM", "OC0", "OC1", "OC2", "OC3", "OC4", "OC5", "ICP", "LEDC", "PCNT", "RMT",
-            "QDEC", "PDEC", "TC",
+            "QDEC", "PDEC", "TC", "FLEXPWM", "QTIMER", "ENC1_", "ENC2_", "ENC3_", "ENC4_",
         ],
     ),
     ("UART", &["USART", "UART", "LPUART"]),
     ("SPI", &["SPI", "LPSPI"]),
     ("I2S", &["I2S"]),
-    ("CAN", &["CAN", "FDCAN", "TWAI"]),
+    ("CAN", &["CAN", "FDCAN", "TWAI", "FLEXCAN"]),
     ("USB", &["USB"]),
     ("Other", &[""]),
 ];

@@ -53,6 +53,8 @@ pub(crate) struct Others {
     pub(crate) avrs: Vec<Avr>,
     pub(crate) esps: Vec<Esp>,
     pub(crate) nrfs: Vec<nrf::Part>,
+    /// The pads of the only i.MX RT.
+    pub(crate) imxrt: Pins,
     pub(crate) sams: Vec<Sam>,
 }
 
@@ -115,6 +117,16 @@ impl Others {
             flash_bytes: nrf.flash_bytes,
             ram_bytes: nrf.ram_bytes,
         }));
+        // RAM according to its data sheet: FlexRAM and OCRAM.
+        parts.push(Part {
+            base: "MIMXRT1062",
+            codes: ["", "DVL6A", "DVJ6A"].map(str::to_owned).to_vec(),
+            pins: Cow::Borrowed(&self.imxrt),
+            layout: None,
+            core: "Cortex-M7",
+            flash_bytes: 0,
+            ram_bytes: 1 << 20,
+        });
         parts.extend(self.sams.iter().map(|sam| Part {
             base: &sam.base,
             codes: sam.codes.clone(),

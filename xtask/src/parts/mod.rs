@@ -9,6 +9,7 @@ mod avr;
 mod build;
 mod compare;
 mod esp;
+mod imxrt;
 pub(crate) mod metapac;
 mod modm;
 mod nrf;
@@ -41,6 +42,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         avrs: avr::read(&sources.avr)?,
         esps: esp::read(&sources.esp)?,
         nrfs: nrf::read(&sources.modm.join("nrf"))?,
+        imxrt: imxrt::read(&sources.teensy, &sources.imxrt)?,
         sams: sam::read(&sources.modm.join("sam"))?,
     };
     let (data, summary) = build::build(&chips, &devices, &others)?;

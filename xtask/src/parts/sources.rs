@@ -11,6 +11,10 @@ const METAPAC: (&str, &str) = ("stm32-metapac", "21.0.0");
 const AVR: (&str, &str) = ("avr-device", "0.9.0");
 /// Pins and signals of ESP32.
 const ESP: (&str, &str) = ("esp-metadata-generated", "0.5.3");
+/// Pins and signals of i.MX RT1062, on the boards that lead them out.
+const TEENSY: (&str, &str) = ("teensy4-pins", "0.4.0");
+/// Inputs of the converters of i.MX RT1062.
+const IMXRT: (&str, &str) = ("imxrt-iomuxc", "0.3.2");
 /// Packages and positions of STM32; all of nRF52 and SAM D.
 const MODM: (&str, &str) = ("modm-devices", "0.13.1");
 
@@ -19,6 +23,8 @@ pub(crate) struct Sources {
     pub(crate) metapac: PathBuf,
     pub(crate) avr: PathBuf,
     pub(crate) esp: PathBuf,
+    pub(crate) teensy: PathBuf,
+    pub(crate) imxrt: PathBuf,
     /// The folders of the families.
     pub(crate) modm: PathBuf,
 }
@@ -36,7 +42,8 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
     let vendor = folder.join("vendor");
     let crate_folder = |(name, _): (&str, &str)| vendor.join(name);
     let python = folder.join(format!("{}-{}", MODM.0, MODM.1));
-    if [METAPAC, AVR, ESP].iter().any(|of| !crate_folder(*of).exists()) {
+    let crates = [METAPAC, AVR, ESP, TEENSY, IMXRT];
+    if crates.iter().any(|of| !crate_folder(*of).exists()) {
         std::fs::create_dir_all(folder.join("src"))?;
         write(&folder.join("src/lib.rs"), b"")?;
         let dependency = |(name, version): (&str, &str)| {
@@ -44,10 +51,8 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
         };
         let manifest = format!(
             "[package]\nname = \"parts-sources\"\nedition = \"2024\"\n\n[workspace]\n\n\
-             [dependencies]\n{}{}{}",
-            dependency(METAPAC),
-            dependency(AVR),
-            dependency(ESP)
+             [dependencies]\n{}",
+            crates.map(dependency).concat()
         );
         write(&folder.join("Cargo.toml"), manifest.as_bytes())?;
         call(Command::new("cargo").args(["vendor", "--quiet"]).arg(&vendor).current_dir(folder))?;
@@ -61,6 +66,8 @@ pub(crate) fn fetch(root: &Path) -> Result<Sources> {
         metapac: crate_folder(METAPAC).join("src/chips"),
         avr: crate_folder(AVR).join("vendor"),
         esp: crate_folder(ESP).join("src"),
+        teensy: crate_folder(TEENSY).join("src"),
+        imxrt: crate_folder(IMXRT).join("src"),
         modm: python.join("modm_devices/resources/devices"),
     })
 }

@@ -12,7 +12,7 @@ enum Channels {
 }
 
 /// Timers and counters: the start of a unit's name, its channels, and what they are at a pin.
-const TIMERS: [(&str, Channels, TimerLine); 10] = [
+const TIMERS: [(&str, Channels, TimerLine); 11] = [
     // RP2040 and RP2350: slices.
     ("PWM", Channels::Words(&["A", "B"]), TimerLine::Both),
     // nRF: modules of four outputs, timers that capture, the decoder.
@@ -26,12 +26,18 @@ const TIMERS: [(&str, Channels, TimerLine); 10] = [
     // SAM D: waveform outputs, the decoder.
     ("TCC", Channels::Counted("WO"), TimerLine::Output),
     ("TC", Channels::Counted("WO"), TimerLine::Output),
+    // i.MX RT: the decoders. Its other timers have units of two numbers.
+    ("ENC", Channels::Words(&["A", "B"]), TimerLine::Input),
     ("PDEC", Channels::Words(&["QDI0", "QDI1"]), TimerLine::Input),
 ];
 
 /// The function of a name that another vendor uses.
 pub(super) fn function(name: &str) -> Option<Function> {
-    timer(name).or_else(|| avr_timer(name)).or_else(|| spi_by_direction(name)).or_else(|| bus(name))
+    timer(name)
+        .or_else(|| avr_timer(name))
+        .or_else(|| imxrt_timer(name))
+        .or_else(|| spi_by_direction(name))
+        .or_else(|| bus(name))
 }
 
 fn timer(name: &str) -> Option<Function> {
@@ -51,6 +57,24 @@ fn timer(name: &str) -> Option<Function> {
     })
 }
 
+/// `FLEXPWM2_PWMA3`, an output of a submodule, and `QTIMER1_TIMER2`, a timer with one line, of i.MX RT.
+fn imxrt_timer(name: &str) -> Option<Function> {
+    let (unit, line) = name.split_once('_')?;
+    let both = |stem: &str, start: &str| {
+        small(unit.strip_prefix(stem)?)?;
+        let number = line.strip_prefix(start)?;
+        small(number).map(|_| UnitName(format!("{unit}_{number}")))
+    };
+    let timer = |unit, channel, line| Some(Function::Timer { unit, channel, line });
+    if let Some(unit) = both("FLEXPWM", "PWMA") {
+        return timer(unit, 1, TimerLine::Output);
+    }
+    if let Some(unit) = both("FLEXPWM", "PWMB") {
+        return timer(unit, 2, TimerLine::Output);
+    }
+    both("QTIMER", "TIMER").and_then(|unit| timer(unit, 1, TimerLine::Both))
+}
+
 /// `SERCOM0_SDA` of SAM D, which can be a bus of any kind; `TWIM0_SCL`, `SPIM3_SCK` and `UARTE0_TX`
 /// of nRF; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT.
 fn bus(name: &str) -> Option<Function> {
@@ -66,7 +90,7 @@ fn bus(name: &str) -> Option<Function> {
         "UARTE" => uart(unit),
         "SPIM" => spi(unit),
         "SERCOM" => i2c(unit.clone()).or_else(|| uart(unit.clone())).or_else(|| spi(unit)),
-        "TWAI" => Some(Function::Can { unit, line: CanLine::from_name(line)? }),
+        "TWAI" | "FLEXCAN" => Some(Function::Can { unit, line: CanLine::from_name(line)? }),
         "LPSPI" => {
             let line = match line {
                 "SDI" => SpiLine::Miso,
