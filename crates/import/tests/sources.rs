@@ -167,8 +167,7 @@ fn a_hwdef_becomes_devices() {
     assert!(!program.contains("PE3") && !program.contains("PA11"), "{program}");
     assert!(says(&made, "W0804", &["PC1"]), "{:?}", reported(&made));
     let table = made.table.unwrap();
-    assert!(table.contains("# mcu = STM32F405XX\n") && table.contains("ADC1_IN2"), "{table}");
-    assert!(table.contains("ADC3_IN10"), "{table}");
+    assert!(table.contains("# mcu = STM32F405RG\n"), "{table}");
     assert!(table.contains("PA11,,OTG_FS_DM,"), "{table}");
     let alone = with("hwdef.dat", HWDEF.as_bytes(), None, &[]);
     assert!(says(&alone, "W0804", &["common.inc"]) && says(&alone, "E0801", &["`MCU`"]));
@@ -200,7 +199,6 @@ fn what_a_hwdef_leaves_open_is_reported() {
     }
     let program = made.program.unwrap();
     assert!(program.contains("sensor DPS310 ") && !program.contains("BMP280"), "{program}");
-    assert!(made.table.unwrap().contains("ADC1_IN11"));
 }
 
 #[test]
