@@ -137,6 +137,16 @@ impl<'a> Maker<'a, '_> {
                 let properties = vec!["type = digital;".into(), format!("edge = {edge};")];
                 self.single(wire, "Input", ("sensor", "bool"), properties);
             }
+            Using::Analog
+                if self.chip.can(&wire.pin, |one| matches!(one, Function::Adc { .. })) =>
+            {
+                self.single(wire, "Analog", ("sensor", "uint16"), vec!["type = analog;".into()]);
+            }
+            Using::Pulses if self.chip.can(&wire.pin, |one| self.chip.is_output(one)) => {
+                self.single(wire, "Pwm", ("actuator", "uint16"), vec!["type = pwm;".into()]);
+            }
+            Using::Analog => self.incapable(wire, "no input of a converter"),
+            Using::Pulses => self.incapable(wire, "no output of a timer that the target drives"),
             Using::Select(_) => {}
             Using::Timer(signal, _) => self.timer(wire, signal),
             Using::Signal(signal) => self.signal(wire, signal),
@@ -170,6 +180,13 @@ impl<'a> Maker<'a, '_> {
             }
             None => {}
         }
+    }
+
+    /// Reports a pin that is not known to have what it is used for.
+    fn incapable(&mut self, wire: &Wire, why: &str) {
+        let label = wire.label.as_deref().unwrap_or("the use");
+        let what = format!("{label} of {} is left out: the pin is known as {why}", wire.pin);
+        self.log.dropped(wire.span, "", &what);
     }
 
     /// Reports a signal that no driver of the usual target serves.

@@ -3,6 +3,7 @@
 
 pub(crate) mod chip;
 mod link;
+pub(crate) mod pads;
 mod table;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +19,7 @@ use crate::log::Log;
 use crate::source::{Source, Texts};
 
 /// A project.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Project {
     pub(crate) name: String,
     pub(crate) mcu: Option<String>,
@@ -35,6 +36,12 @@ pub(crate) struct Project {
     pub(crate) console: Option<String>,
     /// Whether the MCU is the host on its USB pins.
     pub(crate) usb_host: bool,
+    /// Whether the host is at the MCU's USB device, which no pin of the project has to say.
+    pub(crate) usb_device: bool,
+    /// What is printed beside pins that the project does not use.
+    pub(crate) labels: BTreeMap<PinName, String>,
+    /// Whether pins that have no label and no use are on no connector.
+    pub(crate) is_list: bool,
 }
 
 /// A pin that is used.
@@ -56,6 +63,10 @@ pub(crate) enum Using {
     Output(bool),
     /// An interrupt, with its edge: `rising`, `falling`, `both`.
     Interrupt(&'static str),
+    /// An input of some converter.
+    Analog,
+    /// Pulses out of some timer.
+    Pulses,
     /// The chip select of an SPI unit, with the unit if it is known.
     Select(Option<String>),
     Timer(String, TimerMode),
@@ -88,7 +99,12 @@ impl Using {
     pub(crate) fn signal(&self) -> Option<&str> {
         match self {
             Self::Timer(signal, _) | Self::Signal(signal) => Some(signal),
-            Self::Input | Self::Output(_) | Self::Interrupt(_) | Self::Select(_) => None,
+            Self::Input
+            | Self::Output(_)
+            | Self::Interrupt(_)
+            | Self::Analog
+            | Self::Pulses
+            | Self::Select(_) => None,
         }
     }
 }
@@ -96,6 +112,7 @@ impl Using {
 /// Writes a project as a `.sense` file and its table.
 pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mut Log) -> Texts {
     let chip = Chip::of(project, whole, log);
+    let project = &chip.as_it_has_them(project);
     let link = link::of(project, &chip, whole, log);
     let linked = link.as_ref().and_then(Link::unit);
     let inferred = devices::infer(project, &chip, linked, log);

@@ -17,8 +17,8 @@ use sensedsl_parts::{Part, Sheet};
 use super::Project;
 use crate::log::Log;
 
-/// The least number of letters that say which line of MCUs is meant: `STM32F405`.
-const LINE_LETTERS: usize = "STM32F405".len();
+/// The least number of letters that say which line of MCUs is meant: `STM32G47`.
+const LINE_LETTERS: usize = "STM32G47".len();
 
 /// What is known of a project's MCU.
 #[derive(Debug, Default)]
@@ -38,7 +38,12 @@ pub(crate) struct Chip {
 impl Chip {
     /// Finds the part of a project's MCU; reports what had to be guessed.
     pub(crate) fn of(project: &Project, whole: Span, log: &mut Log) -> Self {
-        let Some(named) = project.mcu.as_deref() else { return Self::default() };
+        let Some(named) = project.mcu.as_deref() else {
+            let what = "the source does not name the MCU: the table has no pins besides its own, \
+                        and their usages follow once the table begins with `# mcu = …`";
+            log.doubtful(whole, "", what);
+            return Self::default();
+        };
         let mut chip = Self { mcu: Some(named.to_owned()), ..Self::default() };
         let known = sensedsl_parts::find(named).filter(|found| !found.ambiguous);
         if let Some(found) = known {
@@ -66,6 +71,21 @@ impl Chip {
         }
         chip.roles.extend(silicon::pin_roles(mcu));
         chip
+    }
+
+    /// The project with the part's names of its pins: in some packages, `PC2` is `PC2_C`.
+    pub(crate) fn as_it_has_them(&self, project: &Project) -> Project {
+        let mut project = project.clone();
+        let Some(sheet) = &self.sheet else { return project };
+        for wire in &mut project.wires {
+            if sheet.pin(&wire.pin).is_none()
+                && let Some(name) = switched(&wire.pin)
+                && sheet.pin(&name).is_some()
+            {
+                wire.pin = name;
+            }
+        }
+        project
     }
 
     /// What the MCU needs a pin for, so that a device gets it by `release` alone.
@@ -104,6 +124,23 @@ impl Chip {
         }
     }
 
+    /// Whether a pin has a function that the usual target has a driver for.
+    pub(crate) fn can(&self, pin: &PinName, is_wanted: impl Fn(&Function) -> bool) -> bool {
+        let Some((_, usages)) = self.sheet.as_ref().and_then(|sheet| sheet.pin(pin)) else {
+            return false;
+        };
+        usages.iter().any(|(usage, _)| {
+            let (signal, _) = Signal::parse(Blocks::split(usage).0);
+            is_wanted(signal.function()) && self.drives(signal.function())
+        })
+    }
+
+    /// Whether the usual target puts pulses out of a channel of a timer, not of its inverted output.
+    pub(crate) fn is_output(&self, function: &Function) -> bool {
+        let Function::Timer { unit, channel, line } = function else { return false };
+        line.is_output() && self.puts_out(unit.as_str(), *channel, *line)
+    }
+
     /// Whether pins besides those in use have signals of the unit.
     pub(crate) fn offers(&self, unit: &str) -> bool {
         let Some(sheet) = &self.sheet else { return false };
@@ -137,25 +174,45 @@ pub(crate) fn unit_of(spelled: &str) -> Option<String> {
     signal.function().units().first().map(|unit| unit.as_str().to_owned())
 }
 
+/// The converter's side of a pin with a switch: `PC2_C`.
+fn switched(pin: &PinName) -> Option<PinName> {
+    PinName::parse(&format!("{pin}_C"))
+}
+
+/// The parts that a line's name stands for: `STM32F405xx`, `STM32F103xB`.
+fn parts_of(named: &str) -> impl Iterator<Item = Part> {
+    let line = normalise(named).trim_end_matches('X').to_owned();
+    let fits = move |part: &Part| {
+        let base = part.base();
+        let alike = |(a, b): (u8, u8)| a == b || b == b'X';
+        let is_line = line.len() >= LINE_LETTERS && line.len() <= base.len();
+        is_line && base.bytes().zip(line.bytes()).all(alike)
+    };
+    sensedsl_parts::all().filter(fits)
+}
+
+/// The pins of the part that a name stands for: of the one with the most pins, if it stands for
+/// several.
+pub(crate) fn widest(named: &str) -> Option<Sheet> {
+    let exact = sensedsl_parts::find(named).filter(|found| !found.ambiguous);
+    exact.map(|found| found.sheet).or_else(|| {
+        let sheets = parts_of(named).map(Sheet::of);
+        sheets.max_by_key(|sheet| sheet.pins().count())
+    })
+}
+
 /// Of the parts that a line's name stands for (`STM32F405xx`, `STM32F103xB`), the one with all pins
 /// in use, the project's flash and the fewest pins.
 fn smallest(project: &Project, named: &str) -> Option<(Part, Sheet)> {
-    let line = normalise(named);
-    let line = line.trim_end_matches('X');
-    if line.len() < LINE_LETTERS {
-        return None;
-    }
     let used: BTreeSet<&PinName> = project.wires.iter().map(|wire| &wire.pin).collect();
-    let fits = |part: &Part| {
-        let base = part.base();
-        let alike = |(a, b): (u8, u8)| a == b || b == b'X';
-        line.len() <= base.len() && base.bytes().zip(line.bytes()).all(alike)
-    };
-    sensedsl_parts::all()
-        .filter(fits)
+    parts_of(named)
         .map(|part| {
             let sheet = Sheet::of(part);
-            let has = used.iter().filter(|pin| sheet.pin(pin).is_some()).count();
+            let is_there = |pin: &PinName| sheet.pin(pin).is_some();
+            let has = used
+                .iter()
+                .filter(|pin| is_there(pin) || switched(pin).is_some_and(|name| is_there(&name)))
+                .count();
             let other = project.flash_bytes.is_some() && part.flash_bytes() != project.flash_bytes;
             ((Reverse(has), other, sheet.pins().count(), part.name()), (part, sheet))
         })

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::profile::Usb;
 use sensedsl_board::signal::{Function, Signal, UartLine};
 use sensedsl_diagnostics::Span;
 
@@ -63,7 +64,8 @@ pub(crate) fn of(project: &Project, chip: &Chip, whole: Span, log: &mut Log) -> 
     let usb = profile.usb(None);
     let pins: BTreeSet<&PinName> = project.wires.iter().map(|wire| &wire.pin).collect();
     let vbus = usb.and_then(|usb| usb.vbus.as_ref());
-    if usb.is_some_and(|usb| is_device(project, &usb.pins)) {
+    let free = |usb: &Usb| !usb.pins.iter().any(|pin| pins.contains(pin));
+    if usb.is_some_and(|usb| is_device(project, &usb.pins) || project.usb_device && free(usb)) {
         let is_wired = |pin: &PinName| {
             let mut wires = project.wires.iter().filter(|wire| wire.pin == *pin);
             wires.any(|wire| wire.using.signal().is_some_and(|signal| signal.contains("VBUS")))
@@ -76,9 +78,7 @@ pub(crate) fn of(project: &Project, chip: &Chip, whole: Span, log: &mut Log) -> 
         return Some(Link::Uart { unit, baud });
     }
     let units = project.wires.iter().filter_map(|wire| unit_of(wire.using.signal()?)).collect();
-    let taken = |usb: &sensedsl_board::profile::Usb| {
-        usb.pins.iter().chain(vbus).any(|pin| pins.contains(pin))
-    };
+    let taken = |usb: &Usb| usb.pins.iter().chain(vbus).any(|pin| pins.contains(pin));
     let has_port = chip.free_serial(&pins, &units);
     match (usb.map(taken), has_port) {
         (Some(false), _) | (None, true) => None,

@@ -23,9 +23,15 @@ pub(crate) fn rows(
 ) -> Vec<Row> {
     let used: BTreeSet<&PinName> = inferred.devices.iter().flat_map(|one| &one.pins).collect();
     let mut rows = whole_part(chip);
+    for (pin, label) in &project.labels {
+        let row = rows.entry(pin.clone()).or_insert_with(|| Row::new(pin.clone()));
+        row.pin.label = Some(label.clone());
+    }
     for wire in &project.wires {
         let row = rows.entry(wire.pin.clone()).or_insert_with(|| Row::new(wire.pin.clone()));
-        row.pin.label.clone_from(&wire.label);
+        if wire.label.is_some() {
+            row.pin.label.clone_from(&wire.label);
+        }
         let unit = wire.using.signal().and_then(unit_of);
         let is_linked = unit.is_some() && unit.as_deref() == linked;
         if let Some(unit) = unit.as_deref().filter(|unit| inferred.buses.contains(*unit)) {
@@ -38,9 +44,26 @@ pub(crate) fn rows(
             taken(row, wire);
         }
     }
+    if project.is_list {
+        keep_listed(&mut rows, project);
+    }
     let confined = inferred.buses.iter().map(String::as_str).chain(linked);
     confine(&mut rows, project, &confined.collect());
     rows.into_values().collect()
+}
+
+/// Takes the pins that a list of the board's pins leaves out, if it is one and not only names for a
+/// few of them.
+fn keep_listed(rows: &mut BTreeMap<PinName, Row>, project: &Project) {
+    let of_wires = project.wires.iter().map(|wire| &wire.pin);
+    let listed: BTreeSet<&PinName> = project.labels.keys().chain(of_wires).collect();
+    if listed.len() * 2 < rows.len() {
+        return;
+    }
+    for row in rows.values_mut().filter(|row| !listed.contains(&row.pin.name)) {
+        let part = "not brought out".to_owned();
+        row.pin.onboard = Some(Onboard { part, how: Occupation::Taken });
+    }
 }
 
 /// All pins of the part with all usages.
