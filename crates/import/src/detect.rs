@@ -1,7 +1,7 @@
 //! Bytes in, their format out: judged only by content, because names can be wrong.
 
 use crate::decode::decode;
-use crate::{betaflight, micropython, zephyr};
+use crate::{arduino, betaflight, micropython, zephyr};
 
 /// A format that can be imported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +24,8 @@ pub enum Format {
     Betaflight,
     /// A device tree of Zephyr: a board, or an overlay.
     Zephyr,
+    /// A file of a variant of an Arduino core.
+    Arduino,
     /// The messages of a CAN bus.
     Dbc,
 }
@@ -57,6 +59,9 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     }
     if zephyr::is_tree(&text) {
         return Some(Format::Zephyr);
+    }
+    if arduino::is_variant(&text) {
+        return Some(Format::Arduino);
     }
     if micropython::is_list(&text) {
         return Some(Format::MicroPython);
@@ -97,6 +102,11 @@ mod tests {
             ("#pragma once\n#define FC_TARGET_MCU STM32F405\n", Some(Format::Betaflight)),
             ("/ {\n leds { };\n};\n", Some(Format::Zephyr)),
             ("&usart1 {\n\tstatus = \"okay\";\n};\n", Some(Format::Zephyr)),
+            ("#pragma once\n#define LED_BUILTIN PA5\n", Some(Format::Arduino)),
+            (
+                "const PinMap PinMap_ADC[] = {\n {PA_0, ADC1, STM_PIN_DATA(0)},",
+                Some(Format::Arduino),
+            ),
             ("<?xml version=\"1.0\"?>\n<Mcu RefName=\"X\"/>", Some(Format::CubeMx)),
             ("<html/>", None),
             ("#c\nMcu.Name=STM32F407VGTx\n", Some(Format::Ioc)),

@@ -22,6 +22,7 @@
 //! assert_eq!(made.diagnostics[0].code.name(), "W0804");
 //! ```
 
+mod arduino;
 mod assemble;
 mod betaflight;
 mod cubemx;
@@ -109,6 +110,7 @@ impl Importer {
             Some(Format::MicroPython) if micropython::is_list(&start(source.bytes)) => {
                 micropython::import(source, &mut log)
             }
+            Some(Format::Arduino) => arduino::import(source, &mut log),
             Some(Format::Zephyr) => zephyr::import(source, &mut log),
             Some(Format::Betaflight) => betaflight::import(source, &mut log),
             Some(Format::Csv | Format::MicroPython) => {

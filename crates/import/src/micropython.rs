@@ -14,16 +14,19 @@ use crate::log::Log;
 use crate::project::pads::{Define, Wires, defines, lines, pad};
 use crate::project::{self, Project, Using, Wire, chip};
 use crate::source::{Source, Texts};
+use crate::tabular::has_head;
 
 /// The prefix of all names that say what is on a board.
 const PREFIX: &str = "MICROPY_HW_";
 /// The greatest number of LEDs that the header names.
 const LEDS_MAX: usize = 8;
 
-/// Whether a text is a list of labels and pins: `LED_RED,PA13`.
+/// Whether a text is a list of labels and pins, `LED_RED,PA13`, and not a table with a head.
 pub(crate) fn is_list(text: &str) -> bool {
-    let mut rows = text.lines().map(str::trim).filter(|line| is_row(line)).take(8).peekable();
-    rows.peek().is_some() && rows.all(|line| row(line).is_some_and(|(_, pin)| is_named(pin)))
+    let rows = text.lines().map(str::trim).filter(|line| is_row(line)).take(8);
+    let (named, others): (Vec<&str>, Vec<&str>) =
+        rows.partition(|line| row(line).is_some_and(|(_, pin)| is_named(pin)));
+    named.len() > others.len() && (others.is_empty() || !has_head(text))
 }
 
 /// Imports a board.

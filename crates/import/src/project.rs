@@ -140,14 +140,15 @@ impl Rules {
     fn of(project: &Project, chip: &Chip, inferred: &Inferred, linked: Option<&str>) -> Self {
         let standing = inferred.devices.iter().filter(|device| !device.open);
         let used: BTreeSet<&PinName> = standing.flat_map(|device| &device.pins).collect();
-        let of_link = |pin: &PinName| {
-            let mut wires = project.wires.iter().filter(|wire| wire.pin == *pin);
-            let unit = |wire: &Wire| chip::unit_of(wire.using.signal()?);
-            linked.is_some() && wires.any(|wire| unit(wire).as_deref() == linked)
+        let is_linked = |wire: &&Wire| {
+            let unit = wire.using.signal().and_then(chip::unit_of);
+            unit.is_some() && unit.as_deref() == linked
         };
+        let of_link: BTreeSet<&PinName> =
+            project.wires.iter().filter(is_linked).map(|wire| &wire.pin).collect();
         let pins = project.wires.iter().map(|wire| &wire.pin);
         let mut release: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
-        for pin in pins.filter(|pin| used.contains(pin) || of_link(pin)) {
+        for pin in pins.filter(|pin| used.contains(pin) || of_link.contains(pin)) {
             if let Some(role) = chip.needed_for(pin) {
                 release.entry(role.describe()).or_default().push(pin.to_string());
             }

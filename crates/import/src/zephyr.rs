@@ -7,7 +7,7 @@
 
 mod tree;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
@@ -17,7 +17,7 @@ use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::{INCLUDE_DEPTH_MAX, INCLUDES_MAX};
 use sensedsl_model::ReadError;
 
-use self::tree::{Node, Tree};
+use self::tree::{Node, NodeIndex, Tree};
 use crate::cubemx::largest;
 use crate::log::Log;
 use crate::project::pads::{Wires, pad};
@@ -27,12 +27,14 @@ use crate::source::{Source, Texts};
 /// Whether a text is a device tree.
 pub(crate) fn is_tree(text: &str) -> bool {
     let is_reference = |line: &str| {
-        let name = line.strip_prefix('&').and_then(|rest| rest.strip_suffix('{'));
-        name.is_some_and(|name| !name.trim().is_empty() && !name.contains([',', ';', '=']))
+        let name = line.strip_prefix('&').and_then(|rest| rest.split_once('{'));
+        name.is_some_and(|(name, _)| {
+            let name = name.trim();
+            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        })
     };
-    text.lines()
-        .map(str::trim)
-        .any(|line| matches!(line, "/dts-v1/;" | "/ {" | "/{") || is_reference(line))
+    let is_root = |line: &str| matches!(line, "/dts-v1/;" | "/ {" | "/{");
+    text.lines().map(str::trim).any(|line| is_root(line) || is_reference(line))
 }
 
 /// Imports a board.
@@ -76,10 +78,12 @@ struct Reader<'a> {
     mcu: Option<String>,
     mcu_span: Option<Span>,
     wires: Wires,
-    bauds: std::collections::BTreeMap<String, u32>,
+    bauds: BTreeMap<String, u32>,
     addressed: Vec<Addressed>,
     console: Option<String>,
     usb_device: bool,
+    /// The groups of pins that were read.
+    groups: BTreeSet<NodeIndex>,
 }
 
 impl<'a> Reader<'a> {
@@ -92,10 +96,11 @@ impl<'a> Reader<'a> {
             mcu: None,
             mcu_span: None,
             wires: Wires::default(),
-            bauds: std::collections::BTreeMap::new(),
+            bauds: BTreeMap::new(),
             addressed: Vec::new(),
             console: None,
             usb_device: false,
+            groups: BTreeSet::new(),
         }
     }
 
@@ -173,12 +178,15 @@ impl<'a> Reader<'a> {
         if let Some((signal, pin)) = routed(name) {
             return self.signal(&signal, pin, span, log);
         }
-        let mut open: Vec<&Node> = tree.labelled(name).into_iter().collect();
-        if open.is_empty() {
+        let Some(group) = tree.labelled(name) else {
             let what = format!("`&{name}` is not a pin of an STM32, nor a group of the file");
             return log.dropped(span, "", &what);
-        }
-        while let Some(node) = open.pop() {
+        };
+        let mut open = vec![group];
+        while let Some(index) = open.pop() {
+            let Some(node) = tree.node(index).filter(|_| self.groups.insert(index)) else {
+                continue;
+            };
             if let Some((value, span)) = node.placed("pinmux") {
                 for word in words(value) {
                     if let Some((signal, pin)) = routed(&word.to_ascii_lowercase()) {
@@ -186,7 +194,7 @@ impl<'a> Reader<'a> {
                     }
                 }
             }
-            open.extend(node.children.iter().rev().filter_map(|child| tree.node(*child)));
+            open.extend(node.children.iter().rev());
         }
     }
 
@@ -236,11 +244,10 @@ impl<'a> Reader<'a> {
             self.addressed.extend(found);
         }
         let Some((value, span)) = node.placed("cs-gpios") else { return };
-        for (at, (pin, _)) in gpios(value).into_iter().enumerate() {
-            let is_here = |part: &&Node| {
-                part.value("reg").and_then(register).is_some_and(|reg| reg == at as u64)
-            };
-            let label = parts().find(is_here).map(|part| part.name.clone());
+        let numbered = parts().filter_map(|part| Some((register(part.value("reg")?)?, &part.name)));
+        let names: BTreeMap<u64, &String> = numbered.collect();
+        for ((pin, _), at) in gpios(value).into_iter().zip(0..) {
+            let label = names.get(&at).map(|name| (*name).clone());
             let using = Using::Select(Some(unit.to_owned()));
             self.wires.add(Wire { pin, label, using, pull: None, span }, log);
         }

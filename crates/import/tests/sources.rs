@@ -223,8 +223,10 @@ proptest::proptest! {
     /// No input makes an importer panic, and the output can be read again.
     #[test]
     fn any_bytes_can_be_imported(
-        start in "(Pin,Signal,AF\n|Port,,AF0,AF1,AF2\n|Mcu.Name=STM32F407VG\n|MCU STM32F4xx\n|<Mcu RefName=\"X\">|\u{0}\u{0}|)",
-        rest in "([PA-C0-9_.=,;@ \n\"/:#<>]|Signal|ADC1_IN|TIM2_CH|I2C1_S|INPUT|é){0,60}",
+        start in "(Pin,Signal,AF\n|Port,,AF0,AF1,AF2\n|LED,PA0\n|resource MOTOR 1 A08\n|/ \\{\n|\
+                  #define FC_TARGET_MCU STM32F405\n|#define LED_BUILTIN PA5\n|PinMap_ STM_PIN_DATA\n|Mcu.Name=STM32F407VG\n|MCU STM32F4xx\n|<Mcu RefName=\"X\">|\u{0}\u{0}|)",
+        rest in "([PA-C0-9_.=,;@ \n\"/:#<>]|Signal|ADC1_IN|TIM2_CH|I2C1_S|INPUT|é|\\{|\\}|&usart1_tx_pa9|resource SERIAL_TX 1 A09\n|\
+                 #define |MOTOR1_PIN PA8\n|pinctrl-0 = <|gpios = <&gpioa 5 0>;){0,60}",
         cut in proptest::collection::vec(proptest::num::u8::ANY, 0..6),
     ) {
         let bytes = [start.as_bytes(), rest.as_bytes(), &cut].concat();

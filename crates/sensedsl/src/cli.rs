@@ -352,6 +352,8 @@ pub(crate) enum ImportFormat {
     Betaflight,
     /// A board or an overlay of Zephyr
     Zephyr,
+    /// A variant of an Arduino core: its header, or PeripheralPins.c
+    Arduino,
     /// Messages of a CAN bus
     Dbc,
 }

@@ -70,7 +70,26 @@ impl Chip {
             chip.profile = Some(found);
         }
         chip.roles.extend(silicon::pin_roles(mcu));
+        chip.share_roles();
         chip
+    }
+
+    /// Pins on one contact of the package are needed together.
+    fn share_roles(&mut self) {
+        let Some(sheet) = &self.sheet else { return };
+        let shared = sheet.shared();
+        let at = |pin: &PinName| sheet.pin(pin)?.0.filter(|at| shared.contains(at));
+        let needed: BTreeMap<&str, PinRole> = self
+            .roles
+            .iter()
+            .filter(|(_, role)| **role != PinRole::Oscillator)
+            .filter_map(|(pin, role)| Some((at(pin)?, *role)))
+            .collect();
+        let others = sheet
+            .pins()
+            .filter_map(|(pin, position, _)| Some((pin.clone(), *needed.get(position?)?)));
+        let others: Vec<_> = others.filter(|(pin, _)| !self.roles.contains_key(pin)).collect();
+        self.roles.extend(others);
     }
 
     /// The project with the part's names of its pins: in some packages, `PC2` is `PC2_C`.

@@ -111,10 +111,13 @@ fn is_device(project: &Project, pins: &[PinName]) -> bool {
 fn console(project: &Project, chip: &Chip) -> Option<String> {
     let profile = chip.profile.as_ref()?;
     let known = |unit: &str| profile.serials.iter().any(|one| one.name == unit);
-    let has = |unit: &str, wanted: UartLine| {
-        project.wires.iter().any(|wire| end(wire) == Some((unit.to_owned(), wanted)))
-    };
-    let is_whole = |unit: &str| known(unit) && has(unit, UartLine::Tx) && has(unit, UartLine::Rx);
+    let ends: BTreeSet<(String, bool)> = project
+        .wires
+        .iter()
+        .filter_map(|wire| end(wire).map(|(unit, line)| (unit, line == UartLine::Tx)))
+        .collect();
+    let has = |unit: &str, is_tx: bool| ends.contains(&(unit.to_owned(), is_tx));
+    let is_whole = |unit: &str| known(unit) && has(unit, true) && has(unit, false);
     let stated = project.console.clone();
     let by_label = || {
         let said = project.wires.iter().filter(|wire| is_console(wire.label.as_deref()));

@@ -29,7 +29,7 @@ pub(crate) fn pad(spelled: &str) -> Option<PinName> {
     let digits = letters.as_str();
     let digits = digits.strip_prefix('_').unwrap_or(digits);
     let (digits, side) = digits.strip_suffix("_C").map_or((digits, ""), |digits| (digits, "_C"));
-    let is_port = port.is_ascii_uppercase();
+    let is_port = matches!(port, 'A'..='K' | 'Z');
     PinName::parse(&format!("P{port}{}{side}", number(digits).filter(|_| is_port)?))
 }
 
@@ -119,14 +119,14 @@ mod tests {
         ] {
             assert_eq!(read(spelled).as_deref(), Some(pin), "{spelled}");
         }
-        for spelled in ["", "P", "PA", "NONE", "EXT_GPIO0", "PA9x", "A1000", "5", "é9"] {
+        for spelled in ["", "P", "PA", "NONE", "EXT_GPIO0", "PA9x", "A1000", "5", "é9", "x9"] {
             assert_eq!(read(spelled), None, "{spelled}");
         }
     }
 
     #[test]
     fn headers_have_values_without_comment() {
-        let file = crate::log::Log::default().sources.add("b.h", "");
+        let file = Log::default().sources.add("b.h", "");
         let read = defines(file, "#pragma once\n  # define LED  (PA5) // green\n#define USE_X\n");
         let read: Vec<_> = read.iter().map(|one| (one.name.as_str(), one.value.as_str())).collect();
         assert_eq!(read, [("LED", "PA5"), ("USE_X", "")]);

@@ -52,17 +52,13 @@ pub(crate) fn rows(
     rows.into_values().collect()
 }
 
-/// Takes the pins that a list of the board's pins leaves out, if it is one and not only names for a
-/// few of them.
+/// Leaves out the pins that a list of the board's pins does not have, if it is one and not only
+/// names for a few of them.
 fn keep_listed(rows: &mut BTreeMap<PinName, Row>, project: &Project) {
     let of_wires = project.wires.iter().map(|wire| &wire.pin);
     let listed: BTreeSet<&PinName> = project.labels.keys().chain(of_wires).collect();
-    if listed.len() * 2 < rows.len() {
-        return;
-    }
-    for row in rows.values_mut().filter(|row| !listed.contains(&row.pin.name)) {
-        let part = "not brought out".to_owned();
-        row.pin.onboard = Some(Onboard { part, how: Occupation::Taken });
+    if listed.len() * 2 >= rows.len() {
+        rows.retain(|pin, _| listed.contains(pin));
     }
 }
 

@@ -118,8 +118,8 @@ impl Tree {
     }
 
     /// The node with a label.
-    pub(super) fn labelled(&self, label: &str) -> Option<&Node> {
-        self.labels.get(label).and_then(|node| self.node(*node))
+    pub(super) fn labelled(&self, label: &str) -> Option<NodeIndex> {
+        self.labels.get(label).copied()
     }
 
     /// The nodes that are in use, in order: none that are disabled, or in such ones.
@@ -189,7 +189,7 @@ mod tests {
         assert_eq!(includes.first().map(|one| (one.0.as_str(), one.1)), Some(("st/a.dtsi", false)));
         let heads: Vec<&str> = tree.in_use().iter().map(|node| node.head.as_str()).collect();
         assert_eq!(heads, ["/", "leds", "led_0", "&uart1"]);
-        let led = tree.labelled("l0").unwrap();
+        let led = tree.node(tree.labelled("l0").unwrap()).unwrap();
         assert_eq!((led.name.as_str(), led.value("b")), ("l0", Some("")));
         let (value, span) = led.placed("a").unwrap();
         assert!(value.starts_with("<1>,") && value.ends_with("<2>"), "{value}");

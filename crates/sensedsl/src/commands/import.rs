@@ -110,6 +110,7 @@ fn format(format: ImportFormat) -> Option<Format> {
         ImportFormat::Micropython => Some(Format::MicroPython),
         ImportFormat::Betaflight => Some(Format::Betaflight),
         ImportFormat::Zephyr => Some(Format::Zephyr),
+        ImportFormat::Arduino => Some(Format::Arduino),
         ImportFormat::Dbc => Some(Format::Dbc),
     }
 }
