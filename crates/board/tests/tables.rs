@@ -346,3 +346,26 @@ fn what_reading_takes_off_is_not_written() {
     assert_eq!(csv, "Pin,Label,Note\nPA1,frontleft,a b\n");
     assert_eq!(load(&csv).board.to_csv(), csv);
 }
+
+/// Commas and slashes separate usages where each piece is the name of a signal.
+#[test]
+fn usages_are_separated_where_that_is_meant() {
+    let text = "Pin;Any\nPA0;ADC1_IN0,TIM2_CH1@1\nPA1;ADC1_IN1/TIM2_ETR\nPA2;ADC1_IN2, TIM2_CH3\n\
+                PA3;USART1_RTS/DE\nPA4;ETH_A/RMII_B\n";
+    let loaded = load(text);
+    assert!(loaded.findings.is_empty(), "{:?}", loaded.findings);
+    let usages = loaded.board.pins.iter().map(|pin| {
+        let spelled = pin.usages.iter().map(|usage| usage.spelled.as_str());
+        spelled.collect::<Vec<_>>().join(" ")
+    });
+    let expected = [
+        "ADC1_IN0 TIM2_CH1",
+        "ADC1_IN1 TIM2_ETR",
+        "ADC1_IN2 TIM2_CH3",
+        "USART1_RTS/DE",
+        "ETH_A/RMII_B",
+    ];
+    assert_eq!(usages.collect::<Vec<_>>(), expected);
+    let timer = &loaded.board.pins[0].usages[1];
+    assert_eq!((&text[timer.range.clone()], timer.alternate), ("TIM2_CH1@1", Some(1)));
+}

@@ -146,7 +146,7 @@ fn parts(reference: &str) -> Vec<String> {
 }
 
 /// The part with the most flash, which is the last one.
-fn largest(reference: &str) -> String {
+pub(crate) fn largest(reference: &str) -> String {
     parts(reference).pop().unwrap_or_default()
 }
 

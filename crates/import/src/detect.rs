@@ -1,6 +1,7 @@
 //! Bytes in, their format out: judged only by content, because names can be wrong.
 
 use crate::decode::decode;
+use crate::{arduino, betaflight, micropython, zephyr};
 
 /// A format that can be imported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,14 +18,20 @@ pub enum Format {
     Ioc,
     /// A board of `ArduPilot`.
     Hwdef,
-    /// The alternate functions of `MicroPython`'s ports.
+    /// The alternate functions of `MicroPython`'s ports, or the pins of one of its boards.
     MicroPython,
+    /// A flight controller of Betaflight, as a dump or as its header.
+    Betaflight,
+    /// A device tree of Zephyr: a board, or an overlay.
+    Zephyr,
+    /// A file of a variant of an Arduino core.
+    Arduino,
     /// The messages of a CAN bus.
     Dbc,
 }
 
-/// How much of a file is examined.
-const HEAD_BYTES: usize = 1 << 16;
+/// The number of bytes of a file that are examined.
+pub(crate) const HEAD_BYTES: usize = 1 << 16;
 
 /// The format of a file's content, if it is recognised.
 #[must_use]
@@ -46,6 +53,18 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
     if lines().any(|line| line.starts_with("Mcu.") && line.contains('=')) {
         return Some(Format::Ioc);
+    }
+    if betaflight::is_board(&text) {
+        return Some(Format::Betaflight);
+    }
+    if zephyr::is_tree(&text) {
+        return Some(Format::Zephyr);
+    }
+    if arduino::is_variant(&text) {
+        return Some(Format::Arduino);
+    }
+    if micropython::is_list(&text) {
+        return Some(Format::MicroPython);
     }
     let dbc = |line: &str| {
         let word = line.split([' ', '\t', ':']).next().unwrap_or_default();
@@ -77,6 +96,17 @@ mod tests {
             ("Pin,ADC\nPA1,ADC1_IN1\n", Some(Format::Csv)),
             ("# mcu = STM32F407VG\nPin;ADC\n", Some(Format::Csv)),
             ("Port,,AF0,AF1\n,,SYS,TIM1/2\n", Some(Format::MicroPython)),
+            ("# board\nLED_RED,PA13\n,PB2\n", Some(Format::MicroPython)),
+            ("LED,GPIO25\nWL,EXT_GPIO0\n", Some(Format::MicroPython)),
+            ("# Betaflight / STM32F405\nresource MOTOR 1 A08\n", Some(Format::Betaflight)),
+            ("#pragma once\n#define FC_TARGET_MCU STM32F405\n", Some(Format::Betaflight)),
+            ("/ {\n leds { };\n};\n", Some(Format::Zephyr)),
+            ("&usart1 {\n\tstatus = \"okay\";\n};\n", Some(Format::Zephyr)),
+            ("#pragma once\n#define LED_BUILTIN PA5\n", Some(Format::Arduino)),
+            (
+                "const PinMap PinMap_ADC[] = {\n {PA_0, ADC1, STM_PIN_DATA(0)},",
+                Some(Format::Arduino),
+            ),
             ("<?xml version=\"1.0\"?>\n<Mcu RefName=\"X\"/>", Some(Format::CubeMx)),
             ("<html/>", None),
             ("#c\nMcu.Name=STM32F407VGTx\n", Some(Format::Ioc)),

@@ -2,13 +2,17 @@
 //! for TX and RX of a unit, and so on. If the project does not state something (an address, the
 //! frame of a message), the device becomes a comment with that part left open.
 
+mod timers;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{CanLine, Function, I2cLine, Signal, SpiLine, UartLine, UnitName};
 
+use self::timers::{Decision, decide};
 use crate::log::Log;
-use crate::project::{Project, TimerMode, Using, Wire, identifier, one_line};
+use crate::project::chip::{Chip, unit_of, unit_taken_by};
+use crate::project::{Project, Using, Wire, identifier, one_line};
 
 /// The highest identifier; the lowest is 1.
 pub(crate) const IDS_MAX: usize = 254;
@@ -31,21 +35,61 @@ pub(crate) struct Device {
     pub(crate) open: bool,
 }
 
-/// The devices of a project, in the order of its pins.
-pub(crate) fn infer(project: &Project, log: &mut Log) -> Vec<Device> {
-    let mut maker =
-        Maker { project, log, names: BTreeSet::new(), devices: Vec::new(), units: Units::new() };
-    for wire in &project.wires {
+/// What a project comes to.
+#[derive(Clone, Debug)]
+pub(crate) struct Inferred {
+    /// The devices, in the order of the pins.
+    pub(crate) devices: Vec<Device>,
+    /// Buses that further devices may join.
+    pub(crate) buses: BTreeSet<String>,
+    /// Other units that the project uses for something that is not a device.
+    pub(crate) reserved: BTreeSet<String>,
+}
+
+/// Infers the devices of a project. The serial port `linked` is the link's.
+pub(crate) fn infer(
+    project: &Project,
+    chip: &Chip,
+    linked: Option<&str>,
+    log: &mut Log,
+) -> Inferred {
+    let mut maker = Maker {
+        project,
+        chip,
+        log,
+        names: BTreeSet::new(),
+        devices: Vec::new(),
+        units: Units::new(),
+        buses: BTreeSet::new(),
+        timers: decide(project, chip),
+    };
+    let is_linked = |wire: &&Wire| {
+        let unit = wire.using.signal().and_then(unit_of);
+        unit.is_some() && unit.as_deref() == linked
+    };
+    let wires = || project.wires.iter().filter(|wire| !is_linked(wire));
+    for wire in wires() {
         maker.wire(wire);
     }
     let units = std::mem::take(&mut maker.units);
     for (unit, wires) in &units {
         maker.unit(unit, wires);
     }
-    for wire in &project.wires {
+    for wire in wires() {
         maker.unused_select(wire, &units);
     }
-    maker.devices
+    let (devices, buses) = (maker.devices, maker.buses);
+    let standing = devices.iter().filter(|device| !device.open);
+    let served: BTreeSet<&PinName> = standing.flat_map(|device| &device.pins).collect();
+    let (of_devices, of_others): (Vec<&Wire>, Vec<&Wire>) =
+        wires().partition(|wire| served.contains(&wire.pin));
+    let units = |wires: Vec<&Wire>| -> BTreeSet<String> {
+        wires.into_iter().filter_map(|wire| unit_taken_by(wire.using.signal()?)).collect()
+    };
+    let of_devices = units(of_devices);
+    let is_left = |unit: &String| !of_devices.contains(unit) && !buses.contains(unit);
+    let reserved = units(of_others).into_iter().filter(is_left).collect();
+    Inferred { devices, buses, reserved }
 }
 
 /// The wires, by role, of each peripheral instance that takes several.
@@ -53,11 +97,15 @@ type Units<'a> = BTreeMap<String, BTreeMap<&'static str, &'a Wire>>;
 
 struct Maker<'a, 'l> {
     project: &'a Project,
+    chip: &'a Chip,
     log: &'l mut Log,
     /// Names in use, without case and underscores.
     names: BTreeSet<String>,
     devices: Vec<Device>,
     units: Units<'a>,
+    /// Buses that are only described: their pins are kept for whoever joins.
+    buses: BTreeSet<String>,
+    timers: BTreeMap<PinName, Decision>,
 }
 
 /// A future device.
@@ -89,8 +137,18 @@ impl<'a> Maker<'a, '_> {
                 let properties = vec!["type = digital;".into(), format!("edge = {edge};")];
                 self.single(wire, "Input", ("sensor", "bool"), properties);
             }
+            Using::Analog
+                if self.chip.can(&wire.pin, |one| matches!(one, Function::Adc { .. })) =>
+            {
+                self.single(wire, "Analog", ("sensor", "uint16"), vec!["type = analog;".into()]);
+            }
+            Using::Pulses if self.chip.can(&wire.pin, |one| self.chip.is_output(one)) => {
+                self.single(wire, "Pwm", ("actuator", "uint16"), vec!["type = pwm;".into()]);
+            }
+            Using::Analog => self.incapable(wire, "no input of a converter"),
+            Using::Pulses => self.incapable(wire, "no output of a timer that the target drives"),
             Using::Select(_) => {}
-            Using::Timer(signal, mode) => self.timer(wire, signal, *mode),
+            Using::Timer(signal, _) => self.timer(wire, signal),
             Using::Signal(signal) => self.signal(wire, signal),
         }
     }
@@ -102,29 +160,39 @@ impl<'a> Maker<'a, '_> {
         self.push(Plan { label, name, kind, properties, wires, open: false });
     }
 
-    fn timer(&mut self, wire: &'a Wire, spelled: &str, mode: TimerMode) {
+    fn timer(&mut self, wire: &'a Wire, spelled: &str) {
         let (signal, _) = Signal::parse(spelled);
-        let Function::Timer { unit: timer, channel, line } = signal.function() else { return };
-        let unit = format!("unit = {timer};");
-        let what = match mode {
-            TimerMode::Capture if line.is_input() && *channel <= 2 => {
-                let properties = vec!["type = icu;".into(), unit];
-                return self.single(wire, "Capture", ("sensor", "uint32"), properties);
+        let Function::Timer { unit: timer, .. } = signal.function() else { return };
+        let properties = |kind: &str| vec![format!("type = {kind};"), format!("unit = {timer};")];
+        match self.timers.get(&wire.pin).cloned() {
+            Some(Decision::Capture) => {
+                self.single(wire, "Capture", ("sensor", "uint32"), properties("icu"));
             }
-            TimerMode::Output if line.is_output() => {
-                let properties = vec!["type = pwm;".into(), unit];
-                return self.single(wire, "Pwm", ("actuator", "uint16"), properties);
+            Some(Decision::Pulses) => {
+                self.single(wire, "Pwm", ("actuator", "uint16"), properties("pwm"));
             }
-            TimerMode::Encoder if line.is_input() && *channel <= 2 => {
-                let role = if *channel == 1 { "a" } else { "b" };
+            Some(Decision::Encoder(role)) => {
                 self.units.entry(timer.to_string()).or_default().insert(role, wire);
-                return;
             }
-            TimerMode::Unknown => "the project does not say whether it is an input or an output",
-            TimerMode::Capture | TimerMode::Encoder => "captures are on channels 1 and 2 alone",
-            TimerMode::Output => "inverted outputs are no devices",
-        };
-        let what = format!("{spelled} of {} is left out: {what}", wire.pin);
+            Some(Decision::Reserved(why)) => {
+                let what = format!("{spelled} of {} is left out: {why}", wire.pin);
+                self.log.dropped(wire.span, "", &what);
+            }
+            None => {}
+        }
+    }
+
+    /// Reports a pin that is not known to have what it is used for.
+    fn incapable(&mut self, wire: &Wire, why: &str) {
+        let label = wire.label.as_deref().unwrap_or("the use");
+        let what = format!("{label} of {} is left out: the pin is known as {why}", wire.pin);
+        self.log.dropped(wire.span, "", &what);
+    }
+
+    /// Reports a signal that no driver of the usual target serves.
+    fn undriven(&mut self, wire: &Wire, what: &str) {
+        let target = self.chip.profile.as_ref().map_or("the target", |profile| &profile.name);
+        let what = format!("{what} is left out: {target} has no driver for it");
         self.log.dropped(wire.span, "", &what);
     }
 
@@ -134,6 +202,11 @@ impl<'a> Maker<'a, '_> {
             self.units.entry(unit.to_string()).or_default().insert(role, wire);
         };
         match signal.function() {
+            function @ (Function::Adc { .. } | Function::Dac { .. })
+                if !self.chip.drives(function) =>
+            {
+                self.undriven(wire, &format!("{spelled} of {}", wire.pin));
+            }
             Function::Adc { .. } => {
                 self.single(wire, "Analog", ("sensor", "uint16"), vec!["type = analog;".into()]);
             }
@@ -174,6 +247,13 @@ impl<'a> Maker<'a, '_> {
             let what = format!("{unit} is left out: it has no pin for {}", missing.join(", "));
             self.log.dropped(wire.span, "", &what);
             return;
+        }
+        if kind != "encoder"
+            && let Some((_, wire)) = wires.iter().next()
+            && let Some(signal) = wire.using.signal()
+            && !self.chip.drives(Signal::parse(signal).0.function())
+        {
+            return self.undriven(wire, unit);
         }
         let roles = ["scl", "sda", "tx", "rx", "sck", "miso", "mosi", "a", "b"];
         let wires_in_order: Vec<(&str, &Wire)> =
@@ -288,6 +368,7 @@ impl<'a> Maker<'a, '_> {
         let Some(wire) = plan.wires.first().map(|(_, wire)| *wire) else { return };
         let what = format!("{what} not in the project: the device on {unit} is a comment");
         self.log.open(wire.span, &what);
+        self.buses.insert(unit.to_owned());
         plan.properties.push(line.into());
         self.push(Plan { open: true, ..plan });
     }

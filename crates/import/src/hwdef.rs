@@ -46,9 +46,12 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let project = Project {
         name: stem.unwrap_or_default().to_owned(),
         mcu: Some(mcu),
+        mcu_span: reader.mcu_span,
+        flash_bytes: reader.flash_bytes(),
+        console: reader.console(),
         wires: reader.wires.into_values().collect(),
-        bauds: BTreeMap::new(),
         addressed,
+        ..Project::default()
     };
     project::made(&project, source, whole, log)
 }
@@ -65,6 +68,7 @@ struct Line {
 struct Reader<'a> {
     source: &'a Source<'a>,
     mcu: Option<String>,
+    mcu_span: Option<Span>,
     /// Everything that `MCU` lines have named so far, in this file and in the files that it
     /// includes.
     mcus: BTreeSet<String>,
@@ -91,6 +95,7 @@ impl<'a> Reader<'a> {
         Self {
             source,
             mcu: None,
+            mcu_span: None,
             mcus: BTreeSet::new(),
             orders: Vec::new(),
             wires: BTreeMap::new(),
@@ -131,7 +136,7 @@ impl<'a> Reader<'a> {
                             HWDEF_MCUS_MAX,
                         );
                     }
-                    self.mcu = Some(name);
+                    (self.mcu, self.mcu_span) = (Some(name), Some(span));
                 }
                 ("I2C_ORDER", Some(_)) => self.orders = words.into_iter().skip(1).collect(),
                 ("undef", Some(_)) => self.undefine(&words),
@@ -298,6 +303,26 @@ impl<'a> Reader<'a> {
                 by_label.entry(name.clone()).or_insert(pin);
             }
         }
+    }
+
+    /// The value of the last line that begins with the word.
+    fn last(&self, word: &str) -> Option<&str> {
+        let (_, line) = self.lines.get(word)?.last_key_value()?;
+        line.words.get(1).map(String::as_str)
+    }
+
+    /// The flash, as stated by `FLASH_SIZE_KB 1024`.
+    fn flash_bytes(&self) -> Option<usize> {
+        self.last("FLASH_SIZE_KB")?.parse::<usize>().ok()?.checked_mul(1024)
+    }
+
+    /// The serial port of `STDOUT_SERIAL SD1`, of which the pins have the whole name.
+    fn console(&self) -> Option<String> {
+        let number = self.last("STDOUT_SERIAL")?.strip_prefix("SD")?;
+        let is_port = |unit: &String| matches!(unit.strip_suffix(number), Some("USART" | "UART"));
+        let mut units =
+            self.wires.values().filter_map(|wire| project::chip::unit_of(wire.using.signal()?));
+        units.find(is_port)
     }
 
     /// The lines that begin with one of these words, in file order.

@@ -11,6 +11,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::{FileId, Span};
 
+use crate::cubemx::largest;
 use crate::log::Log;
 use crate::project::{self, Project, TimerMode, Using, Wire};
 use crate::source::{Source, Texts};
@@ -38,10 +39,11 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let stem = source.name.rsplit(['/', '\\']).next().and_then(|name| name.split('.').next());
     let project = Project {
         name: name.or(stem).unwrap_or_default().to_owned(),
-        mcu: Some(mcu.to_owned()),
+        mcu: Some(largest(mcu)),
         wires,
         bauds: reader.bauds(),
-        addressed: Vec::new(),
+        usb_host: reader.is_usb_host(),
+        ..Project::default()
     };
     project::made(&project, source, whole, log)
 }
@@ -186,6 +188,13 @@ impl Reader<'_> {
             TimerMode::Unknown
         };
         Using::Timer(name, mode)
+    }
+
+    /// Whether a USB unit is a host: `USB_OTG_FS.VirtualMode=Host_Only`.
+    fn is_usb_host(&self) -> bool {
+        let is_usb = |key: &str| key.starts_with("USB") && key.ends_with(".VirtualMode");
+        let is_host = |value: &Value| value.text.to_ascii_lowercase().contains("host");
+        self.values.iter().any(|(key, value)| is_usb(key) && is_host(value))
     }
 
     /// The baud rates: `USART2.BaudRate=115200`.

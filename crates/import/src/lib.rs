@@ -22,7 +22,9 @@
 //! assert_eq!(made.diagnostics[0].code.name(), "W0804");
 //! ```
 
+mod arduino;
 mod assemble;
+mod betaflight;
 mod cubemx;
 mod dbc;
 mod decode;
@@ -31,6 +33,7 @@ mod devices;
 mod hwdef;
 mod ioc;
 mod log;
+mod micropython;
 mod ods;
 mod package;
 mod place;
@@ -38,6 +41,7 @@ mod project;
 mod source;
 mod tabular;
 mod workbook;
+mod zephyr;
 
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
 
@@ -103,6 +107,12 @@ impl Importer {
                 dbc::import(file, source.name, &text, node, &mut log)
             }
             Some(_) if source.sheet.is_some() => no_sheets(source, &mut log),
+            Some(Format::MicroPython) if micropython::is_list(&start(source.bytes)) => {
+                micropython::import(source, &mut log)
+            }
+            Some(Format::Arduino) => arduino::import(source, &mut log),
+            Some(Format::Zephyr) => zephyr::import(source, &mut log),
+            Some(Format::Betaflight) => betaflight::import(source, &mut log),
             Some(Format::Csv | Format::MicroPython) => {
                 let (file, text) = log.text(source.name, source.bytes);
                 tabular::import(file, &text, None, &mut log)
@@ -121,8 +131,14 @@ impl Importer {
     }
 }
 
+/// The beginning of a file as text.
+fn start(bytes: &[u8]) -> String {
+    decode::decode(bytes.get(..detect::HEAD_BYTES).unwrap_or(bytes))
+        .map_or(String::new(), |read| read.text)
+}
+
 fn unknown(source: &Source<'_>, log: &mut Log) -> Texts {
-    let why = "it is no CSV, XLSX, ODS, XML of CubeMX, .ioc, hwdef.dat or .dbc";
+    let why = "it is not a table, nor a file of one of the tools that `sensedsl help import` lists";
     let file = log.sources.add(source.name, "");
     log.unreadable(Span::new(file, 0..0), source.name, why);
     Texts::default()

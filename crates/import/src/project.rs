@@ -1,27 +1,47 @@
-//! The pins of another tool's project, which is what `.ioc` and `hwdef.dat` share, in; a `.sense`
-//! file and the table of those pins out.
+//! The pins of another tool's project, which is what `.ioc`, `hwdef.dat` and their like share, in;
+//! a `.sense` file, and the table of all pins of the project's MCU, out.
+
+pub(crate) mod chip;
+mod link;
+pub(crate) mod pads;
+mod table;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
-use sensedsl_board::table::{Occupation, Onboard};
 use sensedsl_diagnostics::Span;
 
-use crate::assemble::{self, Row};
-use crate::devices::{self, Device};
+use self::chip::Chip;
+use self::link::Link;
+use crate::assemble;
+use crate::devices::{self, Inferred};
 use crate::log::Log;
 use crate::source::{Source, Texts};
 
 /// A project.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Project {
     pub(crate) name: String,
     pub(crate) mcu: Option<String>,
+    /// Where the source names the MCU.
+    pub(crate) mcu_span: Option<Span>,
+    /// The flash of the MCU, where only the line of MCUs is named.
+    pub(crate) flash_bytes: Option<usize>,
     pub(crate) wires: Vec<Wire>,
     /// Bits per second of serial ports.
     pub(crate) bauds: BTreeMap<String, u32>,
     /// Devices on I2C buses with a known address.
     pub(crate) addressed: Vec<Addressed>,
+    /// The serial port that is the console.
+    pub(crate) console: Option<String>,
+    /// Whether the MCU is the host on its USB pins.
+    pub(crate) usb_host: bool,
+    /// Whether the host is at the MCU's USB device, which no pin of the project has to say.
+    pub(crate) usb_device: bool,
+    /// What is printed beside pins that the project does not use.
+    pub(crate) labels: BTreeMap<PinName, String>,
+    /// Whether pins that have no label and no use are on no connector.
+    pub(crate) is_list: bool,
 }
 
 /// A pin that is used.
@@ -43,6 +63,10 @@ pub(crate) enum Using {
     Output(bool),
     /// An interrupt, with its edge: `rising`, `falling`, `both`.
     Interrupt(&'static str),
+    /// An input of some converter.
+    Analog,
+    /// Pulses out of some timer.
+    Pulses,
     /// The chip select of an SPI unit, with the unit if it is known.
     Select(Option<String>),
     Timer(String, TimerMode),
@@ -75,43 +99,96 @@ impl Using {
     pub(crate) fn signal(&self) -> Option<&str> {
         match self {
             Self::Timer(signal, _) | Self::Signal(signal) => Some(signal),
-            Self::Input | Self::Output(_) | Self::Interrupt(_) | Self::Select(_) => None,
+            Self::Input
+            | Self::Output(_)
+            | Self::Interrupt(_)
+            | Self::Analog
+            | Self::Pulses
+            | Self::Select(_) => None,
         }
     }
 }
 
 /// Writes a project as a `.sense` file and its table.
 pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mut Log) -> Texts {
-    let devices = devices::infer(project, log);
-    let used: BTreeSet<&PinName> = devices.iter().flat_map(|device| &device.pins).collect();
-    let mut rows = Vec::new();
-    for wire in &project.wires {
-        let mut row = Row::new(wire.pin.clone());
-        row.pin.label.clone_from(&wire.label);
-        let signal = wire.using.signal();
-        if used.contains(&wire.pin) {
-            row.usages.extend(signal.map(|signal| (signal.to_owned(), None)));
-        } else {
-            let part = wire.label.as_deref().or(signal).unwrap_or("in use").replace(':', " ");
-            row.pin.onboard = Some(Onboard { part, how: Occupation::Taken });
-            row.pin.note = signal.map(str::to_owned);
+    let chip = Chip::of(project, whole, log);
+    let project = &chip.as_it_has_them(project);
+    let link = link::of(project, &chip, whole, log);
+    let linked = link.as_ref().and_then(Link::unit);
+    let inferred = devices::infer(project, &chip, linked, log);
+    let rows = table::rows(project, &chip, &inferred, linked);
+    let mcu = chip.mcu.iter().map(|mcu| ("mcu", mcu.clone()));
+    let package = chip.package.iter().map(|package| ("package", (*package).to_owned()));
+    let properties: Vec<_> = mcu.chain(package).collect();
+    let Some(table) = assemble::table(&properties, rows, whole, log) else {
+        return Texts::default();
+    };
+    let rules = Rules::of(project, &chip, &inferred, linked);
+    let program = program(project, &inferred, (link.as_ref(), &rules), source.table);
+    Texts { table: Some(table.to_csv()), program: Some(program) }
+}
+
+/// The rules of the board.
+struct Rules {
+    /// Pins that devices are on although the MCU needs them for itself, by what it needs them for.
+    release: BTreeMap<&'static str, Vec<String>>,
+    /// Units that the project uses for something that is not a device.
+    reserve: Vec<String>,
+}
+
+impl Rules {
+    fn of(project: &Project, chip: &Chip, inferred: &Inferred, linked: Option<&str>) -> Self {
+        let standing = inferred.devices.iter().filter(|device| !device.open);
+        let used: BTreeSet<&PinName> = standing.flat_map(|device| &device.pins).collect();
+        let is_linked = |wire: &&Wire| {
+            let unit = wire.using.signal().and_then(chip::unit_of);
+            unit.is_some() && unit.as_deref() == linked
+        };
+        let of_link: BTreeSet<&PinName> =
+            project.wires.iter().filter(is_linked).map(|wire| &wire.pin).collect();
+        let pins = project.wires.iter().map(|wire| &wire.pin);
+        let mut release: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
+        for pin in pins.filter(|pin| used.contains(pin) || of_link.contains(pin)) {
+            if let Some(role) = chip.needed_for(pin) {
+                release.entry(role.describe()).or_default().push(pin.to_string());
+            }
         }
-        rows.push(row);
+        let is_free = |unit: &&String| chip.offers(unit) && Some(unit.as_str()) != linked;
+        Self { release, reserve: inferred.reserved.iter().filter(is_free).cloned().collect() }
     }
-    let mcu = project.mcu.iter().map(|mcu| ("mcu", mcu.clone())).collect::<Vec<_>>();
-    let Some(table) = assemble::table(&mcu, rows, whole, log) else { return Texts::default() };
-    let table = table.to_csv();
-    let program = program(project, &devices, source.table);
-    Texts { table: Some(table), program: Some(program) }
+
+    /// The statements, each with a comment that says why.
+    fn lines(&self) -> Vec<String> {
+        let release = self
+            .release
+            .iter()
+            .map(|(role, pins)| format!("release {}; // otherwise for {role}", pins.join(", ")));
+        let reserve = (!self.reserve.is_empty()).then(|| {
+            format!("reserve {}; // in use for what is not a device", self.reserve.join(", "))
+        });
+        release.chain(reserve).collect()
+    }
 }
 
 /// The text of the `.sense` file.
-fn program(project: &Project, devices: &[Device], table: &str) -> String {
+fn program(
+    project: &Project,
+    inferred: &Inferred,
+    (link, rules): (Option<&Link>, &Rules),
+    table: &str,
+) -> String {
     let name = identifier(&project.name).unwrap_or_else(|| "Board".into());
     let mut text = format!("// The pins of {}, as they were.\n", one_line(&project.name));
     let table = table.replace(['"', '\\', '\n'], "_");
     text.push_str(&format!("board {name} on \"{table}\" {{\n"));
-    for device in devices {
+    if let Some(link) = link {
+        let lines = link.lines().into_iter().map(|line| format!("        {line}\n"));
+        text.push_str(&format!("    link {{\n{}    }}\n", lines.collect::<String>()));
+    }
+    for line in rules.lines() {
+        text.push_str(&format!("    {line}\n"));
+    }
+    for device in &inferred.devices {
         let sign = if device.open { "    // " } else { "    " };
         let mut line = |line: &str| text.push_str(&format!("{sign}{line}\n"));
         line(&format!("{} {{", device.head));

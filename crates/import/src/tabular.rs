@@ -16,6 +16,7 @@ use sensedsl_model::table_diagnostic;
 use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::place::a1;
+use crate::project::pads::pad;
 use crate::source::Texts;
 
 /// Headers of the pin column, in lower case, letters only.
@@ -361,7 +362,9 @@ impl Reader<'_> {
                 continue;
             }
             let Some(pin) = self.pin(cells, head, log) else { continue };
-            let mut row = Row::new(pin);
+            // MicroPython's tables of RP chips have other names for pins: `GPIO25` is GP25.
+            let of_rp = Some(&spelled).filter(|name| name.starts_with("GPIO"));
+            let mut row = Row::new(of_rp.and_then(|name| pad(name)).unwrap_or(pin));
             for (at, cell) in cells.iter().enumerate() {
                 let value = self.content(cell);
                 let header = heads.get(at).map_or("", String::as_str);
@@ -380,7 +383,7 @@ impl Reader<'_> {
                 }
                 let names = value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ','));
                 for name in names.take(PIN_USAGES_MAX + 1) {
-                    if !is_empty(name) && name != "EVENTOUT" {
+                    if !is_empty(name) && !matches!(name, "EVENTOUT" | "SIO") {
                         let number = numbers.get(&at).copied();
                         row.usages.extend(self.usage(name, number, cell, log));
                     }

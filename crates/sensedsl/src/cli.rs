@@ -346,8 +346,14 @@ pub(crate) enum ImportFormat {
     Ioc,
     /// A board of ArduPilot
     Hwdef,
-    /// Alternate functions of MicroPython
+    /// Alternate functions of MicroPython, or the pins of one of its boards
     Micropython,
+    /// A flight controller of Betaflight: a dump of its resources, or its config.h
+    Betaflight,
+    /// A board or an overlay of Zephyr
+    Zephyr,
+    /// A variant of an Arduino core: its header, or PeripheralPins.c
+    Arduino,
     /// Messages of a CAN bus
     Dbc,
 }

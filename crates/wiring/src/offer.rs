@@ -364,7 +364,10 @@ fn is_of_usb_link(board: &Board, profile: &TargetProfile, pin: &Pin) -> bool {
     let links = board.facts.iter().flat_map(|facts| &facts.link);
     let mut links = links.filter(|link| link.transport == profile::Transport::Usb);
     let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
+    // The file has the last word on this pin, also where a built-in board with the same MCU has it wired.
+    if vbus.is_some_and(|vbus| *vbus == pin.name) {
+        return board.link.vbus;
+    }
     profile.link_pins(profile::Transport::Usb, None).contains(&pin.name)
-        || board.link.vbus && vbus.is_some_and(|vbus| *vbus == pin.name)
         || links.any(|link| link.pins.contains(&pin.name))
 }

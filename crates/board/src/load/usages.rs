@@ -7,7 +7,7 @@ use super::{Known, Loader, Word};
 use crate::cells::Cell;
 use crate::finding::FindingKind;
 use crate::remap::Blocks;
-use crate::signal::Signal;
+use crate::signal::{Function, Signal};
 use crate::table::{Column, Occupation, Onboard, Pin, ROUTED, Usage};
 
 impl Loader<'_> {
@@ -19,7 +19,7 @@ impl Loader<'_> {
         pin: &mut Pin,
         known: &mut Known,
     ) {
-        for Word { text, range } in self.words(cell) {
+        for Word { text, range } in self.words(cell).into_iter().flat_map(separated) {
             if pin.usages.len() == PIN_USAGES_MAX {
                 return self.too_large("usages of one pin", PIN_USAGES_MAX, &range);
             }
@@ -154,6 +154,36 @@ impl Loader<'_> {
         };
         self.report(kind, &word.range, Some(&column.header));
     }
+}
+
+/// The usages of a word with commas or slashes between them: `ADC1_IN0,TIM2_CH1`. A word that may
+/// mean something else, such as `USART1_RTS/DE`, stays whole.
+fn separated(word: Word) -> Vec<Word> {
+    const SEPARATORS: [char; 3] = [',', '/', ';'];
+    if !word.text.contains(SEPARATORS) || word.text.len() != word.range.len() {
+        return vec![word];
+    }
+    let mut at = word.range.start;
+    let mut pieces = Vec::new();
+    // No pin has more usages, so those behind them need not be looked at.
+    for text in word.text.split(SEPARATORS).take(PIN_USAGES_MAX + 2) {
+        let range = at..at + text.len();
+        at = range.end + 1;
+        if !text.is_empty() {
+            pieces.push(Word { text: text.to_owned(), range });
+        }
+    }
+    let name = |piece: &Word| {
+        let name = piece.text.split(['@', '#']).next().unwrap_or_default();
+        name.trim_start_matches(ROUTED).to_owned()
+    };
+    let is_named = |piece: &Word| name(piece).contains(['_', '-']);
+    let is_known = |piece: &Word| {
+        let (signal, malformed) = Signal::parse(&name(piece));
+        malformed.is_none() && *signal.function() != Function::Other
+    };
+    let is_plain = pieces.iter().all(is_named) && pieces.iter().any(is_known);
+    if is_plain { pieces } else { vec![word] }
 }
 
 /// Known multiplexers number their alternate functions from 0 to 15, with or without `AF`.

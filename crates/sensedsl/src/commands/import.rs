@@ -64,10 +64,11 @@ fn file_to_write(args: &ImportArgs) -> Option<&Path> {
 }
 
 /// The folder of the source, and the one whose files it may name, which is the same. Boards of
-/// ArduPilot include others in neighbouring folders, so for these it is the parent folder.
+/// ArduPilot and Zephyr include others in neighbouring folders, so for these it is the parent folder.
 fn folders(args: &ImportArgs, bytes: &[u8]) -> (PathBuf, PathBuf) {
     let folder = args.source.parent().unwrap_or(Path::new("")).to_path_buf();
-    if format(args.format).or_else(|| detect(bytes)) != Some(Format::Hwdef) {
+    let format = format(args.format).or_else(|| detect(bytes));
+    if !matches!(format, Some(Format::Hwdef | Format::Zephyr)) {
         return (folder.clone(), folder);
     }
     // A folder such as `..` has no name, so it has no parent that could be named.
@@ -107,6 +108,9 @@ fn format(format: ImportFormat) -> Option<Format> {
         ImportFormat::Ioc => Some(Format::Ioc),
         ImportFormat::Hwdef => Some(Format::Hwdef),
         ImportFormat::Micropython => Some(Format::MicroPython),
+        ImportFormat::Betaflight => Some(Format::Betaflight),
+        ImportFormat::Zephyr => Some(Format::Zephyr),
+        ImportFormat::Arduino => Some(Format::Arduino),
         ImportFormat::Dbc => Some(Format::Dbc),
     }
 }
