@@ -170,7 +170,7 @@ fn fig2_on(entry: &Entry) -> String {
 }
 
 /// Whether any timer of the board's MCU captures.
-fn captures(entry: &Entry) -> bool {
+pub(crate) fn captures(entry: &Entry) -> bool {
     let capture = silicon::of(entry.mcu).and_then(|silicon| silicon.timers.capture.as_ref());
     capture.is_none_or(|ability| !ability.channels.is_empty())
 }

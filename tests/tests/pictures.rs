@@ -211,8 +211,9 @@ fn faults(picture: &Picture) -> Vec<String> {
 fn designs(entry: &Entry) -> [String; 2] {
     let release = if entry.name == "STM32L-DISCOVERY" { "release LCD;" } else { "" };
     let few = "sensor Front returns uint16 { id = 17; type = analog; }
-        sensor Rear returns uint16 { id = 19; driver = srf08; address = 0x73; delay = 70; }
-        sensor Wheel returns uint32 { id = 20; type = icu; }";
+        sensor Rear returns uint16 { id = 19; driver = srf08; address = 0x73; delay = 70; }";
+    let wheel =
+        if captures(entry) { "sensor Wheel returns uint32 { id = 20; type = icu; }" } else { "" };
     let more = "sensor Side returns uint16 { id = 1; type = analog; }
         actuator Steering accepts uint16 { id = 2; type = pwm; }
         sensor Bumper returns bool { id = 3; type = digital; }
@@ -220,7 +221,7 @@ fn designs(entry: &Entry) -> [String; 2] {
         chip Climate { driver = bme280; sensor Temperature returns int32 { id = 5; } sensor Humidity returns uint32 { id = 6; } }
         sensor Angle returns uint16 { id = 7; type = spi; }";
     let head = format!("board Rover on {} {{ {release}", entry.name.replace('-', "_"));
-    [format!("{head} {few} {more} }}"), format!("{head} {few} }}")]
+    [format!("{head} {few} {wheel} {more} }}"), format!("{head} {few} {wheel} }}")]
 }
 
 /// The picture of the first design that can be wired, and the pins that are used.

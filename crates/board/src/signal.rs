@@ -273,7 +273,9 @@ impl Function {
             Self::Adc { .. } => false,
             Self::I2c { .. } | Self::Other => true,
             Self::Timer { line, .. } => !matches!(line, TimerLine::Input),
-            _ => !self.is_input(),
+            Self::Uart { .. } | Self::Spi { .. } | Self::Can { .. } | Self::Dac { .. } => {
+                !self.is_input()
+            }
         }
     }
 

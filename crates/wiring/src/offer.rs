@@ -197,8 +197,8 @@ impl<'a> Offer<'a> {
 
     /// Whether the pin can be the wire as a GPIO, given which end drives it.
     pub(crate) fn is_gpio(&self, pin: &Pin, role: kind::Role) -> bool {
-        let drives = !role.is_driven_by_device();
-        !self.is_analog_only(pin) && !(drives && self.input_only.contains(&pin.name))
+        let is_input = role.is_driven_by_device() || !self.input_only.contains(&pin.name);
+        is_input && !self.is_analog_only(pin)
     }
 
     /// Whether a name in a file means this peripheral instance of the board.

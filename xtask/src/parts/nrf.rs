@@ -76,8 +76,8 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Part>> {
             let is_small = code.ends_with("ab");
             let kib = if is_small { (256, 32) } else { chip.kib };
             let gpio = children(root, "driver");
-            let gpio = gpio.filter(|node| node.attribute("name") == Some("gpio"));
-            let gpio = gpio.filter(|node| applies(*node, &identity)).next().context("no pins")?;
+            let mut gpio = gpio.filter(|node| node.attribute("name") == Some("gpio"));
+            let gpio = gpio.find(|node| applies(*node, &identity)).context("no pins")?;
             let package = children(gpio, "package").find(|one| applies(*one, &identity));
             parts.push(Part {
                 base: chip.name.to_uppercase(),

@@ -119,8 +119,8 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Sam>> {
 }
 
 fn pins(line: &Line, root: Node<'_, '_>, identity: &Identity) -> Result<Pins> {
-    let gpio = children(root, "driver").filter(|node| node.attribute("name") == Some("gpio"));
-    let gpio = gpio.filter(|node| applies(*node, identity)).next().context("no pins")?;
+    let mut gpio = children(root, "driver").filter(|node| node.attribute("name") == Some("gpio"));
+    let gpio = gpio.find(|node| applies(*node, identity)).context("no pins")?;
     let mut pins = Pins::new();
     for node in children(gpio, "gpio").filter(|node| applies(*node, identity)) {
         let attribute = |name: &str| node.attribute(name).context("no name");

@@ -131,7 +131,13 @@ fn end(wire: &super::Wire) -> Option<(String, UartLine)> {
     let (signal, _) = Signal::parse(wire.using.signal()?);
     match signal.function() {
         Function::Uart { unit, line } => Some((unit.as_str().to_owned(), *line)),
-        _ => None,
+        Function::Adc { .. }
+        | Function::I2c { .. }
+        | Function::Timer { .. }
+        | Function::Spi { .. }
+        | Function::Can { .. }
+        | Function::Dac { .. }
+        | Function::Other => None,
     }
 }
 
