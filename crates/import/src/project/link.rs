@@ -129,16 +129,8 @@ fn console(project: &Project, chip: &Chip) -> Option<String> {
 /// The serial port of a wire, and which of its ends the wire is.
 fn end(wire: &super::Wire) -> Option<(String, UartLine)> {
     let (signal, _) = Signal::parse(wire.using.signal()?);
-    match signal.function() {
-        Function::Uart { unit, line } => Some((unit.as_str().to_owned(), *line)),
-        Function::Adc { .. }
-        | Function::I2c { .. }
-        | Function::Timer { .. }
-        | Function::Spi { .. }
-        | Function::Can { .. }
-        | Function::Dac { .. }
-        | Function::Other => None,
-    }
+    let Function::Uart { unit, line } = signal.function() else { return None };
+    Some((unit.as_str().to_owned(), *line))
 }
 
 fn is_console(label: Option<&str>) -> bool {
