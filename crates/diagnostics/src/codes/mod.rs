@@ -123,6 +123,8 @@ codes! {
     e0524_through_a_link,
     e0525_not_our_work,
     e0526_unproved_files,
+    e0527_other_drive,
+    e0528_several_drives,
     e0530_wiring_not_of_the_chip,
     e0531_no_cargo,
     e0532_typecheck_stopped,
