@@ -32,14 +32,11 @@ impl Buses {
     /// Notes a connection's bus, and says whether it is an I2C bus that was not met before.
     fn meet(&mut self, kind: KindName, unit: Option<&String>) -> bool {
         let Some(unit) = unit.cloned() else { return false };
-        match kind {
-            KindName::Can => {
-                self.can.insert(unit);
-                false
-            }
-            KindName::I2c => self.i2c.insert(unit),
-            _ => false,
+        if kind == KindName::Can {
+            self.can.insert(unit);
+            return false;
         }
+        kind == KindName::I2c && self.i2c.insert(unit)
     }
 }
 
