@@ -1,5 +1,5 @@
-//! `sensedsl flash` to drives that take a program as a file: those of boot loaders and of ST-LINKs are folders here, and
-//! cargo is a small script.
+//! `sensedsl flash` to drives that take a program as a file: those of boot loaders and of ST-LINKs are folders here,
+//! and cargo is a small script.
 #![cfg(unix)]
 
 use std::fs;

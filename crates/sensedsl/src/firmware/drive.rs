@@ -10,6 +10,8 @@ use crate::files::read_if_there;
 
 /// Folders that are looked at in place of the mounted volumes.
 const VARIABLE: &str = "SENSEDSL_DRIVES";
+/// The size that no text on such a drive exceeds.
+const TEXT_BYTES_MAX: u64 = 64 << 10;
 /// How the names of an ST-LINK's drives begin; the MCU follows.
 const ST_LINKS: [&str; 3] = ["NODE_", "NOD_", "DIS_"];
 /// The letters and digits of a part number that say the line, the pins and the flash: `F401RE`.
@@ -35,7 +37,9 @@ impl Drive {
     /// The drive that is mounted at a folder; `None` if it takes no programs.
     pub(crate) fn at(path: &Path) -> Option<Self> {
         let text = |name: &str| {
-            let bytes = read_if_there(&path.join(name)).ok().flatten()?;
+            let file = path.join(name);
+            std::fs::metadata(&file).ok().filter(|found| found.len() <= TEXT_BYTES_MAX)?;
+            let bytes = read_if_there(&file).ok().flatten()?;
             Some(String::from_utf8_lossy(&bytes).into_owned())
         };
         let make = if let Some(info) = text("INFO_UF2.TXT") {

@@ -1,11 +1,11 @@
 //! A program as a UF2 file, which the drive of a boot loader takes. In: the bytes of an ELF file, and the family of its
 //! chip. Out: the bytes of the file.
 //!
-//! The form is that of <https://github.com/microsoft/uf2>: blocks of 512 bytes, each with the address of its 256 bytes of
-//! payload. Two faults of boot ROMs are worked around as Raspberry Pi's own converter does it. That of RP2040 takes a
-//! sector as erased by the number of a block, so a sector that is touched is filled. That of the first RP2350 (erratum
-//! E10) does not put a program into a partition unless a block of the family "absolute" is before it; later ones skip
-//! that block by its extension.
+//! The form is that of <https://github.com/microsoft/uf2>: blocks of 512 bytes, each with the address of its 256 bytes
+//! of payload. Two faults of boot ROMs are worked around as Raspberry Pi's own converter does it. That of RP2040 tells
+//! by the number of a block which sector it has erased, so a sector that is touched is filled. That of the first RP2350
+//! (erratum E10) does not put a program into a partition unless a block of the family "absolute" is before it; later
+//! ones skip that block by its extension.
 
 use std::collections::BTreeMap;
 
