@@ -30,7 +30,7 @@ fn facts() -> BTreeMap<String, Facts> {
 }
 
 /// The boards that Wokwi has.
-const BOARDS: [&str; 11] = [
+const BOARDS: [&str; 19] = [
     "ARDUINO_UNO_R3",
     "ARDUINO_NANO",
     "ARDUINO_MEGA_2560",
@@ -42,6 +42,14 @@ const BOARDS: [&str; 11] = [
     "NUCLEO_L432KC",
     "BLUEPILL_F103C8",
     "BLACKPILL_F411CE",
+    "ESP32_DEVKITC_V4",
+    "ESP32_C3_DEVKITM_1",
+    "ESP32_C6_DEVKITC_1",
+    "ESP32_S3_DEVKITC_1",
+    "ARDUINO_NANO_ESP32",
+    "XIAO_ESP32C3",
+    "XIAO_ESP32C6",
+    "XIAO_ESP32S3",
 ];
 
 /// Parts that every board has pins for.

@@ -9,8 +9,9 @@ use sensedsl_diagnostics::visible;
 use serde_json::{Value, json};
 
 use super::Drawn;
+use super::boards::WokwiBoard;
 use super::route::{Area, Lanes, Side};
-use super::table::{self, Rail, WokwiBoard};
+use super::table::{self, Rail};
 
 /// The space below a part.
 const GAP: i32 = 40;

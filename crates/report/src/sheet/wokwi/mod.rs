@@ -4,6 +4,7 @@
 //! [format](https://docs.wokwi.com/diagram-format). Dividers, pull-ups and transceivers are not drawn: there, a pin
 //! takes any voltage, and a bus needs no resistors.
 
+mod boards;
 mod draw;
 mod route;
 mod table;
@@ -17,8 +18,9 @@ use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring}
 
 use super::part::crossed;
 use super::part_indices;
+use boards::{BOARDS, Names, WokwiBoard};
 use draw::Canvas;
-use table::{BOARDS, Names, USES, Use, Whom, WokwiBoard};
+use table::{USES, Use, Whom};
 
 /// A diagram.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,7 +40,7 @@ pub fn wokwi(design: &Design, assignment: &Assignment) -> Result<Diagram, Vec<Di
     let (mut canvas, mut left_out, mut wrong) = (Canvas::default(), Vec::new(), Vec::new());
     for (on, board) in assignment.used(design) {
         let built_in = board.facts.as_ref().filter(|_| board.built_in);
-        let Some(known) = built_in.and_then(|facts| table::board(&facts.name)) else {
+        let Some(known) = built_in.and_then(|facts| boards::board(&facts.name)) else {
             let all: Vec<String> =
                 BOARDS.iter().map(|board| board.name.replace('-', "_")).collect();
             let name = &board.name;
