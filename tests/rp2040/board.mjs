@@ -1,7 +1,7 @@
 // A Pico with the emulator rp2040js: an image, what is on its pins and buses, and what comes of it.
 //
 // Standard input has one object of JSON (times in microseconds since power came):
-//   image          path of the flash's bytes
+//   image          path of a UF2 file, which becomes the flash's bytes as the boot loader would write them
 //   until          when the run ends
 //   analog         readings of the four channels, 0 to 4095
 //   chips          by address of I2C: bytes of registers, counted up while they are read
@@ -19,6 +19,7 @@
 //   resets         times of the watchdog's resets
 import fs from 'node:fs';
 import { RP2040, USBCDC } from 'rp2040js';
+import { decodeBlock } from 'uf2';
 
 const FLASH = 0x10000000;
 // A second-stage boot loader is before the program.
@@ -26,13 +27,33 @@ const PROGRAM = 0x100;
 const VTOR = 0xd08;
 const CYCLE_NS = 8;
 const IDLE_NS = 1e6;
+const FAMILY = 0xe48bff56;
+const UF2_BLOCK = 512;
+const SECTOR = 4096;
 const CHARACTER_NS = 86_806; // 10 bits at 115,200 baud
 const TX_INTERRUPT = 1 << 5;
 const CONNECTING = 2; // a state of the emulator's I2C units
 
 const world = JSON.parse(fs.readFileSync(0, 'utf8'));
-const image = fs.readFileSync(world.image);
+const image = burnt(fs.readFileSync(world.image));
 const answer = { heard: [], pins: {}, written: {}, resets: [] };
+
+/// The flash that a UF2 file leaves, on one that held another program. The boot loader erases a sector before the first
+/// block of it, and takes every sixteenth block of the file for the first of one (pico-bootrom: virtual_disk.c).
+function burnt(file) {
+  const blocks = Array.from({ length: file.length / UF2_BLOCK }, (_, at) =>
+    decodeBlock(new Uint8Array(file.subarray(at * UF2_BLOCK, (at + 1) * UF2_BLOCK))));
+  const end = Math.max(...blocks.map((block) => block.flashAddress)) + SECTOR - FLASH;
+  const flash = new Uint8Array(end - (end % SECTOR)).fill(0x00);
+  for (const block of blocks) {
+    if (block.boardFamily !== FAMILY || block.totalBlocks !== blocks.length) throw new Error('not for an RP2040');
+    const at = block.flashAddress - FLASH;
+    if (block.blockNumber % (SECTOR / block.payload.length) === 0) flash.fill(0xff, at - (at % SECTOR), at - (at % SECTOR) + SECTOR);
+    // Bits of a flash are only ever cleared.
+    block.payload.forEach((byte, index) => { flash[at + index] &= byte; });
+  }
+  return flash;
+}
 
 /// Where the emulator differs from the RP2040's data sheet.
 function mend(mcu, clock) {

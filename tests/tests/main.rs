@@ -49,3 +49,4 @@ mod timing;
 mod traceability;
 mod web;
 mod wiring;
+mod wokwi;

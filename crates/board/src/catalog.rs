@@ -134,6 +134,9 @@ pub struct Board {
     pub button: Option<ActivePin>,
     /// An LED that the firmware may blink.
     pub led: Option<ActivePin>,
+    /// What a person does so that the board takes a program, where it has no probe; a clause: `hold BOOTSEL while you
+    /// plug the board in`.
+    pub ready: Option<String>,
 }
 
 impl Board {

@@ -58,6 +58,8 @@ pub(super) fn firmware_lock(context: &Context<'_>, hal: &Package, project: &dyn 
 pub(super) struct Manifests {
     pub(super) board: String,
     pub(super) hal: &'static Package,
+    /// The family of the chip in UF2 files, as a number of TOML.
+    pub(super) uf2_family: Option<String>,
     /// The features that the firmware needs of the HAL.
     pub(super) hal_features: String,
     /// The lines of what `sense-embassy` needs.
@@ -84,6 +86,7 @@ impl Manifests {
         Self {
             board: context.job.board.name.value.clone(),
             hal,
+            uf2_family: project.uf2_family().map(|family| format!("{family:#010x}")),
             hal_features: quoted(hal_features.iter().map(String::as_str)),
             runtime_needs: runtime_needs(hal),
             features: quoted(features),

@@ -176,6 +176,8 @@ pub(crate) enum SolveFormat {
     Svg,
     /// A netlist for KiCad
     Kicad,
+    /// A diagram for the simulator Wokwi
+    Wokwi,
     /// The problem itself, as a program for SWI-Prolog
     Prolog,
     /// The problem itself, as a model for the Alloy Analyzer that confirms the answer

@@ -8,6 +8,7 @@ mod seeds;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use sensedsl_firmware_embassy::{TypeCheck, profile_of, type_check};
 use sensedsl_generate::target;
@@ -181,8 +182,13 @@ fn can_link() -> bool {
     Path::new(RUSTC).exists() && has(LINKER)
 }
 
-/// The image of a project, which is built for its core without a warning.
+/// All projects are built in one folder, where each leaves its image under the same name.
+static BUILDING: Mutex<()> = Mutex::new(());
+
+/// The image of a project, which is built for its core without a warning. It is where `build` leaves it.
 fn linked(project: &Path, triple: &str) -> PathBuf {
+    // A test that failed there leaves nothing that others build on.
+    let _building = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let target = root().join("target/embassy-build");
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
@@ -193,7 +199,19 @@ fn linked(project: &Path, triple: &str) -> PathBuf {
     let log = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{log}");
     assert!(!log.contains("warning"), "{log}");
-    target.join(triple).join("release/firmware")
+    let image = format!("{triple}/release/firmware");
+    let own = project.join("target").join(&image);
+    std::fs::create_dir_all(own.parent().unwrap()).unwrap();
+    std::fs::copy(target.join(&image), &own).unwrap();
+    own
+}
+
+/// The UF2 file that `build` makes of a project's image, which is built already.
+fn uf2_of(project: &Path, elf: &Path) -> PathBuf {
+    let project = project.display().to_string();
+    let call = sensedsl(["build", &project]).env("CARGO", "true");
+    let _ = call.env("CARGO_UNSTABLE_BUILD_STD", "core").run().exits(0);
+    elf.with_extension("uf2")
 }
 
 /// Fig. 2 is built for the board, and small.

@@ -9,7 +9,8 @@ use sensedsl_generate::target;
 use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, sensedsl, tree};
 
 use super::{
-    can_link, checked, is_told, linked, source, versions_are_those_of_the_lock_file, with_job,
+    can_link, checked, is_told, linked, source, uf2_of, versions_are_those_of_the_lock_file,
+    with_job,
 };
 
 /// Board, folder of its project, and triple of its core.
@@ -199,7 +200,13 @@ fn images_link() {
     }
     let scratch = TempDir::new("embassy-rp-link");
     for (board, triple) in BOARDS {
-        let elf = linked(&generated(&scratch, board, KINDS), triple);
+        let project = generated(&scratch, board, KINDS);
+        let elf = linked(&project, triple);
+        let uf2 = std::fs::read(uf2_of(&project, &elf)).unwrap();
+        let bytes = scratch.join("image.bin");
+        let mut copy = Command::new("arm-none-eabi-objcopy");
+        assert!(copy.args(["-O", "binary"]).args([&elf, &bytes]).status().unwrap().success());
+        is_in_the_file(&uf2, &std::fs::read(bytes).unwrap(), triple);
         let sections = Command::new("arm-none-eabi-size").arg("-A").arg(elf).output().unwrap();
         let sections = String::from_utf8_lossy(&sections.stdout).into_owned();
         let address = |name: &str| -> Option<u32> {
@@ -214,4 +221,28 @@ fn images_link() {
             assert!(address(".start_block").unwrap() < 0x1000_1000, "{sections}");
         }
     }
+}
+
+/// A UF2 file has the bytes of the flash, read by the definition: magic, flags, address, size, number, count, family.
+fn is_in_the_file(uf2: &[u8], flash: &[u8], triple: &str) {
+    let family = if triple.starts_with("thumbv6m") { 0xE48B_FF56 } else { 0xE48B_FF59 };
+    let mut blocks: Vec<(Vec<u32>, &[u8])> = Vec::new();
+    for block in uf2.chunks(512) {
+        let word = |at: usize| u32::from_le_bytes(block[at..at + 4].try_into().unwrap());
+        assert_eq!((word(0), word(4), word(508)), (0x0A32_4655, 0x9E5D_5157, 0x0AB1_6F30));
+        blocks.push(((2..8).map(|at| word(4 * at)).collect(), &block[32..288]));
+    }
+    if family == 0xE48B_FF59 {
+        assert_eq!(blocks.remove(0).0, [0xA000, 0x10FF_FF00, 256, 0, 2, 0xE48B_FF57]);
+    }
+    let count = u32::try_from(blocks.len()).unwrap();
+    let mut read: Vec<u8> = Vec::new();
+    for (number, (words, payload)) in (0..).zip(blocks) {
+        let address = 0x1000_0000 + 256 * number;
+        assert_eq!(words, [0x2000, address, 256, number, count, family]);
+        read.extend(payload);
+    }
+    assert!(read.len() - flash.len() < 256, "{} of {}", read.len(), flash.len());
+    assert_eq!(read[..flash.len()], *flash);
+    assert!(read[flash.len()..].iter().all(|byte| *byte == 0xFF));
 }

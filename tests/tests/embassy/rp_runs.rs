@@ -15,7 +15,7 @@ use sensedsl_wire::{
 use serde_json::{Value, json};
 
 use super::rp::generated;
-use super::{can_link, linked, with_job};
+use super::{can_link, linked, uf2_of, with_job};
 
 /// All kinds that there is code for; the link is told before.
 const DEVICES: &str = r"
@@ -43,7 +43,7 @@ const MS: u64 = 1_000;
 const SERVO: &str = "2";
 const TRIGGER: &str = "3";
 
-/// A design, its image and its schema.
+/// A design, its image as a UF2 file, and its schema.
 struct Made {
     has_words: bool,
     image: PathBuf,
@@ -69,8 +69,12 @@ fn is_possible() -> bool {
     }
     if !can_link() {
         missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
-    } else if !has("node") || !folder().join("node_modules/rp2040js").exists() {
-        missing("Node.js with the emulator of the RP2040: npm ci --prefix tests/rp2040");
+    } else if !has("node")
+        || !["rp2040js", "uf2"].iter().all(|name| folder().join("node_modules").join(name).exists())
+    {
+        missing(
+            "Node.js with the emulator of the RP2040 and a reader of UF2 files: npm ci --prefix tests/rp2040",
+        );
     } else {
         return true;
     }
@@ -85,10 +89,8 @@ fn made(name: &str, link: &str) -> Made {
     let scratch = TempDir::new(name);
     let design = format!(" {{ target = embassy; {link} {DEVICES}");
     let board = "RASPBERRYPI_PICO";
-    let elf = linked(&generated(&scratch, board, &design), "thumbv6m-none-eabi");
-    let image = scratch.join("image.bin");
-    let mut copy = Command::new("arm-none-eabi-objcopy");
-    assert!(copy.args(["-O", "binary"]).args([&elf, &image]).status().unwrap().success());
+    let project = generated(&scratch, board, &design);
+    let image = uf2_of(&project, &linked(&project, "thumbv6m-none-eabi"));
     let schema = with_job(&format!("board {board}{design}"), None, |job| job.schema.clone());
     Made { has_words: link == USB, image, schema, _scratch: scratch }
 }

@@ -14,12 +14,12 @@ use super::applications::{FIG2, TWO};
 const GCC: &str = "arm-none-eabi-gcc";
 
 /// A machine with a ChibiOS tree, make and a compiler, all of which do nothing.
-struct Machine {
-    scratch: TempDir,
+pub(super) struct Machine {
+    pub(super) scratch: TempDir,
 }
 
 impl Machine {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let machine = Self { scratch: TempDir::new("building") };
         let release = "#define CH_VERSION_STABLE 1\n#define CH_VERSION \"2021.11.5\"\n";
         machine.file("tree/os/license/chversion.h", release);
@@ -34,7 +34,7 @@ impl Machine {
         machine
     }
 
-    fn file(&self, path: &str, text: &str) -> PathBuf {
+    pub(super) fn file(&self, path: &str, text: &str) -> PathBuf {
         self.scratch.write(path, text)
     }
 
@@ -42,7 +42,7 @@ impl Machine {
         fs::remove_file(self.scratch.join(path)).unwrap();
     }
 
-    fn tool(&self, name: &str, script: &str) {
+    pub(super) fn tool(&self, name: &str, script: &str) {
         let path = self.file(&format!("bin/{name}"), &format!("#!/bin/sh\n{script}\n"));
         fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
     }
@@ -53,11 +53,13 @@ impl Machine {
     }
 
     /// Runs the program in the machine's folder, with its tools and its tree.
-    fn run(&self, arguments: &[&str], settings: &[(&str, &str)]) -> RunOutput {
+    pub(super) fn run(&self, arguments: &[&str], settings: &[(&str, &str)]) -> RunOutput {
         let path = |name: &str| self.scratch.join(name).display().to_string();
         let mut call = sensedsl(arguments).within(self.scratch.path());
         call = call.env("PATH", &path("bin")).env("LOG", &path("log"));
         call = call.env("CHIBIOS", &path("tree"));
+        // Boards of the one who runs this are left alone.
+        call = call.env("SENSEDSL_DRIVES", &path("no drives"));
         for (name, value) in settings {
             call = call.env(name, value);
         }
@@ -66,7 +68,13 @@ impl Machine {
 
     /// The command must be refused with this code before anything is written or built.
     #[track_caller]
-    fn refuses(&self, arguments: &[&str], settings: &[(&str, &str)], code: &str, words: &[&str]) {
+    pub(super) fn refuses(
+        &self,
+        arguments: &[&str],
+        settings: &[(&str, &str)],
+        code: &str,
+        words: &[&str],
+    ) {
         let ran = self.run(arguments, settings).exits(2);
         assert!(ran.stderr.contains(&format!("error[{code}]")), "{code}: {}", ran.stderr);
         for word in words {
@@ -77,7 +85,7 @@ impl Machine {
     }
 
     /// The arguments of make in its calls that build.
-    fn calls(&self) -> String {
+    pub(super) fn calls(&self) -> String {
         let log = fs::read_to_string(self.scratch.join("log")).unwrap_or_default();
         log.lines().filter(|line| *line != "--version").map(|line| format!("{line}\n")).collect()
     }
@@ -126,22 +134,28 @@ fn a_board_for_embassy_is_built_by_cargo() {
     // A tool that does not read ELF files gets the contents of one as plain bytes.
     machine.tool("st-info", "echo Found 1 stlink programmers");
     machine.tool("st-flash", "echo \"$@\" >> \"$LOG\"");
+    machine.scratch.write(elf, elf_of(0x0800_0000, &[0xA5; 0x20]));
+    let _ = machine.run(&["flash", "build/firmware/STM32F407G_DISC1"], &settings).exits(0);
+    assert_eq!(fs::read(machine.scratch.join(&format!("{elf}.bin"))).unwrap(), [0xA5; 0x20]);
+    assert!(machine.calls().contains(&format!("--reset write {elf}.bin 0x08000000")));
+}
+
+/// An ELF file that loads these bytes at an address.
+pub(super) fn elf_of(address: u32, bytes: &[u8]) -> Vec<u8> {
     let mut program = vec![0x7F, b'E', b'L', b'F', 1, 1, 1];
-    program.resize(0x74, 0);
+    program.resize(0x54, 0);
     let mut word =
         |at: usize, value: u32| program[at..at + 4].copy_from_slice(&value.to_le_bytes());
     word(0x10, 0x0028_0002);
     word(0x1C, 0x34);
     word(0x28, 0x0020_0034);
     word(0x2C, 1);
-    for (at, value) in [1, 0x54, 0x0800_0000, 0x0800_0000, 0x20, 0x20].into_iter().enumerate() {
+    let size = u32::try_from(bytes.len()).unwrap();
+    for (at, value) in [1, 0x54, address, address, size, size].into_iter().enumerate() {
         word(0x34 + 4 * at, value);
     }
-    program[0x54..].fill(0xA5);
-    machine.scratch.write(elf, &program);
-    let _ = machine.run(&["flash", "build/firmware/STM32F407G_DISC1"], &settings).exits(0);
-    assert_eq!(fs::read(machine.scratch.join(&format!("{elf}.bin"))).unwrap(), [0xA5; 0x20]);
-    assert!(machine.calls().contains(&format!("--reset write {elf}.bin 0x08000000")));
+    program.extend(bytes);
+    program
 }
 
 const BUILD: &[&str] = &["build", "fig2.sense"];

@@ -15,6 +15,7 @@ mod chibios;
 mod codecs;
 mod core;
 mod details;
+mod drives;
 mod embassy;
 mod emulated;
 mod facts;

@@ -176,6 +176,11 @@ pub(crate) trait Project {
         Vec::new()
     }
 
+    /// The family of the chip in UF2 files; `None` if its boot loader does not take them.
+    fn uf2_family(&self) -> Option<u32> {
+        None
+    }
+
     /// How `main` begins. `is_usb`: whether the link needs the clock of a USB device.
     fn begin(&self, context: &Context<'_>, is_usb: bool) -> Begin;
 

@@ -6,6 +6,7 @@ pub mod kicad;
 pub mod markdown;
 mod part;
 mod rail;
+pub mod wokwi;
 
 use std::collections::BTreeSet;
 

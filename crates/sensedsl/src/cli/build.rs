@@ -41,6 +41,9 @@ pub(crate) struct FlashArgs {
     /// Flash with this; unless you say, with the first that is installed and finds a board
     #[arg(long, value_enum, value_name = "TOOL")]
     pub(crate) with: Option<Tool>,
+    /// Copy the program to the drive that is mounted at this folder
+    #[arg(long, value_name = "DIR", conflicts_with = "with")]
+    pub(crate) drive: Option<PathBuf>,
 }
 
 /// What writes a program to a board, in the order in which they are tried.
@@ -52,6 +55,10 @@ pub(crate) enum Tool {
     ProbeRs,
     /// By the MCU's own boot loader on USB
     DfuUtil,
-    /// By ST-LINK, through `OpenOCD`
+    /// By the boot loader of RP2040 and RP2350
+    Picotool,
+    /// By copying a file to the drive of the boot loader, or of an ST-LINK
+    Drive,
+    /// By a probe, through `OpenOCD`
     Openocd,
 }

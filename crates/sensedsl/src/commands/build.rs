@@ -10,12 +10,13 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, Result};
 use sensedsl_diagnostics::codes::{e0519_which_board, e0520_no_firmware_here, e0521_build_failed};
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
+use sensedsl_model::design::Board;
 
 use super::{generate, input, output};
 use crate::cli::{BuildArgs, GenerateArgs, On, Place};
 use crate::files::{files_below, shown};
 use crate::firmware::cargo::{self, Cargo};
-use crate::firmware::{self, Build, Make, Program};
+use crate::firmware::{self, Build, Make, Program, uf2};
 use crate::status::{Reported, Status};
 use crate::terminal::Terminal;
 
@@ -24,6 +25,9 @@ pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
         for program in &job.programs {
             let elf = job.elf(program);
             terminal.note(&format!("built {}\n", visible(&shown(&elf))))?;
+            if let Some(file) = job.uf2(program) {
+                terminal.note(&format!("built {}\n", visible(&shown(&file))))?;
+            }
         }
         if let [program] = job.programs.as_slice() {
             let folder = output::typed(&program.folder, "");
@@ -39,29 +43,48 @@ pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
 pub(super) struct Job<'a> {
     pub(super) programs: Vec<Program>,
     pub(super) production: bool,
-    /// The command that runs after the build; empty if there is none.
-    pub(super) after: Vec<String>,
-    /// Whether that command takes raw bytes that the build does not make.
+    /// What is done after the build; `None` if that is all.
+    pub(super) after: Option<After>,
+    /// Whether that takes raw bytes that the build does not make.
     pub(super) makes_raw: bool,
     /// The place for diagnostics that concern the whole.
     pub(super) at: Span,
     pub(super) sources: &'a SourceMap,
 }
 
+/// What is done with a program that has been built.
+#[derive(Clone, Debug)]
+pub(super) enum After {
+    /// A command runs.
+    Run(Vec<String>),
+    /// A file is copied to the drive at a folder.
+    Copy {
+        /// The file.
+        file: PathBuf,
+        /// The folder.
+        drive: PathBuf,
+    },
+}
+
 impl<'a> Job<'a> {
     fn new(programs: Vec<Program>, place: &Place, at: Span, sources: &'a SourceMap) -> Self {
         let production = place.production;
-        Self { programs, production, after: Vec::new(), makes_raw: false, at, sources }
+        Self { programs, production, after: None, makes_raw: false, at, sources }
     }
 
     /// The ELF file that the build makes.
     pub(super) fn elf(&self, program: &Program) -> PathBuf {
         match &program.build {
             Build::Make(_) => program.folder.join("build").join(self.mode()).join("sense.elf"),
-            Build::Cargo(triple) => {
-                program.folder.join("target").join(triple).join("release/firmware")
+            Build::Cargo(project) => {
+                program.folder.join("target").join(&project.triple).join("release/firmware")
             }
         }
+    }
+
+    /// The same program as a UF2 file, if the board's boot loader takes one.
+    pub(super) fn uf2(&self, program: &Program) -> Option<PathBuf> {
+        program.build.family().map(|_| self.elf(program).with_extension("uf2"))
     }
 
     /// The same program as raw bytes.
@@ -131,16 +154,21 @@ fn of_file(
     };
     generate::made(&args, terminal, &mut |made| {
         let boards = made.assignment.used(made.design);
-        let program = |name: &str, mcu: Option<&str>| {
+        let program = |on: &Board| {
+            let name = &on.name.value;
             let mut file = |path: &str| {
                 let file = made.files.get(&format!("firmware/{name}/{path}"));
                 Ok(file.map(|file| String::from_utf8_lossy(&file.bytes).into_owned()))
             };
             let build = Build::of(&mut file).ok()??;
             let folder = args.output.join("firmware").join(name);
-            Some(Program { board: name.to_owned(), folder, mcu: mcu.map(str::to_owned), build })
+            let mcu = on.mcu.clone();
+            // Facts of a table of the user's are those of another board.
+            let ready = on.facts.as_ref().filter(|_| on.built_in);
+            let ready = ready.and_then(|facts| facts.ready.clone());
+            Some(Program { board: name.clone(), folder, mcu, ready, build })
         };
-        let programs = boards.filter_map(|(_, on)| program(&on.name.value, on.mcu.as_deref()));
+        let programs = boards.filter_map(|(_, on)| program(on));
         let at = input::place(made.design);
         let mut job = Job::new(programs.collect(), place, at, made.sources);
         let builders = match look(place, &mut job, ground) {
@@ -211,7 +239,7 @@ fn look(
     for program in &job.programs {
         match &program.build {
             Build::Make(wants) => made.push((program, wants)),
-            Build::Cargo(triple) => triples.push(triple.as_str()),
+            Build::Cargo(project) => triples.push(project.triple.as_str()),
         }
     }
     let mut builders = Builders { make: None, cargo: None };
@@ -245,8 +273,20 @@ fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<
             let status = job.refuse(why, Status::Wrong, terminal)?;
             anyhow::bail!(Reported(status));
         }
+        make_uf2(job, program)?;
     }
     Ok(())
+}
+
+/// Makes the UF2 file of a program, if the board's boot loader takes one.
+fn make_uf2(job: &Job<'_>, program: &Program) -> Result<()> {
+    let (Some(family), Some(file)) = (program.build.family(), job.uf2(program)) else {
+        return Ok(());
+    };
+    let elf = job.elf(program);
+    let bytes = std::fs::read(&elf).with_context(|| elf.display().to_string())?;
+    let bytes = uf2::of_elf(&bytes, family).with_context(|| elf.display().to_string())?;
+    std::fs::write(&file, bytes).with_context(|| file.display().to_string())
 }
 
 /// The command that builds a board; `None` if the tool for it was not found.

@@ -81,6 +81,15 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         let report = e0405_too_many_moves::too_many_moves(at, wiring.moved, most);
         answer.diagnostics.push(report);
     }
+    if args.format == SolveFormat::Wokwi
+        && let Some((design, wiring)) = answer.wired()
+    {
+        let reports = match sheet::wokwi::wokwi(design, wiring) {
+            Ok(diagram) => diagram.left_out,
+            Err(wrong) => wrong,
+        };
+        answer.diagnostics.extend(reports);
+    }
     terminal.diagnostics(&answer.diagnostics, sources)?;
     let status = if args.proof.is_some() && file.is_none() {
         status(&answer, &args.on)
@@ -191,6 +200,8 @@ impl Printer<'_> {
             SolveFormat::Html => sheet::html::html(design, wiring),
             SolveFormat::Svg => svg::svg(design, wiring),
             SolveFormat::Kicad => sheet::kicad::kicad(design, wiring),
+            // What is wrong or missing has been told.
+            SolveFormat::Wokwi => sheet::wokwi::wokwi(design, wiring).unwrap_or_default().text,
             // These are answered before solving: they need no answer.
             SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
         }

@@ -2,15 +2,18 @@
 //!
 //! `program` finds the firmware in a generated folder and determines what builds it: make or cargo. `tree` compares the
 //! requirements of a Makefile with the user's tree of ChibiOS, `tools` checks for make and the compiler, `cargo` for
-//! cargo and the processor's core library, `probe` for tools that write to a board, and `raw` makes the bytes that some
-//! of these take. Anything missing is returned as a diagnostic; nothing here prints.
+//! cargo and the processor's core library, `probe` for tools that write to a board, `drive` for drives that take
+//! programs; `raw` makes the bytes that some of these take, and `uf2` the files that others do. Anything missing is
+//! returned as a diagnostic; nothing here prints.
 
 pub(crate) mod cargo;
+pub(crate) mod drive;
 pub(crate) mod probe;
 mod program;
 pub(crate) mod raw;
 mod tools;
 mod tree;
+pub(crate) mod uf2;
 
 use std::process::{Command, ExitStatus, Stdio};
 

@@ -1,10 +1,13 @@
-//! Tools that write a program to a board: which are installed, which of them find a board, and the command.
+//! What writes a program to a board: tools, of which some are installed and find a board, and drives that take a file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use sensedsl_diagnostics::codes::{e0518_no_probe, e0522_not_flashed};
+use sensedsl_diagnostics::codes::{
+    e0518_no_probe, e0522_not_flashed, e0527_other_drive, e0528_several_drives,
+};
 use sensedsl_diagnostics::{Diagnostic, Span};
 
+use super::drive::{self, Drive};
 use super::{Program, asked};
 use crate::cli::Tool;
 
@@ -12,19 +15,31 @@ use crate::cli::Tool;
 const FLASH: &str = "0x08000000";
 
 /// All tools, in the order in which they are tried.
-const TOOLS: [Tool; 4] = [Tool::StFlash, Tool::ProbeRs, Tool::DfuUtil, Tool::Openocd];
+const TOOLS: [Tool; 6] =
+    [Tool::StFlash, Tool::ProbeRs, Tool::DfuUtil, Tool::Picotool, Tool::Drive, Tool::Openocd];
 
 /// A tool's answer about boards on this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Found {
     /// The tool is not installed.
     NoTool,
+    /// It does not write to boards of this sort.
+    Unfit,
     /// It finds no board.
     Nothing,
     /// It finds a board.
     Board,
     /// It cannot be asked.
     Unknown,
+}
+
+/// How a program is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// By a tool.
+    Tool(Tool),
+    /// By copying a file to the drive at this folder.
+    Drive(PathBuf),
 }
 
 impl Tool {
@@ -34,6 +49,8 @@ impl Tool {
             Self::StFlash => "st-flash",
             Self::ProbeRs => "probe-rs",
             Self::DfuUtil => "dfu-util",
+            Self::Picotool => "picotool",
+            Self::Drive => "the board's drive",
             Self::Openocd => "openocd",
         }
     }
@@ -42,7 +59,17 @@ impl Tool {
     pub(crate) fn takes_raw(self) -> bool {
         match self {
             Self::StFlash | Self::DfuUtil => true,
-            Self::ProbeRs | Self::Openocd => false,
+            Self::ProbeRs | Self::Picotool | Self::Drive | Self::Openocd => false,
+        }
+    }
+
+    /// Whether it writes to boards of this sort.
+    fn serves(self, program: &Program) -> bool {
+        let has_uf2 = program.build.family().is_some();
+        match self {
+            Self::StFlash | Self::DfuUtil => !has_uf2,
+            Self::Picotool => has_uf2,
+            Self::ProbeRs | Self::Drive | Self::Openocd => true,
         }
     }
 
@@ -52,6 +79,11 @@ impl Tool {
             Self::StFlash => ("st-info", &["--probe"], stlink_found),
             Self::ProbeRs => ("probe-rs", &["list"], |reported| reported.contains("[0]")),
             Self::DfuUtil => ("dfu-util", &["--list"], |reported| reported.contains("Found DFU:")),
+            Self::Picotool => {
+                ("picotool", &["info"], |reported| reported.contains("Program Information"))
+            }
+            // Drives are looked at by themselves.
+            Self::Drive => return Found::Nothing,
             Self::Openocd => {
                 let here = asked("openocd", &["--version"]).is_some();
                 return if here { Found::Unknown } else { Found::NoTool };
@@ -74,10 +106,13 @@ impl Tool {
             Self::StFlash => "st-info --probe",
             Self::ProbeRs => "probe-rs list",
             Self::DfuUtil => "dfu-util --list",
+            Self::Picotool => "picotool info",
+            Self::Drive => "a drive of the board",
             Self::Openocd => "openocd",
         };
         match found {
             Found::NoTool => format!("{} (not installed)", self.name()),
+            Found::Unfit => format!("{} (does not write to such a board)", self.name()),
             Found::Nothing => format!("{how} (none)"),
             Found::Board | Found::Unknown => how.to_owned(),
         }
@@ -90,28 +125,88 @@ fn stlink_found(reported: &str) -> bool {
     count.and_then(|count| count.parse::<u32>().ok()).is_some_and(|count| count > 0)
 }
 
-/// The tool to flash with: the requested one, or the first that finds a board, or one that cannot be asked if no other
-/// is installed.
-pub(crate) fn choose(wanted: Option<Tool>, at: Span) -> Result<Tool, Box<Diagnostic>> {
-    let tools = wanted.as_ref().map_or(&TOOLS[..], std::slice::from_ref);
-    let mut looked = Vec::new();
+/// The way to flash: the requested one, or the first that finds a board, or a tool that cannot be asked if no other is
+/// installed.
+pub(crate) fn choose(
+    wanted: Option<Tool>,
+    program: &Program,
+    at: Span,
+) -> Result<Way, Box<Diagnostic>> {
+    let named = wanted.as_slice();
+    let all = TOOLS.iter().filter(|tool| tool.serves(program));
+    let tools: Vec<Tool> = if named.is_empty() { all.copied().collect() } else { named.to_vec() };
+    let (mut looked, mut other) = (Vec::new(), None);
     for tool in tools {
-        let found = tool.look();
-        looked.push((*tool, found));
+        let found = if tool.serves(program) { tool.look() } else { Found::Unfit };
         if found == Found::Board {
-            return Ok(*tool);
+            return Ok(Way::Tool(tool));
         }
+        if tool == Tool::Drive {
+            match drive_of(program, at)? {
+                Ok(drive) => return Ok(Way::Drive(drive)),
+                Err(found) => other = found,
+            }
+        }
+        looked.push((tool, found));
     }
-    let none_asked = looked.iter().all(|(_, found)| *found != Found::Nothing);
+    let tools = || looked.iter().filter(|(tool, _)| *tool != Tool::Drive);
+    let none_asked = tools().all(|(_, found)| *found != Found::Nothing);
     if let Some((tool, _)) = looked.iter().find(|(_, found)| *found == Found::Unknown)
         && none_asked
     {
-        return Ok(*tool);
+        return Ok(Way::Tool(*tool));
+    }
+    if let Some(drive) = other {
+        return Err(not_of_board(&drive, program, at));
     }
     let list: Vec<String> = looked.iter().map(|(tool, found)| tool.result(*found)).collect();
-    let no_tool = looked.iter().all(|(_, found)| *found == Found::NoTool);
+    let no_tool = tools().next().is_some() && tools().all(|(_, found)| *found == Found::NoTool);
+    let board = e0518_no_probe::Board {
+        ready: program.ready.as_deref(),
+        has_drive: program.build.family().is_some(),
+        not_mounted: drive::not_mounted(),
+    };
     let tell = if no_tool { e0518_no_probe::no_tool } else { e0518_no_probe::no_probe };
-    Err(tell(at, &list.join(", ")).into())
+    Err(tell(at, &list.join(", "), &board).into())
+}
+
+/// The drive of the board, or that of another one if there is one.
+fn drive_of(
+    program: &Program,
+    at: Span,
+) -> Result<Result<PathBuf, Option<Drive>>, Box<Diagnostic>> {
+    let (own, other): (Vec<Drive>, Vec<Drive>) =
+        drive::mounted().into_iter().partition(|drive| drive.suits(program));
+    match own.as_slice() {
+        [] => Ok(Err(other.into_iter().next())),
+        [drive] => Ok(Ok(drive.path.clone())),
+        several => {
+            let paths: Vec<String> =
+                several.iter().map(|drive| drive.path.display().to_string()).collect();
+            Err(e0528_several_drives::several(at, &program.board, &paths).into())
+        }
+    }
+}
+
+/// The drive at a folder that the user names.
+pub(crate) fn drive_at(
+    path: &Path,
+    program: &Program,
+    at: Span,
+) -> Result<PathBuf, Box<Diagnostic>> {
+    match Drive::at(path) {
+        None => Err(e0527_other_drive::no_drive(at, &path.display().to_string()).into()),
+        Some(drive) if drive.suits(program) => Ok(drive.path),
+        Some(drive) => Err(not_of_board(&drive, program, at)),
+    }
+}
+
+fn not_of_board(drive: &Drive, program: &Program, at: Span) -> Box<Diagnostic> {
+    let family = program.build.family().map(|family| family.chip);
+    let chip = family.or(program.mcu.as_deref());
+    let chip = chip.map_or_else(|| "another chip".to_owned(), |chip| format!("an {chip}"));
+    let path = drive.path.display().to_string();
+    e0527_other_drive::other_drive(at, (&path, &drive.owner()), (&program.board, &chip)).into()
 }
 
 /// The command that writes an ELF file, or the same program as raw bytes, to the board and starts it.
@@ -138,10 +233,15 @@ pub(crate) fn command(
             let address = format!("{FLASH}:leave");
             ["-a", "0", "-s", &address, "-D", &raw].map(str::to_owned).into()
         }
+        Tool::Picotool => ["load", "-u", "-v", "-x", "-t", "elf", &elf].map(str::to_owned).into(),
+        // A file is copied there.
+        Tool::Drive => Vec::new(),
         Tool::Openocd => {
+            let interface = if program.build.family().is_some() { "cmsis-dap" } else { "stlink" };
+            let interface = format!("interface/{interface}.cfg");
             let target = format!("target/{}.cfg", target(mcu()?));
             let program = format!("program {{{elf}}} verify reset exit");
-            ["-f", "interface/stlink.cfg", "-f", &target, "-c", &program].map(str::to_owned).into()
+            ["-f", &interface, "-f", &target, "-c", &program].map(str::to_owned).into()
         }
     };
     Ok(std::iter::once(tool.name().to_owned()).chain(words).collect())
@@ -161,6 +261,9 @@ fn chip(mcu: &str) -> String {
 
 /// The name of the `OpenOCD` file for a family: `stm32f4x`; L0 and L1 have no x.
 fn target(mcu: &str) -> String {
+    if mcu.starts_with("RP") {
+        return if mcu.starts_with("RP235") { "rp2350" } else { "rp2040" }.to_owned();
+    }
     const FAMILY: usize = "STM32F4".len();
     let family = mcu.get(..FAMILY).unwrap_or(mcu).to_ascii_lowercase();
     let bare = family.ends_with("l0") || family.ends_with("l1");
@@ -180,6 +283,8 @@ mod tests {
         assert_eq!(target("STM32F407VGT6"), "stm32f4x");
         assert_eq!(target("STM32L073RZT6"), "stm32l0");
         assert_eq!(target("STM32L476RGT6"), "stm32l4x");
+        assert_eq!(target("RP2040"), "rp2040");
+        assert_eq!(target("RP2350A"), "rp2350");
     }
 
     #[test]

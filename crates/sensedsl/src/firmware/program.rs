@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use sensedsl_board::catalog;
 
+use super::uf2::{self, Family};
 use crate::files::read_if_there;
 
 /// The firmware of one board.
@@ -15,6 +17,8 @@ pub(crate) struct Program {
     pub(crate) folder: PathBuf,
     /// The board's MCU, if it is known.
     pub(crate) mcu: Option<String>,
+    /// What makes the board ready to take a program, if it is a board that is known.
+    pub(crate) ready: Option<String>,
     /// The tool that builds it.
     pub(crate) build: Build,
 }
@@ -24,8 +28,26 @@ pub(crate) struct Program {
 pub(crate) enum Build {
     /// GNU make, with a tree of ChibiOS.
     Make(Wants),
-    /// Cargo, for a target triple such as `thumbv7em-none-eabihf`.
-    Cargo(String),
+    /// Cargo.
+    Cargo(Project),
+}
+
+/// A project of Cargo's.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Project {
+    /// The target triple: `thumbv7em-none-eabihf`.
+    pub(crate) triple: String,
+    /// The family of the chip in UF2 files, if its boot loader takes them.
+    pub(crate) family: Option<&'static Family>,
+}
+
+impl Project {
+    /// Reads the family from the project's manifest.
+    fn new(triple: &str, manifest: &str) -> Self {
+        let id = manifest.lines().find_map(|line| line.strip_prefix("uf2-family = 0x"));
+        let id = id.and_then(|digits| u32::from_str_radix(digits.trim(), 16).ok());
+        Self { triple: triple.to_owned(), family: id.and_then(uf2::family) }
+    }
 }
 
 impl Build {
@@ -36,8 +58,17 @@ impl Build {
         }
         let config = file(".cargo/config.toml")?.unwrap_or_default();
         let triple = config.lines().find_map(|line| line.trim().strip_prefix("target = \""));
-        let triple = triple.and_then(|rest| rest.split('"').next());
-        Ok(triple.map(|triple| Self::Cargo(triple.to_owned())))
+        let Some(triple) = triple.and_then(|rest| rest.split('"').next()) else { return Ok(None) };
+        let manifest = file("Cargo.toml")?.unwrap_or_default();
+        Ok(Some(Self::Cargo(Project::new(triple, &manifest))))
+    }
+
+    /// The family of the chip in UF2 files, if its boot loader takes them.
+    pub(crate) fn family(&self) -> Option<&'static Family> {
+        match self {
+            Self::Make(_) => None,
+            Self::Cargo(project) => project.family,
+        }
     }
 
     /// The name of the tool for people.
@@ -112,7 +143,9 @@ fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> 
     let named = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let board = named.file_name().map_or_else(String::new, |name| name.display().to_string());
     let mcu = mcus.iter().find(|(name, _)| *name == board).map(|(_, mcu)| mcu.clone());
-    Ok(Some(Program { board, folder: folder.to_path_buf(), mcu, build }))
+    let known = catalog::find(&board).and_then(|entry| entry.board().ok());
+    let ready = known.and_then(|board| board.ready);
+    Ok(Some(Program { board, folder: folder.to_path_buf(), mcu, ready, build }))
 }
 
 /// The MCUs of the boards in an answer; empty if there is no answer.
@@ -136,10 +169,19 @@ mod tests {
             Build::of(&mut file).unwrap()
         };
         let config = "# A comment.\n[build]\ntarget = \"thumbv6m-none-eabi\"\n";
-        let triple = Build::Cargo("thumbv6m-none-eabi".to_owned());
-        assert_eq!(of(".cargo/config.toml", config), Some(triple));
+        let project = |manifest| Project::new("thumbv6m-none-eabi", manifest);
+        assert_eq!(of(".cargo/config.toml", config), Some(Build::Cargo(project(""))));
         assert_eq!(of("Makefile", ""), Some(Build::Make(Wants::default())));
         assert_eq!(of("README.md", ""), None);
+    }
+
+    #[test]
+    fn a_manifest_says_what_uf2_files_call_the_chip() {
+        let chip = |manifest| Project::new("", manifest).family.map(|family| family.chip);
+        let of_pico = "[package.metadata.sensedsl]\nuf2-family = 0xe48bff56\n";
+        assert_eq!(chip(of_pico), Some("RP2040"));
+        assert_eq!(chip("uf2-family = 0x0\n"), None);
+        assert_eq!(chip("[package]\n"), None);
     }
 
     #[test]

@@ -6,16 +6,16 @@ use object::elf::{FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader as _, ProgramHeader as _};
 
 /// The value of erased flash.
-const ERASED: u8 = 0xFF;
+pub(super) const ERASED: u8 = 0xFF;
 /// The size that no microcontroller's flash exceeds.
-const FLASH_BYTES_MAX: u64 = 16 << 20;
+pub(super) const FLASH_BYTES_MAX: u64 = 16 << 20;
 
-/// The bytes from the lowest load address of a 32-bit ELF file to its highest.
+/// The parts of a 32-bit ELF file that are loaded, with their load addresses.
 ///
 /// # Errors
 ///
-/// If it is not such a file, or is larger than any flash.
-pub(crate) fn of_elf(elf: &[u8]) -> Result<Vec<u8>> {
+/// If it is not such a file, or nothing of it is loaded.
+pub(super) fn parts(elf: &[u8]) -> Result<Vec<(u64, &[u8])>> {
     let header = FileHeader32::<Endianness>::parse(elf)?;
     let endian = header.endian()?;
     let mut parts: Vec<(u64, &[u8])> = Vec::new();
@@ -25,9 +25,20 @@ pub(crate) fn of_elf(elf: &[u8]) -> Result<Vec<u8>> {
             parts.push((segment.p_paddr(endian).into(), data));
         }
     }
-    let Some(begin) = parts.iter().map(|(address, _)| *address).min() else {
+    if parts.is_empty() {
         bail!("nothing of it is loaded");
-    };
+    }
+    Ok(parts)
+}
+
+/// The bytes from the lowest load address of a 32-bit ELF file to its highest.
+///
+/// # Errors
+///
+/// If it is not such a file, or is larger than any flash.
+pub(crate) fn of_elf(elf: &[u8]) -> Result<Vec<u8>> {
+    let parts = parts(elf)?;
+    let begin = parts.iter().map(|(address, _)| *address).min().unwrap_or_default();
     let mut bytes = Vec::new();
     for (address, data) in parts {
         let offset = address - begin;

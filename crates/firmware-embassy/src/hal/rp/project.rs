@@ -55,6 +55,10 @@ impl Project for Settings {
         [context.chip.feature.as_str(), "time-driver", "unstable-pac"].map(str::to_owned).into()
     }
 
+    fn uf2_family(&self) -> Option<u32> {
+        Some(self.uf2_family)
+    }
+
     fn begin(&self, _context: &Context<'_>, _is_usb: bool) -> Begin {
         let (register, power, run) = match self.start {
             Start::Boot2 => ("VREG_AND_CHIP_RESET", "cause.had_por()", "cause.had_run()"),
@@ -96,7 +100,7 @@ mod tests {
 
     #[test]
     fn pins_have_the_names_of_the_hal() {
-        let settings = Settings { start: Start::Boot2 };
+        let settings = Settings { start: Start::Boot2, uf2_family: 0 };
         let name = |pin: &str| PinName::parse(pin).map(|pin| settings.pin(&pin));
         assert_eq!(name("GP26").as_deref(), Some("PIN_26"));
         assert_eq!(name("PA1").as_deref(), Some("PA1"));

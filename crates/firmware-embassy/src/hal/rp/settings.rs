@@ -1,4 +1,4 @@
-//! What profiles of RP2040 and RP2350 keep for this HAL: how the chips start.
+//! What profiles of RP2040 and RP2350 keep for this HAL: how the chips start, and what UF2 files call them.
 
 use serde::Deserialize;
 
@@ -9,6 +9,8 @@ use crate::names::Names;
 #[serde(deny_unknown_fields)]
 pub(super) struct Settings {
     pub(super) start: Start,
+    /// The family of the chips in UF2 files.
+    pub(super) uf2_family: u32,
 }
 
 /// How a chip starts.
