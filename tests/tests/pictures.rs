@@ -12,6 +12,8 @@ use sensedsl_wiring::{Search, Solved, Wiring};
 
 use sensedsl_tests::{is_exhaustive, one_in, root, sensedsl, text};
 
+use crate::boards::captures;
+
 /// The width of a character and the height of a line above and below its baseline, as multiples of the font size.
 const BREADTH: f64 = 0.62;
 const ABOVE: f64 = 0.72;

@@ -74,22 +74,8 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let keep = keep.as_ref();
     let mut answer =
         snapshot.solve(&Ask { goal, keep, rise: args.neat, partly: args.partial, cancel });
-    if let (Some((design, wiring)), Some(most)) = (answer.wired(), args.max_moves)
-        && wiring.moved > most
-    {
-        let at = input::place(design);
-        let report = e0405_too_many_moves::too_many_moves(at, wiring.moved, most);
-        answer.diagnostics.push(report);
-    }
-    if args.format == SolveFormat::Wokwi
-        && let Some((design, wiring)) = answer.wired()
-    {
-        let reports = match sheet::wokwi::wokwi(design, wiring) {
-            Ok(diagram) => diagram.left_out,
-            Err(wrong) => wrong,
-        };
-        answer.diagnostics.extend(reports);
-    }
+    let found = answer.wired().map(|(design, wiring)| reports(args, design, wiring));
+    answer.diagnostics.extend(found.unwrap_or_default());
     terminal.diagnostics(&answer.diagnostics, sources)?;
     let status = if args.proof.is_some() && file.is_none() {
         status(&answer, &args.on)
@@ -106,6 +92,20 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         (None, _) => {}
     }
     Ok(status)
+}
+
+/// What the arguments ask to be said of a wiring: that it moves too much, and what a diagram leaves out.
+fn reports(args: &SolveArgs, design: &Design, wiring: &Assignment) -> Vec<Diagnostic> {
+    let mut reports = Vec::new();
+    if let Some(most) = args.max_moves.filter(|most| wiring.moved > *most) {
+        let at = input::place(design);
+        reports.push(e0405_too_many_moves::too_many_moves(at, wiring.moved, most));
+    }
+    if args.format == SolveFormat::Wokwi {
+        let drawn = sheet::wokwi::wokwi(design, wiring);
+        reports.extend(drawn.map_or_else(|wrong| wrong, |diagram| diagram.left_out));
+    }
+    reports
 }
 
 /// The exit status: success if there is a wiring without errors.
