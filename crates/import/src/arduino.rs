@@ -12,7 +12,7 @@ use sensedsl_diagnostics::Span;
 
 use crate::log::Log;
 use crate::project::pads::{Define, Wires, defines, pad};
-use crate::project::{self, Project, Using, Wire, chip};
+use crate::project::{Project, Using, Wire, chip, program};
 use crate::source::{Source, Texts};
 
 /// The number of names that may stand for each other: `LED_BUILTIN` for `LED_GREEN` for `PA5`.
@@ -58,7 +58,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         labels,
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 /// The name of a board: `variant_NUCLEO_F446RE.h`, or the folder of `pins_arduino.h`.

@@ -13,7 +13,7 @@ use sensedsl_parts::Sheet;
 
 use crate::log::Log;
 use crate::project::pads::Wires;
-use crate::project::{self, Addressed, Project, Using, Wire, chip};
+use crate::project::{self, Addressed, Project, Using, Wire, chip, program};
 use crate::source::{Source, Texts};
 
 /// What a source says.
@@ -92,7 +92,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         usb_device: true,
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 impl Resource {

@@ -1,34 +1,8 @@
 //! Bytes in, their format out: judged only by content, because names can be wrong.
 
 use crate::decode::decode;
+use crate::format::Format;
 use crate::{arduino, betaflight, micropython, zephyr};
-
-/// A format that can be imported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Format {
-    /// A table as text, wide or long.
-    Csv,
-    /// A workbook of Excel and others.
-    Xlsx,
-    /// A workbook of `LibreOffice` and others.
-    Ods,
-    /// The description of an MCU in a CubeMX installation.
-    CubeMx,
-    /// A project of CubeMX.
-    Ioc,
-    /// A board of `ArduPilot`.
-    Hwdef,
-    /// The alternate functions of `MicroPython`'s ports, or the pins of one of its boards.
-    MicroPython,
-    /// A flight controller of Betaflight, as a dump or as its header.
-    Betaflight,
-    /// A device tree of Zephyr: a board, or an overlay.
-    Zephyr,
-    /// A file of a variant of an Arduino core.
-    Arduino,
-    /// The messages of a CAN bus.
-    Dbc,
-}
 
 /// The number of bytes of a file that are examined.
 pub(crate) const HEAD_BYTES: usize = 1 << 16;

@@ -16,7 +16,7 @@ use sensedsl_limits::{HWDEF_LINES_MAX, HWDEF_MCUS_MAX, INCLUDE_DEPTH_MAX, INCLUD
 use sensedsl_model::ReadError;
 
 use crate::log::Log;
-use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
+use crate::project::{self, Addressed, Project, TimerMode, Using, Wire, program};
 use crate::source::{Source, Texts};
 
 /// The first words of lines about sensors.
@@ -53,7 +53,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         addressed,
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 /// The input of a converter, by pin and converter.

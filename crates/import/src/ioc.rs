@@ -13,7 +13,7 @@ use sensedsl_diagnostics::{FileId, Span};
 
 use crate::cubemx::largest;
 use crate::log::Log;
-use crate::project::{self, Project, TimerMode, Using, Wire};
+use crate::project::{Project, TimerMode, Using, Wire, program};
 use crate::source::{Source, Texts};
 
 /// Imports a project.
@@ -45,7 +45,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         usb_host: reader.is_usb_host(),
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 /// A value and the place of its line.

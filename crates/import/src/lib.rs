@@ -30,6 +30,7 @@ mod dbc;
 mod decode;
 mod detect;
 mod devices;
+mod format;
 mod hwdef;
 mod ioc;
 mod log;
@@ -45,7 +46,8 @@ mod zephyr;
 
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
 
-pub use detect::{Format, detect};
+pub use detect::detect;
+pub use format::Format;
 pub use sensedsl_model::ReadError;
 pub use source::Source;
 

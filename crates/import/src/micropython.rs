@@ -12,7 +12,7 @@ use sensedsl_model::ReadError;
 
 use crate::log::Log;
 use crate::project::pads::{Define, Wires, defines, lines, pad};
-use crate::project::{self, Project, Using, Wire, chip};
+use crate::project::{Project, Using, Wire, chip, program};
 use crate::source::{Source, Texts};
 use crate::tabular::has_head;
 
@@ -53,7 +53,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         is_list: true,
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 /// What is printed beside a pin, and its place.

@@ -2,7 +2,7 @@
 
 use sensedsl_model::ReadError;
 
-use crate::detect::Format;
+use crate::format::Format;
 
 /// A file to import.
 pub struct Source<'a> {

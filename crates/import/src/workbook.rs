@@ -13,7 +13,8 @@ use sensedsl_board::table::Role;
 use sensedsl_diagnostics::Span;
 use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, INFLATED_BYTES_MAX, MERGED_MAX, SHEETS_MAX};
 
-use crate::detect::{Format, detect};
+use crate::detect::detect;
+use crate::format::Format;
 use crate::log::Log;
 use crate::package::{self, Contents, Refused};
 use crate::place::a1;

@@ -21,7 +21,7 @@ use self::tree::{Node, NodeIndex, Tree};
 use crate::cubemx::largest;
 use crate::log::Log;
 use crate::project::pads::{Wires, pad};
-use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
+use crate::project::{Addressed, Project, TimerMode, Using, Wire, program};
 use crate::source::{Source, Texts};
 
 /// Whether a text is a device tree.
@@ -66,7 +66,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         usb_device: reader.usb_device,
         ..Project::default()
     };
-    project::made(&project, source, whole, log)
+    program::made(&project, source, whole, log)
 }
 
 struct Reader<'a> {

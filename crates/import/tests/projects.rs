@@ -99,6 +99,9 @@ fn a_project_without_console_takes_what_is_free() {
     let host = "Mcu.Name=STM32F411CEUx\nPA11.Signal=USB_OTG_FS_DM\nPA12.Signal=USB_OTG_FS_DP\n\
                 USB_OTG_FS.VirtualMode=Host_Only\n";
     holds(&with("a.ioc", host, &[]), &["transport = uart;"]);
+    // Nothing else is on the board, so a crystal might be.
+    let bare = with("a.ioc", "Mcu.Name=STM32F411CEUx\nPC14.Signal=GPIO_Output\n", &[]);
+    holds(&bare, &["    release PC14; // otherwise for the oscillator\n"]);
     let unknown = with("a.ioc", "Mcu.Name=STM32MP999\nPA1.Signal=GPIO_Input\n", &[]);
     assert!(says(&unknown, "STM32MP999 is not among the known parts"));
     assert_eq!(table(&unknown).pins.len(), 1);

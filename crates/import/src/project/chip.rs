@@ -107,9 +107,11 @@ impl Chip {
         project
     }
 
-    /// What the MCU needs a pin for, so that a device gets it by `release` alone.
-    pub(crate) fn needed_for(&self, pin: &PinName) -> Option<PinRole> {
-        self.roles.get(pin).copied().filter(|role| *role != PinRole::Oscillator)
+    /// What the MCU needs a pin for, so that a device gets it by `release` alone. On a bare part, a
+    /// pin of the oscillator is one.
+    pub(crate) fn needed_for(&self, pin: &PinName, is_bare: bool) -> Option<PinRole> {
+        let role = self.roles.get(pin).copied();
+        role.filter(|role| is_bare || *role != PinRole::Oscillator)
     }
 
     /// Whether the usual target has a driver for the function; also true without a target.
