@@ -10,11 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
-use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
-use sensedsl_limits::{HWDEF_LINES_MAX, HWDEF_MCUS_MAX, INCLUDE_DEPTH_MAX, INCLUDES_MAX};
-use sensedsl_model::ReadError;
+use sensedsl_limits::{HWDEF_LINES_MAX, HWDEF_MCUS_MAX};
 
+use crate::includes::Includes;
 use crate::log::Log;
 use crate::project::{self, Addressed, Project, TimerMode, Using, Wire, program};
 use crate::source::{Source, Texts};
@@ -80,7 +79,7 @@ struct Reader<'a> {
     /// The number of lines so far.
     count: usize,
     /// How many more files may be included.
-    includes_left: usize,
+    includes: Includes,
     /// How many more lines may be read.
     lines_left: usize,
     /// Inputs of converters, by the prefix of their parts' names.
@@ -101,7 +100,7 @@ impl<'a> Reader<'a> {
             wires: BTreeMap::new(),
             lines: Lines::new(),
             count: 0,
-            includes_left: INCLUDES_MAX,
+            includes: Includes::new(),
             lines_left: HWDEF_LINES_MAX,
             inputs: BTreeMap::new(),
         }
@@ -154,25 +153,8 @@ impl<'a> Reader<'a> {
 
     fn include(&mut self, path: &str, folder: &str, (depth, span): (usize, Span), log: &mut Log) {
         let path = if folder.is_empty() { path.to_owned() } else { format!("{folder}/{path}") };
-        if depth >= INCLUDE_DEPTH_MAX {
-            let limit = format!("{INCLUDE_DEPTH_MAX} files include each other already");
-            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
-        }
-        let Some(fewer) = self.includes_left.checked_sub(1) else {
-            let limit = format!("{INCLUDES_MAX} files are included already");
-            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
-        };
-        self.includes_left = fewer;
-        let bytes = match (self.source.beside)(&path) {
-            Ok(bytes) => bytes,
-            Err(ReadError::Missing) => {
-                let what =
-                    format!("`{path}` is not beside the file: what it says of pins is missing");
-                return log.dropped(span, "", &what);
-            }
-            Err(unread) => return log.refused(span, &path, &unread),
-        };
-        let (file, text) = log.text(&path, &bytes);
+        let read = self.includes.read(self.source, &path, (depth, span), log);
+        let Some((file, text)) = read else { return };
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
         self.file(file, &text, &folder, depth + 1, log);
     }

@@ -32,6 +32,7 @@ mod detect;
 mod devices;
 mod format;
 mod hwdef;
+mod includes;
 mod ioc;
 mod log;
 mod micropython;

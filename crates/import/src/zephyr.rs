@@ -12,13 +12,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
-use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
-use sensedsl_limits::{INCLUDE_DEPTH_MAX, INCLUDES_MAX};
-use sensedsl_model::ReadError;
 
 use self::tree::{Node, NodeIndex, Tree};
 use crate::cubemx::largest;
+use crate::includes::Includes;
 use crate::log::Log;
 use crate::project::pads::{Wires, pad};
 use crate::project::{Addressed, Project, TimerMode, Using, Wire, program};
@@ -72,7 +70,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
 struct Reader<'a> {
     source: &'a Source<'a>,
     tree: Tree,
-    includes_left: usize,
+    includes: Includes,
     /// Files that were looked for already.
     included: BTreeSet<String>,
     mcu: Option<String>,
@@ -91,7 +89,7 @@ impl<'a> Reader<'a> {
         Self {
             source,
             tree: Tree::default(),
-            includes_left: INCLUDES_MAX,
+            includes: Includes::new(),
             included: BTreeSet::new(),
             mcu: None,
             mcu_span: None,
@@ -126,25 +124,8 @@ impl<'a> Reader<'a> {
         if !self.included.insert(path.clone()) {
             return;
         }
-        if depth >= INCLUDE_DEPTH_MAX {
-            let limit = format!("{INCLUDE_DEPTH_MAX} files include each other already");
-            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
-        }
-        let Some(fewer) = self.includes_left.checked_sub(1) else {
-            let limit = format!("{INCLUDES_MAX} files are included already");
-            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
-        };
-        self.includes_left = fewer;
-        let bytes = match (self.source.beside)(&path) {
-            Ok(bytes) => bytes,
-            Err(ReadError::Missing) => {
-                let what =
-                    format!("`{path}` is not beside the file: what it says of pins is missing");
-                return log.dropped(span, "", &what);
-            }
-            Err(unread) => return log.refused(span, &path, &unread),
-        };
-        let (file, text) = log.text(&path, &bytes);
+        let read = self.includes.read(self.source, &path, (depth, span), log);
+        let Some((file, text)) = read else { return };
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
         self.file(file, &text, &folder, depth + 1, log);
     }

@@ -26,9 +26,9 @@ const TIMERS: [(&str, Channels, TimerLine); 11] = [
     // SAM D: waveform outputs, the decoder.
     ("TCC", Channels::Counted("WO"), TimerLine::Output),
     ("TC", Channels::Counted("WO"), TimerLine::Output),
+    ("PDEC", Channels::Words(&["QDI0", "QDI1"]), TimerLine::Input),
     // i.MX RT: the decoders. Its other timers have units of two numbers.
     ("ENC", Channels::Words(&["A", "B"]), TimerLine::Input),
-    ("PDEC", Channels::Words(&["QDI0", "QDI1"]), TimerLine::Input),
 ];
 
 /// The function of a name that another vendor uses.

@@ -49,6 +49,8 @@ const PICO_GROUND: &[&str] =
 const NUCLEO_32: &str = "D1@6,37 D0@6,47 GND.1@6,66 D2@6,76 D3@6,85 D4@6,95 D5@6,104 D6@6,114 D7@6,124 D8@6,133 \
                          D9@6,143 D10@6,152 D11@6,162 D12@6,172 GND.2@64,47 5V@64,66 A7@64,76 A6@64,85 A5@64,95 \
                          A4@64,104 A3@64,114 A2@64,124 A1@64,133 A0@64,143 3V3@64,162 D13@64,172";
+const XIAO: &str = "D0@5,19 D1@5,28 D2@5,38 D3@5,47 D4@5,57 D5@5,67 D6@5,76 D7@62,76 D8@62,67 D9@62,57 D10@62,47 \
+                    3V3@62,38 GND@62,28 5V@62,19";
 
 /// All boards.
 pub(super) const BOARDS: &[WokwiBoard] = &[
@@ -297,8 +299,7 @@ pub(super) const BOARDS: &[WokwiBoard] = &[
         three: &["3V3"],
         five: &["5V"],
         logic: Rail::Three,
-        contacts: "D0@5,19 D1@5,28 D2@5,38 D3@5,47 D4@5,57 D5@5,67 D6@5,76 D7@62,76 D8@62,67 D9@62,57 D10@62,47 \
-                   3V3@62,38 GND@62,28 5V@62,19",
+        contacts: XIAO,
         others: &[],
     },
     WokwiBoard {
@@ -310,8 +311,7 @@ pub(super) const BOARDS: &[WokwiBoard] = &[
         three: &["3V3"],
         five: &["5V"],
         logic: Rail::Three,
-        contacts: "D0@5,19 D1@5,28 D2@5,38 D3@5,47 D4@5,57 D5@5,67 D6@5,76 D7@62,76 D8@62,67 D9@62,57 D10@62,47 \
-                   3V3@62,38 GND@62,28 5V@62,19",
+        contacts: XIAO,
         others: &[],
     },
     WokwiBoard {
@@ -323,8 +323,7 @@ pub(super) const BOARDS: &[WokwiBoard] = &[
         three: &["3V3"],
         five: &["5V"],
         logic: Rail::Three,
-        contacts: "D0@5,19 D1@5,28 D2@5,38 D3@5,47 D4@5,57 D5@5,67 D6@5,76 D7@62,76 D8@62,67 D9@62,57 D10@62,47 \
-                   3V3@62,38 GND@62,28 5V@62,19",
+        contacts: XIAO,
         others: &[],
     },
 ];
