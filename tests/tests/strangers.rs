@@ -220,7 +220,7 @@ fn hostile_folders_change_nothing_that_is_not_theirs() {
     let made = made();
     let traps = traps();
     assert!(traps.len() >= 40, "{}", traps.len());
-    for (name, lines) in one_in(4, traps) {
+    for (name, lines) in one_in(8, traps) {
         harmless(&name, &made, &|clone| lines.iter().for_each(|line| clone.set_up(line)));
     }
 }
@@ -229,7 +229,7 @@ fn hostile_folders_change_nothing_that_is_not_theirs() {
 fn drawn_hostile_folders_change_nothing_that_is_not_theirs() {
     let made = made();
     let paths: Vec<&String> = made.keys().collect();
-    for seed in one_in(4, 0..15) {
+    for seed in one_in(8, 0..15) {
         harmless(&format!("seed {seed}"), &made, &|clone| {
             let mut random = Random::new(seed);
             for _ in 0..=random.below(4) {

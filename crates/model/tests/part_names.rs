@@ -24,7 +24,8 @@ fn spelled(number: &str) -> String {
 #[test]
 fn every_part_number_is_found_as_a_file_spells_it() {
     let mut count = 0;
-    for part in all() {
+    let is_thorough = std::env::var("SENSEDSL_THOROUGH").is_ok();
+    for part in all().step_by(if is_thorough { 1 } else { 10 }) {
         for number in part.numbers() {
             let name = spelled(&number);
             assert!(name.starts_with(|c: char| c.is_ascii_alphabetic()), "{name}");
@@ -36,7 +37,7 @@ fn every_part_number_is_found_as_a_file_spells_it() {
             count += 1;
         }
     }
-    assert!(count > 3000, "{count}");
+    assert!(count > if is_thorough { 3000 } else { 300 }, "{count}");
 }
 
 #[test]

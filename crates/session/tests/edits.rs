@@ -40,7 +40,7 @@ fn place(text: &str, state: &mut u64) -> usize {
 
 #[test]
 fn random_edits_end_where_a_fresh_reading_is() {
-    let edits = if std::env::var("SENSEDSL_THOROUGH").is_ok() { 5_000 } else { 200 };
+    let edits = if std::env::var("SENSEDSL_THOROUGH").is_ok() { 5_000 } else { 60 };
     let (mut workspace, mut state) = (Workspace::default(), 1);
     workspace.open(NAME, car());
     let mut undo: Vec<String> = Vec::new();

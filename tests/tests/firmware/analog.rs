@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use sensedsl_tests::{has, root, run};
+use sensedsl_tests::{few, has, root, run};
 
 use super::applications::files;
 use super::tools::scratch;
@@ -87,7 +87,7 @@ fn a_broken_thread_is_noticed() {
         ("(result == UP_FRESH) ? own : result", "own"),
         ("if (one->driver->state == ADC_ACTIVE) {", "{"),
     ];
-    for (at, change) in changes.into_iter().enumerate() {
+    for (at, change) in few(&changes, 2).iter().copied().enumerate() {
         let Some((is_well, reported)) = runtime_says(&format!("analog-broken-{at}"), Some(change))
         else {
             return;

@@ -1,9 +1,11 @@
 //! The example of host `cpp` on a pseudo-terminal; the test plays the board.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
@@ -82,11 +84,20 @@ impl Line {
     }
 }
 
-/// Compiles the example as its README states, and returns the folder and the program.
+/// Compiles the example as its README states. Returns an empty folder for the test's own files, and the program.
 pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(PathBuf, PathBuf)> {
     if !has("g++") {
         return None;
     }
+    // Tests of the same boards share the program, which takes longer to compile than to run.
+    static BUILT: Mutex<BTreeMap<String, Arc<OnceLock<PathBuf>>>> = Mutex::new(BTreeMap::new());
+    let key = format!("{board} of {boards:?}");
+    let built = BUILT.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone();
+    let program = built.get_or_init(|| compile(test, boards, board)).clone();
+    Some((files::folder(test), program))
+}
+
+fn compile(test: &str, boards: &[HostBoard], board: &str) -> PathBuf {
     let folder = files::generate("cpp", test, boards);
     let program = folder.join(format!("monitor_{board}"));
     run(Command::new("g++")
@@ -95,7 +106,7 @@ pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(Pa
         .arg(format!("src/monitor_{board}.cpp"))
         .arg("-o")
         .arg(&program));
-    Some((folder, program))
+    program
 }
 
 /// Whether an event is a command; hosts send requests whenever they like.

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{answered, files, has, missing, read, root};
+use sensedsl_tests::{answered, files, has, missing, one_in, read, root};
 
 /// A request for a file, together with the text files beside it.
 fn request(file: &Path) -> String {
@@ -53,7 +53,7 @@ fn the_module_says_what_the_program_says() {
 /// The page's function returns what the commands print.
 #[test]
 fn the_answer_is_that_of_the_commands() {
-    for file in files(&root().join("examples"), "sense") {
+    for file in one_in(3, files(&root().join("examples"), "sense")) {
         let asked: serde_json::Value =
             serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
         let solved = sensedsl_tests::sensedsl(["solve", "-q", "--format"]);
@@ -68,7 +68,8 @@ fn the_answer_is_that_of_the_commands() {
 #[test]
 fn the_diagnostics_are_those_of_check() {
     let folders = ["examples", "tests/corpus/ok", "tests/firmware/kinds"];
-    for file in folders.iter().flat_map(|folder| files(&root().join(folder), "sense")) {
+    let all = folders.iter().flat_map(|folder| files(&root().join(folder), "sense"));
+    for file in one_in(5, all) {
         let asked: serde_json::Value =
             serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
         let check = sensedsl_tests::sensedsl(["check", "-q", "--format", "json"]);

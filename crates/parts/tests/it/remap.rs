@@ -56,7 +56,7 @@ fn the_table_has_the_blocks() {
 #[test]
 fn pairs_decide_on_all_parts() {
     let mut sets = 0;
-    for part in all() {
+    for part in all().step_by(crate::step(8)) {
         let mut units: BTreeMap<String, BTreeSet<Blocks>> = BTreeMap::new();
         for usage in table(&part.name()).pins.iter().flat_map(|pin| &pin.usages) {
             let Some(blocks) = usage.blocks else { continue };
@@ -73,7 +73,7 @@ fn pairs_decide_on_all_parts() {
             sets += of_unit.len();
         }
     }
-    assert!(sets > 1_000, "{sets}");
+    assert!(sets > 1_000 / crate::step(8), "{sets}");
 }
 
 #[test]

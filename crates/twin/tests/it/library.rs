@@ -11,7 +11,7 @@ use crate::run::{plainly, with_job};
 fn every_driver_reports_what_the_world_does() {
     let mut tried = 0;
     let mut failed = Vec::new();
-    for text in examples() {
+    for text in examples().into_iter().step_by(crate::step(4)) {
         let has_sensor = with_job(&text, |job| {
             job.devices.iter().any(|one| one.device.direction == Direction::Sensor)
         });
@@ -30,7 +30,7 @@ fn every_driver_reports_what_the_world_does() {
         }
     }
     assert!(failed.is_empty(), "{} of {tried}: {}", failed.len(), failed.join("\n\n"));
-    assert!(tried > 60, "{tried}");
+    assert!(tried > 60 / crate::step(4), "{tried}");
 }
 
 /// A board with only one part, and all of its values, for each part.

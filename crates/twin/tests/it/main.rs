@@ -14,3 +14,8 @@ mod run;
 #[cfg(feature = "machine")]
 mod watched;
 mod worlds;
+
+/// The step through many cases: 1 in a thorough run, otherwise the one that is given.
+fn step(quick: usize) -> usize {
+    if std::env::var("SENSEDSL_THOROUGH").is_ok() { 1 } else { quick }
+}

@@ -67,7 +67,7 @@ fn every_family_and_kind_compiles_with_the_stubs() {
         let macros = macros_of(&name);
         // Each design on a few of the boards in a quick run.
         let from = if is_thorough() { 0 } else { number % 15 };
-        for (design, text) in one_in(15, designs.iter().skip(from)) {
+        for (design, text) in one_in(40, designs.iter().skip(from)) {
             let title = format!("{name} {design}");
             match make(&text.replace("BOARD", &name)) {
                 Made::Firmware(boards, _) => {

@@ -101,7 +101,7 @@ fn ready(name: &str, text: &str, boards: Vec<(String, Folder)>) -> Vec<Firmware>
 fn every_driver_and_every_example_has_firmware_and_hosts() {
     let (mut all, mut not_made, mut without_host) = (Vec::new(), Vec::new(), Vec::new());
     let designs = designs();
-    for (name, text) in one_in(12, &designs) {
+    for (name, text) in one_in(30, &designs) {
         match make(text) {
             Made::Firmware(boards, host_files) => {
                 if host_files == 0 {

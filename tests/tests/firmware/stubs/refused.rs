@@ -80,7 +80,7 @@ fn mistakes_in_templates_are_refused() {
     }
     let place = scratch("stubs/refused");
     let mut passed = Vec::new();
-    for (index, (board, design, path, find, with)) in one_in(5, MISTAKES.iter().enumerate()) {
+    for (index, (board, design, path, find, with)) in one_in(12, MISTAKES.iter().enumerate()) {
         let folder = if design.contains('/') { "" } else { "kinds/" };
         let design = text(&format!("tests/firmware/{folder}{design}.sense"));
         let design = design.replace("BOARD", board);
