@@ -22,10 +22,11 @@ use anyhow::{Context as _, Result, bail, ensure};
 use build::{Built, Came};
 use cells::{Cell, Made, Notes};
 
+use crate::mutants::Chance;
 use crate::say;
 
 const USAGE: &str = "CHIBIOS=FOLDER cargo xtask firmware --matrix [--boards A,B] [--kinds a,b] [--jobs N] \
-                     [--scratch FOLDER] [--resume LOG] [--write]";
+                     [--scratch FOLDER] [--resume LOG] [--write | --check BOARDS --seed HEX]";
 
 /// The page that a complete run writes.
 const PAGE: &str = "docs/firmware-matrix.md";
@@ -40,6 +41,10 @@ struct Options {
     /// The output of an earlier run on the same sources: the cells that it has built are not built again.
     resume: Option<PathBuf>,
     write: bool,
+    /// How many boards are drawn, whose cells must be those of the page.
+    check: Option<usize>,
+    /// What they are drawn by.
+    seed: u64,
 }
 
 impl Options {
@@ -57,12 +62,15 @@ impl Options {
                 "--scratch" => options.scratch = Some(next()?.into()),
                 "--resume" => options.resume = Some(next()?.into()),
                 "--write" => options.write = true,
+                "--check" => options.check = Some(next()?.parse().context(USAGE)?),
+                "--seed" => options.seed = u64::from_str_radix(next()?, 16).context(USAGE)?,
                 _ => bail!(USAGE),
             }
         }
         ensure!(options.jobs > 0, USAGE);
         let is_part = options.boards.is_some() || options.kinds.is_some();
         ensure!(!(options.write && is_part), "--write is for the whole matrix");
+        ensure!(options.check.is_none() || !(options.write || is_part), USAGE);
         Ok(options)
     }
 }
@@ -99,7 +107,11 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let scratch = options.scratch.clone().unwrap_or_else(|| {
         std::env::temp_dir().join(format!("sensedsl-matrix-{}", std::process::id()))
     });
-    let cells = cells::all(options.boards.as_ref(), options.kinds.as_ref())?;
+    let mut cells = cells::all(options.boards.as_ref(), options.kinds.as_ref())?;
+    if let Some(count) = options.check {
+        let drawn = drawn(&cells, count, options.seed);
+        cells.retain(|cell| drawn.contains(&cell.board));
+    }
     let earlier = match &options.resume {
         Some(log) => {
             earlier(&std::fs::read_to_string(log).with_context(|| log.display().to_string())?)
@@ -110,6 +122,9 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     if options.scratch.is_none() {
         std::fs::remove_dir_all(&scratch).with_context(|| scratch.display().to_string())?;
     }
+    if options.check.is_some() {
+        return table::compare(&done);
+    }
     let page = table::page(&done)?;
     if options.write {
         std::fs::write(PAGE, &page).context(PAGE)?;
@@ -119,6 +134,15 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let failed = done.iter().filter(|one| matches!(one.outcome, Outcome::Failed(_))).count();
     ensure!(failed == 0, "{failed} of {} cells failed", done.len());
     Ok(())
+}
+
+/// So many boards, drawn by a seed.
+fn drawn(cells: &[Cell], count: usize, seed: u64) -> BTreeSet<String> {
+    let boards: BTreeSet<&str> = cells.iter().map(|cell| cell.board.as_str()).collect();
+    let mut left: Vec<&str> = boards.into_iter().collect();
+    let mut chance = Chance::of(seed, 0);
+    let mut one = || (!left.is_empty()).then(|| left.remove(chance.below(left.len())).to_owned());
+    (0..count).filter_map(|_| one()).collect()
 }
 
 /// The programs that an earlier run has built, by board and kind.

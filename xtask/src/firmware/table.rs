@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result, ensure};
 
 use super::cells::{ALL, KINDS};
 use super::{Done, Outcome, PAGE};
-use crate::head;
+use crate::{head, say};
 
 /// The whole page.
 pub(super) fn page(done: &[Done]) -> Result<String> {
@@ -25,35 +25,58 @@ pub(super) fn page(done: &[Done]) -> Result<String> {
         done.iter().filter(|one| seen.insert(&one.cell.board)).collect()
     };
     for first in &boards {
-        let of = |kind: &&str| {
+        let cell = |kind: &&str| {
             let is = |one: &&Done| one.cell.board == first.cell.board && one.cell.kind == **kind;
-            done.iter().find(is).map_or("", |one| mark(&one.outcome)).to_owned()
+            done.iter().find(is).map(|one| text(&one.outcome)).unwrap_or_default()
         };
-        let sizes = |kind: &&str| {
-            let is = |one: &&Done| one.cell.board == first.cell.board && one.cell.kind == **kind;
-            match done.iter().find(is).map(|one| &one.outcome) {
-                Some(Outcome::Built(built, notes)) => {
-                    let mark = if notes.rules.is_empty() { "" } else { " *" };
-                    format!("{}{mark}", built.sizes())
-                }
-                _ => of(kind),
-            }
-        };
-        let cells: Vec<String> = columns.iter().map(sizes).collect();
+        let cells: Vec<String> = columns.iter().map(cell).collect();
         let _ = writeln!(page, "| {} | {} |", first.cell.board, cells.join(" | "));
     }
     page.push_str(&summary(done, &boards));
     Ok(page)
 }
 
-fn mark(outcome: &Outcome) -> &'static str {
+/// What the table says about a cell.
+fn text(outcome: &Outcome) -> String {
     match outcome {
-        Outcome::NotOffered => "·",
-        Outcome::NoWiring(_) => "-",
-        Outcome::Built(..) => "built",
-        Outcome::TooLarge(_) => "too large",
-        Outcome::Failed(_) => "**failed**",
+        Outcome::NotOffered => "·".to_owned(),
+        Outcome::NoWiring(_) => "-".to_owned(),
+        Outcome::Built(built, notes) if notes.rules.is_empty() => built.sizes(),
+        Outcome::Built(built, _) => format!("{} *", built.sizes()),
+        Outcome::TooLarge(_) => "too large".to_owned(),
+        Outcome::Failed(_) => "**failed**".to_owned(),
     }
+}
+
+/// Compares cells with those of the page.
+///
+/// # Errors
+///
+/// Fails if a cell differs, and says which.
+pub(super) fn compare(done: &[Done]) -> Result<()> {
+    let page = std::fs::read_to_string(PAGE).with_context(|| PAGE.to_owned())?;
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
+    let rows: Vec<Vec<&str>> = rows.map(|row| row.split(" | ").collect()).collect();
+    let kinds = rows.first().with_context(|| format!("{PAGE} has no table"))?;
+    let on_page = |one: &Done| {
+        let row = rows.iter().find(|row| row.first() == Some(&one.cell.board.as_str()))?;
+        row.get(kinds.iter().position(|kind| *kind == one.cell.kind)?).copied()
+    };
+    let differences: Vec<String> = done
+        .iter()
+        .filter(|one| on_page(one) != Some(text(&one.outcome).as_str()))
+        .map(|one| {
+            let (cell, found) = (&one.cell, text(&one.outcome));
+            format!(
+                "{} {}: {found}, not {}",
+                cell.board,
+                cell.kind,
+                on_page(one).unwrap_or("there")
+            )
+        })
+        .collect();
+    ensure!(differences.is_empty(), "{PAGE} differs:\n{}", differences.join("\n"));
+    say(&format!("{} cells are as {PAGE} says\n", done.len()))
 }
 
 /// The facts that the table cannot show.

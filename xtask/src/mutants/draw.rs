@@ -162,18 +162,18 @@ fn swapped(above: &str, below: &str) -> Option<String> {
 }
 
 /// Random numbers that are the same for the same seed.
-pub(super) struct Chance(pub(super) u64);
+pub(crate) struct Chance(pub(super) u64);
 
 impl Chance {
     /// The random numbers for the mistake with that number, whatever was drawn before it.
-    pub(super) fn of(seed: u64, number: usize) -> Self {
+    pub(crate) fn of(seed: u64, number: usize) -> Self {
         let mut chance = Self(seed ^ u64::try_from(number).unwrap_or(0).rotate_right(16));
         let _ = chance.below(2);
         chance
     }
 
     /// A number below `count`.
-    pub(super) fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut state = self.0;
         state = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

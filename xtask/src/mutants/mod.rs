@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, bail, ensure};
 
 use crate::say;
+pub(crate) use draw::Chance;
 use subject::Settings;
 
 const USAGE: &str = "[CHIBIOS=FOLDER] cargo xtask mutants --program SENSEDSL [--design FILE]... \
