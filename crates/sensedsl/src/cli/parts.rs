@@ -20,6 +20,9 @@ pub(crate) struct PartsArgs {
     /// Print the target profile of a part instead, with the other parts of its family
     #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"])]
     pub(crate) profile: Option<String>,
+    /// Compare with this part or board instead: which wires move, and what there is more or less room for
+    #[arg(long, value_name = "PART", requires = "file", conflicts_with_all = ["list", "table"])]
+    pub(crate) against: Option<String>,
     /// Only parts of this family: STM32F4, G0, RP2040
     #[arg(long)]
     pub(crate) family: Option<String>,

@@ -51,7 +51,7 @@ fn wires_of(path: &Path, on: &On, terminal: &Terminal) -> Result<BTreeMap<Wire, 
     Ok(wires(&answer).ok_or_else(missing)?)
 }
 
-fn human(changes: &[Change], wires: usize) -> String {
+pub(super) fn human(changes: &[Change], wires: usize) -> String {
     let places = changes.iter().flat_map(|change| [&change.from, &change.to]).flatten();
     let boards: BTreeSet<&str> = places.map(|place| place.board.as_str()).collect();
     let place = |place: &Option<Place>| match place {

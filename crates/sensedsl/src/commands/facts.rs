@@ -61,6 +61,15 @@ impl Facts {
         part: &str,
         more: impl IntoIterator<Item = (&'a str, Value)>,
     ) -> String {
+        format!("{}\n", self.json(part, more))
+    }
+
+    /// The part's number, its facts, and further values.
+    pub(super) fn json<'a>(
+        &self,
+        part: &str,
+        more: impl IntoIterator<Item = (&'a str, Value)>,
+    ) -> Value {
         let own = [
             ("part", json!(part)),
             ("package", json!(self.package)),
@@ -71,7 +80,7 @@ impl Facts {
         let fields = own.into_iter().chain(more);
         let object: Map<String, Value> =
             fields.map(|(name, value)| (name.to_owned(), value)).collect();
-        format!("{}\n", Value::Object(object))
+        Value::Object(object)
     }
 
     /// Whether the part has memory but no flash.

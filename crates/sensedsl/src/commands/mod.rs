@@ -1,5 +1,6 @@
 //! The commands, with a file for each.
 
+mod against;
 pub(crate) mod boards;
 pub(crate) mod build;
 pub(crate) mod capacity;

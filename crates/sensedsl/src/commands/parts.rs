@@ -5,6 +5,7 @@ use sensedsl_board::profile;
 use sensedsl_parts::Part;
 use serde_json::json;
 
+use super::against;
 use super::facts::{Facts, Filter, units};
 use super::sweep::sweep;
 use super::table::table;
@@ -37,7 +38,10 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(file) = &args.file else {
         bail!("which file? (`sensedsl parts --list` lists the parts)");
     };
-    sweep(args, file, terminal)
+    match &args.against {
+        Some(other) => against::run(args, file, other, terminal),
+        None => sweep(args, file, terminal),
+    }
 }
 
 /// The parts that pass the filters.
