@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::catalog::{self, Entry};
+use sensedsl_board::silicon::{self, PinRole};
 use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_report::{rows, svg::svg};
 use sensedsl_wiring::{Search, Solved, Wiring};
@@ -242,6 +243,19 @@ fn picture(entry: &Entry) -> (String, BTreeSet<String>) {
     wired.unwrap_or_else(|| panic!("{} cannot be wired", entry.name))
 }
 
+/// The pins that the MCU needs for itself and that the picture shows as free.
+fn free_by_mistake(entry: &Entry, svg: &str) -> Vec<String> {
+    let roles = silicon::pin_roles(entry.mcu).into_iter();
+    let needed: Vec<String> = roles
+        .filter(|(_, role)| *role != PinRole::Oscillator)
+        .map(|(pin, _)| pin.to_string())
+        .collect();
+    let contacts = svg.split("<g><title>").skip(1).filter_map(|rest| rest.split_once("</title>"));
+    let free = contacts.filter(|(_, mark)| mark.lines().next().unwrap().contains("\"sd-free\""));
+    let pins = free.filter_map(|(title, _)| title.split("; ").next()?.split(' ').next_back());
+    pins.filter(|pin| needed.iter().any(|one| one == pin)).map(str::to_owned).collect()
+}
+
 #[test]
 fn no_text_touches_anything_on_any_board() {
     let (mut found, mut missing) = (Vec::new(), 0);
@@ -250,6 +264,8 @@ fn no_text_touches_anything_on_any_board() {
         let (svg, pins) = picture(entry);
         let picture = read(&svg);
         found.extend(faults(&picture).into_iter().map(|fault| format!("{}: {fault}", entry.name)));
+        let free = free_by_mistake(entry, &svg).into_iter();
+        found.extend(free.map(|pin| format!("{}: {pin} looks free", entry.name)));
         missing += pins.len().saturating_sub(picture.wires);
         assert!(picture.texts.len() > 30 && picture.shapes.len() > 20, "{}", entry.name);
     }

@@ -24,10 +24,12 @@ mod usages;
 
 use std::fmt::Write as _;
 
-use sensedsl_model::design::{Board, Design};
+use sensedsl_model::design::{Board, BoardIndex, Design};
 use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
+use sensedsl_wiring::kept_back;
 
+use crate::markup::escaped;
 use crate::rows::{Row, dividers, rows};
 use crate::sheet;
 use area::Area;
@@ -51,28 +53,60 @@ pub fn svg(design: &Design, assignment: &Assignment) -> String {
     let mut boards: Vec<Drawn> = Vec::new();
     let mut legend = Legend::default();
     for (on, board) in assignment.used(design) {
-        boards.push(board_picture(design, (on, board), &rows, &mut legend));
+        let mut heading = vec![board.name.value.clone()];
+        heading.extend(names(board));
+        heading.dedup();
+        let heading = format!("{}, cost {}", heading.join(", "), on.cost);
+        let (elements, area) = board_picture(design, (on, board), &rows, &mut legend);
+        boards.push(Drawn { heading, elements, area });
     }
     let kinds: Vec<&str> = KindName::ALL
         .into_iter()
         .map(KindName::name)
         .filter(|kind| rows.iter().any(|row| row.kind == *kind))
         .collect();
+    page("Wiring", &boards, &legend, &kinds)
+}
+
+/// The picture of a board of a design without any device: its contacts, with what is printed beside them, and what is
+/// free. Nothing if the design has no such board.
+#[must_use]
+pub fn of_board(design: &Design, on: BoardIndex) -> Option<String> {
+    let board = design.board(on)?;
+    let nothing = BoardAssignment {
+        board: on,
+        cost: 0,
+        shared: Vec::new(),
+        connections: Vec::new(),
+        devices: Vec::new(),
+        link: None,
+        dma: Vec::new(),
+    };
+    let mut legend = Legend::default();
+    let (elements, area) = board_picture(design, (&nothing, board), &[], &mut legend);
+    let names = names(board);
+    let drawn = Drawn { heading: names.join(", "), elements, area };
+    Some(page(names.first().map_or("Board", String::as_str), &[drawn], &legend, &[]))
+}
+
+/// The whole page: the boards one below the other, and the legend.
+fn page(title: &str, boards: &[Drawn], legend: &Legend, kinds: &[&str]) -> String {
     let widths = boards.iter().map(|one| one.area.right - one.area.left);
     let width = widths.fold(WIDTH_MIN, f64::max) + 2.0 * MARGIN;
     let mut body = String::new();
     let mut top = MARGIN;
-    for one in &boards {
+    for one in boards {
         top = place(&mut body, one, (width, top));
     }
-    let height = legend.draw(&mut body, &kinds, (MARGIN, top), width - MARGIN) + MARGIN;
+    let height = legend.draw(&mut body, kinds, (MARGIN, top), width - MARGIN) + MARGIN;
     let (width, height) = (number(width.ceil()), number(height.ceil()));
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"Helvetica, Arial, Liberation Sans, sans-serif\" role=\"img\">\n\
-         <title>Wiring</title>\n{}<rect width=\"100%\" height=\"100%\" class=\"sd-page\"/>\n\
+         <title>{}</title>\n{}<rect width=\"100%\" height=\"100%\" class=\"sd-page\"/>\n\
          {body}</svg>\n",
-        palette::sheet(&kinds)
+        escaped(title),
+        palette::sheet(kinds)
     )
 }
 
@@ -108,15 +142,19 @@ fn board_picture(
     (on, board): (&BoardAssignment, &Board),
     rows: &[Row],
     legend: &mut Legend,
-) -> Drawn {
+) -> (String, Area) {
     let name = &board.name.value;
     let mine: Vec<&Row> = rows.iter().filter(|row| row.board == *name).collect();
     let use_of = |pin: &str| use_of(&mine, pin);
     let is_used = |pin: &sensedsl_board::table::Pin| use_of(pin.name.as_str()).is_some();
-    let shape = match board.table.form() {
+    let mut shape = match board.table.form() {
         Some(form) => shape::of_form(form, &board.table, &is_used),
         None => columns::of_table(&board.table, &is_used),
     };
+    let kept_back = kept_back(design, on.board);
+    for contact in &mut shape.contacts {
+        contact.kept_for = contact.pin().and_then(|pin| kept_back.get(&pin.name)).cloned();
+    }
     let resistors: Vec<(&str, String)> = dividers(design, on).collect();
     let resistors_of =
         |name: &str| resistors.iter().find(|(part, _)| *part == name).map(|(_, text)| text.clone());
@@ -128,10 +166,7 @@ fn board_picture(
     let mut elements = String::new();
     let names = names(board);
     let area = draw::draw(&mut elements, &picture, &use_of, &names);
-    let mut heading = vec![name.clone()];
-    heading.extend(names);
-    heading.dedup();
-    Drawn { heading: format!("{}, cost {}", heading.join(", "), on.cost), elements, area }
+    (elements, area)
 }
 
 /// What a board is labelled with: its maker's name, or the user's, and its MCU.

@@ -279,12 +279,25 @@ pub(crate) struct DiffArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct BoardsArgs {
-    /// A board: prints its table as CSV
+    /// A board: prints its table as CSV, or its picture
     #[arg(value_parser = BOARD, hide_possible_values = true)]
     pub(crate) name: Option<String>,
+    /// How to print that board: its pins, or a picture of its contacts and what is free
+    #[arg(long, value_enum, default_value_t, requires = "name")]
+    pub(crate) format: BoardFormat,
     /// Only boards that have all of these words: "can usb 3v3", "nucleo dac", f411
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
     pub(crate) search: Option<String>,
+}
+
+/// How `boards NAME` prints a board.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BoardFormat {
+    /// Its table, to start one's own from
+    #[default]
+    Csv,
+    /// A picture
+    Svg,
 }
 
 #[derive(Debug, Args)]

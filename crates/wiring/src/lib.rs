@@ -54,6 +54,7 @@ pub use answers::{Found, Posed, Proved, Search, Solved};
 pub use capacity::{Capacity, capacity};
 pub use conflict::{Contested, NoWiring};
 pub use keep::Keep;
+pub use offer::kept_back;
 pub use repairs::{Repair, Repaired};
 pub use rule::Rule;
 pub use sensedsl_solve as solver;

@@ -31,6 +31,30 @@ pub(crate) enum Withheld {
     NoConnector,
 }
 
+impl Withheld {
+    /// What keeps the pin, for people; nothing for a pin on no connector, which nothing keeps.
+    fn holder(&self) -> Option<String> {
+        match self {
+            Self::Reserved(_) => Some("a `reserve` of the design".to_owned()),
+            Self::Onboard(part) => Some(part.clone()),
+            Self::Link => Some("the link to the host".to_owned()),
+            Self::Needed(role) => Some(role.describe().to_owned()),
+            Self::NoConnector => None,
+        }
+    }
+}
+
+/// The pins of a board that no device may use as long as the design stays as it is, each with what keeps it, for
+/// people. Pins on no connector are not among them.
+#[must_use]
+pub fn kept_back(design: &Design, on: BoardIndex) -> BTreeMap<PinName, String> {
+    let Some(board) = design.board(on) else { return BTreeMap::new() };
+    let offer = Offer::new(design, on, board);
+    let pins = board.table.pins.iter().enumerate();
+    pins.filter_map(|(at, pin)| Some((pin.name.clone(), offer.why_withheld(at)?.holder()?)))
+        .collect()
+}
+
 /// The `reserve` and `release` rules of a board, indexed by what they name, so that each pin is
 /// looked up.
 struct Rules<'a> {

@@ -137,6 +137,7 @@ fn column<'a>(shape: &mut Shape<'a>, row: usize, side: Side, entries: Vec<Entry<
             carries: entry.carries,
             name: entry.place.and_then(Place::contact),
             label: entry.label,
+            kept_for: None,
         });
         y += PITCH;
     }

@@ -2,8 +2,6 @@
 
 use std::fmt::Write as _;
 
-use sensedsl_board::table::Occupation;
-
 use super::area::{Area, Point};
 use super::board::{Picture, Placed, Wire};
 use super::boxes;
@@ -124,11 +122,9 @@ fn draw_contact(out: &mut String, contact: &Contact<'_>, use_of: &dyn Fn(&str) -
 /// What a contact without a wire is.
 pub(super) fn unused(contact: &Contact<'_>) -> Unused {
     match contact.carries {
-        Carries::Pin(pin) => match pin.onboard.as_ref().map(|part| part.how) {
-            None => Unused::Free,
-            Some(Occupation::Taken) => Unused::Taken,
-            Some(Occupation::Bus | Occupation::Care) => Unused::WithCare,
-        },
+        Carries::Pin(_) if contact.kept_for.is_some() => Unused::Taken,
+        Carries::Pin(pin) if pin.onboard.is_some() => Unused::WithCare,
+        Carries::Pin(_) => Unused::Free,
         Carries::Signal("NC") | Carries::Unknown => Unused::Open,
         Carries::Signal(_) => Unused::Supply,
     }
@@ -144,7 +140,10 @@ fn title(contact: &Contact<'_>, used: Option<&Use>) -> String {
     words.extend(contact.label.map(|label| format!("printed {}", shortened(label))));
     words.extend(used.map(|used| used.words.clone()));
     if let Some(pin) = contact.pin() {
-        words.extend(pin.onboard.as_ref().map(|part| format!("on the board: {}", part.part)));
+        let part = pin.onboard.as_ref().map(|part| part.part.as_str());
+        words.extend(part.map(|part| format!("on the board: {part}")));
+        let kept_for = contact.kept_for.as_deref().filter(|what| part != Some(what));
+        words.extend(kept_for.filter(|_| used.is_none()).map(|what| format!("kept for {what}")));
         let usages: Vec<&str> = pin.usages.iter().map(|usage| usage.spelled.as_str()).collect();
         words.extend((!usages.is_empty()).then(|| format!("can be {}", usages.join(" "))));
     }

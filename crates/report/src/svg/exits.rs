@@ -96,7 +96,10 @@ fn way(start: &Start, around: &Surroundings, wires: &[(usize, Line)]) -> Option<
     });
     let best = near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, way)| way);
     best.or_else(|| {
-        let mut far = jogs(start.at, edge);
+        let is_open = |from: Point, to: Point| {
+            judge(start, &[from, to], (around, CLEARANCE_MIN), wires).is_some()
+        };
+        let mut far = jogs(start.at, edge, &is_open);
         far.extend(between(start.at, edge, around.heights));
         far.sort_by(|a, b| a.0.total_cmp(&b.0));
         let free = |room: f64| {
@@ -119,16 +122,24 @@ fn beside((x, y): Point, edge: f64) -> Vec<(f64, Vec<Point>)> {
     steps.map(way).collect()
 }
 
-/// Ways through the gaps of two rows that are not level with each other.
-fn jogs((x, y): Point, edge: f64) -> Vec<(f64, Vec<Point>)> {
+/// Ways through the gaps of two rows that are not level with each other, as far as their first two stretches are open.
+fn jogs(
+    (x, y): Point,
+    edge: f64,
+    is_open: &dyn Fn(Point, Point) -> bool,
+) -> Vec<(f64, Vec<Point>)> {
     const STEP: f64 = 3.0;
     let steps = |count: i32| (-count..=count).map(f64::from);
+    let mut firsts: Vec<f64> = steps(9).filter(|one| is_open((x, y), (x, y + one))).collect();
     let aside = (edge - x).signum();
     let mut ways = Vec::new();
     let mut along = STEP;
     while along < (edge - x).abs() {
         let bend = x + aside * along;
-        for (first, second) in steps(9).flat_map(|one| steps(16).map(move |other| (one, other))) {
+        // What is blocked stays blocked further out.
+        firsts.retain(|first| is_open((x, y + first), (bend, y + first)));
+        let pairs = firsts.iter().flat_map(|one| steps(16).map(move |other| (*one, other)));
+        for (first, second) in pairs {
             let detour = f64::abs(first) + (second - first).abs() + 10.0;
             let (near, far) = (y + first, y + second);
             let points = vec![(x, y), (x, near), (bend, near), (bend, far), (edge, far)];

@@ -215,5 +215,6 @@ fn is_said_further_in(shape: &Shape<'_>, contact: &Contact<'_>) -> bool {
 /// The class of a contact's text: what can be used and what is used stands out.
 fn class(contact: &Contact<'_>, is_used: bool) -> &'static str {
     let is_free = contact.pin().is_some_and(|pin| pin.onboard.is_none());
+    let is_free = is_free && contact.kept_for.is_none();
     if is_free || is_used { "sd-ink" } else { "sd-soft" }
 }

@@ -32,7 +32,7 @@ impl Unused {
         match self {
             Self::Free => "free",
             Self::WithCare => "free, with a part of the board on it",
-            Self::Taken => "taken by the board",
+            Self::Taken => "taken or kept back",
             Self::Supply => "supply, ground, reset",
             Self::Open => "not connected",
         }

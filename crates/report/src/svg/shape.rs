@@ -39,6 +39,8 @@ pub(super) struct Contact<'a> {
     pub(super) name: Option<String>,
     /// What is printed beside it, if that is not the name of its pin or signal.
     pub(super) label: Option<&'a str>,
+    /// What keeps its pin from devices, in words.
+    pub(super) kept_for: Option<String>,
 }
 
 impl Contact<'_> {
@@ -118,6 +120,7 @@ fn add_row<'a>(
             carries,
             name: Some(format!("{}.{number}", connector.name)),
             label,
+            kept_for: None,
         });
     }
 }

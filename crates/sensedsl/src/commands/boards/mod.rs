@@ -2,16 +2,19 @@
 
 mod features;
 
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_board::{catalog, mcu};
 use sensedsl_generate::target;
+use sensedsl_model::design::BoardIndex;
+use sensedsl_model::{NoFiles, Request, resolve};
+use sensedsl_report::svg;
 use sensedsl_session::printed_board;
 
 use self::features::Features;
 use super::table::{INDENT, table};
-use crate::cli::BoardsArgs;
+use crate::cli::{BoardFormat, BoardsArgs};
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -24,8 +27,20 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("there is no built-in board {name}{meant} (`sensedsl boards` lists them)");
     };
-    terminal.result(&printed_board(board))?;
+    match args.format {
+        BoardFormat::Csv => terminal.result(&printed_board(board))?,
+        BoardFormat::Svg => terminal.result(&picture(board)?)?,
+    }
     Ok(Status::Done)
+}
+
+/// The picture of a board that nothing is wired to.
+fn picture(board: &catalog::Entry) -> Result<String> {
+    let text = format!("board Board on {} {{}}\n", board.name.replace('-', "_"));
+    let request = Request { path: "board.sense", text: &text, board: None, target: None };
+    let design = resolve(&request, &NoFiles).design;
+    let picture = design.and_then(|design| svg::of_board(&design, BoardIndex(0)));
+    picture.with_context(|| format!("{} cannot be drawn; please report this", board.name))
 }
 
 /// Prints the boards that have all words of `search`: names, parts, peripherals, voltages.
