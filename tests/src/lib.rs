@@ -19,8 +19,8 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 mod mistakes;
 mod random;
@@ -156,6 +156,15 @@ pub fn verifier() -> &'static Path {
     static BINARY: OnceLock<Option<PathBuf>> = OnceLock::new();
     let found = BINARY.get_or_init(|| built("sensedsl-verify"));
     found.as_deref().unwrap_or_else(|| panic!("there is no verifier to test"))
+}
+
+/// A program that several tests run, compiled by the first of them; `what` tells it from others.
+pub fn compiled_once(what: String, compile: impl FnOnce() -> PathBuf) -> PathBuf {
+    static BUILT: Mutex<BTreeMap<String, Arc<OnceLock<PathBuf>>>> = Mutex::new(BTreeMap::new());
+    let mut all = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    let built = Arc::clone(all.entry(what).or_default());
+    drop(all);
+    built.get_or_init(compile).clone()
 }
 
 /// Builds a program with the profile of this test, into its target folder.

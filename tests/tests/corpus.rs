@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sensedsl_tests::{files, root, sensedsl};
+use sensedsl_tests::{files, one_in, root, sensedsl};
 use serde_json::Value;
 
 /// The devices on a board whose table is malformed.
@@ -50,7 +50,8 @@ fn malformed_input_gets_the_code_that_names_it() {
     assert!(files.len() >= 60, "only {} files", files.len());
     let mut found = String::new();
     let mut unnamed = Vec::new();
-    for path in &files {
+    let is_blessed = std::env::var_os("SENSEDSL_BLESS").is_some();
+    for path in one_in(if is_blessed { 1 } else { 4 }, &files) {
         let file = path.file_name().unwrap().to_string_lossy().into_owned();
         let code = file.split('_').next().unwrap().to_owned();
         let (reported, status) = reported(&folder, &file);
@@ -64,7 +65,7 @@ fn malformed_input_gets_the_code_that_names_it() {
         writeln!(found, "{file}: {}", all.join(", ")).unwrap();
     }
     assert!(unnamed.is_empty(), "not said where the file names it:\n{}", unnamed.join("\n"));
-    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+    if is_blessed {
         fs::write(&list, &found).unwrap();
     }
     let expected = fs::read_to_string(&list).unwrap();
@@ -76,7 +77,7 @@ fn malformed_input_gets_the_code_that_names_it() {
     for (file, reported) in &found {
         assert_eq!(expected.get(file), Some(reported), "{file}");
     }
-    assert_eq!(expected.len(), found.len(), "expected.txt names files that are gone");
+    assert_eq!(expected.len(), files.len(), "expected.txt names files that are gone");
 }
 
 #[test]

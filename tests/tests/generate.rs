@@ -8,7 +8,7 @@ use std::path::Path;
 #[cfg(unix)]
 use std::process::Command;
 
-use sensedsl_tests::{RunOutput, TempDir, read, sensedsl, tree};
+use sensedsl_tests::{RunOutput, TempDir, few, read, sensedsl, tree};
 
 const FIG2: &str = "examples/fig2.sense";
 const CAR: &str = "examples/miniature_car.sense";
@@ -25,7 +25,7 @@ fn out(scratch: &TempDir) -> BTreeMap<String, Vec<u8>> {
 
 #[test]
 fn the_same_input_gives_the_same_bytes_wherever_it_is() {
-    for file in [FIG2, CAR] {
+    for file in few(&[CAR, FIG2], 1) {
         let (one, other) = (TempDir::new("one"), TempDir::new("other-name"));
         let _ = generate(file, &one, &[]).exits(0);
         let _ = generate(file, &other, &[]).exits(0);

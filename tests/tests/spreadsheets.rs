@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{RunOutput, TempDir, has, root, sensedsl, text};
+use sensedsl_tests::{RunOutput, TempDir, few, has, root, sensedsl, text};
 
 /// A sheet of remarks, and a sheet of pins with a title, a formula, merged cells and a number among
 /// names.
@@ -103,7 +103,7 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
     }
     let scratch = TempDir::new("libreoffice-odd");
     let odd = scratch.write("odd.fods", flat(ODD));
-    for format in ["xlsx", "ods"] {
+    for format in few(&["xlsx", "ods"], 1) {
         let made = import(&converted(&scratch, &odd, format));
         for (code, words) in [
             ("W0804", ["Notes!B2:", "no pin table"]),

@@ -1,10 +1,12 @@
 //! Four runs at the same time, with a check of the folder after each round.
 
+use sensedsl_tests::is_thorough;
+
 use super::{Stage, asked, identity, nothing_beside, run, start};
 
 #[test]
 fn runs_at_the_same_time_follow_one_another() {
-    let rounds = asked().map_or(3, |all| all / 3);
+    let rounds = asked().map_or(if is_thorough() { 3 } else { 1 }, |all| all / 3);
     let stage = Stage::new("rounds");
     let out = stage.out();
     let _ = run(&stage.designs[0], &out).exits(0);
@@ -27,7 +29,7 @@ fn runs_at_the_same_time_follow_one_another() {
 #[test]
 fn runs_at_the_same_time_make_a_folder_that_was_not_there() {
     let stage = Stage::new("first");
-    for _ in 0..asked().map_or(2, |all| all / 10) {
+    for _ in 0..asked().map_or(1, |all| all / 10) {
         let _ = std::fs::remove_dir_all(stage.out());
         let runs: Vec<_> =
             (0..4).map(|which| start(&stage.designs[which % 2], &stage.out())).collect();

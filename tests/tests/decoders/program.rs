@@ -5,7 +5,7 @@ use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use sensedsl_tests::{root, run};
+use sensedsl_tests::{compiled_once, root, run};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Frame, HealthFrame, ID_HEALTH, ScalarType, Schema, encode_health,
 };
@@ -120,8 +120,20 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// Compiles it into `folder` and starts it.
+    /// Starts it; the first test that asks for these flags compiles it into `folder`.
     pub(crate) fn build(folder: &Path, flags: &[&str]) -> Self {
+        let what = format!("decoders {}", flags.join(" "));
+        let program = compiled_once(what, || Self::compile(folder, flags));
+        let mut child = Command::new(&program)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap_or_else(|error| panic!("{}: {error}", program.display()));
+        let answers = BufReader::new(child.stdout.take().unwrap());
+        Self { child, answers }
+    }
+
+    fn compile(folder: &Path, flags: &[&str]) -> PathBuf {
         std::fs::create_dir_all(folder).unwrap();
         let mut objects = Vec::new();
         for (compiler, standard, source) in [
@@ -147,13 +159,7 @@ impl Program {
         }
         let program: PathBuf = folder.join("decoders");
         run(Command::new("g++").args(flags).args(objects).arg("-o").arg(&program));
-        let mut child = Command::new(&program)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap_or_else(|error| panic!("{}: {error}", program.display()));
-        let answers = BufReader::new(child.stdout.take().unwrap());
-        Self { child, answers }
+        program
     }
 
     fn ask(&mut self, who: &str, how: &str, repeats: u32, input: Input<'_>) {

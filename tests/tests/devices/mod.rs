@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use sensedsl_tests::{answered, files, has, root, run};
+use sensedsl_tests::{answered, files, has, is_thorough, root, run};
 
 /// The program, or `None` without a compiler.
 fn program() -> Option<&'static Path> {
@@ -54,6 +54,7 @@ fn check(cases: &[(String, String)]) {
 /// The number of rounds; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
     let wanted = std::env::var("SENSEDSL_DEVICE_ROUNDS").ok();
+    let usual = if is_thorough() { usual } else { usual / 4 };
     wanted.map_or(usual, |text| text.parse().expect("SENSEDSL_DEVICE_ROUNDS is a number"))
 }
 

@@ -11,7 +11,7 @@ use sensedsl_firmware_c::{self as c, Wiring};
 use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
 use sensedsl_model::words::{Code, Words};
-use sensedsl_tests::{fed, files, has, root, run};
+use sensedsl_tests::{fed, files, has, is_thorough, root, run};
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::library::Unit;
@@ -45,7 +45,8 @@ fn build(units: &[Unit]) -> PathBuf {
     let (core, program) = (root().join("crates/firmware-c/runtime"), folder.join("drivers"));
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
-    command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
+    let level = if is_thorough() { "-O1" } else { "-O0" };
+    command.args([level, "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
     // On a board, the target decides where buffers are placed.
     command.arg("-DUP_DMA_BUFFER=").arg("-I").arg(&core).arg("-I").arg(&folder);
     command.arg(root().join("tests/drivers/main.c")).args(files(&core, "c"));

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use sensedsl_job::host::HostBoard;
-use sensedsl_tests::{has, printed, read, run, sensedsl};
+use sensedsl_tests::{compiled_once, has, printed, read, run, sensedsl};
 use sensedsl_twin::truth::real;
 use sensedsl_wire::{Checksum, Direction, Event, Scalar, encode_report};
 use serde_json::{Value, json};
@@ -192,10 +192,13 @@ fn plain(test: &str) -> Option<(PathBuf, PathBuf, Value)> {
         return None;
     }
     let (folder, schema) = generate("cpp", test);
-    let program = folder.join("monitor_Rover");
-    let mut command = Command::new("g++");
-    command.current_dir(&folder).args(["-std=c++17", "-O0", "-pthread", "-Iinclude"]);
-    run(command.arg("src/monitor_Rover.cpp").arg("-o").arg(&program));
+    let program = compiled_once("host of the curves".to_owned(), || {
+        let program = folder.join("monitor_Rover");
+        let mut command = Command::new("g++");
+        command.current_dir(&folder).args(["-std=c++17", "-O0", "-pthread", "-Iinclude"]);
+        run(command.arg("src/monitor_Rover.cpp").arg("-o").arg(&program));
+        program
+    });
     Some((folder, program, schema))
 }
 

@@ -1,15 +1,13 @@
 //! The example of host `cpp` on a pseudo-terminal; the test plays the board.
 
-use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
-use sensedsl_tests::{has, printed, run};
+use sensedsl_tests::{compiled_once, has, printed, run};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_health_request, encode_hello, encode_hello_request,
     encode_report,
@@ -90,10 +88,8 @@ pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(Pa
         return None;
     }
     // Tests of the same boards share the program, which takes longer to compile than to run.
-    static BUILT: Mutex<BTreeMap<String, Arc<OnceLock<PathBuf>>>> = Mutex::new(BTreeMap::new());
-    let key = format!("{board} of {boards:?}");
-    let built = BUILT.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone();
-    let program = built.get_or_init(|| compile(test, boards, board)).clone();
+    let what = format!("host of {board} of {boards:?}");
+    let program = compiled_once(what, || compile(test, boards, board));
     Some((files::folder(test), program))
 }
 

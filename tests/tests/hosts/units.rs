@@ -11,6 +11,9 @@ use super::{files, terminal};
 
 #[test]
 fn shared_files_do_what_they_say() {
+    if !is_thorough() {
+        return;
+    }
     for (compiler, standard) in few(&[("g++", "c++98"), ("clang++", "c++17")], 1) {
         if !has(compiler) {
             continue;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use sensedsl_diagnostics::{is_hidden, visible};
-use sensedsl_tests::{TempDir, few, has, root, tree};
+use sensedsl_tests::{TempDir, few, has, is_thorough, root, tree};
 
 use super::corpus::{projects, words};
 
@@ -61,6 +61,9 @@ fn names_that_are_words_of_c_compile() {
 
 #[test]
 fn names_that_are_words_of_cpp_compile() {
+    if !is_thorough() {
+        return;
+    }
     for compiler in few(&["g++", "clang++"], 1) {
         if has(compiler) {
             compile_host(compiler, &words().join("host/cpp"));

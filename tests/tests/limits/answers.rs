@@ -1,7 +1,7 @@
 //! Earlier answers and certificates.
 
 use rustix::fs::{CWD, FileType, Mode, mknodat};
-use sensedsl_tests::{TempDir, root, verifier};
+use sensedsl_tests::{TempDir, is_thorough, root, verifier};
 
 use super::{expect, expect_of, sparse};
 
@@ -69,6 +69,9 @@ fn device(name: &str, candidates: usize, more: &str) -> String {
 
 #[test]
 fn certificates_of_many_steps_and_choices() {
+    if !is_thorough() {
+        return;
+    }
     let folder = TempDir::new("limits");
     let refused = |text: &str, status, why| {
         folder.write("proof.json", text);

@@ -1,6 +1,6 @@
 //! Texts that `import` reads: tables, projects of other tools, XML.
 
-use sensedsl_tests::TempDir;
+use sensedsl_tests::{TempDir, is_thorough};
 
 use super::{expect, refuses, repeat};
 
@@ -31,6 +31,9 @@ fn hwdef_lines() {
 
 #[test]
 fn hwdef_mcus() {
+    if !is_thorough() {
+        return;
+    }
     // Each name is the prefix of hundreds of parts, which are searched for the pin's input.
     let lines = ["", "F", "L", "H", "G", "U"];
     let mcu = |at: usize| format!("MCU STM32 STM32{}XX\nPA0 X ADC1\n", lines[at]);
@@ -48,6 +51,9 @@ fn ioc_keys() {
 
 #[test]
 fn dbc_parts() {
+    if !is_thorough() {
+        return;
+    }
     let head = "BU_: A\nBO_ 1 M: 8 A\n";
     let signal = |at: usize| format!(" SG_ s{at} : 0|8@1+ (1,0) [0|0] \"\" A\n");
     refuses("signals.dbc", format!("{head}{}", repeat(110_000, signal)), "E0807");
@@ -76,6 +82,9 @@ fn dbc_lines_that_name_signals() {
 
 #[test]
 fn dbc_lines_that_are_wrong() {
+    if !is_thorough() {
+        return;
+    }
     refuses("wrong.dbc", format!("BU_: A\n{}", "BO_ x\n".repeat(690_000)), "E0810");
     refuses("large.dbc", format!("BU_: A\n{}", "CM_ \"x\";\n".repeat(500_000)), "E0807");
 }
@@ -92,6 +101,9 @@ fn xml() {
 
 #[test]
 fn tables_in_other_encodings() {
+    if !is_thorough() {
+        return;
+    }
     let text = format!("Pin,ADC\n{}", "PA1,x\n".repeat(300_000));
     let wide: Vec<u8> =
         "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
@@ -103,6 +115,9 @@ fn tables_in_other_encodings() {
 
 #[test]
 fn long_tables() {
+    if !is_thorough() {
+        return;
+    }
     let pin =
         |at: usize| format!("P{}{}", char::from(b'A' + u8::try_from(at % 20).unwrap()), at % 16);
     let row = |at: usize| format!("{},S{at}\n", pin(at));

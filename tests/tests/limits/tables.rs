@@ -1,6 +1,6 @@
 //! Board tables of a `.sense` file.
 
-use sensedsl_tests::TempDir;
+use sensedsl_tests::{TempDir, is_thorough};
 
 use super::{expect, repeat};
 
@@ -26,6 +26,9 @@ fn many_rows_and_columns() {
 
 #[test]
 fn many_usages() {
+    if !is_thorough() {
+        return;
+    }
     let usages = repeat(500_000, |at| format!("a{at} "));
     refused(&format!("Pin,ADC\nPA1,{usages}\n"), "E0317");
     let usages = repeat(900, |at| format!("a{at:x} "));

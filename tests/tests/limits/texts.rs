@@ -1,6 +1,6 @@
 //! Texts of the language that repeat one construct without end.
 
-use sensedsl_tests::TempDir;
+use sensedsl_tests::{TempDir, is_thorough};
 
 use super::{BOARD, expect, refuses, repeat};
 
@@ -14,6 +14,9 @@ fn devices(n: usize) -> String {
 
 #[test]
 fn signs_and_spaces() {
+    if !is_thorough() {
+        return;
+    }
     refuses("newlines.sense", "\n".repeat(MI), "E0315");
     refuses("open.sense", "{".repeat(MI), "E0116");
     refuses("close.sense", "}".repeat(MI), "E0101");

@@ -132,7 +132,7 @@ fn what_does_not_hold_is_noticed() {
         ">1 boards",
         "unknown word",
     ];
-    for wrong in one_in(5, wrong) {
+    for wrong in one_in(10, wrong) {
         assert!(fails(wrong), "{wrong}");
     }
 }
