@@ -381,7 +381,7 @@ fn wrong_multipliers_and_cases_left_out_are_refused() {
 #[test]
 fn what_passes_after_a_change_is_true() {
     let (mut refused, mut true_all_the_same) = (0, 0);
-    let seeds = if std::env::var("SENSEDSL_THOROUGH").is_ok() { 80 } else { 25 };
+    let seeds = if std::env::var("SENSEDSL_THOROUGH").is_ok() { 80 } else { 12 };
     for seed in 1000..1000 + seeds {
         let problem = problem(seed, 26, 1 + seed % 3);
         let Some((text, _)) = certificate(&problem) else { continue };
