@@ -132,9 +132,9 @@ fn facts_agree_with_the_table() {
     }
 }
 
-/// Whether a pin has a signal that only a bus uses.
+/// Whether a pin has a signal of a bus.
 fn is_of_bus(pin: &Pin) -> bool {
-    let starts = ["I2C", "FMPI2C", "SPI", "CAN", "FDCAN"];
+    let starts = ["I2C", "FMPI2C", "SPI", "CAN", "FDCAN", "SERCOM"];
     pin.usages.iter().any(|usage| starts.iter().any(|s| usage.signal.name().starts_with(s)))
 }
 
