@@ -1,6 +1,7 @@
 //! Certificates of random problems: they are verified, and whatever still passes after a change is
 //! true.
 #![allow(missing_docs, reason = "tests need none")]
+#![expect(clippy::disallowed_methods, reason = "a test asks the environment how much is wanted")]
 #![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
 #[path = "../../solve/tests/support/mod.rs"]

@@ -1,4 +1,5 @@
 //! Every listed part can be named in a file, with the spelling that lists and messages give.
+#![expect(clippy::disallowed_methods, reason = "a test asks the environment how much is wanted")]
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sensedsl_diagnostics::{Diagnostic, Severity};

@@ -123,6 +123,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::disallowed_methods, reason = "a test asks the environment how much is wanted")]
     fn every_speed_is_one_that_the_driver_accepts_or_too_slow() {
         let facts = profile("STM32F407VG").i2c;
         let clocks_hz = unit_clocks_hz();
