@@ -160,7 +160,6 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("P-NUCLEO-WB55-USBDONGLE", &["ST_NUCLEO48_WB55CG_USB", "NUCLEO48-WB55CG-USB"], "STM32WB55CGU6", "P-NUCLEO-WB55-USBDONGLE, all pins of its MCU"),
     board!("PIMORONI-PICO-LIPO", &["PICO-LIPO"], "RP2040", "Pimoroni Pico LiPo, the pins of its edges"),
     board!("QTPY-ESP32-C3", &["ADAFRUIT-QT-PY-ESP32-C3"], "ESP32-C3", "Adafruit QT Py ESP32-C3, the pins of its edges"),
-    board!("QTPY-ESP32-PICO", &["ADAFRUIT-QT-PY-ESP32-PICO"], "ESP32", "Adafruit QT Py ESP32 Pico, the pins of its edges"),
     board!("QTPY-ESP32-S2", &["ADAFRUIT-QT-PY-ESP32-S2"], "ESP32-S2", "Adafruit QT Py ESP32-S2, the pins of its edges"),
     board!("QTPY-ESP32-S3", &["ADAFRUIT-QT-PY-ESP32-S3"], "ESP32-S3", "Adafruit QT Py ESP32-S3, the pins of its edges"),
     board!("QTPY-M0", &["ADAFRUIT-QT-PY-M0", "QTPY-SAMD21"], "ATSAMD21E18A-MU", "Adafruit QT Py SAMD21, the pins of its edges"),

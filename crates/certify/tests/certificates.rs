@@ -409,5 +409,6 @@ fn what_passes_after_a_change_is_true() {
             true_all_the_same += 1;
         }
     }
-    assert!(refused > seeds && true_all_the_same > seeds, "{refused}, {true_all_the_same}");
+    let least = seeds * 5 / 4;
+    assert!(refused > least && true_all_the_same > least, "{refused}, {true_all_the_same}");
 }

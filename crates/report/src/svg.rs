@@ -73,15 +73,7 @@ pub fn svg(design: &Design, assignment: &Assignment) -> String {
 #[must_use]
 pub fn of_board(design: &Design, on: BoardIndex) -> Option<String> {
     let board = design.board(on)?;
-    let nothing = BoardAssignment {
-        board: on,
-        cost: 0,
-        shared: Vec::new(),
-        connections: Vec::new(),
-        devices: Vec::new(),
-        link: None,
-        dma: Vec::new(),
-    };
+    let nothing = BoardAssignment::empty(on);
     let mut legend = Legend::default();
     let (elements, area) = board_picture(design, (&nothing, board), &[], &mut legend);
     let names = names(board);

@@ -113,6 +113,20 @@ pub struct BoardAssignment {
 }
 
 impl BoardAssignment {
+    /// A board that nothing is wired to.
+    #[must_use]
+    pub const fn empty(board: BoardIndex) -> Self {
+        Self {
+            board,
+            cost: 0,
+            shared: Vec::new(),
+            connections: Vec::new(),
+            devices: Vec::new(),
+            link: None,
+            dma: Vec::new(),
+        }
+    }
+
     /// The wiring of one connection, if it is on this board.
     #[must_use]
     pub fn connection(&self, index: ConnectionIndex) -> Option<&ConnectionWiring> {

@@ -35,7 +35,7 @@ impl Withheld {
     /// What keeps the pin, for people; nothing for a pin on no connector, which nothing keeps.
     fn holder(&self) -> Option<String> {
         match self {
-            Self::Reserved(_) => Some("a `reserve` of the design".to_owned()),
+            Self::Reserved(_) => Some("a `reserve` rule of the design".to_owned()),
             Self::Onboard(part) => Some(part.clone()),
             Self::Link => Some("the link to the host".to_owned()),
             Self::Needed(role) => Some(role.describe().to_owned()),

@@ -24,17 +24,8 @@ pub(crate) fn read_back(
     formulation: &Formulation<'_>,
     answer: &Answer,
 ) -> Option<Assignment> {
-    let mut boards: Vec<BoardAssignment> = (0..design.boards.len())
-        .map(|index| BoardAssignment {
-            board: BoardIndex(index),
-            cost: 0,
-            shared: Vec::new(),
-            connections: Vec::new(),
-            devices: Vec::new(),
-            link: None,
-            dma: Vec::new(),
-        })
-        .collect();
+    let mut boards: Vec<BoardAssignment> =
+        (0..design.boards.len()).map(|index| BoardAssignment::empty(BoardIndex(index))).collect();
     let used = formulation.layout.used(&formulation.problem, answer);
     let choices = formulation.askers.iter().zip(&formulation.meanings).zip(&answer.choices);
     for (((asker, meanings), choice), part) in choices.zip(&formulation.layout.parts) {

@@ -18,8 +18,7 @@ fn every_kind_is_drawn() {
 fn a_third_of_the_designs_reach_generate() {
     let is_thorough = std::env::var("SENSEDSL_THOROUGH").is_ok();
     // Few are certified, and short texts get less far: a quick run sees that the longer stages are reached at all.
-    let (designs, generate, files, certified) =
-        if is_thorough { (200, 31, 12, 1) } else { (60, 20, 5, 0) };
+    let (designs, generate, files) = if is_thorough { (200, 31, 12) } else { (60, 20, 5) };
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut byte = || {
         state ^= state << 13;
@@ -34,5 +33,5 @@ fn a_third_of_the_designs_reach_generate() {
     let reached = [Stage::Generate, Stage::Files, Stage::Certified].map(percent);
     assert!(reached[0] >= generate, "{} % reach generate", reached[0]);
     assert!(reached[1] >= files, "{} % give files", reached[1]);
-    assert!(reached[2] >= certified, "{} % are certified", reached[2]);
+    assert!(reached[2] >= 1 || !is_thorough, "{} % are certified", reached[2]);
 }

@@ -21,7 +21,8 @@ pub(crate) struct PartsArgs {
     #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"])]
     pub(crate) profile: Option<String>,
     /// Compare with this part or board instead: which wires move, and what there is more or less room for
-    #[arg(long, value_name = "PART", requires = "file", conflicts_with_all = ["list", "table"])]
+    #[arg(long, value_name = "PART", requires = "file", conflicts_with_all = ["list", "table",
+        "family", "package", "max_pins", "core", "min_flash", "min_ram", "sort", "limit", "timeout"])]
     pub(crate) against: Option<String>,
     /// Only parts of this family: STM32F4, G0, RP2040
     #[arg(long)]

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::render;
+use sensedsl_model::FileUse;
 use sensedsl_model::kind::KindName;
 use sensedsl_report::diff::{Change, Place, Wire, changes, wires};
 use sensedsl_report::json::wired;
@@ -16,6 +17,7 @@ use super::facts::{Facts, units};
 use super::table::table;
 use super::{diff, input};
 use crate::cli::{On, PartsArgs, TableFormat};
+use crate::files::read_text;
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -41,8 +43,10 @@ pub(super) fn run(
         target: args.target.clone(),
         reach: args.reach.clone(),
     };
-    let here = side(file, &on(None), terminal)?;
-    let there = side(file, &on(Some(other)), terminal)?;
+    // Read once: it may be the standard input.
+    let text = read_text(file, FileUse::Sense)?;
+    let here = side((file, &text), &on(None), terminal)?;
+    let there = side((file, &text), &on(Some(other)), terminal)?;
     let changes = changes(&here.wires, &there.wires);
     match args.format {
         TableFormat::Human => terminal.result(&human([&here, &there], &changes))?,
@@ -56,8 +60,8 @@ pub(super) fn run(
     Ok(Status::Done)
 }
 
-fn side(file: &Path, on: &On, terminal: &Terminal) -> Result<Side> {
-    let snapshot = input::load(file, on);
+fn side((file, text): (&Path, &str), on: &On, terminal: &Terminal) -> Result<Side> {
+    let snapshot = input::of_text(file, text.to_owned(), on);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = input::wired(&answer, &snapshot, on, terminal)?;
     let [board] = design.boards.as_slice() else {
