@@ -34,7 +34,7 @@ impl Unused {
             Self::WithCare => "free, with a part of the board on it",
             Self::Taken => "taken or kept back",
             Self::Supply => "supply, ground, reset",
-            Self::Open => "not connected",
+            Self::Open => "not connected, or unknown",
         }
     }
 }
