@@ -22,6 +22,8 @@ use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use rustix::fs::StatVfsMountFlags;
+
 mod mistakes;
 mod random;
 
@@ -226,7 +228,7 @@ pub fn sensedsl<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Call
 /// home.
 #[must_use]
 pub fn state() -> PathBuf {
-    std::env::temp_dir().join("sensedsl-tests-state")
+    scratch_folder().join("sensedsl-tests-state")
 }
 
 impl Call {
@@ -307,6 +309,25 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// The folder that has the tests' own folders: `TMPDIR`, or the memory of the machine, where a file
+/// is safe without the disk being waited for.
+#[must_use]
+pub fn scratch_folder() -> PathBuf {
+    let named = std::env::var_os("TMPDIR").map(PathBuf::from);
+    named.or_else(memory).unwrap_or_else(std::env::temp_dir)
+}
+
+/// The file system in memory, if there is one from which programs run and that has room.
+fn memory() -> Option<PathBuf> {
+    /// Tests at the same time take some 200 MB.
+    const FREE_BYTES_MIN: u64 = 1 << 30;
+    let path = PathBuf::from("/dev/shm");
+    let about = rustix::fs::statvfs(&path).ok()?;
+    let refused = StatVfsMountFlags::NOEXEC | StatVfsMountFlags::RDONLY;
+    let has_room = about.f_bavail.saturating_mul(about.f_frsize) >= FREE_BYTES_MIN;
+    (has_room && !about.f_flag.intersects(refused)).then_some(path)
+}
+
 /// A test's own folder, empty at first and removed at the end.
 #[derive(Debug)]
 pub struct TempDir(PathBuf);
@@ -318,7 +339,7 @@ impl TempDir {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let own = format!("sensedsl-{name}-{}-{number}", std::process::id());
-        let path = std::env::temp_dir().join(own);
+        let path = scratch_folder().join(own);
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }

@@ -8,7 +8,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_tests::{Random, TempDir, design, device_block, has, printed, root, sensedsl, text};
+use sensedsl_tests::{
+    Random, TempDir, design, device_block, has, printed, root, scratch_folder, sensedsl, text,
+};
 
 use crate::prolog::random_table;
 
@@ -43,14 +45,14 @@ fn analyze(models: &[PathBuf]) -> Option<Vec<Runs>> {
 
 fn model(call: &[&str], file: &Path) -> String {
     let call = sensedsl(["solve", "-q", "--format", "alloy"]).args(call);
-    let call = call.arg("--allow-outside").arg(std::env::temp_dir());
+    let call = call.arg("--allow-outside").arg(scratch_folder());
     call.arg(file).run().exits(0).stdout
 }
 
 /// The cost, if there is a wiring.
 fn cost(call: &[&str], file: &Path) -> Option<u64> {
     let call = sensedsl(["solve", "-q", "--format", "json"]).args(call);
-    let ran = call.arg("--allow-outside").arg(std::env::temp_dir()).arg(file).run();
+    let ran = call.arg("--allow-outside").arg(scratch_folder()).arg(file).run();
     ran.json()["cost"].as_u64().filter(|_| ran.status == 0)
 }
 

@@ -4,13 +4,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_tests::{Call, Random, TempDir, design, device_block, has, run, sensedsl, text};
+use sensedsl_tests::{
+    Call, Random, TempDir, design, device_block, has, run, scratch_folder, sensedsl, text,
+};
 use serde_json::Value;
 
 /// A call of `solve` that may read the tables of these tests, which are in folders of their own.
 fn call(format: &str) -> Call {
     let call = sensedsl(["solve", "-q", "--format", format, "--allow-outside"]);
-    call.arg(std::env::temp_dir())
+    call.arg(scratch_folder())
 }
 
 /// What `main` of an exported program prints; it must say nothing else.

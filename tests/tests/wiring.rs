@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_tests::{RunOutput, TempDir, design, device_block, sensedsl};
+use sensedsl_tests::{RunOutput, TempDir, design, device_block, scratch_folder, sensedsl};
 use serde_json::Value;
 
 const BOARD: &str = "STM32F4DiscoveryBoard";
@@ -12,7 +12,7 @@ const FULL: &str = "STM32F407G_DISC1";
 fn solve(text: impl Into<String>, arguments: &[&str]) -> RunOutput {
     let call = sensedsl(["solve", "-", "-q", "--format", "json", "--allow-outside"]);
     // The tables are in folders of their own.
-    let call = call.arg(std::env::temp_dir());
+    let call = call.arg(scratch_folder());
     let call = arguments.iter().fold(call, |call, argument| call.arg(argument));
     call.stdin(text.into()).run()
 }

@@ -50,6 +50,11 @@ impl Log {
         self.errors > 0
     }
 
+    /// Whether no further error is listed, so that reading on tells nothing new.
+    pub(crate) fn is_full(&self) -> bool {
+        self.more > 0 && self.errors >= DIAGNOSTICS_MAX
+    }
+
     /// Adds an error, unless there is one with the same code.
     pub(crate) fn once(&mut self, error: Diagnostic) {
         if self.diagnostics.iter().all(|one| one.code != error.code) {

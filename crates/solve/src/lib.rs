@@ -39,6 +39,9 @@ mod cancel;
 mod check;
 mod domains;
 mod index;
+#[cfg(feature = "inside")]
+#[doc(hidden)]
+pub mod inside;
 mod matching;
 mod model;
 pub mod neat;

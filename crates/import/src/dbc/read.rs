@@ -85,7 +85,7 @@ struct Reader<'l> {
     log: &'l mut Log,
 }
 
-/// Reads a file; each wrong line is reported.
+/// Reads a file. Each wrong line is reported, until no more errors are listed.
 pub(super) fn read(file: FileId, name: &str, text: &str, log: &mut Log) -> Network {
     let (network, places, signals) = (Network::default(), BTreeMap::new(), BTreeMap::new());
     let mut reader = Reader { network, places, signals, current: None, parts: 0, log };
@@ -104,6 +104,9 @@ pub(super) fn read(file: FileId, name: &str, text: &str, log: &mut Log) -> Netwo
         let span = Span::new(file, from..to);
         if let Err(why) = reader.line(span, line.trim()) {
             reader.log.say(e0810_dbc_line::dbc_line(span, &why));
+            if reader.log.is_full() {
+                break;
+            }
         }
         if reader.parts > DBC_PARTS_MAX {
             let what = "nodes, messages, signals, receivers and words for values";

@@ -267,9 +267,13 @@ impl Engine<'_> {
     }
 }
 
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test may panic")]
-mod tests {
+#[cfg(feature = "inside")]
+#[expect(
+    missing_docs,
+    clippy::unwrap_used,
+    reason = "a test says by its name what it holds, and may panic"
+)]
+pub(crate) mod tests {
     use super::*;
     use crate::cancel::Cancel;
     use crate::model::Model;
@@ -291,8 +295,7 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_facility_of_unequal_boards_is_refused_where_it_is_and_nowhere_else() {
+    pub fn a_facility_of_unequal_boards_is_refused_where_it_is() {
         let first = vec![on(0, 0, Some(1)), on(0, 1, None), on(1, 2, None), on(1, 3, Some(1))];
         let second = vec![on(0, 1, Some(2)), on(1, 2, None)];
         let devices = [first, second].map(|alternatives| Device { alternatives });

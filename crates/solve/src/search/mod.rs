@@ -11,7 +11,7 @@
 //! iterative-deepening*, 1985).
 
 pub(crate) mod branch;
-mod branching;
+pub(crate) mod branching;
 pub(crate) mod canonical;
 mod node;
 mod progress;
@@ -21,8 +21,14 @@ pub(crate) mod recorded;
 mod rounding;
 mod strong_branching;
 pub(crate) mod tie_break;
-#[cfg(test)]
-mod worked_example;
+#[cfg(feature = "inside")]
+#[expect(
+    missing_docs,
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test says by its name what it holds, and may panic"
+)]
+pub(crate) mod worked_example;
 
 pub(crate) use self::progress::{Budget, Effort, Found, Goal, Progress};
 

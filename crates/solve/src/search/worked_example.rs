@@ -48,8 +48,7 @@ fn example() -> Problem {
     }
 }
 
-#[test]
-fn the_bounds_are_7_and_9_and_10() {
+pub fn the_bounds_are_7_and_9_and_10() {
     let problem = example();
     let model = Model::new(&problem).unwrap();
     let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();
@@ -70,8 +69,7 @@ fn the_bounds_are_7_and_9_and_10() {
     assert_eq!([price_pa0(0), price_pa0(1), price_pa0(2)], [9, 10, 9]);
 }
 
-#[test]
-fn fixing_leaves_light_and_wheel_the_cheap_pins() {
+pub fn fixing_leaves_light_and_wheel_the_cheap_pins() {
     let problem = example();
     let model = Model::new(&problem).unwrap();
     let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();
@@ -87,8 +85,7 @@ fn fixing_leaves_light_and_wheel_the_cheap_pins() {
     assert_eq!([cands(0), cands(1)], [vec![PB6, PB7], vec![PB10, PB11]]);
 }
 
-#[test]
-fn the_search_takes_two_nodes_and_the_root_again() {
+pub fn the_search_takes_two_nodes_and_the_root_again() {
     let problem = example();
     let model = Model::new(&problem).unwrap();
     let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();

@@ -4,5 +4,6 @@
 mod support;
 
 mod brute;
+mod inside;
 mod neat;
 mod table1;

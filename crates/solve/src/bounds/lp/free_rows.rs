@@ -85,12 +85,12 @@ impl FreeRows {
     }
 }
 
-#[cfg(test)]
-mod tests {
+#[cfg(feature = "inside")]
+#[expect(missing_docs, reason = "the name of a test says what it holds")]
+pub(crate) mod tests {
     use super::*;
 
-    #[test]
-    fn rows_have_the_free_columns_whatever_changed_before() {
+    pub fn rows_have_the_free_columns_whatever_changed_before() {
         let mut matrix = Matrix::default();
         let row = RowId::new;
         for column in 0..9_usize {

@@ -5,9 +5,9 @@
 //! first.
 
 mod factor;
-mod free_rows;
+pub(crate) mod free_rows;
 mod matrix;
-mod simplex;
+pub(crate) mod simplex;
 
 pub(crate) use matrix::Matrix;
 pub(crate) use simplex::{Simplex, Status};

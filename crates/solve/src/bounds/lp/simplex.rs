@@ -421,5 +421,6 @@ enum Entering {
     Variable(VarId, usize),
 }
 
-#[cfg(test)]
-mod tests;
+#[cfg(feature = "inside")]
+#[expect(missing_docs, reason = "the name of a test says what it holds")]
+pub(crate) mod tests;
