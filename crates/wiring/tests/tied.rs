@@ -27,7 +27,7 @@ use support::tied::{Case, Kind, Text, case, sound};
 
 /// Number of cases that are tried: fewer in a quick run.
 fn cases() -> u64 {
-    if std::env::var("SENSEDSL_THOROUGH").is_ok() { 300 } else { 12 }
+    if std::env::var("SENSEDSL_THOROUGH").is_ok() { 300 } else { 6 }
 }
 
 /// The most combinations that one case may have.

@@ -54,7 +54,7 @@ fn check(cases: &[(String, String)]) {
 /// The number of rounds; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
     let wanted = std::env::var("SENSEDSL_DEVICE_ROUNDS").ok();
-    let usual = if is_thorough() { usual } else { usual / 4 };
+    let usual = if is_thorough() { usual } else { usual / 8 };
     wanted.map_or(usual, |text| text.parse().expect("SENSEDSL_DEVICE_ROUNDS is a number"))
 }
 
