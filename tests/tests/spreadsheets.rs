@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{RunOutput, TempDir, few, has, root, sensedsl, text};
+use sensedsl_tests::{RunOutput, TempDir, few, has, is_thorough, root, sensedsl, text};
 
 /// A sheet of remarks, and a sheet of pins with a title, a formula, merged cells and a number among
 /// names.
@@ -98,6 +98,9 @@ fn table_1_comes_back_from_libreoffice() {
 
 #[test]
 fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
+    if !is_thorough() {
+        return;
+    }
     if !has("soffice") {
         return;
     }
@@ -130,6 +133,9 @@ fn what_only_a_spreadsheet_has_is_reported_at_its_cell() {
 /// Text in Windows-1252 (number 1) separated by semicolons (59), as German machines write it.
 #[test]
 fn text_in_another_encoding_is_reported_at_its_cell() {
+    if !is_thorough() {
+        return;
+    }
     if !has("soffice") {
         return;
     }

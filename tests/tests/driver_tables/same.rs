@@ -170,7 +170,7 @@ fn rust_says_what_c_says() {
     let mut with_others = plain;
     with_others.extend(super::others());
     let Some(program) = program(&with_others) else { return };
-    let requests = requests(&units, if is_thorough() { 100 } else { 4 });
+    let requests = requests(&units, if is_thorough() { 100 } else { 2 });
     let (mut lines, mut fresh) = (0, 0);
     for (request, of_c) in requests.iter().zip(say(program, &requests)) {
         let of_rust = answer(&units, request);

@@ -75,7 +75,7 @@ fn names_that_are_words_of_cpp_compile() {
 fn hostile_labels_and_quantities_compile_in_cpp() {
     for compiler in few(&["g++", "clang++"], 1) {
         if has(compiler) {
-            projects()
+            few(projects(), 1)
                 .iter()
                 .for_each(|project| compile_host(compiler, &project.output.join("host/cpp")));
         }

@@ -9,7 +9,7 @@ use std::fs::{self, File};
 use std::process::{Command, Stdio};
 
 use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-use sensedsl_tests::{TempDir, binary};
+use sensedsl_tests::{TempDir, binary, is_thorough};
 
 use super::{BOARD, repeat};
 
@@ -114,6 +114,9 @@ fn rules() {
 
 #[test]
 fn tables() {
+    if !is_thorough() {
+        return;
+    }
     let pin = |at: usize| format!("P{}{}", ["A", "B", "C", "D"][at % 4], at / 4 % 16);
     one_grows("import", 4_000, "long.csv", |n| {
         format!("Pin,Signal\n{}", repeat(n, |at| format!("{},S{at}\n", pin(at % 2_000))))
