@@ -3,6 +3,8 @@
 //! A pin is named as the MCU names it (`PA5`), as it is labelled on the board (`D13`, `"CN7.3"`),
 //! or after the on-board part on it (`LED`). Each board's table decides which pin that is.
 
+use std::collections::BTreeMap;
+
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::place::Place;
 use sensedsl_board::table::{Pin, Table};
@@ -29,8 +31,9 @@ pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     for index in 0..boards.len() {
         let Some(board) = boards.get_mut(index) else { continue };
         let mut wishes = std::mem::take(&mut board.wishes);
+        let labels = Labels::of(&board.table);
         for rule in board.reserved.iter_mut().chain(&mut board.released) {
-            rename(&board.table, rule);
+            labels.rename(&board.table, rule);
         }
         Binder { boards, range: index..index + 1, diagnostics }.wishes(&mut wishes);
         if let Some(board) = boards.get_mut(index) {
@@ -39,13 +42,28 @@ pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Replaces a pin's label in a rule with the MCU's name.
-fn rename(table: &Table, rule: &mut Spanned<String>) {
-    let mut labelled = table.pins.iter().filter(|pin| has_label(pin, &rule.value));
-    if PinName::parse(&rule.value).is_none_or(|name| table.pin(&name).is_none())
-        && let (Some(pin), None) = (labelled.next(), labelled.next())
-    {
-        rule.value = pin.name.to_string();
+/// The pins of a table by their labels, in lower case: rules and pins can both be many.
+struct Labels(BTreeMap<String, Vec<PinName>>);
+
+impl Labels {
+    fn of(table: &Table) -> Self {
+        let mut pins: BTreeMap<String, Vec<PinName>> = BTreeMap::new();
+        for pin in &table.pins {
+            for label in pin.labels() {
+                pins.entry(label.to_ascii_lowercase()).or_default().push(pin.name.clone());
+            }
+        }
+        Self(pins)
+    }
+
+    /// Replaces a pin's label in a rule with the MCU's name.
+    fn rename(&self, table: &Table, rule: &mut Spanned<String>) {
+        let labelled = self.0.get(&rule.value.to_ascii_lowercase()).map(Vec::as_slice);
+        if let Some([pin]) = labelled
+            && PinName::parse(&rule.value).is_none_or(|name| table.pin(&name).is_none())
+        {
+            rule.value = pin.to_string();
+        }
     }
 }
 
