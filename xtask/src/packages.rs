@@ -1,7 +1,7 @@
 //! `cargo xtask packages FOLDER`: writes the table that Embassy's lock files are computed from.
 //!
 //! In: a folder with the lock files of all sorts of projects, as cargo writes them: `check.lock`, `check-f3.lock`,
-//! `check-g4.lock`, `check-rp.lock`, and the same with `firmware`. Out: `packages.txt` of `crates/firmware-embassy`,
+//! `check-g4.lock`, `check-rp.lock`, the same with `firmware`, and `firmware-nrf.lock`. Out: `packages.txt` of `crates/firmware-embassy`,
 //! which has each crate once, with conditions for its dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +12,7 @@ use anyhow::{Context as _, Result, bail, ensure};
 use crate::parts::sources::{self, text};
 
 /// The sorts of projects, with the tags that apply to each.
-const SORTS: [(&str, &[&str]); 8] = [
+const SORTS: [(&str, &[&str]); 9] = [
     ("check", &["check", "stm32"]),
     ("check-g4", &["check", "stm32", "g4"]),
     ("check-f3", &["check", "stm32", "f3"]),
@@ -21,23 +21,27 @@ const SORTS: [(&str, &[&str]); 8] = [
     ("firmware-g4", &["firmware", "stm32", "g4"]),
     ("firmware-f3", &["firmware", "stm32", "f3"]),
     ("firmware-rp", &["firmware", "rp"]),
+    ("firmware-nrf", &["firmware", "nrf"]),
 ];
 /// The conditions, the simplest ones first.
-const CONDITIONS: [&str; 14] = [
+const CONDITIONS: [&str; 17] = [
     "",
     "check",
     "firmware",
     "stm32",
     "rp",
+    "nrf",
     "f3",
     "g4",
     "check stm32",
     "check rp",
     "firmware stm32",
     "firmware rp",
+    "firmware nrf",
     "firmware or rp",
     "check or rp",
     "f3 or g4",
+    "stm32 or nrf",
 ];
 /// The HAL's dependencies that it only has if a timer is left for the clock; a lock file of a project with one has
 /// them.

@@ -86,7 +86,7 @@ impl Manifests {
         Self {
             board: context.job.board.name.value.clone(),
             hal,
-            uf2_family: project.uf2_family().map(|family| format!("{family:#010x}")),
+            uf2_family: project.uf2_family(context).map(|family| format!("{family:#010x}")),
             hal_features: quoted(hal_features.iter().map(String::as_str)),
             runtime_needs: runtime_needs(hal),
             features: quoted(features),

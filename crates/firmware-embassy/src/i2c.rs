@@ -29,8 +29,8 @@ pub(super) fn plan(
 
 /// How a task reaches the parts: each by its address. A line has the registers of the unit as well, with which the
 /// runtime ends a transfer that does not end by itself.
-fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
-    let line = format!("rt::i2c::I2cLine(bus, hal::pac::{})", context.peripheral(unit));
+fn reach(registers: &str, served: &[Served<'_>]) -> Reach {
+    let line = format!("rt::i2c::I2cLine(bus, {registers})");
     let lines = served.iter().map(|one| format!("let mut {}_line = {line};", one.plan.prefix));
     Reach { lines: lines.collect(), ..Reach::default() }
 }
@@ -49,5 +49,6 @@ fn bus(context: &Context<'_>, i2c: &dyn I2c, bus: &Bus<'_>, section: &mut Sectio
     let made = i2c.unit(context, &bus.unit, bus.first, hz, section)?;
     let comment = format!("{unit} at {} and {}: {}", scl.pin.name, sda.pin.name, bus.titles());
     bus.share(Field::of(snake(unit), comment, made), section);
-    chips::tasks(context, bus, hz, |served| Ok(reach(context, unit, served)), section)
+    let registers = i2c.registers(context, unit);
+    chips::tasks(context, bus, hz, |served| Ok(reach(&registers, served)), section)
 }

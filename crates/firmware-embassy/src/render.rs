@@ -36,8 +36,8 @@ pub(super) fn render(b: &Plan) -> FileSet {
     files.add("src/wiring.rs", print(&Wiring { b }));
     files.add("src/tables.rs", print(&Tables { b }));
     files.add_once("src/user/mod.rs", USER);
-    if let Some(memory) = b.begin.memory {
-        files.add("memory.x", memory);
+    if let Some(memory) = &b.begin.memory {
+        files.add("memory.x", memory.clone());
     }
     files.add("sense-embassy/Cargo.toml", print(&Adapters { m }));
     for (name, text) in sense_embassy::sources::SOURCES {

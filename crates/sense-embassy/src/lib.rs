@@ -8,6 +8,7 @@
 //! | feature | HAL | folder |
 //! | --- | --- | --- |
 //! | `stm32` | `embassy-stm32` | `src/stm32` |
+//! | `nrf` | `embassy-nrf` | `src/nrf` |
 //! | `rp` | `embassy-rp` | `src/rp` |
 //!
 //! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
@@ -52,9 +53,13 @@ pub mod link_uart;
 pub mod link_usb;
 #[cfg(feature = "runtime")]
 pub mod serial;
-#[cfg(all(any(feature = "rp", feature = "stm32"), not(feature = "no-hal")))]
+#[cfg(all(any(feature = "nrf", feature = "rp", feature = "stm32"), not(feature = "no-hal")))]
 pub mod status;
 
+#[cfg(all(feature = "nrf", not(feature = "no-hal")))]
+mod nrf;
+#[cfg(all(feature = "nrf", not(feature = "no-hal")))]
+pub use nrf::*;
 #[cfg(all(feature = "rp", not(feature = "no-hal")))]
 mod rp;
 #[cfg(all(feature = "rp", not(feature = "no-hal")))]

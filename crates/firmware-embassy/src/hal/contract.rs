@@ -47,6 +47,8 @@ pub(crate) struct Package {
     pub(crate) name: &'static str,
     /// The exact version.
     pub(crate) version: &'static str,
+    /// The ticks of its time driver in a second, as features of `embassy-time` are spelled: `1_000_000`.
+    pub(crate) tick_hz: &'static str,
     /// The imports of `main.rs`: complete lines.
     pub(crate) main_uses: &'static str,
     /// The imports of `wiring.rs`: complete lines.
@@ -176,8 +178,8 @@ pub(crate) trait Project {
         Vec::new()
     }
 
-    /// The family of the chip in UF2 files; `None` if its boot loader does not take them.
-    fn uf2_family(&self) -> Option<u32> {
+    /// The family of the chip in UF2 files; `None` if the board's boot loader does not take them.
+    fn uf2_family(&self, _context: &Context<'_>) -> Option<u32> {
         None
     }
 
@@ -201,7 +203,7 @@ pub(crate) struct Begin {
     /// Arguments of the linker besides those of all cores: `, "-C", "link-arg=…"`.
     pub(crate) scripts: &'static str,
     /// `memory.x`; `None` if the HAL has it.
-    pub(crate) memory: Option<&'static str>,
+    pub(crate) memory: Option<String>,
 }
 
 /// The watchdog, which has the methods `unleash` and `pet`.

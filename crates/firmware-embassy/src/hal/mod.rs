@@ -4,6 +4,7 @@
 
 pub(crate) mod contract;
 mod dma;
+mod nrf;
 mod rp;
 mod stm32;
 
@@ -13,7 +14,7 @@ use crate::names::Names;
 use contract::{Drivers, Hal};
 
 /// All HALs. A profile that names none has the first.
-pub(crate) const HALS: &[&dyn Hal] = &[&stm32::Stm32, &rp::Rp];
+pub(crate) const HALS: &[&dyn Hal] = &[&stm32::Stm32, &rp::Rp, &nrf::Nrf];
 
 /// The HAL of a profile, with all that is read from it.
 pub(crate) struct Opened {

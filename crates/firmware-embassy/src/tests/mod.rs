@@ -1,6 +1,6 @@
-//! A HAL that no profile names yet takes nothing but its own file: [`nrf`] is one, and projects are planned for it.
+//! A HAL that no profile names yet takes nothing but its own file: [`made`] is one, and projects are planned for it.
 
-mod nrf;
+mod made;
 
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
@@ -14,10 +14,10 @@ use crate::gaps;
 use crate::generate::generate;
 use crate::hal::contract::Hal;
 use crate::hal::{HALS, Opened};
-use nrf::Nrf;
+use made::MadeUp;
 
 /// All HALs, and the one of these tests.
-const ALL: &[&dyn Hal] = &[HALS[0], HALS[1], &Nrf];
+const ALL: &[&dyn Hal] = &[HALS[0], HALS[1], HALS[2], &MadeUp];
 
 /// A board with the kinds that the HAL has drivers for.
 const SERVED: &str = "board Rover on RaspberryPiPico {
@@ -34,7 +34,7 @@ fn named(profile: &TargetProfile) -> TargetProfile {
     let mut profile = profile.clone();
     let own = &mut profile.own.file;
     own.retain(|key, _| COMMON.contains(&key));
-    own.insert("hal".to_owned(), "nrf".into());
+    own.insert("hal".to_owned(), "made-up".into());
     own.insert("saadc_bits".to_owned(), 12.into());
     profile
 }
@@ -78,7 +78,7 @@ fn a_project_is_in_the_words_of_its_hal() {
         &files,
         "src/wiring.rs",
         &[
-            "use embassy_nrf::{self as hal, Peri, Peripherals, bind_interrupts, peripherals::*};",
+            "use embassy_made_up::{self as hal, Peri, Peripherals, bind_interrupts, peripherals::*};",
             "touch: Input::new(p.P0_02, Pull::Up),",
             "light: hal::saadc::Input::degrade_saadc(p.P0_26),",
             "adc1: hal::saadc::Saadc::new(p.ADC, Irqs, hal::saadc::Resolution::_12BIT),",
@@ -102,10 +102,10 @@ fn a_project_is_in_the_words_of_its_hal() {
 #[test]
 fn manifests_are_those_of_the_hal() {
     let files = project(SERVED).unwrap();
-    let own = "embassy-nrf = { version = \"=0.9.0\", features = [\"rp2040\", \"gpiote\"] }";
+    let own = "embassy-made-up = { version = \"=0.9.0\", features = [\"rp2040\", \"gpiote\"] }";
     has_lines(&files, "Cargo.toml", &[own]);
-    let runtime = "embassy-nrf = { version = \"=0.9.0\", features = [\"unstable-pac\"] }";
-    has_lines(&files, "sense-embassy/Cargo.toml", &[runtime, "nrf = []"]);
+    let runtime = "embassy-made-up = { version = \"=0.9.0\", features = [\"unstable-pac\"] }";
+    has_lines(&files, "sense-embassy/Cargo.toml", &[runtime, "made-up = []"]);
     for path in ["Cargo.toml", "src/main.rs", "src/wiring.rs", "README.md", ".cargo/config.toml"] {
         let text = file(&files, path).to_lowercase();
         for other in ["embassy-rp", "embassy_rp", "embassy-stm32", "embassy_stm32", "bootsel"] {
@@ -138,7 +138,7 @@ fn what_the_hal_lacks_is_a_gap() {
 fn an_unknown_hal_is_reported_with_the_known_ones() {
     with_job(SERVED, |job| {
         let error = Opened::new(job.profile.unwrap(), HALS).err();
-        let expected = "unknown HAL `nrf`, expected one of `stm32`, `rp`";
+        let expected = "unknown HAL `made-up`, expected one of `stm32`, `rp`, `nrf`";
         assert_eq!(error.as_deref(), Some(expected));
         let reports = generate(job, HALS).unwrap_err();
         assert!(reports[0].message.contains(expected), "{reports:?}");

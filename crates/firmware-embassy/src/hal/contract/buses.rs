@@ -14,6 +14,11 @@ pub(crate) trait I2c {
     /// The runtime's type of a bus that tasks share.
     fn bus_type(&self, unit: &UnitName) -> String;
 
+    /// The registers of a unit.
+    fn registers(&self, context: &Context<'_>, unit: &str) -> String {
+        format!("hal::pac::{}", context.peripheral(unit))
+    }
+
     /// A unit as master at a clock, with its interrupts and DMA channels bound in the section. `wire` is one of those
     /// on the bus: all have its pads.
     fn unit(

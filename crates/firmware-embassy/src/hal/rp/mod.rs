@@ -26,6 +26,7 @@ pub(super) struct Rp;
 static PACKAGE: Package = Package {
     name: "rp",
     version: "0.10.0",
+    tick_hz: "1_000_000",
     main_uses: include_str!("templates/main_uses.rs.txt"),
     wiring_uses: include_str!("templates/wiring_uses.rs.txt"),
     runtime_asks: &["unstable-pac"],

@@ -55,7 +55,7 @@ impl Project for Settings {
         [context.chip.feature.as_str(), "time-driver", "unstable-pac"].map(str::to_owned).into()
     }
 
-    fn uf2_family(&self) -> Option<u32> {
+    fn uf2_family(&self, _context: &Context<'_>) -> Option<u32> {
         Some(self.uf2_family)
     }
 
@@ -82,8 +82,8 @@ impl Project for Settings {
                 Start::Block => "",
             },
             memory: Some(match self.start {
-                Start::Boot2 => MEMORY_2040,
-                Start::Block => MEMORY_2350,
+                Start::Boot2 => MEMORY_2040.to_owned(),
+                Start::Block => MEMORY_2350.to_owned(),
             }),
         }
     }

@@ -29,6 +29,7 @@ pub(super) struct Stm32;
 static PACKAGE: Package = Package {
     name: "stm32",
     version: "0.6.0",
+    tick_hz: "1_000_000",
     main_uses: include_str!("templates/main_uses.rs.txt"),
     wiring_uses: include_str!("templates/wiring_uses.rs.txt"),
     runtime_asks: &["exti", "unstable-pac"],

@@ -1,4 +1,4 @@
-//! A made-up third HAL, spelled about as `embassy-nrf` spells things. It has drivers for GPIO, analog inputs and USB.
+//! A made-up HAL, spelled about as `embassy-nrf` spells things. It has drivers for GPIO, analog inputs and USB.
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::Cycles;
@@ -13,13 +13,14 @@ use crate::missing::Printed;
 use crate::names::Names;
 use crate::section::{Constructor, Section};
 
-pub(super) struct Nrf;
+pub(super) struct MadeUp;
 
 static PACKAGE: Package = Package {
-    name: "nrf",
+    name: "made-up",
     version: "0.9.0",
-    main_uses: "use embassy_nrf::{self as hal, Peri, gpio::*, interrupt, peripherals::*};\n",
-    wiring_uses: "use embassy_nrf::{self as hal, Peri, Peripherals, bind_interrupts, peripherals::*};\n",
+    tick_hz: "32_768",
+    main_uses: "use embassy_made_up::{self as hal, Peri, gpio::*, interrupt, peripherals::*};\n",
+    wiring_uses: "use embassy_made_up::{self as hal, Peri, Peripherals, bind_interrupts, peripherals::*};\n",
     runtime_asks: &["unstable-pac"],
     runtime_features: &[],
     runtime_needs: &[],
@@ -34,7 +35,7 @@ struct Settings {
     saadc_bits: u8,
 }
 
-impl Hal for Nrf {
+impl Hal for MadeUp {
     fn package(&self) -> &'static Package {
         &PACKAGE
     }

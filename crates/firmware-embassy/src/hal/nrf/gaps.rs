@@ -1,0 +1,59 @@
+//! What there is no code for on nRF52, although the HAL has drivers of the kind.
+
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::digital::Digital;
+use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_wire::{Direction, ScalarType};
+
+use super::settings::Settings;
+
+/// What a connection needs and there is no code for.
+pub(super) fn lacks(
+    settings: &Settings,
+    job: &BoardJob<'_>,
+    connection: &JobConnection<'_>,
+) -> Option<&'static str> {
+    let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
+    let devices: Vec<&JobDevice<'_>> = own.collect();
+    if devices.iter().any(|one| one.device.coding.drive.is_some()) {
+        return Some("motors behind H-bridges on nRF52");
+    }
+    match &connection.connection.kind {
+        Kind::Uart(uart) => of_port(settings, uart),
+        Kind::Digital(own) if counts(own, &devices) => {
+            Some("edges counted without `debounce` on nRF52, where `type = icu` counts them")
+        }
+        Kind::Icu(_)
+        | Kind::Digital(_)
+        | Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Encoder(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    }
+}
+
+/// A port has eight bits, and even parity or none.
+fn of_port(settings: &Settings, uart: &Uart) -> Option<&'static str> {
+    if uart.data_bits != 8 {
+        Some("seven data bits on nRF52, whose ports have eight")
+    } else if uart.parity == Parity::Odd {
+        Some("odd parity on nRF52, whose ports have even parity or none")
+    } else if uart.stop_bits == 2 && !settings.has_two_stop_bits {
+        Some("two stop bits on nRF52832, whose port has one")
+    } else {
+        None
+    }
+}
+
+/// Whether any number of edges is counted in any time. An edge wakes a task, which may see two of them as one.
+fn counts(own: &Digital, devices: &[&JobDevice<'_>]) -> bool {
+    let is_count = |one: &&JobDevice<'_>| {
+        one.device.direction == Direction::Sensor
+            && one.device.value.value.scalar != ScalarType::Bool
+    };
+    own.edge.is_some() && own.debounce_us == 0 && devices.iter().any(is_count)
+}

@@ -1,0 +1,61 @@
+//! Pulse widths.
+
+use embassy_nrf::pwm::{DutyCycle, Prescaler, SimpleConfig, SimplePwm};
+use sense_rt::LEVEL_FULL;
+
+/// A unit with up to four outputs, which change together.
+pub struct Pulses {
+    unit: SimplePwm<'static>,
+    /// The channel of the design that each output has, from 1.
+    channels: [u8; 4],
+    duties: [DutyCycle; 4],
+}
+
+/// A unit that counts `counts` steps in a period, with a step each `1 << power` clocks.
+#[must_use]
+pub fn config(power: u8, counts: u16) -> SimpleConfig {
+    let mut config = SimpleConfig::default();
+    config.max_duty = counts;
+    config.prescaler = match power {
+        0 => Prescaler::Div1,
+        1 => Prescaler::Div2,
+        2 => Prescaler::Div4,
+        3 => Prescaler::Div8,
+        4 => Prescaler::Div16,
+        5 => Prescaler::Div32,
+        6 => Prescaler::Div64,
+        _ => Prescaler::Div128,
+    };
+    config
+}
+
+impl Pulses {
+    /// A unit whose outputs have these channels; what is no output has channel 0.
+    #[must_use]
+    pub fn new(unit: SimplePwm<'static>, channels: [u8; 4]) -> Self {
+        // Inverted ones are high while the unit counts up to them.
+        Self { unit, channels, duties: [DutyCycle::inverted(0); 4] }
+    }
+
+    /// Sets the pulse of a level on a channel, from the least to the greatest of `[least, greatest, period]` in any
+    /// unit. It is that from the period after [`Pulses::apply`] on.
+    pub fn set(&mut self, channel: u8, [least, greatest, period]: [u32; 3], level: u32) {
+        let full = u64::from(LEVEL_FULL);
+        let level = u64::from(level.min(LEVEL_FULL));
+        let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
+        let whole = u64::from(period.max(1)) * full;
+        let counts = u64::from(self.unit.max_duty());
+        let duty = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
+        let duty = DutyCycle::inverted(u16::try_from(duty).unwrap_or(u16::MAX));
+        for (own, place) in self.channels.iter().zip(&mut self.duties) {
+            if *own == channel {
+                *place = duty;
+            }
+        }
+    }
+
+    /// Hands the pulses of all outputs over at once.
+    pub fn apply(&mut self) {
+        self.unit.set_all_duties(self.duties);
+    }
+}

@@ -1,0 +1,163 @@
+//! Timers as inputs: an edge makes one keep its count, or count one more, without the processor.
+
+use embassy_nrf::Peri;
+use embassy_nrf::gpio::{AnyPin, Pull};
+use embassy_nrf::gpiote::{self, InputChannel, InputChannelPolarity};
+use embassy_nrf::ppi::{ConfigurableChannel, Ppi};
+use embassy_nrf::timer::{Cc, Frequency, Instance, Timer};
+use sense_rt::TrainConfig;
+
+use crate::capture::{SharedCapture, SharedTrain, note};
+
+/// The edges that count.
+#[derive(Clone, Copy)]
+pub enum Edges {
+    /// From low to high.
+    Rising,
+    /// From high to low.
+    Falling,
+    /// Both of them.
+    Both,
+}
+
+impl Edges {
+    const fn polarity(self) -> InputChannelPolarity {
+        match self {
+            Self::Rising => InputChannelPolarity::LoToHi,
+            Self::Falling => InputChannelPolarity::HiToLo,
+            Self::Both => InputChannelPolarity::Toggle,
+        }
+    }
+}
+
+/// A timer that counts edges.
+pub struct Count {
+    /// It has the pin.
+    _input: InputChannel<'static>,
+    count: Cc<'static>,
+}
+
+impl Count {
+    /// It counts from now on. `channel` and `route` lead an edge at the pin to the timer.
+    pub fn new<T: Instance>(
+        timer: Peri<'static, T>,
+        channel: Peri<'static, impl gpiote::Channel>,
+        route: Peri<'static, impl ConfigurableChannel>,
+        pin: Peri<'static, AnyPin>,
+        edges: Edges,
+    ) -> Self {
+        let input = InputChannel::new(channel, pin, Pull::None, edges.polarity());
+        let timer = Timer::new_counter(timer);
+        let mut route = Ppi::new_one_to_one(route, input.event_in(), timer.task_count());
+        route.enable();
+        route.persist();
+        timer.start();
+        let count = timer.cc(0);
+        timer.persist();
+        Self { _input: input, count }
+    }
+
+    /// Edges so far; wraps.
+    pub fn count(&self) -> u16 {
+        self.count.capture() as u16
+    }
+}
+
+/// A timer that keeps the time of the last edge.
+pub struct Stopwatch {
+    input: InputChannel<'static>,
+    time: Cc<'static>,
+}
+
+impl Stopwatch {
+    /// It runs from now on, with 16 MHz that are divided by `1 << power`.
+    pub fn new<T: Instance>(
+        timer: Peri<'static, T>,
+        channel: Peri<'static, impl gpiote::Channel>,
+        route: Peri<'static, impl ConfigurableChannel>,
+        pin: Peri<'static, AnyPin>,
+        edges: Edges,
+        power: u8,
+    ) -> Self {
+        let input = InputChannel::new(channel, pin, Pull::None, edges.polarity());
+        let timer = Timer::new(timer);
+        timer.set_frequency(frequency(power));
+        let time = timer.cc(0);
+        let mut route = Ppi::new_one_to_one(route, input.event_in(), time.task_capture());
+        route.enable();
+        route.persist();
+        timer.start();
+        timer.persist();
+        Self { input, time }
+    }
+
+    /// The time of the next edge, and the level after it.
+    async fn edge(&mut self) -> (u32, bool) {
+        self.input.wait().await;
+        (self.time.read(), self.input.pin().is_high())
+    }
+}
+
+fn frequency(power: u8) -> Frequency {
+    match power {
+        0 => Frequency::F16MHz,
+        1 => Frequency::F8MHz,
+        2 => Frequency::F4MHz,
+        3 => Frequency::F2MHz,
+        4 => Frequency::F1MHz,
+        5 => Frequency::F500kHz,
+        6 => Frequency::F250kHz,
+        7 => Frequency::F125kHz,
+        8 => Frequency::F62500Hz,
+        _ => Frequency::F31250Hz,
+    }
+}
+
+/// Measures the widths of pulses and, of those that begin with an edge that was seen, their periods, for ever.
+/// `is_high`: the level of a pulse. A pulse that ended before its beginning was looked at is left out.
+pub async fn pulses(mut timer: Stopwatch, is_high: bool, seen: &SharedCapture) -> ! {
+    // When the last pulse began, and whether it is under way.
+    let (mut began, mut is_open) = (None, false);
+    loop {
+        let (now, level) = timer.edge().await;
+        match (level == is_high, began) {
+            (true, before) => {
+                let is_whole = !is_open;
+                if let (true, Some(before)) = (is_whole, before) {
+                    note(seen, |captured| captured.on_period(now.wrapping_sub(before)));
+                }
+                (began, is_open) = (Some(now), true);
+            }
+            (false, Some(begin)) if is_open => {
+                note(seen, |captured| captured.on_width(now.wrapping_sub(begin), false));
+                is_open = false;
+            }
+            // Two edges were one: it is not known when the pulse began.
+            (false, _) => (began, is_open) = (None, false),
+        }
+    }
+}
+
+/// Measures the periods between edges of one direction, for ever.
+pub async fn periods(mut timer: Stopwatch, seen: &SharedCapture) -> ! {
+    let (mut last, _) = timer.edge().await;
+    loop {
+        let (now, _) = timer.edge().await;
+        note(seen, |captured| captured.on_period(now.wrapping_sub(last)));
+        last = now;
+    }
+}
+
+/// Measures the intervals of a pulse train, for ever.
+pub async fn train(mut timer: Stopwatch, config: &TrainConfig, seen: &SharedTrain) -> ! {
+    let (mut last, _) = timer.edge().await;
+    loop {
+        let (now, _) = timer.edge().await;
+        seen.lock(|cell| {
+            let mut train = cell.get();
+            train.on_interval(config, now.wrapping_sub(last));
+            cell.set(train);
+        });
+        last = now;
+    }
+}
