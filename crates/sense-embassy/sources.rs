@@ -27,6 +27,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "nrf/spi.rs",
     "nrf/timer.rs",
     "nrf/uart.rs",
+    "nrf/vectors.rs",
     "nrf/watchdog.rs",
     "rp/converter.rs",
     "rp/edges.rs",

@@ -120,10 +120,26 @@ impl<'a> Lexer<'a> {
                 let is_unit = before.ends_with(|last: char| last.is_ascii_digit());
                 let length = Unit::with_slash(rest).filter(|_| is_unit);
                 self.position = self.position.max(start + length.unwrap_or(0));
+                self.number_of_pin(start);
                 SyntaxKind::Ident
             }
             '%' if self.is_behind_a_number(start) => SyntaxKind::Ident,
             _ => punctuation(first).unwrap_or_else(|| self.unknown(start, first)),
+        }
+    }
+
+    /// Where a pin can be named, `P0.13` is one word: so nRF's pins are called.
+    fn number_of_pin(&mut self, start: usize) {
+        let word = self.since(start).as_bytes();
+        let is_port = matches!(word, [b'P' | b'p', b'0'..=b'9']);
+        let has_number = self.peek() == Some('.')
+            && self.peek_second().is_some_and(|next| next.is_ascii_digit());
+        let before = self.text.get(..start).unwrap_or_default().trim_end();
+        let is_named = before.ends_with(['=', '[', ','])
+            || ["reserve", "release"].iter().any(|rule| before.ends_with(rule));
+        if is_port && has_number && is_named {
+            self.bump();
+            self.bump_while(|next| next.is_ascii_digit());
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! What needs cargo and its registry runs with `SENSEDSL_THOROUGH=1`.
 
+mod nrf;
 mod rp;
 mod rp_runs;
 mod seeds;

@@ -8,6 +8,7 @@ pub mod qdec;
 pub mod spi;
 pub mod timer;
 pub mod uart;
+pub mod vectors;
 pub mod watchdog;
 
 pub use watchdog::restart;

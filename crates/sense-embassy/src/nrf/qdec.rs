@@ -10,6 +10,7 @@ use embassy_nrf::peripherals::QDEC;
 
 /// The decoder, which samples both tracks every 128 µs.
 pub struct Qdec {
+    _unit: Peri<'static, QDEC>,
     _tracks: [Input<'static>; 2],
     total: Cell<u16>,
 }
@@ -22,15 +23,13 @@ impl Qdec {
         a: Peri<'static, AnyPin>,
         b: Peri<'static, AnyPin>,
     ) -> Self {
-        // The program has the unit for good.
-        let _ = unit;
         UNIT.psel().a().write_value(a.psel_bits());
         UNIT.psel().b().write_value(b.psel_bits());
         let tracks = [a, b].map(|track| Input::new(track, Pull::Up));
         UNIT.sampleper().write(|register| register.set_sampleper(Sampleper::_128us));
         UNIT.enable().write(|register| register.set_enable(true));
         UNIT.tasks_start().write_value(1);
-        Self { _tracks: tracks, total: Cell::new(0) }
+        Self { _unit: unit, _tracks: tracks, total: Cell::new(0) }
     }
 
     /// Steps so far; wraps.

@@ -51,15 +51,14 @@ pub struct Config {
 
 impl Uart {
     /// A port with the pins that it has.
+    #[expect(clippy::needless_pass_by_value, reason = "a program gives the unit away for good")]
     pub fn new<T: Instance>(
-        unit: Peri<'static, T>,
+        _unit: Peri<'static, T>,
         port: Registers,
         rx: Option<Peri<'static, AnyPin>>,
         tx: Option<Peri<'static, AnyPin>>,
         config: &Config,
     ) -> Self {
-        // The program has the unit for good.
-        let _ = unit;
         let rx = rx.map(|pin| {
             port.psel().rxd().write_value(pin.psel_bits());
             // A wire that nothing drives rests.
@@ -126,7 +125,8 @@ fn buffer(bytes: &'static [AtomicU8; 2], port: Registers) -> &'static AtomicU8 {
 fn set_up(port: Registers, config: &Config) {
     port.baudrate().write(|register| register.set_baudrate(baudrate(config.baud)));
     port.config().write(|register| {
-        let parity = if config.has_parity { ConfigParity::Included } else { ConfigParity::Excluded };
+        let parity =
+            if config.has_parity { ConfigParity::Included } else { ConfigParity::Excluded };
         register.set_parity(parity);
         // nRF52832 has not this bit, nor a name for it.
         register.0 |= u32::from(config.stop_bits == 2) << 4;

@@ -58,7 +58,7 @@ impl Drive {
     /// Whether it is that of a board with this program's MCU, as far as it tells.
     pub(crate) fn suits(&self, program: &Program) -> bool {
         match (&self.make, program.build.family()) {
-            (Make::Uf2(board_id), Some(family)) => family.board_id == *board_id,
+            (Make::Uf2(board_id), Some(family)) => family.is_of(board_id),
             (Make::StLink(part), None) => {
                 let line = program.mcu.as_deref().and_then(|mcu| mcu.strip_prefix("STM32"));
                 let (Some(part), Some(line)) = (part, line) else { return true };

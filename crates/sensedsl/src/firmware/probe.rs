@@ -65,10 +65,10 @@ impl Tool {
 
     /// Whether it writes to boards of this sort.
     fn serves(self, program: &Program) -> bool {
-        let has_uf2 = program.build.family().is_some();
+        let is_of = |make: &str| program.mcu.as_deref().is_some_and(|mcu| mcu.starts_with(make));
         match self {
-            Self::StFlash | Self::DfuUtil => !has_uf2,
-            Self::Picotool => has_uf2,
+            Self::StFlash | Self::DfuUtil => !(is_of("RP") || is_of("NRF")),
+            Self::Picotool => is_of("RP"),
             Self::ProbeRs | Self::Drive | Self::Openocd => true,
         }
     }
@@ -237,9 +237,10 @@ pub(crate) fn command(
         // A file is copied there.
         Tool::Drive => Vec::new(),
         Tool::Openocd => {
-            let interface = if program.build.family().is_some() { "cmsis-dap" } else { "stlink" };
+            let mcu = mcu()?;
+            let interface = if mcu.starts_with("STM32") { "stlink" } else { "cmsis-dap" };
             let interface = format!("interface/{interface}.cfg");
-            let target = format!("target/{}.cfg", target(mcu()?));
+            let target = format!("target/{}.cfg", target(mcu));
             let program = format!("program {{{elf}}} verify reset exit");
             ["-f", &interface, "-f", &target, "-c", &program].map(str::to_owned).into()
         }
@@ -247,11 +248,17 @@ pub(crate) fn command(
     Ok(std::iter::once(tool.name().to_owned()).chain(words).collect())
 }
 
-/// A part as probe-rs names it, without its temperature grade: `STM32F407VGTx`.
+/// A part as probe-rs names it, without its temperature grade or its package: `STM32F407VGTx`, `nRF52840_xxAA`.
 fn chip(mcu: &str) -> String {
     const GRADE: usize = "STM32F407VGT".len();
     if mcu.starts_with("RP235") {
         return "RP235x".to_owned();
+    }
+    if let Some((number, (_, variant))) = mcu.strip_prefix("NRF").and_then(|rest| {
+        let (number, package) = rest.split_once('-')?;
+        Some((number, package.split_at_checked(2)?))
+    }) {
+        return format!("nRF{number}_xx{variant}");
     }
     match (mcu.get(..GRADE), mcu.get(GRADE..GRADE + 1), mcu.get(GRADE + 1..)) {
         (Some(part), Some(_), Some(rest)) => format!("{part}x{rest}"),
@@ -263,6 +270,9 @@ fn chip(mcu: &str) -> String {
 fn target(mcu: &str) -> String {
     if mcu.starts_with("RP") {
         return if mcu.starts_with("RP235") { "rp2350" } else { "rp2040" }.to_owned();
+    }
+    if mcu.starts_with("NRF") {
+        return "nrf52".to_owned();
     }
     const FAMILY: usize = "STM32F4".len();
     let family = mcu.get(..FAMILY).unwrap_or(mcu).to_ascii_lowercase();
@@ -280,6 +290,8 @@ mod tests {
         assert_eq!(chip("STM32L552ZET6Q"), "STM32L552ZETxQ");
         assert_eq!(chip("RP2040"), "RP2040");
         assert_eq!(chip("RP2350A"), "RP235x");
+        assert_eq!(chip("NRF52832-QFAA"), "nRF52832_xxAA");
+        assert_eq!(target("NRF52840-QIAA"), "nrf52");
         assert_eq!(target("STM32F407VGT6"), "stm32f4x");
         assert_eq!(target("STM32L073RZT6"), "stm32l0");
         assert_eq!(target("STM32L476RGT6"), "stm32l4x");

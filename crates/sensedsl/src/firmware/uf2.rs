@@ -18,18 +18,47 @@ use super::raw::{self, ERASED, FLASH_BYTES_MAX};
 pub(crate) struct Family {
     /// What blocks call it.
     id: u32,
-    /// What the boot loader's drive calls it in `INFO_UF2.TXT`.
-    pub(crate) board_id: &'static str,
+    /// What the names of boards begin with in `INFO_UF2.TXT` on the boot loader's drive.
+    board_id: &'static str,
     /// What people call it.
     pub(crate) chip: &'static str,
+    /// Where its flash begins.
+    flash: u64,
     /// Whether its flash may have partitions.
     has_partitions: bool,
 }
 
+impl Family {
+    /// Whether a board that its boot loader calls so has this chip.
+    pub(crate) fn is_of(&self, board_id: &str) -> bool {
+        board_id.starts_with(self.board_id)
+    }
+}
+
 /// All families.
-const FAMILIES: [Family; 2] = [
-    Family { id: 0xE48B_FF56, board_id: "RPI-RP2", chip: "RP2040", has_partitions: false },
-    Family { id: 0xE48B_FF59, board_id: "RP2350", chip: "RP2350", has_partitions: true },
+const FAMILIES: [Family; 3] = [
+    Family {
+        id: 0xE48B_FF56,
+        board_id: "RPI-RP2",
+        chip: "RP2040",
+        flash: 0x1000_0000,
+        has_partitions: false,
+    },
+    Family {
+        id: 0xE48B_FF59,
+        board_id: "RP2350",
+        chip: "RP2350",
+        flash: 0x1000_0000,
+        has_partitions: true,
+    },
+    // The boot loader that Adafruit wrote, on boards of several makers: `nRF52840-Feather-revD`.
+    Family {
+        id: 0xADA5_2840,
+        board_id: "nRF52840-",
+        chip: "nRF52840",
+        flash: 0,
+        has_partitions: false,
+    },
 ];
 
 /// The family of blocks that ignore partitions.
@@ -39,8 +68,6 @@ const LAST_PAGE: u32 = 0x10FF_FF00;
 /// The extension that has a boot ROM skip a block.
 const SKIPPED: u32 = 0x9957_E304;
 
-/// The address of the flash.
-const FLASH: u64 = 0x1000_0000;
 const PAGE_BYTES: usize = 256;
 const SECTOR_BYTES: u32 = 4096;
 const BLOCK_BYTES: usize = 512;
@@ -59,7 +86,7 @@ pub(crate) fn family(id: u32) -> Option<&'static Family> {
 
 /// The chip of a boot loader's drive; `None` if it is of another make.
 pub(crate) fn chip(board_id: &str) -> Option<&'static str> {
-    FAMILIES.iter().find(|family| family.board_id == board_id).map(|family| family.chip)
+    FAMILIES.iter().find(|family| family.is_of(board_id)).map(|family| family.chip)
 }
 
 /// The UF2 file of a program.
@@ -68,7 +95,7 @@ pub(crate) fn chip(board_id: &str) -> Option<&'static str> {
 ///
 /// If the ELF file cannot be read, or has something outside of the flash.
 pub(crate) fn of_elf(elf: &[u8], family: &Family) -> Result<Vec<u8>> {
-    let mut pages = pages(elf)?;
+    let mut pages = pages(elf, family.flash)?;
     fill_sectors(&mut pages);
     let mut bytes = Vec::new();
     if family.has_partitions {
@@ -87,11 +114,11 @@ pub(crate) fn of_elf(elf: &[u8], family: &Family) -> Result<Vec<u8>> {
 }
 
 /// The pages of the flash that a program has something in, by address.
-fn pages(elf: &[u8]) -> Result<BTreeMap<u32, Page>> {
+fn pages(elf: &[u8], flash: u64) -> Result<BTreeMap<u32, Page>> {
     let mut pages = BTreeMap::new();
     for (begin, data) in raw::parts(elf)? {
         let end = begin + data.len() as u64;
-        if begin < FLASH || end > FLASH + FLASH_BYTES_MAX {
+        if begin < flash || end > flash + FLASH_BYTES_MAX {
             bail!("{begin:#010x} to {end:#010x} is not in the flash");
         }
         for (address, byte) in (u32::try_from(begin)?..).zip(data) {
@@ -187,6 +214,17 @@ mod tests {
         assert!(second[76..288].iter().all(|byte| *byte == 0xFF));
         assert!(second[288..508].iter().all(|byte| *byte == 0));
         assert_eq!(second[508..], [0x30, 0x6F, 0xB1, 0x0A]);
+    }
+
+    #[test]
+    fn a_program_behind_a_boot_loader_stays_there() {
+        let family = family(0xADA5_2840).unwrap();
+        let file = of_elf(&elf(&[(0x0002_6000, &[7; 300])]), family).unwrap();
+        let addresses: Vec<u32> = file.chunks(512).map(|block| words(block)[3]).collect();
+        assert_eq!(addresses, [0x0002_6000, 0x0002_6100]);
+        assert_eq!(words(&file)[7], 0xADA5_2840);
+        assert_eq!(chip("nRF52840-Feather-revD"), Some("nRF52840"));
+        assert!(of_elf(&elf(&[(0x1000_0000, &[7])]), family).is_err());
     }
 
     #[test]

@@ -88,6 +88,7 @@ impl Project for Settings {
                 "config".to_owned(),
             ],
             start: vec![
+                "rt::vectors::take();".to_owned(),
                 "STATUS.begin(rt::watchdog::cause());".to_owned(),
                 "let wiring = wiring::wire(hal::init(config()));".to_owned(),
             ],

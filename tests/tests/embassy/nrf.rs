@@ -1,0 +1,139 @@
+//! nRF52 on Embassy: projects, images, and what is told instead of done. There is no emulator of these chips that runs
+//! them, so that images are linked and read.
+//!
+//! Some images are linked with `SENSEDSL_THOROUGH=1`, all with `SENSEDSL_THOROUGH=2`.
+
+use std::process::Command;
+
+use sensedsl_generate::target;
+use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, printed, tree};
+
+use super::rp::generated;
+use super::{can_link, is_told, linked, uf2_of, versions_are_those_of_the_lock_file, with_job};
+
+/// All that there is code for, with the link over a serial port.
+const KINDS: &str = r#" {
+    target = embassy;
+    sensor Light returns uint16 { id = 1; type = analog; pin = P0.03; samples = 4; }
+    sensor Pair returns uint16[2] { id = 2; type = analog; pin = [P0.04, P0.28]; median = 3; }
+    sensor Range returns uint16 { id = 3; type = i2c; address = 0x70; register = 2; length = 2; sda = P0.26; scl = P0.27; }
+    sensor Wheel returns uint32 { id = 4; type = icu; pin = P1.01; }
+    sensor Stick returns uint16 { id = 5; type = icu; mode = width; edge = falling; pin = P1.02; }
+    sensor Fan returns uint32 { id = 6; type = icu; mode = frequency; pin = P1.03; }
+    sensor Touch returns bool { id = 7; type = digital; pin = P1.04; edge = rising; }
+    sensor Door returns bool { id = 8; type = digital; pin = P1.05; pull = up; active = low; }
+    sensor Gyro returns uint16 { id = 9; type = spi; sck = P1.06; miso = P1.07; mosi = P1.08; cs = P1.10; read = [0]; length = 2; }
+    sensor Place returns uint16 { id = 10; type = uart; unit = UARTE1; rx = P1.11; tx = P1.12; length = 2; frame = "8E1"; }
+    actuator Servo accepts uint16 { id = 11; type = pwm; pin = P1.13; frequency = 50 Hz; failsafe = 5000; }
+    actuator Lamps accepts uint16[2] { id = 12; type = pwm; pin = [P1.14, P1.15]; frequency = 1000 Hz; }
+    actuator Relay accepts bool { id = 13; type = digital; pin = P0.02; }
+    sensor Turns returns int32 { id = 14; type = encoder; a = P0.29; b = P0.30; }
+}
+"#;
+
+/// Boards with each chip, with and without a boot loader: name, design, where its program begins.
+const BOARDS: [(&str, &str, u32); 4] = [
+    ("NRF52840_DK", KINDS, 0),
+    ("XIAO_NRF52840", SMALL, 0x0002_7000),
+    ("MICROBIT_V2", SMALL, 0),
+    ("FEATHER_NRF52832", SMALL, 0),
+];
+
+/// What every board carries.
+const SMALL: &str = r#" {
+    target = embassy;
+    sensor Light returns uint16 { id = 1; type = analog; }
+    chip Env { driver = bme280; sensor Air returns int16 { id = 2; reading = temperature; } }
+    sensor Stick returns uint16 { id = 3; type = icu; mode = duty; }
+    actuator Servo accepts uint16 { id = 4; type = pwm; frequency = 50 Hz; }
+    actuator Lamp accepts bool { id = 5; type = digital; }
+}
+"#;
+
+/// A project has its memory, its start and what its HAL is reached by, and nothing of the other HALs.
+#[test]
+fn projects_are_whole() {
+    let scratch = TempDir::new("embassy-nrf");
+    let project = tree(&generated(&scratch, "NRF52840_DK", KINDS));
+    let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
+    let lock = text_of("Cargo.lock");
+    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &lock, 6);
+    versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 12);
+    assert!(text_of("Cargo.toml").contains("tick-hz-32_768"));
+    assert!(text_of("memory.x").contains("ORIGIN = 0x00000000, LENGTH = 1024K"));
+    let wiring = text_of("src/wiring.rs");
+    for line in [
+        "light: hal::saadc::Input::degrade_saadc(p.P0_03),",
+        "hal::twim::Twim::new(p.TWISPI0, Irqs, p.P0_26, p.P0_27, crate::rt::i2c::config(100000), COPY.take())",
+        "wheel: crate::rt::timer::Count::new(p.TIMER",
+        "hal::pwm::SimplePwm::new_2ch(p.PWM",
+        "has_parity: true, stop_bits: 1",
+        "turns: crate::rt::qdec::Qdec::new(p.QDEC, p.P0_29.into(), p.P0_30.into()),",
+        "led: Output::new(p.P0_13, Level::High, OutputDrive::Standard),",
+    ] {
+        assert!(wiring.contains(line), "{line}\n{wiring}");
+    }
+    for (path, bytes) in &project {
+        let text = String::from_utf8_lossy(bytes);
+        let is_other = path.starts_with("src/")
+            && (text.contains("embassy_stm32") || text.contains("embassy_rp"));
+        assert!(!is_other, "{path}");
+    }
+}
+
+#[test]
+fn nothing_is_left_out_in_silence() {
+    for (board, design, _) in BOARDS {
+        with_job(&format!("board {board}{design}"), None, is_told);
+    }
+}
+
+/// What a port cannot do, and edges that tasks cannot count, are refused by name.
+#[test]
+fn what_the_chips_lack_is_told() {
+    let refused = |board: &str, device: &str, word: &str| {
+        let text = format!("board {board} {{ target = embassy; {device} }}");
+        with_job(&text, None, |job| {
+            let gaps = target::gaps(job);
+            let own =
+                gaps.iter().any(|gap| gap.code.name() == "E0501" && gap.message.contains(word));
+            assert!(own, "{device}: {gaps:?}");
+        });
+    };
+    let port = |rest: &str| {
+        format!("sensor Odd returns uint16 {{ id = 1; type = uart; length = 2; {rest} }}")
+    };
+    refused("XIAO_NRF52840", &port("frame = \"8O1\";"), "odd parity");
+    refused("XIAO_NRF52840", &port("frame = \"7E1\";"), "seven data bits");
+    let two = port("frame = \"8N2\";");
+    refused("FEATHER_NRF52832", &format!("link {{ transport = none; }} {two}"), "two stop bits");
+    let counted = "sensor Odd returns uint32 { id = 1; type = digital; edge = both; }";
+    refused("XIAO_NRF52840", counted, "edges counted without");
+    let bridge = "actuator Odd accepts int16 { id = 1; driver = drv8833; reading = speed_a; }";
+    refused("XIAO_NRF52840", bridge, "H-bridges");
+}
+
+/// An image begins where the boot loader of its board leaves room for it, and a UF2 file says the same.
+#[test]
+fn images_link() {
+    if !is_thorough() {
+        return;
+    }
+    if !can_link() {
+        return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
+    }
+    let scratch = TempDir::new("embassy-nrf-link");
+    for (board, design, from) in &BOARDS[..if is_exhaustive() { 4 } else { 2 }] {
+        let project = generated(&scratch, board, design);
+        let elf = linked(&project, "thumbv7em-none-eabihf");
+        let sections = printed(Command::new("arm-none-eabi-size").args(["-A", "-d"]).arg(&elf));
+        let line = sections.lines().find(|line| line.starts_with(".vector_table")).unwrap();
+        let address: u32 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
+        assert_eq!(address, *from, "{sections}");
+        if *from > 0 {
+            let uf2 = std::fs::read(uf2_of(&project, &elf)).unwrap();
+            let word = |at: usize| u32::from_le_bytes(uf2[at..at + 4].try_into().unwrap());
+            assert_eq!((word(0), word(12), word(28)), (0x0A32_4655, *from, 0xADA5_2840));
+        }
+    }
+}
