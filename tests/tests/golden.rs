@@ -88,3 +88,8 @@ fn embassy_stm32() {
 fn embassy_rp() {
     agrees_as("embassy_rp", "tests/firmware/embassy/pico.sense", &["--without", "host"]);
 }
+
+#[test]
+fn embassy_nrf() {
+    agrees_as("embassy_nrf", "tests/firmware/embassy/nrf52840.sense", &["--without", "host"]);
+}

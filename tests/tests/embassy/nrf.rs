@@ -3,41 +3,16 @@
 //!
 //! Some images are linked with `SENSEDSL_THOROUGH=1`, all with `SENSEDSL_THOROUGH=2`.
 
+use std::path::PathBuf;
 use std::process::Command;
 
 use sensedsl_generate::target;
-use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, printed, tree};
+use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, printed, sensedsl, tree};
 
-use super::rp::generated;
 use super::{can_link, is_told, linked, uf2_of, versions_are_those_of_the_lock_file, with_job};
 
 /// All that there is code for, with the link over a serial port.
-const KINDS: &str = r#" {
-    target = embassy;
-    sensor Light returns uint16 { id = 1; type = analog; pin = P0.03; samples = 4; }
-    sensor Pair returns uint16[2] { id = 2; type = analog; pin = [P0.04, P0.28]; median = 3; }
-    sensor Range returns uint16 { id = 3; type = i2c; address = 0x70; register = 2; length = 2; sda = P0.26; scl = P0.27; }
-    sensor Wheel returns uint32 { id = 4; type = icu; pin = P1.01; }
-    sensor Stick returns uint16 { id = 5; type = icu; mode = width; edge = falling; pin = P1.02; }
-    sensor Fan returns uint32 { id = 6; type = icu; mode = frequency; pin = P1.03; }
-    sensor Touch returns bool { id = 7; type = digital; pin = P1.04; edge = rising; }
-    sensor Door returns bool { id = 8; type = digital; pin = P1.05; pull = up; active = low; }
-    sensor Gyro returns uint16 { id = 9; type = spi; sck = P1.06; miso = P1.07; mosi = P1.08; cs = P1.10; read = [0]; length = 2; }
-    sensor Place returns uint16 { id = 10; type = uart; unit = UARTE1; rx = P1.11; tx = P1.12; length = 2; frame = "8E1"; }
-    actuator Servo accepts uint16 { id = 11; type = pwm; pin = P1.13; frequency = 50 Hz; failsafe = 5000; }
-    actuator Lamps accepts uint16[2] { id = 12; type = pwm; pin = [P1.14, P1.15]; frequency = 1000 Hz; }
-    actuator Relay accepts bool { id = 13; type = digital; pin = P0.02; }
-    sensor Turns returns int32 { id = 14; type = encoder; a = P0.29; b = P0.30; }
-}
-"#;
-
-/// Boards with each chip, with and without a boot loader: name, design, where its program begins.
-const BOARDS: [(&str, &str, u32); 4] = [
-    ("NRF52840_DK", KINDS, 0),
-    ("XIAO_NRF52840", SMALL, 0x0002_7000),
-    ("MICROBIT_V2", SMALL, 0),
-    ("FEATHER_NRF52832", SMALL, 0),
-];
+const KINDS: &str = include_str!("../../firmware/embassy/nrf52840.sense");
 
 /// What every board carries.
 const SMALL: &str = r#" {
@@ -49,6 +24,25 @@ const SMALL: &str = r#" {
     actuator Lamp accepts bool { id = 5; type = digital; }
 }
 "#;
+
+/// Boards with each chip, with and without a boot loader: name, design, where its program begins.
+fn boards() -> [(&'static str, String, u32); 4] {
+    let small = |board: &'static str, from| (board, format!("board {board}{SMALL}"), from);
+    [
+        ("NRF52840_DK", KINDS.to_owned(), 0),
+        small("XIAO_NRF52840", 0x0002_7000),
+        small("MICROBIT_V2", 0),
+        small("FEATHER_NRF52832", 0),
+    ]
+}
+
+/// Generates a design for a board; returns the folder of its project.
+fn generated(scratch: &TempDir, board: &str, design: &str) -> PathBuf {
+    let file = scratch.write(&format!("{board}.sense"), design).display().to_string();
+    let out = scratch.join(board);
+    let _ = sensedsl(["generate", &file, "-q", "-o"]).arg(&out).run().exits(0);
+    out.join("firmware").join(board)
+}
 
 /// A project has its memory, its start and what its HAL is reached by, and nothing of the other HALs.
 #[test]
@@ -83,8 +77,8 @@ fn projects_are_whole() {
 
 #[test]
 fn nothing_is_left_out_in_silence() {
-    for (board, design, _) in BOARDS {
-        with_job(&format!("board {board}{design}"), None, is_told);
+    for (_, design, _) in boards() {
+        with_job(&design, None, is_told);
     }
 }
 
@@ -123,7 +117,7 @@ fn images_link() {
         return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
     }
     let scratch = TempDir::new("embassy-nrf-link");
-    for (board, design, from) in &BOARDS[..if is_exhaustive() { 4 } else { 2 }] {
+    for (board, design, from) in &boards()[..if is_exhaustive() { 4 } else { 2 }] {
         let project = generated(&scratch, board, design);
         let elf = linked(&project, "thumbv7em-none-eabihf");
         let sections = printed(Command::new("arm-none-eabi-size").args(["-A", "-d"]).arg(&elf));

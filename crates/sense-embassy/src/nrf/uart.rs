@@ -51,7 +51,6 @@ pub struct Config {
 
 impl Uart {
     /// A port with the pins that it has.
-    #[expect(clippy::needless_pass_by_value, reason = "a program gives the unit away for good")]
     pub fn new<T: Instance>(
         _unit: Peri<'static, T>,
         port: Registers,

@@ -23,6 +23,9 @@ struct Memory<'a> {
     ram_bytes: u32,
 }
 
+/// The pins of the antenna of NFC.
+const NFC_PINS: [&str; 2] = ["P0.09", "P0.10"];
+
 /// What a board says of its boot loader in `[system.embassy]`.
 #[derive(Clone, Copy, Default, Deserialize)]
 struct BootLoader {
@@ -60,10 +63,13 @@ impl Project for Settings {
 
     fn features(&self, context: &Context<'_>) -> Vec<String> {
         let chip = context.chip.feature.as_str();
-        // The pins of the NFC antenna are pins like others where a board has no antenna.
-        [chip, "gpiote", "nfc-pins-as-gpio", "time-driver-rtc1", "unstable-pac"]
-            .map(str::to_owned)
-            .into()
+        let mut features = vec![chip, "gpiote", "time-driver-rtc1", "unstable-pac"];
+        // The chip notes for good that it has no antenna there, so only a design with such a pin asks for it.
+        let pads = context.job.connections.iter().flat_map(|one| &one.pads);
+        if pads.map(|pad| pad.pin.name.as_str()).any(|pin| NFC_PINS.contains(&pin)) {
+            features.push("nfc-pins-as-gpio");
+        }
+        features.into_iter().map(str::to_owned).collect()
     }
 
     fn uf2_family(&self, context: &Context<'_>) -> Option<u32> {
