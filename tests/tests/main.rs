@@ -36,6 +36,7 @@ mod parts;
 mod pictures;
 mod prolog;
 mod proof;
+mod robots;
 mod scripts;
 mod sheet;
 mod shown_values;

@@ -8,7 +8,7 @@ use sensedsl_tests::{is_exhaustive, one_in, read, root, sensedsl};
 const BOARDS: [&str; 3] = ["NUCLEO_F446RE", "STM32F407G_DISC1", "BLACKPILL_F411CE"];
 
 /// The lines of the tables above that of all pins, as cells.
-fn lines(sheet: &str) -> Vec<Vec<String>> {
+pub(crate) fn lines(sheet: &str) -> Vec<Vec<String>> {
     let (parts, _) = sheet.split_once("### Pins").expect("a table of all pins");
     let rows = parts.lines().filter(|line| line.starts_with("| ") && !line.contains("---"));
     let cells = |row: &str| {
@@ -19,7 +19,7 @@ fn lines(sheet: &str) -> Vec<Vec<String>> {
 }
 
 /// Whether a text names a contact: a connector, a dot, a number.
-fn names_a_contact(text: &str) -> bool {
+pub(crate) fn names_a_contact(text: &str) -> bool {
     text.split([' ', ',']).any(|word| {
         let contact = word.rsplit_once('.');
         contact.is_some_and(|(header, number)| !header.is_empty() && number.parse::<u32>().is_ok())
