@@ -1,14 +1,24 @@
 //! Pulse widths.
 
-use embassy_nrf::pwm::{DutyCycle, Prescaler, SimpleConfig, SimplePwm};
+use core::sync::atomic::{Ordering, compiler_fence};
+
+use embassy_nrf::pac::pwm::Pwm as Registers;
+use embassy_nrf::pwm::{Prescaler, SimpleConfig, SimplePwm};
 use sense_rt::LEVEL_FULL;
+
+/// Marks a duty that an output begins its period with: it is high while the unit counts up to it.
+const HIGH_FIRST: u16 = 0x8000;
 
 /// A unit with up to four outputs, which change together.
 pub struct Pulses {
-    unit: SimplePwm<'static>,
+    /// It has the pins. The HAL's own call waits for the end of a period, which interrupts cannot.
+    _unit: SimplePwm<'static>,
+    registers: Registers,
     /// The channel of the design that each output has, from 1.
     channels: [u8; 4],
-    duties: [DutyCycle; 4],
+    /// What the unit fetches at the beginning of a period.
+    duties: [u16; 4],
+    counts: u16,
 }
 
 /// A unit that counts `counts` steps in a period, with a step each `1 << power` clocks.
@@ -30,11 +40,11 @@ pub fn config(power: u8, counts: u16) -> SimpleConfig {
 }
 
 impl Pulses {
-    /// A unit whose outputs have these channels; what is no output has channel 0.
+    /// A unit with its registers, whose outputs have these channels; what is no output has channel 0.
     #[must_use]
-    pub fn new(unit: SimplePwm<'static>, channels: [u8; 4]) -> Self {
-        // Inverted ones are high while the unit counts up to them.
-        Self { unit, channels, duties: [DutyCycle::inverted(0); 4] }
+    pub fn new(unit: SimplePwm<'static>, registers: Registers, channels: [u8; 4]) -> Self {
+        let counts = unit.max_duty();
+        Self { _unit: unit, registers, channels, duties: [HIGH_FIRST; 4], counts }
     }
 
     /// Sets the pulse of a level on a channel, from the least to the greatest of `[least, greatest, period]` in any
@@ -44,9 +54,9 @@ impl Pulses {
         let level = u64::from(level.min(LEVEL_FULL));
         let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
         let whole = u64::from(period.max(1)) * full;
-        let counts = u64::from(self.unit.max_duty());
+        let counts = u64::from(self.counts);
         let duty = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
-        let duty = DutyCycle::inverted(u16::try_from(duty).unwrap_or(u16::MAX));
+        let duty = HIGH_FIRST | u16::try_from(duty).unwrap_or(self.counts);
         for (own, place) in self.channels.iter().zip(&mut self.duties) {
             if *own == channel {
                 *place = duty;
@@ -56,6 +66,8 @@ impl Pulses {
 
     /// Hands the pulses of all outputs over at once.
     pub fn apply(&mut self) {
-        self.unit.set_all_duties(self.duties);
+        self.registers.dma().seq(0).ptr().write_value(self.duties.as_ptr() as u32);
+        compiler_fence(Ordering::SeqCst);
+        self.registers.tasks_dma().seq(0).start().write_value(1);
     }
 }

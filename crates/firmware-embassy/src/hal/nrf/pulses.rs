@@ -47,7 +47,7 @@ impl Pulses for Settings {
             type_: "crate::rt::pwm::Pulses".to_owned(),
             make: format!(
                 "crate::rt::pwm::Pulses::new(hal::pwm::SimplePwm::new_{}ch(p.{hal}, {}, \
-                 &crate::rt::pwm::config({power}, {counts})), [{}])",
+                 &crate::rt::pwm::config({power}, {counts})), hal::pac::{hal}, [{}])",
                 pins.len(),
                 pins.join(", "),
                 channels.join(", ")

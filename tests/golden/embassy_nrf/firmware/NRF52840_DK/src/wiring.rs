@@ -88,8 +88,8 @@ pub fn wire(p: Peripherals) -> Wiring {
         turns: crate::rt::qdec::Qdec::new(p.QDEC, p.P0_29.into(), p.P0_30.into()),
         outputs: Outputs {
             relay: Output::new(p.P0_02, Level::Low, OutputDrive::Standard),
-            pwm0: crate::rt::pwm::Pulses::new(hal::pwm::SimplePwm::new_1ch(p.PWM0, p.P1_13, &crate::rt::pwm::config(4, 20000)), [1, 0, 0, 0]),
-            pwm1: crate::rt::pwm::Pulses::new(hal::pwm::SimplePwm::new_2ch(p.PWM1, p.P1_14, p.P1_15, &crate::rt::pwm::config(0, 16000)), [1, 2, 0, 0]),
+            pwm0: crate::rt::pwm::Pulses::new(hal::pwm::SimplePwm::new_1ch(p.PWM0, p.P1_13, &crate::rt::pwm::config(4, 20000)), hal::pac::PWM0, [1, 0, 0, 0]),
+            pwm1: crate::rt::pwm::Pulses::new(hal::pwm::SimplePwm::new_2ch(p.PWM1, p.P1_14, p.P1_15, &crate::rt::pwm::config(0, 16000)), hal::pac::PWM1, [1, 2, 0, 0]),
         },
         led: Output::new(p.P0_13, Level::High, OutputDrive::Standard),
         watchdog: crate::rt::watchdog::Watchdog::new(p.WDT, WATCHDOG_US),
