@@ -89,6 +89,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("METRO-M4-EXPRESS", &["ADAFRUIT-METRO-M4-EXPRESS"], "ATSAMD51J19A-MU", "Adafruit Metro M4 Express, the pins of its edges"),
     board!("METRO-NRF52840", &["ADAFRUIT-METRO-NRF52840-EXPRESS"], "NRF52840-QIAA", "Adafruit Metro nRF52840 Express, the pins of its edges"),
     board!("METRO-RP2040", &["ADAFRUIT-METRO-RP2040"], "RP2040", "Adafruit Metro RP2040, the pins of its edges"),
+    board!("METRO-RP2350", &["ADAFRUIT-METRO-RP2350"], "RP2350B", "Adafruit Metro RP2350, the pins of its edges"),
     board!("MICROBIT-V2", &["BBC-MICROBIT-V2", "MICROBIT"], "NRF52833-QIAA", "BBC micro:bit V2, the strips of its edge connector"),
     board!("NRF52840-DK", &["PCA10056"], "NRF52840-QIAA", "Nordic nRF52840-DK, its Arduino connectors"),
     board!("NUCLEO-C031C6", &["ST_NUCLEO64_C031C6", "NUCLEO64-C031C6"], "STM32C031C6T6", "Nucleo-64 C031C6, all pins of its MCU"),
