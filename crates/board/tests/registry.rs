@@ -37,6 +37,7 @@ const UNKNOWN_CONTACTS: &[(&str, &str, usize)] = &[
     ("METRO-M4-EXPRESS", "POWER", 1),
     ("METRO-NRF52840", "POWER", 1),
     ("METRO-RP2040", "POWER", 1),
+    ("METRO-RP2350", "POWER", 1),
     ("NUCLEO-C071RB", "CN10", 2),
     ("NUCLEO-C071RB", "CN7", 5),
     ("NUCLEO-H503RB", "CN10", 7),
