@@ -1,7 +1,7 @@
 //! `cargo xtask packages FOLDER`: writes the table that Embassy's lock files are computed from.
 //!
 //! In: a folder with the lock files of all sorts of projects, as cargo writes them: `check.lock`, `check-f3.lock`,
-//! `check-g4.lock`, `check-rp.lock`, the same with `firmware`, and `firmware-nrf.lock`. Out: `packages.txt` of `crates/firmware-embassy`,
+//! `check-g4.lock`, `check-rp.lock`, `check-nrf.lock`, and the same with `firmware`. Out: `packages.txt` of `crates/firmware-embassy`,
 //! which has each crate once, with conditions for its dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,11 +12,12 @@ use anyhow::{Context as _, Result, bail, ensure};
 use crate::parts::sources::{self, text};
 
 /// The sorts of projects, with the tags that apply to each.
-const SORTS: [(&str, &[&str]); 9] = [
+const SORTS: [(&str, &[&str]); 10] = [
     ("check", &["check", "stm32"]),
     ("check-g4", &["check", "stm32", "g4"]),
     ("check-f3", &["check", "stm32", "f3"]),
     ("check-rp", &["check", "rp"]),
+    ("check-nrf", &["check", "nrf"]),
     ("firmware", &["firmware", "stm32"]),
     ("firmware-g4", &["firmware", "stm32", "g4"]),
     ("firmware-f3", &["firmware", "stm32", "f3"]),
@@ -24,7 +25,7 @@ const SORTS: [(&str, &[&str]); 9] = [
     ("firmware-nrf", &["firmware", "nrf"]),
 ];
 /// The conditions, the simplest ones first.
-const CONDITIONS: [&str; 17] = [
+const CONDITIONS: [&str; 19] = [
     "",
     "check",
     "firmware",
@@ -35,13 +36,15 @@ const CONDITIONS: [&str; 17] = [
     "g4",
     "check stm32",
     "check rp",
+    "check nrf",
     "firmware stm32",
     "firmware rp",
     "firmware nrf",
     "firmware or rp",
+    "firmware or rp or nrf",
     "check or rp",
     "f3 or g4",
-    "stm32 or nrf",
+    "stm32 or firmware nrf",
 ];
 /// The HAL's dependencies that it only has if a timer is left for the clock; a lock file of a project with one has
 /// them.
@@ -102,10 +105,8 @@ fn condition(package: &Package, need: &Package, here: &[(&[&str], &Locked)]) -> 
 }
 
 fn holds(condition: &str, tags: &[&str]) -> bool {
-    match condition.split_once(" or ") {
-        Some((one, other)) => tags.contains(&one) || tags.contains(&other),
-        None => condition.split_whitespace().all(|tag| tags.contains(&tag)),
-    }
+    let mut either = condition.split(" or ");
+    either.any(|one| one.split_whitespace().all(|tag| tags.contains(&tag)))
 }
 
 fn package(name: &str, version: &str) -> Package {

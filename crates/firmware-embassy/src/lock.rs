@@ -70,10 +70,8 @@ impl Table {
 
 /// Whether a condition holds: `firmware`, `check stm32` for both, `f3 or g4` for either; an empty one always does.
 fn holds(condition: &str, tags: &[&str]) -> bool {
-    match condition.split_once(" or ") {
-        Some((one, other)) => tags.contains(&one) || tags.contains(&other),
-        None => condition.split_whitespace().all(|tag| tags.contains(&tag)),
-    }
+    let mut either = condition.split(" or ");
+    either.any(|one| one.split_whitespace().all(|tag| tags.contains(&tag)))
 }
 
 /// The lock file of the crate `root` of a project. `tags` are the words of the conditions that hold for it.

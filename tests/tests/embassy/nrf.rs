@@ -9,7 +9,10 @@ use std::process::Command;
 use sensedsl_generate::target;
 use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, printed, sensedsl, tree};
 
-use super::{can_link, is_told, linked, uf2_of, versions_are_those_of_the_lock_file, with_job};
+use super::{
+    can_link, checked, is_told, linked, source, uf2_of, versions_are_those_of_the_lock_file,
+    with_job,
+};
 
 /// All that there is code for, with the link over a serial port.
 const KINDS: &str = include_str!("../../firmware/embassy/nrf52840.sense");
@@ -73,6 +76,26 @@ fn projects_are_whole() {
             && (text.contains("embassy_stm32") || text.contains("embassy_rp"));
         assert!(!is_other, "{path}");
     }
+}
+
+/// One line a wire, by the HAL's names.
+#[test]
+fn every_wire_is_a_line() {
+    let check = checked(KINDS);
+    let source = source(&check);
+    let lines = [
+        "analog::<_>(p.P0_03);",
+        "i2c::<TWISPI0, _>(p.P0_27);",
+        "spi::<SPI2, _>(p.P1_06);",
+        "serial::<UARTE1, _>(p.P1_12);",
+        "decodes::<QDEC, _>(p.P0_29);",
+        "pin(p.P1_04);",
+        "unit(p.SAADC);",
+    ];
+    for line in lines {
+        assert_eq!(source.matches(line).count(), 1, "{line}\n{source}");
+    }
+    assert!(check.unjudged.is_empty(), "{:?}", check.unjudged);
 }
 
 #[test]

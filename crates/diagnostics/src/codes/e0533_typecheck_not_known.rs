@@ -6,7 +6,7 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0533",
     title: "there are no types for this MCU",
-    explanation: r#"`check --typecheck` judges a wiring by the types of Embassy's HALs. They cover RP2040, RP2350, and of STM32
+    explanation: r#"`check --typecheck` judges a wiring by the types of Embassy's HALs. They cover RP2040, RP2350, nRF52, and of STM32
 C0, F0, F1, F3, F4, F7, G0, G4, H5, H7, L0, L1, L4, L5, U0, U5, WB and WL. For another MCU, or a table that does not say
 which one it describes, there is nothing to judge by.
 

@@ -10,10 +10,12 @@ mod pulses;
 mod serial;
 mod settings;
 mod timers;
+mod types;
 
 use super::contract::buses::{I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::Pulses;
+use super::contract::types::Types;
 use super::contract::{Drivers, Hal, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
@@ -54,4 +56,5 @@ drivers! {
     i2c: I2c,
     spi: Spi,
     serial: Serial,
+    types: Types,
 }

@@ -24,7 +24,7 @@ struct Memory<'a> {
 }
 
 /// The pins of the antenna of NFC.
-const NFC_PINS: [&str; 2] = ["P0.09", "P0.10"];
+pub(super) const NFC_PINS: [&str; 2] = ["P0.09", "P0.10"];
 
 /// What a board says of its boot loader in `[system.embassy]`.
 #[derive(Clone, Copy, Default, Deserialize)]
