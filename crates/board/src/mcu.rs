@@ -30,6 +30,7 @@ pub fn family(name: &str) -> &str {
     let end = match name.get(..start) {
         Some("STM32") => start + 2,
         Some("RP20" | "RP23" | "ESP") => start + 2,
+        Some("NRF5") => start + 1,
         _ => start,
     };
     name.get(..end).filter(|family| !family.is_empty()).unwrap_or(name)
@@ -71,6 +72,7 @@ mod tests {
         assert_eq!(family("ATMEGA328P-PU"), "ATMEGA");
         assert_eq!(family("RP2350A"), "RP2350");
         assert_eq!(family("ESP32-S3"), "ESP32");
+        assert_eq!(family("NRF52840-QIAA"), "NRF52");
         assert_eq!(family("Z80"), "Z80");
         assert_eq!(family("STM32"), "STM32");
     }
