@@ -16,3 +16,17 @@ pub(crate) fn escaped(text: &str) -> String {
     }
     out
 }
+
+/// A note, in which what stands between grave accents is code. `plain` and `code` write the pieces.
+pub(crate) fn noted(
+    text: &str,
+    plain: impl Fn(&str) -> String,
+    code: impl Fn(&str) -> String,
+) -> String {
+    let pieces: Vec<&str> = text.split('`').collect();
+    if pieces.len() % 2 == 0 {
+        return plain(text);
+    }
+    let pieces = pieces.iter().enumerate();
+    pieces.map(|(at, piece)| if at % 2 == 0 { plain(piece) } else { code(piece) }).collect()
+}

@@ -6,7 +6,7 @@ use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin};
 
 use super::{BoardSheet, Line, PartSheet, sheets};
-use crate::markup::escaped;
+use crate::markup::{escaped, noted};
 use crate::svg;
 
 const STYLE: &str = "\
@@ -67,7 +67,8 @@ fn article(out: &mut String, PartSheet { name, about, lines, notes }: &PartSheet
         table(out, lines);
     }
     if !notes.is_empty() {
-        let notes = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note)));
+        let code = |text: &str| format!("<code>{}</code>", escaped(text));
+        let notes = notes.iter().map(|note| format!("<li>{}</li>\n", noted(note, escaped, code)));
         let _ = writeln!(out, "<ul>\n{}</ul>", notes.collect::<String>());
     }
     out.push_str("</article>\n");

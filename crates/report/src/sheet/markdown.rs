@@ -7,6 +7,7 @@ use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
 use super::{BoardSheet, PartSheet, sheets};
+use crate::markup::noted;
 use crate::rows::{Row, rows};
 
 /// For each board the parts to connect, then a table of all its pins in use; and the totals.
@@ -62,7 +63,7 @@ fn build(out: &mut String, sheet: &BoardSheet<'_>) {
             out.push('\n');
         }
         for note in notes {
-            let _ = writeln!(out, "- {}", cell(note));
+            let _ = writeln!(out, "- {}", noted(note, cell, code));
         }
     }
 }
@@ -99,6 +100,16 @@ fn device(row: &Row) -> String {
         return cell(&row.device);
     }
     cell(&format!("{} ({})", row.device, row.values.join(", ")))
+}
+
+/// A word of code: between grave accents where it is simple, as text otherwise.
+fn code(text: &str) -> String {
+    let is_simple = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '=' | ' ');
+    if text.chars().all(is_simple) && !text.trim().is_empty() {
+        format!("`{text}`")
+    } else {
+        cell(text)
+    }
 }
 
 /// Text escaped so that it cannot end its cell, begin markup or become a link, a formula or an
