@@ -175,7 +175,7 @@ fn elements_are_used_where_the_paper_says() {
     let fig2 = text("examples/fig2.sense");
     let before = columns(&fig2);
     let mut differ = Vec::new();
-    for row in one_in(2, ROWS) {
+    for row in one_in(4, ROWS) {
         let mut changed = fig2.clone();
         for (from, to) in row.changes {
             assert!(changed.contains(from), "Fig. 2 has no {from}");

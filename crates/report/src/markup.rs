@@ -24,9 +24,11 @@ pub(crate) fn noted(
     code: impl Fn(&str) -> String,
 ) -> String {
     let pieces: Vec<&str> = text.split('`').collect();
-    if pieces.len() % 2 == 0 {
+    if pieces.len().is_multiple_of(2) {
         return plain(text);
     }
     let pieces = pieces.iter().enumerate();
-    pieces.map(|(at, piece)| if at % 2 == 0 { plain(piece) } else { code(piece) }).collect()
+    pieces
+        .map(|(at, piece)| if at.is_multiple_of(2) { plain(piece) } else { code(piece) })
+        .collect()
 }

@@ -87,6 +87,9 @@ fn device(at: usize) -> String {
 
 #[test]
 fn texts() {
+    if !is_thorough() {
+        return;
+    }
     let table = || ("t.csv", "Pin,ADC\nPA1,ADC1_IN1\n".to_owned());
     grows("check", 450, "t.sense", |n| vec![on_table(&repeat(n, device)), table()]);
     grows("check", 450, "t.sense", |n| vec![on_table(&device(1).repeat(n)), table()]);

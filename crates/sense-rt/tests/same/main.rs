@@ -70,7 +70,7 @@ fn rust_answers_as_c_does() {
     }
     let program = build();
     let mut random = Random::new(11);
-    let rounds = if is_thorough() { 200 } else { 4 };
+    let rounds = if is_thorough() { 200 } else { 2 };
     let questions: Vec<String> = (0..rounds).flat_map(|_| questions::round(&mut random)).collect();
     let of_c = ask(&program, &questions);
     std::fs::remove_file(&program).unwrap();
