@@ -128,7 +128,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Where a pin can be named, `P0.13` is one word: so nRF's pins are called.
+    /// Takes the number of a pin of nRF, so that `P0.13` is one word where a pin can be named.
     fn number_of_pin(&mut self, start: usize) {
         let word = self.since(start).as_bytes();
         let is_port = matches!(word, [b'P' | b'p', b'0'..=b'9']);

@@ -1,5 +1,5 @@
-//! nRF52 on Embassy: projects, images, and what is told instead of done. There is no emulator of these chips that runs
-//! them, so that images are linked and read.
+//! nRF52 on Embassy: projects, images, and reports of what there is no code for. No emulator runs these chips, so images
+//! are linked and inspected.
 //!
 //! Some images are linked with `SENSEDSL_THOROUGH=1`, all with `SENSEDSL_THOROUGH=2`.
 

@@ -2,6 +2,7 @@
 
 use askama::Template;
 use sensedsl_board::pin::PinName;
+use sensedsl_board::profile::TargetProfile;
 use sensedsl_files::print;
 use sensedsl_job::{BoardJob, JobConnection};
 use serde::Deserialize;
@@ -23,11 +24,22 @@ struct Memory<'a> {
     ram_bytes: u32,
 }
 
-/// The pins of the antenna of NFC.
-pub(super) const NFC_PINS: [&str; 2] = ["P0.09", "P0.10"];
+/// The features of the HAL for a board, whatever is made of it.
+pub(super) fn features<'a>(context: &'a Context<'_>) -> Vec<&'a str> {
+    /// The pins of the antenna of NFC.
+    const NFC_PINS: [&str; 2] = ["P0.09", "P0.10"];
+    let mut features = vec![context.chip.feature.as_str(), "gpiote", "unstable-pac"];
+    // The chip notes for good that it has no antenna there, so only a design with such a pin asks for it.
+    let pads = context.job.connections.iter().flat_map(|one| &one.pads);
+    if pads.map(|pad| pad.pin.name.as_str()).any(|pin| NFC_PINS.contains(&pin)) {
+        features.push("nfc-pins-as-gpio");
+    }
+    features
+}
 
 /// What a board says of its boot loader in `[system.embassy]`.
 #[derive(Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct BootLoader {
     /// Where the program begins: behind the boot loader, if that is in the way.
     #[serde(default)]
@@ -38,10 +50,12 @@ struct BootLoader {
 }
 
 impl BootLoader {
-    fn of(context: &Context<'_>) -> Self {
-        let facts = context.job.board.facts.as_ref().and_then(|facts| facts.system.get("embassy"));
-        let own = facts.map(|facts| toml::Value::Table(facts.own.clone()));
-        own.and_then(|own| own.try_into().ok()).unwrap_or_default()
+    /// What the board says; the error says what is wrong with it.
+    fn of(job: &BoardJob<'_>) -> Result<Self, String> {
+        let facts = job.board.facts.as_ref().and_then(|facts| facts.system.get("embassy"));
+        let Some(facts) = facts else { return Ok(Self::default()) };
+        let own = toml::Value::Table(facts.own.clone());
+        own.try_into().map_err(|error: toml::de::Error| error.to_string())
     }
 }
 
@@ -57,27 +71,27 @@ impl Pins for Settings {
 }
 
 impl Project for Settings {
+    /// A program in the wrong place would overwrite the boot loader.
+    fn refusal(&self, job: &BoardJob<'_>, _profile: &TargetProfile) -> Option<String> {
+        let error = BootLoader::of(job).err()?;
+        Some(format!("what its table says of its boot loader is wrong: {error}"))
+    }
+
     fn lacks(&self, job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<&'static str> {
         gaps::lacks(self, job, wire)
     }
 
     fn features(&self, context: &Context<'_>) -> Vec<String> {
-        let chip = context.chip.feature.as_str();
-        let mut features = vec![chip, "gpiote", "time-driver-rtc1", "unstable-pac"];
-        // The chip notes for good that it has no antenna there, so only a design with such a pin asks for it.
-        let pads = context.job.connections.iter().flat_map(|one| &one.pads);
-        if pads.map(|pad| pad.pin.name.as_str()).any(|pin| NFC_PINS.contains(&pin)) {
-            features.push("nfc-pins-as-gpio");
-        }
-        features.into_iter().map(str::to_owned).collect()
+        features(context).into_iter().chain(["time-driver-rtc1"]).map(str::to_owned).collect()
     }
 
     fn uf2_family(&self, context: &Context<'_>) -> Option<u32> {
-        self.uf2_family.filter(|_| BootLoader::of(context).uf2)
+        self.uf2_family.filter(|_| BootLoader::of(context.job).is_ok_and(|loader| loader.uf2))
     }
 
     fn begin(&self, context: &Context<'_>, _is_usb: bool) -> Begin {
-        let BootLoader { flash_from, .. } = BootLoader::of(context);
+        // A board that says it wrongly was refused.
+        let BootLoader { flash_from, .. } = BootLoader::of(context.job).unwrap_or_default();
         let memory = Memory {
             chip: &context.chip.probe,
             flash_from,
@@ -115,7 +129,14 @@ impl Project for Settings {
 
 #[cfg(test)]
 mod tests {
-    use super::{PinName, Pins as _, Settings};
+    use super::{BootLoader, PinName, Pins as _, Settings};
+
+    #[test]
+    fn a_boot_loader_is_said_without_mistakes() {
+        let read = |text: &str| toml::from_str::<BootLoader>(text).map(|own| own.flash_from);
+        assert_eq!(read("flash_from = 0x2_7000\nuf2 = true").ok(), Some(0x2_7000));
+        assert!(read("flash_form = 0x2_7000").is_err());
+    }
 
     #[test]
     fn pins_have_the_names_of_the_hal() {

@@ -5,7 +5,7 @@ use askama::Template;
 use sensedsl_board::signal::Function;
 use sensedsl_files::print;
 
-use super::project::NFC_PINS;
+use super::project::features;
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::types::{Request, Types};
@@ -31,12 +31,7 @@ const CALLS: &[(&str, &str)] = &[
 
 impl Types for Settings {
     fn features(&self, context: &Context<'_>) -> Vec<String> {
-        let mut features = vec![context.chip.feature.as_str(), "gpiote", "unstable-pac"];
-        let pads = context.job.connections.iter().flat_map(|one| &one.pads);
-        if pads.map(|pad| pad.pin.name.as_str()).any(|pin| NFC_PINS.contains(&pin)) {
-            features.push("nfc-pins-as-gpio");
-        }
-        features.into_iter().map(str::to_owned).collect()
+        features(context).into_iter().map(str::to_owned).collect()
     }
 
     fn calls(&self) -> Vec<(&'static str, String)> {
