@@ -140,7 +140,8 @@ pub struct DmaRequest {
 }
 
 /// A peripheral instance whose driver takes DMA streams; all its requests are served if at least
-/// one device uses it.
+/// one device uses it. Other things that are dealt out one by one can be put the same way, such as
+/// timers of which one must stay free.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmaUser {
     /// For example RX and TX of an I2C unit.

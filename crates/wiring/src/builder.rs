@@ -13,10 +13,13 @@ use sensedsl_solve::problem::{
     BoardId, DmaRequest, DmaUser, DmaUserId, PinId, RuleId, SignalId, StreamId,
 };
 
-use crate::names::Names;
+use crate::names::{Names, Stream};
 
 /// Name of a wire that needs no signal.
 pub(crate) const GPIO: &str = "GPIO";
+
+/// Name of the user of the timer that the kernel's clock runs on.
+const CLOCK: &str = "clock";
 
 /// A soft rule, with the board that it is bound to if it is written in one.
 pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Preference);
@@ -56,9 +59,9 @@ pub(crate) struct Builder<'a> {
     /// Rank of each signal name.
     signals: BTreeMap<String, u32>,
     pub(crate) dma: Vec<DmaUser>,
-    dma_ids: BTreeMap<(BoardIndex, String), DmaUserId>,
-    stream_ids: BTreeMap<(BoardIndex, String), StreamId>,
-    pub(crate) streams: Vec<(BoardIndex, String)>,
+    /// The peripheral instance, or the clock, that each DMA user is.
+    pub(crate) users: Vec<(BoardIndex, String)>,
+    pub(crate) streams: Vec<(BoardIndex, Stream)>,
     /// The number of soft rules.
     pub(crate) rules: u32,
     /// The soft rules of each part.
@@ -76,8 +79,7 @@ impl<'a> Builder<'a> {
             first_pins: pins(design).1,
             signals: signal_ranks(design),
             dma: Vec::new(),
-            dma_ids: BTreeMap::new(),
-            stream_ids: BTreeMap::new(),
+            users: Vec::new(),
             streams: Vec::new(),
             rules: 0,
             rules_of: BTreeMap::new(),
@@ -114,42 +116,57 @@ impl<'a> Builder<'a> {
         self.rules_of.entry(part).or_insert_with(|| rules.to_vec());
     }
 
-    /// The DMA user of a peripheral instance; empty if its driver takes no streams.
+    /// The DMA users of a peripheral instance: its own requests and, if it is a timer that the kernel may need for its
+    /// clock, the clock's. None if it takes nothing that is dealt out.
     pub(crate) fn dma(&mut self, board: BoardIndex, unit: &str) -> Vec<DmaUserId> {
-        let key = (board, unit.to_owned());
-        if let Some(id) = self.dma_ids.get(&key) {
-            return vec![*id];
-        }
         let design = self.design;
-        let profile = design.board(board).and_then(Board::profile);
-        let requests = profile.map(|profile| profile.dma(unit)).unwrap_or_default();
-        if requests.is_empty() {
-            return Vec::new();
+        let Some(profile) = design.board(board).and_then(Board::profile) else { return Vec::new() };
+        let timers = profile.kernel.needed();
+        let is_of_clock = timers.iter().any(|timer| timer == unit);
+        let timer = is_of_clock.then(|| vec![Stream::Timer(unit.to_owned())]);
+        let own = profile.dma(unit).iter().map(|request| {
+            request.streams.iter().map(|stream| Stream::Dma(stream.to_string())).collect()
+        });
+        let mut users: Vec<DmaUserId> =
+            self.user(board, unit, own.chain(timer).collect()).into_iter().collect();
+        if is_of_clock {
+            let clock = timers.iter().cloned().map(Stream::Timer).collect();
+            users.extend(self.user(board, CLOCK, vec![clock]));
         }
-        let requests = requests
-            .iter()
-            .map(|request| DmaRequest {
-                streams: request
-                    .streams
-                    .iter()
-                    .map(|stream| self.stream(board, &stream.to_string()))
-                    .collect(),
-            })
-            .collect();
-        let id = DmaUserId(u32::try_from(self.dma.len()).unwrap_or(u32::MAX));
-        self.dma.push(DmaUser { requests });
-        self.dma_ids.insert(key, id);
-        vec![id]
+        users
     }
 
-    fn stream(&mut self, board: BoardIndex, name: &str) -> StreamId {
-        let next = StreamId(u32::try_from(self.streams.len()).unwrap_or(u32::MAX));
-        let key = (board, name.to_owned());
-        let id = *self.stream_ids.entry(key.clone()).or_insert(next);
-        if id == next {
-            self.streams.push(key);
+    /// The DMA user with these requests, each the streams that can serve it; `None` if there are no requests.
+    fn user(
+        &mut self,
+        board: BoardIndex,
+        name: &str,
+        requests: Vec<Vec<Stream>>,
+    ) -> Option<DmaUserId> {
+        if requests.is_empty() {
+            return None;
         }
-        id
+        let is_known = |(on, known): &(BoardIndex, String)| *on == board && known == name;
+        let at = self.users.iter().position(is_known).unwrap_or_else(|| {
+            let requests = requests.into_iter().map(|streams| DmaRequest {
+                streams: streams.into_iter().map(|stream| self.stream(board, stream)).collect(),
+            });
+            let requests = requests.collect();
+            self.dma.push(DmaUser { requests });
+            self.users.push((board, name.to_owned()));
+            self.users.len() - 1
+        });
+        Some(DmaUserId(u32::try_from(at).unwrap_or(u32::MAX)))
+    }
+
+    fn stream(&mut self, board: BoardIndex, stream: Stream) -> StreamId {
+        let key = (board, stream);
+        let known = self.streams.iter().position(|one| *one == key);
+        let at = known.unwrap_or_else(|| {
+            self.streams.push(key);
+            self.streams.len() - 1
+        });
+        StreamId(u32::try_from(at).unwrap_or(u32::MAX))
     }
 }
 

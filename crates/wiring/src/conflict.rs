@@ -11,7 +11,7 @@ use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex};
 use sensedsl_solve::Conflict;
 
 use crate::formulate::{Formulation, Requester};
-use crate::names::list;
+use crate::names::{Stream, list};
 use crate::repairs::{Repair, Repaired};
 use crate::rule::Rule;
 
@@ -26,6 +26,8 @@ pub struct NoWiring {
     pub parts: Vec<PartIndex>,
     /// Boards whose serial link is part of the conflict.
     pub links: Vec<BoardIndex>,
+    /// Boards whose kernel needs one of the timers for its clock.
+    pub clocks: Vec<BoardIndex>,
     /// Pins and other resources that they compete for.
     pub resources: Vec<Contested>,
     /// The rules without which the devices could be wired. Minimal, like the devices, if at most
@@ -74,11 +76,16 @@ pub(crate) fn named(
     }
     parts.dedup();
     let resources = resources(formulation, conflict);
+    let streams = conflict.streams.iter().filter_map(|id| formulation.streams.get(id.0 as usize));
+    let timers = streams.filter(|(_, stream)| matches!(stream, Stream::Timer(_)));
+    let mut clocks: Vec<BoardIndex> = timers.map(|(board, _)| *board).collect();
+    clocks.dedup();
     let (rules, repairs) = (Vec::new(), Vec::new());
     let minimal = conflict.minimal;
     NoWiring {
         parts,
         links,
+        clocks,
         resources,
         rules,
         repairs,
@@ -102,7 +109,7 @@ fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Conteste
     });
     let streams = conflict.streams.iter().filter_map(|id| {
         let (board, stream) = formulation.streams.get(id.0 as usize)?;
-        on(*board, format!("DMA{}", stream.replace(',', "_stream")), &|_| false)
+        on(*board, stream.name(), &|_| false)
     });
     let pins = conflict.pins.iter().filter_map(|id| {
         let (board, pin) = formulation.pins.get(id.0 as usize)?;
@@ -230,6 +237,7 @@ impl NoWiring {
                 .to_owned(),
             [..] => format!("it works if you {}", ways.join(", or ")),
         };
+        help.extend(self.kernels(design));
         if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {
             help.push_str("; with `--target none`, the pins alone would do");
         }
@@ -238,6 +246,19 @@ impl NoWiring {
             help.push_str("; time ran out before everything else was tried");
         }
         help
+    }
+
+    /// The timers that kernels need for their clocks.
+    fn kernels(&self, design: &Design) -> Vec<String> {
+        let boards = self.clocks.iter().filter_map(|board| design.board(*board));
+        let needed = boards.map(|board| {
+            let timers = board.profile().map(|profile| profile.kernel.needed()).unwrap_or_default();
+            let timers: Vec<&str> = timers.iter().map(String::as_str).collect();
+            let one = if timers.len() > 1 { "one of " } else { "" };
+            let on = &board.name.value;
+            format!("; the kernel of {on} needs {one}{} for its clock", list(&timers, "and"))
+        });
+        needed.collect()
     }
 
     /// That a board has free pins which are not offered because they are on no connector.

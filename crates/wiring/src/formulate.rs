@@ -11,7 +11,7 @@ use crate::alternatives::alternatives;
 use crate::builder::{Builder, Converters, Meaning, board_id, pins};
 use crate::keep::Keep;
 use crate::layout;
-use crate::names::{Group, Resource};
+use crate::names::{Group, Resource, Stream};
 use crate::offer::Offer;
 use crate::requested::RequestedWires;
 use crate::ties::{self, Elements};
@@ -34,8 +34,10 @@ pub(crate) struct Formulation<'a> {
     pub(crate) meanings: Vec<Vec<Meaning>>,
     pub(crate) resources: Vec<Resource>,
     pub(crate) groups: Vec<Group>,
-    /// For each DMA stream, its board and spelling.
-    pub(crate) streams: Vec<(BoardIndex, String)>,
+    /// For each DMA user, its board and name.
+    pub(crate) users: Vec<(BoardIndex, String)>,
+    /// For each DMA stream, or what is dealt out as streams are, its board and name.
+    pub(crate) streams: Vec<(BoardIndex, Stream)>,
     /// For each pin of the problem, its board and index in the table.
     pub(crate) pins: Vec<(BoardIndex, usize)>,
     /// Where these pins are on connectors.
@@ -111,7 +113,7 @@ pub(crate) fn formulate<'a>(
         Some(solver::Pin { board: board_id(*board), cost, shared })
     });
     let boards = design.boards.iter().map(|board| solver::Board { spare: board.spare });
-    let Builder { names, dma, streams, rules, .. } = builder;
+    let Builder { names, dma, users, streams, rules, .. } = builder;
     let (resources, groups) = names.all();
     let problem = Problem {
         pins: solver_pins.collect(),
@@ -130,6 +132,7 @@ pub(crate) fn formulate<'a>(
         meanings,
         resources,
         groups,
+        users,
         streams,
         pins,
         layout,

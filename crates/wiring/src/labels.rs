@@ -21,10 +21,9 @@ pub(crate) fn labels(design: &Design, formulation: &Formulation<'_>) -> Labels {
         names.on(*board, &pin.unwrap_or_default())
     });
     let resources = formulation.resources.iter().map(|one| names.resource(one));
-    let streams = formulation
-        .streams
-        .iter()
-        .map(|(board, stream)| names.on(*board, &format!("DMA{}", stream.replace(',', "_stream"))));
+    let users = formulation.users.iter().map(|(board, user)| names.on(*board, user));
+    let streams =
+        formulation.streams.iter().map(|(board, stream)| names.on(*board, &stream.name()));
     Labels {
         boards: distinct(boards),
         pins: distinct(pins),
@@ -34,7 +33,7 @@ pub(crate) fn labels(design: &Design, formulation: &Formulation<'_>) -> Labels {
         resources: distinct(resources),
         groups: distinct(formulation.groups.iter().map(|group| names.group(group))),
         rules: names.rules(problem.rules as usize),
-        dma: names.dma_users(problem.dma.len()),
+        dma: distinct(users),
         streams: distinct(streams),
     }
 }
@@ -170,23 +169,6 @@ impl Namer<'_> {
         }
         if names.len() != count {
             names = (1..=count).map(|number| format!("rule {number}")).collect();
-        }
-        distinct(names.into_iter())
-    }
-
-    fn dma_users(&self, count: usize) -> Vec<String> {
-        let mut names: Vec<String> = (1..=count).map(|number| format!("user {number}")).collect();
-        let devices = self.formulation.problem.devices.iter().zip(&self.formulation.meanings);
-        for (device, meanings) in devices {
-            for (alternative, meaning) in device.alternatives.iter().zip(meanings) {
-                for user in &alternative.dma {
-                    if let (Some(name), Some(unit)) =
-                        (names.get_mut(user.0 as usize), meaning.unit.as_ref())
-                    {
-                        *name = self.on(meaning.board, unit);
-                    }
-                }
-            }
         }
         distinct(names.into_iter())
     }

@@ -113,6 +113,26 @@ impl Resource {
     }
 }
 
+/// Something that is dealt out: each request gets one of those that can serve it for itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Stream {
+    /// A DMA stream, as the target profile spells it (`1,0`).
+    Dma(String),
+    /// A timer, of which the kernel needs one for its clock: devices that use it take it from the kernel.
+    Timer(String),
+}
+
+impl Stream {
+    /// The name in messages and JSON.
+    #[must_use]
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::Dma(stream) => format!("DMA{}", stream.replace(',', "_stream")),
+            Self::Timer(timer) => timer.clone(),
+        }
+    }
+}
+
 /// The unit of a bus signal: devices compete for the bus, whichever of its wires shows it.
 fn bus(signal: &str) -> Option<String> {
     let (signal, _) = Signal::parse(signal);

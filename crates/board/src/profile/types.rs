@@ -91,11 +91,18 @@ pub enum Transport {
 pub struct Kernel {
     /// Timers that the kernel can take, best first; it takes the first one that no device uses.
     pub timers: Vec<String>,
-    /// What it takes if devices use them all; without a fallback, the last timer is not offered to
-    /// devices.
+    /// What it takes if devices use them all; without a fallback, a wiring leaves it one.
     pub fallback: Option<Fallback>,
     /// The place in the system's source that the facts come from.
     pub source: String,
+}
+
+impl Kernel {
+    /// The timers of which devices must leave one; empty if they may have them all.
+    #[must_use]
+    pub fn needed(&self) -> &[String] {
+        if self.fallback.is_some() { &[] } else { &self.timers }
+    }
 }
 
 /// A kernel clock that is not a timer.
