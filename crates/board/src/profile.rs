@@ -17,7 +17,7 @@ use file::{File, starts};
 pub use rates::{Costs, Cycles, Dividers, I2cTiming};
 pub use types::{
     Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Exception, Exti, ExtiRule, Fallback,
-    I2cMode, I2cs, Kernel, Own, Stream, TargetProfile, Timer, TimerUse, Transport, Unit, Usb,
+    I2cMode, I2cs, Kernel, Own, Pio, Stream, TargetProfile, Timer, TimerUse, Transport, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
 

@@ -73,6 +73,11 @@ pub enum Function {
         /// The output's number.
         channel: u8,
     },
+    /// `PIO0` of RP2040: a block of programmable state machines, which read and drive pins.
+    Pio {
+        /// The unit: `PIO0`.
+        unit: UnitName,
+    },
     /// Any other usage: it counts in the pin's cost, but no device kind needs it.
     Other,
 }
@@ -248,7 +253,8 @@ impl Function {
             | Self::Timer { unit, .. }
             | Self::Spi { unit, .. }
             | Self::Uart { unit, .. }
-            | Self::Can { unit, .. } => vec![unit.clone()],
+            | Self::Can { unit, .. }
+            | Self::Pio { unit } => vec![unit.clone()],
             Self::Other => Vec::new(),
         }
     }
@@ -262,7 +268,7 @@ impl Function {
             Self::Spi { line, .. } => matches!(line, SpiLine::Miso),
             Self::Timer { line, .. } => line.is_input(),
             Self::Dac { .. } => false,
-            Self::Adc { .. } | Self::I2c { .. } | Self::Other => true,
+            Self::Adc { .. } | Self::I2c { .. } | Self::Pio { .. } | Self::Other => true,
         }
     }
 
@@ -271,7 +277,7 @@ impl Function {
     pub const fn is_output(&self) -> bool {
         match self {
             Self::Adc { .. } => false,
-            Self::I2c { .. } | Self::Other => true,
+            Self::I2c { .. } | Self::Pio { .. } | Self::Other => true,
             Self::Timer { line, .. } => !matches!(line, TimerLine::Input),
             Self::Uart { .. } | Self::Spi { .. } | Self::Can { .. } | Self::Dac { .. } => {
                 !self.is_input()

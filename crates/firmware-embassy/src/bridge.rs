@@ -92,9 +92,11 @@ fn write(
         return Ok(vec![(at.to_string(), format!("outputs.{}.set_level({level})", wire.ident))]);
     }
     let pulse = pulse(context, wire)?;
+    let set = [Some(pulses.set(&pulse, "write.value")), pulses.apply(&pulse)];
+    let set: Vec<String> = set.into_iter().flatten().collect();
     Ok(vec![
         (format!("{at} if write.value == 0"), format!("{{ {} }}", pulses.stop(&pulse))),
-        (at.to_string(), format!("{{ {} }}", pulses.set(&pulse, "write.value"))),
+        (at.to_string(), format!("{{ {} }}", set.join(" "))),
     ])
 }
 

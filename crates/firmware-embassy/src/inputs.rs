@@ -108,7 +108,7 @@ fn encoder(
 ) -> Printed<()> {
     let mut counts = Vec::new();
     for wire in &wired.wires {
-        let counter = encoder.counter(context, wire)?;
+        let counter = encoder.counter(context, wire, section)?;
         counts.push(counters::keep(wire, counter, section));
     }
     counters::poll(context, wired, &counts, section);

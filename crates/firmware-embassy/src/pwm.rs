@@ -108,14 +108,15 @@ fn set(pulses: &dyn Pulses, timer: &Timer, output: &Output<'_>, section: &mut Se
     {
         sets.insert(0, begin.clone());
     }
-    if let Some(apply) = &timer.apply {
+    let apply = pulses.apply(pulse);
+    if let Some(apply) = &apply {
         sets.retain(|line| line != apply);
     }
     sets.push(pulses.set(pulse, &format!("pulse_level({scalar}, {bytes})")));
-    sets.extend(timer.apply.clone());
+    sets.extend(apply.clone());
     if let Some(failsafe) = pwm.failsafe {
         let mut safe = pulses.set(pulse, &level(failsafe).to_string());
-        if let Some(apply) = &timer.apply {
+        if let Some(apply) = &apply {
             safe = format!("{safe} {apply}");
         }
         // Before the host speaks it is silent as well, so this is how the output starts.

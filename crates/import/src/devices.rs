@@ -224,7 +224,7 @@ impl<'a> Maker<'a, '_> {
             Function::Spi { unit, line: SpiLine::Mosi } => of_unit(unit, "mosi"),
             Function::Spi { unit, line: SpiLine::Nss } => of_unit(unit, "cs"),
             // Everything else is in the table, as an on-board part.
-            Function::Timer { .. } | Function::Other => {}
+            Function::Timer { .. } | Function::Pio { .. } | Function::Other => {}
         }
     }
 

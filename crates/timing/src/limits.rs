@@ -80,14 +80,22 @@ fn timer<'c>(context: &'c Context<'_>, wired: &Wired<'_>) -> Option<&'c Timer> {
     context.board.profile()?.timers.iter().find(|timer| timer.name == name)
 }
 
+/// What measures an input, and its clock in hertz.
+fn clock_of<'c>(context: &'c Context<'_>, wired: &'c Wired<'_>) -> Option<(&'c str, u32)> {
+    if let Some(timer) = timer(context, wired) {
+        return Some((&timer.name, timer_hz(context, timer)?));
+    }
+    let block = context.board.profile()?.pio(wired.wiring.unit.as_deref()?)?;
+    Some((&block.name, context.clock_hz(&block.clock)?))
+}
+
 fn of_tick(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu) -> Option<Diagnostic> {
-    let timer = timer(context, wired)?;
-    let clock_hz = timer_hz(context, timer)?;
+    let (name, clock_hz) = clock_of(context, wired)?;
     let tick = Tick { clock_hz, tick_hz: icu.tick_hz };
     if tick.made().is_some() {
         return None;
     }
-    let (name, device, tick_hz) = (&timer.name, &wired.device.name.value, icu.tick_hz);
+    let (device, tick_hz) = (&wired.device.name.value, icu.tick_hz);
     let message =
         format!("{name} of {device} runs at {clock_hz} Hz, which does not divide to {tick_hz} Hz");
     let least = clock_hz.div_ceil(PRESCALER_MAX);

@@ -4,6 +4,7 @@
 mod buses;
 mod candidates;
 mod cases;
+mod pio;
 pub(crate) mod timers;
 
 // One file for each kind.
@@ -74,6 +75,11 @@ pub(crate) trait Served {
     /// The abilities of the board's timer channels for the kind, if its silicon differs from most.
     fn ability(&self, _board: &Board) -> Option<&'static Ability> {
         None
+    }
+
+    /// Whether a programmable state machine can serve the device.
+    fn takes_machines(&self) -> bool {
+        false
     }
 
     /// Whether no other device may be on the bus because the file says so.

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
+use sensedsl_board::profile::Pio;
 use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex, Preference};
 use sensedsl_solve::Cancel;
 use sensedsl_solve::problem::{
@@ -127,25 +128,35 @@ impl<'a> Builder<'a> {
         let own = profile.dma(unit).iter().map(|request| {
             request.streams.iter().map(|stream| Stream::Dma(stream.to_string())).collect()
         });
-        let mut users: Vec<DmaUserId> =
-            self.user(board, unit, own.chain(timer).collect()).into_iter().collect();
+        let requests: Vec<_> = own.chain(timer).collect();
+        let mut users = Vec::new();
+        if !requests.is_empty() {
+            users.push(self.user(board, unit, requests));
+        }
         if is_of_clock {
             let clock = timers.iter().cloned().map(Stream::Timer).collect();
-            users.extend(self.user(board, CLOCK, vec![clock]));
+            users.push(self.user(board, CLOCK, vec![clock]));
         }
         users
     }
 
-    /// The DMA user with these requests, each the streams that can serve it; `None` if there are no requests.
+    /// One more user of a state machine of a block.
+    pub(crate) fn machine(&mut self, board: BoardIndex, block: &Pio) -> DmaUserId {
+        let is_own = |(on, name): &&(BoardIndex, String)| {
+            *on == board && name.strip_prefix(&block.name).is_some_and(|rest| rest.starts_with(' '))
+        };
+        let name = format!("{} user {}", block.name, self.users.iter().filter(is_own).count() + 1);
+        let machines = (0..block.machines).map(|at| Stream::Machine(block.name.clone(), at));
+        self.user(board, &name, vec![machines.collect()])
+    }
+
+    /// The DMA user with these requests, each the streams that can serve it.
     fn user(
         &mut self,
         board: BoardIndex,
         name: &str,
         requests: Vec<Vec<Stream>>,
-    ) -> Option<DmaUserId> {
-        if requests.is_empty() {
-            return None;
-        }
+    ) -> DmaUserId {
         let is_known = |(on, known): &(BoardIndex, String)| *on == board && known == name;
         let at = self.users.iter().position(is_known).unwrap_or_else(|| {
             let requests = requests.into_iter().map(|streams| DmaRequest {
@@ -156,7 +167,7 @@ impl<'a> Builder<'a> {
             self.users.push((board, name.to_owned()));
             self.users.len() - 1
         });
-        Some(DmaUserId(u32::try_from(at).unwrap_or(u32::MAX)))
+        DmaUserId(u32::try_from(at).unwrap_or(u32::MAX))
     }
 
     fn stream(&mut self, board: BoardIndex, stream: Stream) -> StreamId {

@@ -87,6 +87,7 @@ impl Namer<'_> {
     fn group(&self, group: &Group) -> String {
         let (Group::Bus(board, ..)
         | Group::Frequency(board, ..)
+        | Group::Program(board, ..)
         | Group::Pin(board, ..)
         | Group::Pad(board, ..)
         | Group::Blocks(board, ..)
@@ -96,6 +97,7 @@ impl Namer<'_> {
             Group::Bus(_, unit, _, 0) => format!("bus {unit}"),
             Group::Bus(_, unit, _, setting) => format!("bus {unit} at {setting}"),
             Group::Frequency(_, timer, frequency_hz) => format!("{timer} at {frequency_hz} Hz"),
+            Group::Program(_, unit, program) => format!("{unit} with the {program}"),
             Group::Pin(_, unit, role, at, _) => {
                 format!("{} of {unit} on {}", role.name(), pin(*at).unwrap_or_default())
             }

@@ -120,6 +120,8 @@ pub(crate) enum Stream {
     Dma(String),
     /// A timer, of which the kernel needs one for its clock: devices that use it take it from the kernel.
     Timer(String),
+    /// A state machine of a block.
+    Machine(String, u8),
 }
 
 impl Stream {
@@ -129,6 +131,7 @@ impl Stream {
         match self {
             Self::Dma(stream) => format!("DMA{}", stream.replace(',', "_stream")),
             Self::Timer(timer) => timer.clone(),
+            Self::Machine(block, number) => format!("{block} SM{number}"),
         }
     }
 }
@@ -141,7 +144,11 @@ fn bus(signal: &str) -> Option<String> {
         | Function::Uart { .. }
         | Function::Spi { .. }
         | Function::Can { .. } => signal.function().units().into_iter().next()?,
-        Function::Adc { .. } | Function::Timer { .. } | Function::Dac { .. } | Function::Other => {
+        Function::Adc { .. }
+        | Function::Timer { .. }
+        | Function::Dac { .. }
+        | Function::Pio { .. }
+        | Function::Other => {
             return None;
         }
     };
@@ -165,6 +172,8 @@ pub(crate) enum Group {
     Bus(BoardIndex, String, KindName, u32),
     /// The outputs of a timer that run at one frequency.
     Frequency(BoardIndex, String, u32),
+    /// The devices whose state machines run a program.
+    Program(BoardIndex, String, &'static str),
     /// The devices that use a pin, with that signal, for one wire of their bus.
     Pin(BoardIndex, String, Role, usize, usize),
     /// The devices that use a pin, for the contact that it shares with other pins.

@@ -170,6 +170,7 @@ impl Rules<'_> {
             | Function::Uart { .. }
             | Function::Spi { .. }
             | Function::Can { .. }
+            | Function::Pio { .. }
             | Function::Other => return false,
         };
         let counts = |one: &str| self.unit.is_none_or(|fixed| offer.same_unit(fixed, one));

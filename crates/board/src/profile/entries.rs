@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::rates::{Cycles, Dividers};
 use super::types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, Timer, TimerUse, Unit,
+    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Pio, Stream, Timer, TimerUse, Unit,
     Usb, optional_pin, pins,
 };
 use crate::pin::PinName;
@@ -65,6 +65,8 @@ pub(crate) struct TimerEntry {
     complementary: Vec<u8>,
     #[serde(default)]
     encoder: bool,
+    #[serde(default)]
+    gate: bool,
 }
 
 impl TimerEntry {
@@ -80,7 +82,36 @@ impl TimerEntry {
             clock: self.clock,
             alternate: self.alternate,
             encoder: self.encoder,
+            gate: self.gate,
         }
+    }
+}
+
+/// `[pios]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PioGroup {
+    machines: u8,
+    clock: String,
+    pins_end: u8,
+    pub(crate) units: Vec<PioEntry>,
+    pub(crate) source: String,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PioEntry {
+    name: String,
+    #[serde(default)]
+    lines: Vec<String>,
+}
+
+impl PioGroup {
+    /// A unit of the group.
+    pub(crate) fn pio(&self, unit: &PioEntry) -> Pio {
+        let Self { machines, clock, pins_end, .. } = self;
+        let (name, clock) = (unit.name.clone(), clock.clone());
+        Pio { name, machines: *machines, clock, pins_end: *pins_end }
     }
 }
 
@@ -297,6 +328,7 @@ macro_rules! entries {
 }
 entries! {
     TimerEntry: [];
+    PioEntry: [];
     AdcEntry: [dma];
     UnitEntry: [rx, tx, dma];
     DacEntry: [];

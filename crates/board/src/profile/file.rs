@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Deserialize;
 
 use super::entries::{
-    AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerEntry,
+    AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, PioGroup, SerialGroup, Streams, TimerEntry,
     TimerGroup, UsbGroup,
 };
 use super::rates::Costs;
@@ -32,6 +32,7 @@ pub(crate) struct File {
     #[serde(default)]
     multiplexer: Vec<Multiplexer>,
     timers: TimerGroup,
+    pios: Option<PioGroup>,
     adcs: AdcGroup,
     i2cs: I2cGroup,
     spis: BusGroup,
@@ -137,6 +138,9 @@ impl File {
             }
         };
         let timers: Vec<Timer> = of_line(self.timers.units, line).map(TimerEntry::timer).collect();
+        let pios = self.pios.iter().flat_map(|group| group.units.iter().map(move |unit| (group, unit)));
+        let pios = pios.filter(|(_, unit)| line.wants(*unit)).map(|(group, unit)| group.pio(unit));
+        let pios = pios.collect();
         let mut kernel = self.kernel;
         kernel.timers.retain(|name| timers.iter().any(|timer| timer.name == *name));
         let (adc_rules, adc) = (self.adcs.rules, self.adcs.facts);
@@ -163,6 +167,7 @@ impl File {
             exti: self.exti,
             debug: self.debug,
             timers,
+            pios,
             adc,
             adcs: adcs.collect(),
             i2c,
@@ -187,6 +192,7 @@ impl File {
         let known: BTreeSet<&str> = self.line.iter().map(|line| line.name.as_str()).collect();
         let mut entries: Vec<(&str, &[String])> = Vec::new();
         push(&mut entries, &self.timers.units);
+        push(&mut entries, self.pios.as_ref().map(|group| &group.units).into_iter().flatten());
         push(&mut entries, &self.adcs.units);
         push(&mut entries, &self.i2cs.units);
         push(&mut entries, &self.spis.units);
@@ -256,6 +262,7 @@ impl File {
             self.spis.dividers.as_ref().map(|dividers| dividers.source.as_str()),
             self.serials.dividers.as_ref().map(|dividers| dividers.source.as_str()),
             dividers_of(self.cans.as_ref()),
+            self.pios.as_ref().map(|group| group.source.as_str()),
         ];
         let multiplexers = self.multiplexer.iter().map(|mux| mux.source.as_str());
         groups.into_iter().chain(lines).chain(optional.into_iter().flatten()).chain(multiplexers)

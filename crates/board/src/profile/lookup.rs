@@ -1,7 +1,7 @@
 //! Queries of a target profile: a unit, a signal or a pin in, its facts out.
 
 use super::types::{
-    Adc, Dac, DacOutput, DmaRequest, ExtiRule, TargetProfile, Timer, Transport, Unit, Usb,
+    Adc, Dac, DacOutput, DmaRequest, ExtiRule, Pio, TargetProfile, Timer, Transport, Unit, Usb,
 };
 use crate::pin::PinName;
 use crate::signal::{Function, Signal};
@@ -23,6 +23,12 @@ impl TargetProfile {
     #[must_use]
     pub fn timer(&self, name: &str) -> Option<&Timer> {
         self.timers.iter().find(|timer| timer.name == name)
+    }
+
+    /// The block of state machines with a name.
+    #[must_use]
+    pub fn pio(&self, name: &str) -> Option<&Pio> {
+        self.pios.iter().find(|pio| pio.name == name)
     }
 
     /// The converter with a number.
@@ -101,7 +107,7 @@ impl TargetProfile {
                 let name = signal.function().units().into_iter().next()?;
                 unit(self.unit(name.as_str())?)
             }
-            Function::Adc { .. } | Function::Dac { .. } | Function::Other => None,
+            Function::Adc { .. } | Function::Dac { .. } | Function::Pio { .. } | Function::Other => None,
         }
     }
 
@@ -120,6 +126,7 @@ impl TargetProfile {
             | Function::Can { .. } => {
                 function.units().iter().any(|unit| self.unit(unit.as_str()).is_some())
             }
+            Function::Pio { unit } => self.pio(unit.as_str()).is_some(),
             Function::Other => false,
         }
     }

@@ -32,6 +32,8 @@ pub struct TargetProfile {
     pub debug: Debug,
     /// Timers.
     pub timers: Vec<Timer>,
+    /// Blocks of programmable state machines.
+    pub pios: Vec<Pio>,
     /// What all analog-digital converters share.
     pub adc: Adcs,
     /// Analog-digital converters.
@@ -167,6 +169,32 @@ pub struct Timer {
     pub pwm: Option<TimerUse>,
     /// True if the hardware can count quadrature on channels 1 and 2.
     pub encoder: bool,
+    /// True if an input makes it count, instead of keeping the time of an edge: it gives counts of edges of one
+    /// direction, and widths.
+    pub gate: bool,
+}
+
+/// A block of programmable state machines, which run one program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pio {
+    /// The name: `PIO0`.
+    pub name: String,
+    /// The number of its state machines; a device takes one.
+    pub machines: u8,
+    /// The name of its clock, among those of the board's facts.
+    pub clock: String,
+    /// The number of the first pin that it does not reach.
+    pub pins_end: u8,
+}
+
+impl Pio {
+    /// Whether a machine can see the pin, by the number at the end of its name.
+    #[must_use]
+    pub fn reaches(&self, pin: &PinName) -> bool {
+        let name = pin.as_str();
+        let number = name.trim_start_matches(|c: char| !c.is_ascii_digit()).parse();
+        number.is_ok_and(|number: u8| number < self.pins_end)
+    }
 }
 
 /// The channels of a timer that a driver can use.

@@ -35,6 +35,7 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
         | Function::Timer { .. }
         | Function::Uart { .. }
         | Function::Can { .. }
+        | Function::Pio { .. }
         | Function::Other => None,
     }
 }

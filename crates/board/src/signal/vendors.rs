@@ -38,6 +38,13 @@ pub(super) fn function(name: &str) -> Option<Function> {
         .or_else(|| imxrt_timer(name))
         .or_else(|| spi_by_direction(name))
         .or_else(|| bus(name))
+        .or_else(|| pio(name))
+}
+
+/// `PIO0` of RP2040.
+fn pio(name: &str) -> Option<Function> {
+    small(name.strip_prefix("PIO")?)?;
+    Some(Function::Pio { unit: UnitName(name.to_owned()) })
 }
 
 fn timer(name: &str) -> Option<Function> {

@@ -5,9 +5,8 @@ use embassy_nrf::gpio::{AnyPin, Pull};
 use embassy_nrf::gpiote::{self, InputChannel, InputChannelPolarity};
 use embassy_nrf::ppi::{ConfigurableChannel, Ppi};
 use embassy_nrf::timer::{Cc, Frequency, Instance, Timer};
-use sense_rt::TrainConfig;
 
-use crate::capture::{SharedCapture, SharedTrain, note};
+use crate::capture::Timed;
 
 /// The edges that count.
 #[derive(Clone, Copy)]
@@ -90,8 +89,9 @@ impl Stopwatch {
         timer.persist();
         Self { input, time }
     }
+}
 
-    /// The time of the next edge, and the level after it.
+impl Timed for Stopwatch {
     async fn edge(&mut self) -> (u32, bool) {
         self.input.wait().await;
         (self.time.read(), self.input.pin().is_high())
@@ -110,54 +110,5 @@ fn frequency(power: u8) -> Frequency {
         7 => Frequency::F125kHz,
         8 => Frequency::F62500Hz,
         _ => Frequency::F31250Hz,
-    }
-}
-
-/// Measures the widths of pulses and, of those that begin with an edge that was seen, their periods, for ever.
-/// `is_high`: the level of a pulse. A pulse that ended before its beginning was looked at is left out.
-pub async fn pulses(mut timer: Stopwatch, is_high: bool, seen: &SharedCapture) -> ! {
-    // When the last pulse began, and whether it is under way.
-    let (mut began, mut is_open) = (None, false);
-    loop {
-        let (now, level) = timer.edge().await;
-        match (level == is_high, began) {
-            (true, before) => {
-                let is_whole = !is_open;
-                if let (true, Some(before)) = (is_whole, before) {
-                    note(seen, |captured| captured.on_period(now.wrapping_sub(before)));
-                }
-                (began, is_open) = (Some(now), true);
-            }
-            (false, Some(begin)) if is_open => {
-                note(seen, |captured| captured.on_width(now.wrapping_sub(begin), false));
-                is_open = false;
-            }
-            // Two edges were one: it is not known when the pulse began.
-            (false, _) => (began, is_open) = (None, false),
-        }
-    }
-}
-
-/// Measures the periods between edges of one direction, for ever.
-pub async fn periods(mut timer: Stopwatch, seen: &SharedCapture) -> ! {
-    let (mut last, _) = timer.edge().await;
-    loop {
-        let (now, _) = timer.edge().await;
-        note(seen, |captured| captured.on_period(now.wrapping_sub(last)));
-        last = now;
-    }
-}
-
-/// Measures the intervals of a pulse train, for ever.
-pub async fn train(mut timer: Stopwatch, config: &TrainConfig, seen: &SharedTrain) -> ! {
-    let (mut last, _) = timer.edge().await;
-    loop {
-        let (now, _) = timer.edge().await;
-        seen.lock(|cell| {
-            let mut train = cell.get();
-            train.on_interval(config, now.wrapping_sub(last));
-            cell.set(train);
-        });
-        last = now;
     }
 }

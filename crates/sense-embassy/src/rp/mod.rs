@@ -4,6 +4,7 @@ pub mod converter;
 pub mod edges;
 pub mod gate;
 pub mod i2c;
+pub mod pio;
 pub mod pwm;
 pub mod spi;
 pub mod uart;

@@ -4,6 +4,9 @@ use embassy_rp::pwm::{Config, Pwm};
 use fixed::FixedU16;
 use sense_rt::LEVEL_FULL;
 
+/// The greatest divider of a slice's clock.
+const DIVIDER: u32 = 255;
+
 /// A slice with its two outputs.
 pub struct Slice {
     slice: Pwm<'static>,
@@ -39,6 +42,19 @@ impl Slice {
             self.config.compare_a = compare;
         } else {
             self.config.compare_b = compare;
+        }
+    }
+
+    /// Turns output 1 (A) or 2 (B) off at once: it ends the period, which may be shorter than others for that.
+    pub fn stop(&mut self, output: u8) {
+        self.set(output, [0, 0, 1], 0);
+        self.apply();
+        self.slice.set_counter(self.config.top);
+        // The period ends with the slice's next step, at most 255 clocks later.
+        for _ in 0..DIVIDER {
+            if self.slice.counter() != self.config.top {
+                break;
+            }
         }
     }
 

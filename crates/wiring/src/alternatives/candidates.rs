@@ -35,6 +35,12 @@ impl Maker<'_, '_> {
                         }
                     }
                 }
+                Need::Reached(reaches, reads) => {
+                    let usage = pin.usages.iter().enumerate().find(|(_, usage)| reads(usage));
+                    if let Some(usage) = usage.filter(|_| reaches(pin) && !offer.bus_only(pin)) {
+                        made.push(self.reached(role, (index, pin), usage));
+                    }
+                }
                 Need::Gpio | Need::Interrupt => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
@@ -78,6 +84,22 @@ impl Maker<'_, '_> {
         let violates = self.violates(role, pin, Some(usage));
         let candidate = Candidate { holder, claims, violates, ..own };
         (candidate, Chosen { pin: index, usage: Some(at) })
+    }
+
+    /// A signal that any number of pins may have at once.
+    fn reached(
+        &mut self,
+        role: Role,
+        (index, pin): (usize, &Pin),
+        (at, usage): (usize, &Usage),
+    ) -> (Candidate, Chosen) {
+        let own = Candidate::new(
+            self.builder.pin(self.offer.index, index),
+            self.builder.signal(usage.signal.name()),
+        );
+        let claims = self.pad(index).into_iter().collect();
+        let violates = self.violates(role, pin, Some(usage));
+        (Candidate { claims, violates, ..own }, Chosen { pin: index, usage: Some(at) })
     }
 
     pub(super) fn bare(
@@ -137,6 +159,7 @@ fn claimed(usage: &Usage) -> &str {
         | Function::Spi { .. }
         | Function::Uart { .. }
         | Function::Can { .. }
+        | Function::Pio { .. }
         | Function::Other => name,
     }
 }
@@ -145,6 +168,8 @@ fn claimed(usage: &Usage) -> &str {
 pub(super) enum Need<'n> {
     /// A usage for which the function holds.
     Usage(&'n dyn Fn(&Usage) -> bool),
+    /// The usage for which the second function holds, of a pin for which the first one does.
+    Reached(&'n dyn Fn(&Pin) -> bool, &'n dyn Fn(&Usage) -> bool),
     /// Nothing: any pin that has a digital circuit.
     Gpio,
     /// Any pin that has a digital circuit, and the interrupt line of its number.

@@ -1,4 +1,4 @@
-//! `encoder`: the first two channels of one timer, which it takes.
+//! `encoder`: the first two channels of one timer, which it takes, or a state machine.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;
@@ -12,11 +12,17 @@ use super::{Alternatives, Maker, Served};
 impl Served for Encoder {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let wires = &[(Role::A, Some(1)), (Role::B, Some(2))];
-        maker.timers(&TimerUse { wires, takes, shared_hz: None })
+        let mut all = maker.timers(&TimerUse { wires, takes, shared_hz: None });
+        all.extend(maker.machines("decoder", &[Role::A, Role::B]));
+        all
     }
 
     fn ability(&self, board: &Board) -> Option<&'static Ability> {
         board.silicon()?.timers.encoder.as_ref()
+    }
+
+    fn takes_machines(&self) -> bool {
+        true
     }
 
     fn takes_whole_timer(&self) -> bool {

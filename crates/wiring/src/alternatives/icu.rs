@@ -1,10 +1,10 @@
-//! `icu`: an input-capture channel; a driver takes its whole timer.
+//! `icu`: an input-capture channel, whose whole timer a driver takes, or a state machine.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;
 use sensedsl_model::design::Board;
 use sensedsl_model::kind::Role;
-use sensedsl_model::kind::icu::Icu;
+use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use super::timers::{Channel, TimerUse};
 use super::{Alternatives, Maker, Served};
@@ -14,7 +14,21 @@ const CHANNELS: [u8; 2] = [1, 2];
 
 impl Served for Icu {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
-        maker.timers(&TimerUse { wires: &[(Role::In, None)], takes, shared_hz: None })
+        let is_width = self.mode == Mode::Width;
+        let is_gated = is_width || self.mode == Mode::Count && self.edge != Edge::Both;
+        let gates = maker.profile().is_some_and(|all| all.timers.iter().any(|timer| timer.gate));
+        let mut all = Vec::new();
+        if is_gated || !gates {
+            all = maker.timers(&TimerUse { wires: &[(Role::In, None)], takes, shared_hz: None });
+        }
+        if self.mode != Mode::Count {
+            all.extend(maker.machines("capture", &[Role::In]));
+        }
+        all
+    }
+
+    fn takes_machines(&self) -> bool {
+        self.mode != Mode::Count
     }
 
     fn ability(&self, board: &Board) -> Option<&'static Ability> {

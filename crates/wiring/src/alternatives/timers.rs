@@ -105,7 +105,7 @@ impl Maker<'_, '_> {
         self.finish(Some(unit), &claims, roles)
     }
 
-    fn push_gpios(&mut self, roles: &mut Vec<RoleCandidates>) {
+    pub(super) fn push_gpios(&mut self, roles: &mut Vec<RoleCandidates>) {
         let all = self.wanted.kind.roles(self.wanted.direction);
         for role in all.into_iter().filter(|role| role.is_on_any_pin()) {
             roles.push(self.role(role, &Need::Gpio, None));

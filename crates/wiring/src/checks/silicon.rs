@@ -3,17 +3,26 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
+use sensedsl_model::design::Board;
 
 use super::{Fixed, Placed};
 use crate::alternatives::served;
 use crate::alternatives::timers::{Channel, channel};
+use crate::offer::Offer;
+
+/// Whether the board's system programs state machines.
+fn has_machines(board: &Board) -> bool {
+    board.profile().is_some_and(|profile| !profile.pios.is_empty())
+}
 
 impl Placed<'_> {
     /// The report for a kind that the silicon of no board in question supports.
     pub(super) fn without_silicon(&self) -> Option<Diagnostic> {
         let unable = self.offers.iter().map(|offer| {
-            let ability = served(&self.wires.kind).ability(offer.board)?;
-            ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
+            let served = served(&self.wires.kind);
+            let ability = served.ability(offer.board)?;
+            let is_programmed = served.takes_machines() && has_machines(offer.board);
+            (ability.channels.is_empty() && !is_programmed).then_some((ability, offer.board.mcu.as_deref()?))
         });
         let all: Option<Vec<_>> = unable.collect();
         let (ability, mcu) = all?.into_iter().next()?;
@@ -56,7 +65,10 @@ impl Placed<'_> {
         if let Some(report) = self.without_silicon() {
             return Some(report);
         }
-        let ability = self.offers.iter().find_map(|offer| {
+        let programmed = |offer: &&Offer<'_>| {
+            served(&self.wires.kind).takes_machines() && has_machines(offer.board)
+        };
+        let ability = self.offers.iter().filter(|offer| !programmed(offer)).find_map(|offer| {
             let ability = served(&self.wires.kind).ability(offer.board)?;
             let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
             let mut channels = usages.iter().filter_map(channel);

@@ -149,7 +149,12 @@ pub(crate) struct Waiting {
 /// Encoders of two tracks.
 pub(crate) trait Encoder {
     /// The hardware that counts the steps of an encoder.
-    fn counter(&self, context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Counter>;
+    fn counter(
+        &self,
+        context: &Context<'_>,
+        wire: &JobConnection<'_>,
+        section: &mut Section,
+    ) -> Printed<Counter>;
 }
 
 /// Hardware that counts by itself in 16 bits. Its driver has the method `count`.

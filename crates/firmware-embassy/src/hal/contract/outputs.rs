@@ -32,6 +32,11 @@ pub(crate) trait Pulses {
     /// The statement that gives an output a level in ten-thousandths, in a scope with `outputs`.
     fn set(&self, pulse: &Pulse, level: &str) -> String;
 
+    /// The statement after new levels that lets the output's timer take them; `None` if it takes each by itself.
+    fn apply(&self, _pulse: &Pulse) -> Option<String> {
+        None
+    }
+
     /// The statement that turns an output off within the period, so that what follows does not find the old level.
     fn stop(&self, pulse: &Pulse) -> String {
         self.set(pulse, "0")
@@ -69,10 +74,8 @@ pub(crate) struct Pulse {
 pub(crate) struct Timer {
     /// The fields of `Outputs`.
     pub(crate) fields: Vec<Field>,
-    /// How the outputs of an array change in the same period; `None` if `apply` sees to it.
+    /// How the outputs of an array change in the same period; `None` if [`Pulses::apply`] sees to it.
     pub(crate) hold: Option<Hold>,
-    /// The statement after new levels that lets the timer take them; `None` if it takes each by itself.
-    pub(crate) apply: Option<String>,
 }
 
 /// The statements around the new levels of an array.

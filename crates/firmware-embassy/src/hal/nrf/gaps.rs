@@ -4,6 +4,7 @@ use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::protocol::Drive;
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::settings::Settings;
@@ -16,8 +17,10 @@ pub(super) fn lacks(
 ) -> Option<&'static str> {
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
-    if devices.iter().any(|one| one.device.coding.drive.is_some()) {
-        return Some("motors behind H-bridges on nRF52");
+    if devices.iter().any(|one| one.device.coding.drive == Some(Drive::DirectionPins)) {
+        return Some(
+            "H-bridges with direction pins on nRF52, whose pulses end with their period; bridges with two PWM inputs are driven",
+        );
     }
     match &connection.connection.kind {
         Kind::Uart(uart) => of_port(settings, uart),

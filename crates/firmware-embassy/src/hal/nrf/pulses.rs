@@ -40,7 +40,6 @@ impl Pulses for Settings {
         let channels = (0..4).map(|at| ordered.get(at).map_or(0, |one| one.pulse.channel));
         let channels: Vec<String> = channels.map(|channel| channel.to_string()).collect();
         let places: Vec<String> = outputs.iter().map(|one| one.wire.place()).collect();
-        let apply = Some(format!("outputs.{name}.apply();"));
         let field = Field {
             name,
             comment: format!("{unit}: {}", places.join("; ")),
@@ -53,12 +52,21 @@ impl Pulses for Settings {
                 channels.join(", ")
             ),
         };
-        Ok(Timer { fields: vec![field], hold: None, apply })
+        Ok(Timer { fields: vec![field], hold: None })
     }
 
     fn set(&self, pulse: &Pulse, level: &str) -> String {
         let Pulse { name, channel, min_us, max_us, period_us, .. } = pulse;
         format!("outputs.{name}.set({channel}, [{min_us}, {max_us}, {period_us}], {level});")
+    }
+
+    fn apply(&self, pulse: &Pulse) -> Option<String> {
+        Some(format!("outputs.{}.apply();", pulse.name))
+    }
+
+    /// The unit takes new levels at the end of a period alone.
+    fn stop(&self, pulse: &Pulse) -> String {
+        format!("{} outputs.{}.apply();", self.set(pulse, "0"), pulse.name)
     }
 }
 

@@ -81,15 +81,15 @@ fn edges(edge: Edge) -> String {
 /// What the task awaits.
 fn run(icu: &Icu, statics: &str, is_train: bool) -> String {
     if is_train {
-        return format!("rt::timer::train(timer, &{statics}_TRAIN, &{statics}_SEEN)");
+        return format!("rt::capture::train(timer, &{statics}_TRAIN, &{statics}_SEEN)");
     }
     match icu.mode {
         Mode::Width | Mode::Duty => {
             let is_high = icu.edge != Edge::Falling;
-            format!("rt::timer::pulses(timer, {is_high}, &{statics}_SEEN)")
+            format!("rt::capture::pulses(timer, {is_high}, &{statics}_SEEN)")
         }
         Mode::Period | Mode::Frequency | Mode::Count | Mode::Ppm => {
-            format!("rt::timer::periods(timer, &{statics}_SEEN)")
+            format!("rt::capture::periods(timer, &{statics}_SEEN)")
         }
     }
 }
@@ -105,7 +105,12 @@ fn power(tick_hz: u32) -> Printed<u32> {
 }
 
 impl Encoder for Settings {
-    fn counter(&self, context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Counter> {
+    fn counter(
+        &self,
+        context: &Context<'_>,
+        wire: &JobConnection<'_>,
+        _section: &mut Section,
+    ) -> Printed<Counter> {
         let unit = missing::unit(wire)?;
         let (a, b) = (missing::pad(wire, Role::A)?, missing::pad(wire, Role::B)?);
         let type_ = "rt::qdec::Qdec";

@@ -58,7 +58,10 @@ impl Types for Settings {
             Function::Timer { .. } if unit.starts_with("PWM") => "pulses",
             Function::Timer { .. } if unit.starts_with("QDEC") => "decodes",
             Function::Timer { .. } => "captures",
-            Function::Can { .. } | Function::Dac { .. } | Function::Other => return None,
+            Function::Can { .. }
+            | Function::Dac { .. }
+            | Function::Pio { .. }
+            | Function::Other => return None,
         };
         Some(format!("{call}::<{hal}, _>(p.{pin});"))
     }

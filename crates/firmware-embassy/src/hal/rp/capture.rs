@@ -1,4 +1,5 @@
-//! Slices of the PWM unit as inputs: the hardware counts edges, or ticks while the pin is active.
+//! Slices of the PWM unit as inputs: the hardware counts edges, or ticks while the pin is active. What needs the times
+//! of edges is a state machine's.
 
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::icu::{Edge, Mode};
@@ -39,15 +40,18 @@ impl Capture for Settings {
         }))
     }
 
-    /// A slice that measures widths: the task waits for the ends of pulses.
+    /// A slice that measures widths, where the task waits for the ends of pulses; or a state machine.
     fn waiting(
         &self,
         context: &Context<'_>,
         input: &CaptureInput<'_>,
-        _section: &mut Section,
+        section: &mut Section,
     ) -> Printed<Waiting> {
         let CaptureInput { wire, icu, statics, .. } = input;
         let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::In)?);
+        if context.profile.pio(unit).is_some() {
+            return self.stopwatch(context, input, section);
+        }
         let sixteenths = sixteenths(context, unit, icu.tick_hz)?;
         let type_ = "rt::gate::Gate";
         let make = format!(

@@ -10,9 +10,6 @@ use sensedsl_wire::{Direction, ScalarType};
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
-    if devices.iter().any(|one| one.device.coding.drive.is_some()) {
-        return Some("motors behind H-bridges on RP2040 and RP2350");
-    }
     match &connection.connection.kind {
         Kind::Icu(icu) => of_capture(icu),
         Kind::Digital(own) if counts(own, &devices) => Some(
@@ -30,17 +27,14 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
     }
 }
 
-/// A slice counts edges of one direction, or how long its pin is active. It has no register that keeps the count of an
-/// edge.
+/// A slice counts edges of one direction.
 const fn of_capture(icu: &Icu) -> Option<&'static str> {
     match (icu.mode, icu.edge) {
         (Mode::Count, Edge::Both) => {
             Some("counts of both edges on RP2040 and RP2350, whose PWM slices count one of them")
         }
-        (Mode::Count, Edge::Rising | Edge::Falling) | (Mode::Width, _) => None,
-        (Mode::Period | Mode::Frequency | Mode::Duty | Mode::Ppm, _) => Some(
-            "times between edges on RP2040 and RP2350, whose PWM slices give widths and counts",
-        ),
+        (Mode::Count, Edge::Rising | Edge::Falling)
+        | (Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty | Mode::Ppm, _) => None,
     }
 }
 

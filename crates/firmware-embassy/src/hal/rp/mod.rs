@@ -6,6 +6,7 @@ mod capture;
 mod edges;
 mod gaps;
 mod link;
+mod machines;
 mod project;
 mod pulses;
 mod serial;
@@ -13,7 +14,7 @@ mod settings;
 mod types;
 
 use super::contract::buses::{I2c, Serial, Spi};
-use super::contract::inputs::{Analog, Capture, Edges};
+use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::Pulses;
 use super::contract::types::Types;
 use super::contract::{Drivers, Hal, Loader, Package, drivers};
@@ -30,7 +31,7 @@ static PACKAGE: Package = Package {
     main_uses: include_str!("templates/main_uses.rs.txt"),
     wiring_uses: include_str!("templates/wiring_uses.rs.txt"),
     runtime_asks: &["unstable-pac"],
-    runtime_features: &[],
+    runtime_features: &["pio2"],
     runtime_needs: &["fixed = \"=1.31.0\""],
     check_needs: &[],
     loader: Some(Loader {
@@ -54,6 +55,7 @@ drivers! {
     edges: Edges,
     analog: Analog,
     capture: Capture,
+    encoder: Encoder,
     pulses: Pulses,
     i2c: I2c,
     spi: Spi,

@@ -50,7 +50,6 @@ impl Pulses for Settings {
         };
         let config = format!("crate::rt::pwm::config({divider}, {top})");
         let places: Vec<String> = outputs.iter().map(|one| one.wire.place()).collect();
-        let apply = Some(format!("outputs.{name}.apply();"));
         let field = Field {
             name,
             comment: format!("{unit}: {}", places.join("; ")),
@@ -59,12 +58,21 @@ impl Pulses for Settings {
                 "crate::rt::pwm::Slice::new(hal::pwm::Pwm::new_output_{which}(p.{hal}{pins}, {config}), {config})"
             ),
         };
-        Ok(Timer { fields: vec![field], hold: None, apply })
+        Ok(Timer { fields: vec![field], hold: None })
     }
 
     fn set(&self, pulse: &Pulse, level: &str) -> String {
         let Pulse { name, channel, min_us, max_us, period_us, .. } = pulse;
         format!("outputs.{name}.set({channel}, [{min_us}, {max_us}, {period_us}], {level});")
+    }
+
+    fn apply(&self, pulse: &Pulse) -> Option<String> {
+        Some(format!("outputs.{}.apply();", pulse.name))
+    }
+
+    fn stop(&self, pulse: &Pulse) -> String {
+        let Pulse { name, channel, .. } = pulse;
+        format!("outputs.{name}.stop({channel});")
     }
 }
 

@@ -30,6 +30,7 @@ const CALLS: &[(&str, &str)] = &[
     ("mosi", "<T: hal::spi::Instance, P: hal::spi::MosiPin<T>>(_: Peri<'static, P>)"),
     ("uart_tx", "<T: hal::uart::Instance, P: hal::uart::TxPin<T>>(_: Peri<'static, P>)"),
     ("uart_rx", "<T: hal::uart::Instance, P: hal::uart::RxPin<T>>(_: Peri<'static, P>)"),
+    ("pio", "<T: hal::pio::Instance, P: hal::pio::PioPin>(_: Peri<'static, P>)"),
     ("channel_a", "<T: hal::pwm::Slice, P: hal::pwm::ChannelAPin<T>>(_: Peri<'static, P>)"),
     ("channel_b", "<T: hal::pwm::Slice, P: hal::pwm::ChannelBPin<T>>(_: Peri<'static, P>)"),
 ];
@@ -81,6 +82,7 @@ impl Types for Settings {
                 SpiLine::Mosi => "mosi",
                 SpiLine::Nss => return None,
             },
+            Function::Pio { .. } => "pio",
             Function::Can { .. } | Function::Dac { .. } | Function::Other => return None,
         };
         Some(format!("{call}::<{unit}, _>(p.{pin});"))

@@ -99,7 +99,12 @@ fn run(icu: &Icu, channel: u8, statics: &str) -> String {
 }
 
 impl Encoder for Settings {
-    fn counter(&self, context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Counter> {
+    fn counter(
+        &self,
+        context: &Context<'_>,
+        wire: &JobConnection<'_>,
+        _section: &mut Section,
+    ) -> Printed<Counter> {
         let unit = missing::unit(wire)?;
         let (a, b) = (missing::pad(wire, Role::A)?, missing::pad(wire, Role::B)?);
         let hal = context.peripheral(unit);

@@ -29,7 +29,7 @@ impl Pulses for Settings {
         let complements = outputs.iter().filter(|one| one.pulse.is_complement);
         fields.extend(complements.map(|one| self.complement(context, unit, one)));
         let hold = Some(Hold { begin: hold(&hal, true), end: hold(&hal, false) });
-        Ok(Timer { fields, hold, apply: None })
+        Ok(Timer { fields, hold })
     }
 
     fn set(&self, pulse: &Pulse, level: &str) -> String {

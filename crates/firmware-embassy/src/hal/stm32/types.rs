@@ -112,7 +112,7 @@ impl Types for Settings {
             },
             Function::Can { line: CanLine::Tx, .. } => ("can_tx", String::new()),
             Function::Can { line: CanLine::Rx, .. } => ("can_rx", String::new()),
-            Function::Other => return None,
+            Function::Pio { .. } | Function::Other => return None,
         };
         Some(format!("{call}::<{unit}{extra}{moved}, _>(p.{pin});"))
     }

@@ -79,6 +79,7 @@ fn peripheral(function: &Function) -> &'static [&'static str] {
         Function::Spi { .. } => &["spi"],
         Function::Can { .. } => &["can"],
         Function::Dac { .. } => &["dac"],
+        Function::Pio { .. } => &["pio"],
         Function::Other => &[],
     }
 }
