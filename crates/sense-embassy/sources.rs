@@ -34,6 +34,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "rp/gate.rs",
     "rp/i2c.rs",
     "rp/mod.rs",
+    "rp/pio.rs",
     "rp/pwm.rs",
     "rp/spi.rs",
     "rp/uart.rs",

@@ -57,6 +57,10 @@ function burnt(file) {
 
 /// Where the emulator differs from the RP2040's data sheet.
 function mend(mcu, clock) {
+  // ARMv6-M, A6.7.58, SEV: the next WFE does not wait.
+  mcu.logger.info = (_, text) => {
+    if (text === 'SEV') mcu.core.eventRegistered = true;
+  };
   // 2.19, GPIO: pads take input after a reset.
   for (const pin of mcu.gpio) pin.padValue = 0x56;
   // 4.5, PWM: a divider that is written does not start a slice.
@@ -92,8 +96,31 @@ function mend(mcu, clock) {
   };
   // 2.12, chip-level reset: why the chip started.
   mcu.peripherals[0x40064].readUint32 = (offset) => (offset === 8 ? 1 << 8 : 0);
+  mcu.pio.forEach(runWithTime);
   keepBuffers(mcu.usbCtrl, mcu.usbDPRAMView);
   mcu.uart.forEach((uart) => sendInTime(mcu, uart, clock));
+}
+
+/// 3.5, PIO: machines that are enabled run with the board's time, by their divided clock. A queue has the room of the other
+/// one where they are joined.
+function runWithTime(pio) {
+  pio.run = () => {};
+  for (const machine of pio.machines) {
+    const write = machine.writeUint32.bind(machine);
+    machine.writeUint32 = (offset, value) => {
+      write(offset, value);
+      const room = machine.shiftCtrl >>> 31 ? 8 : 4;
+      if (machine.rxFIFO.size !== room) machine.rxFIFO = new machine.rxFIFO.constructor(room);
+    };
+    machine.dueNs = 0;
+  }
+}
+
+function stepMachines(mcu, ns) {
+  for (const machine of mcu.pio.flatMap((pio) => pio.machines).filter((one) => one.enabled)) {
+    const stepNs = CYCLE_NS * ((machine.clockDivInt || 65_536) + machine.clockDivFrac / 256);
+    for (machine.dueNs += ns; machine.dueNs >= stepNs; machine.dueNs -= stepNs) machine.step();
+  }
 }
 
 /// 4.1, USB: a buffer belongs to the controller until a packet is in it.
@@ -246,6 +273,11 @@ const events = [
   ...(world.said ?? []).map(([at, hex]) => [at, (board) => board.say([...Buffer.from(hex, 'hex')])]),
 ].sort(([a], [b]) => a - b);
 
+function pass({ mcu, clock }, ns) {
+  clock.tick(ns);
+  stepMachines(mcu, ns);
+}
+
 let board = start(0);
 while (board.now() < world.until) {
   while (events.length > 0 && events[0][0] <= board.now()) events.shift()[1](board);
@@ -253,9 +285,9 @@ while (board.now() < world.until) {
   if (core.waiting || board.now() >= (world.hung ?? Infinity)) {
     const toEvent = events.length > 0 ? (events[0][0] - board.now()) * 1000 : IDLE_NS;
     const toAlarm = board.clock.nanosToNextAlarm || IDLE_NS;
-    board.clock.tick(Math.max(CYCLE_NS, Math.min(toEvent, toAlarm, IDLE_NS)));
+    pass(board, Math.max(CYCLE_NS, Math.min(toEvent, toAlarm, IDLE_NS)));
   } else {
-    board.clock.tick(core.executeInstruction() * CYCLE_NS);
+    pass(board, core.executeInstruction() * CYCLE_NS);
   }
   if (board.isReset) {
     world.hung = undefined;

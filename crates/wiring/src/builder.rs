@@ -151,12 +151,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The DMA user with these requests, each the streams that can serve it.
-    fn user(
-        &mut self,
-        board: BoardIndex,
-        name: &str,
-        requests: Vec<Vec<Stream>>,
-    ) -> DmaUserId {
+    fn user(&mut self, board: BoardIndex, name: &str, requests: Vec<Vec<Stream>>) -> DmaUserId {
         let is_known = |(on, known): &(BoardIndex, String)| *on == board && known == name;
         let at = self.users.iter().position(is_known).unwrap_or_else(|| {
             let requests = requests.into_iter().map(|streams| DmaRequest {

@@ -4,6 +4,7 @@
 
 mod nrf;
 mod rp;
+mod rp_machines;
 mod rp_runs;
 mod seeds;
 

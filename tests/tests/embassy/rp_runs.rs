@@ -44,26 +44,26 @@ const SERVO: &str = "2";
 const TRIGGER: &str = "3";
 
 /// A design, its image as a UF2 file, and its schema.
-struct Made {
+pub(super) struct Made {
     has_words: bool,
-    image: PathBuf,
-    schema: Schema,
+    pub(super) image: PathBuf,
+    pub(super) schema: Schema,
     _scratch: TempDir,
 }
 
 /// What the host received, and what was on the pins.
-struct Run {
+pub(super) struct Run {
     hellos: Vec<u32>,
-    values: BTreeMap<u8, Vec<(u64, Vec<Scalar>)>>,
-    health: Vec<Health>,
+    pub(super) values: BTreeMap<u8, Vec<(u64, Vec<Scalar>)>>,
+    pub(super) health: Vec<Health>,
     /// By pin: times in microseconds, with levels.
-    pins: BTreeMap<String, Vec<(u64, u64)>>,
+    pub(super) pins: BTreeMap<String, Vec<(u64, u64)>>,
     resets: Vec<u64>,
     /// What devices at ports were sent, by number.
     written: BTreeMap<String, Vec<u8>>,
 }
 
-fn is_possible() -> bool {
+pub(super) fn is_possible() -> bool {
     if !is_exhaustive() {
         return false;
     }
@@ -86,8 +86,13 @@ fn folder() -> PathBuf {
 }
 
 fn made(name: &str, link: &str) -> Made {
+    made_of(name, link, DEVICES)
+}
+
+/// The image for a Pico with these devices.
+pub(super) fn made_of(name: &str, link: &str, devices: &str) -> Made {
     let scratch = TempDir::new(name);
-    let design = format!(" {{ target = embassy; {link} {DEVICES}");
+    let design = format!(" {{ target = embassy; {link} {devices}");
     let board = "RASPBERRYPI_PICO";
     let project = generated(&scratch, board, &design);
     let image = uf2_of(&project, &linked(&project, "thumbv6m-none-eabi"));
@@ -119,11 +124,11 @@ fn world(made: &Made, until_us: u64) -> Value {
     })
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-fn run(made: &Made, world: &Value) -> Run {
+pub(super) fn run(made: &Made, world: &Value) -> Run {
     let mut node = Command::new("node");
     let answer = answered(node.arg(folder().join("board.mjs")), world.to_string());
     let answer: Value = serde_json::from_str(&answer).unwrap();
@@ -156,12 +161,12 @@ fn run(made: &Made, world: &Value) -> Run {
 }
 
 impl Run {
-    fn last(&self, id: u8) -> &[Scalar] {
+    pub(super) fn last(&self, id: u8) -> &[Scalar] {
         self.values.get(&id).and_then(|all| all.last()).map_or(&[], |(_, scalars)| scalars)
     }
 
     /// Times between a rise and the fall after it, with the time of the rise.
-    fn widths(&self, pin: &str) -> Vec<(u64, u64)> {
+    pub(super) fn widths(&self, pin: &str) -> Vec<(u64, u64)> {
         let edges = self.pins.get(pin).map_or(&[][..], |all| all);
         let pairs = edges.windows(2).filter(|pair| pair[0].1 == 1 && pair[1].1 == 0);
         pairs.map(|pair| (pair[0].0, pair[1].0 - pair[0].0)).collect()

@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::rates::{Cycles, Dividers};
 use super::types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Pio, Stream, Timer, TimerUse, Unit,
-    Usb, optional_pin, pins,
+    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Pio, Stream, Timer, TimerUse,
+    Unit, Usb, optional_pin, pins,
 };
 use crate::pin::PinName;
 

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Deserialize;
 
 use super::entries::{
-    AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, PioGroup, SerialGroup, Streams, TimerEntry,
-    TimerGroup, UsbGroup,
+    AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, PioGroup, SerialGroup, Streams,
+    TimerEntry, TimerGroup, UsbGroup,
 };
 use super::rates::Costs;
 use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
@@ -138,7 +138,8 @@ impl File {
             }
         };
         let timers: Vec<Timer> = of_line(self.timers.units, line).map(TimerEntry::timer).collect();
-        let pios = self.pios.iter().flat_map(|group| group.units.iter().map(move |unit| (group, unit)));
+        let pios =
+            self.pios.iter().flat_map(|group| group.units.iter().map(move |unit| (group, unit)));
         let pios = pios.filter(|(_, unit)| line.wants(*unit)).map(|(group, unit)| group.pio(unit));
         let pios = pios.collect();
         let mut kernel = self.kernel;

@@ -107,7 +107,10 @@ impl TargetProfile {
                 let name = signal.function().units().into_iter().next()?;
                 unit(self.unit(name.as_str())?)
             }
-            Function::Adc { .. } | Function::Dac { .. } | Function::Pio { .. } | Function::Other => None,
+            Function::Adc { .. }
+            | Function::Dac { .. }
+            | Function::Pio { .. }
+            | Function::Other => None,
         }
     }
 

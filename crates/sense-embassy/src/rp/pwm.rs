@@ -47,6 +47,10 @@ impl Slice {
 
     /// Turns output 1 (A) or 2 (B) off at once: it ends the period, which may be shorter than others for that.
     pub fn stop(&mut self, output: u8) {
+        let own = if output == 1 { self.config.compare_a } else { self.config.compare_b };
+        if own == 0 {
+            return;
+        }
         self.set(output, [0, 0, 1], 0);
         self.apply();
         self.slice.set_counter(self.config.top);

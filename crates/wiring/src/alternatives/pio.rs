@@ -16,11 +16,10 @@ impl Maker<'_, '_> {
         let mut made = Vec::new();
         for block in blocks.iter().filter(|block| unit_fits(self.offer, self.wanted, &block.name)) {
             let reaches = |pin: &Pin| block.reaches(&pin.name);
-            let reads = |usage: &Usage| {
-                matches!(usage.signal.function(), Function::Pio { unit } if unit.as_str() == block.name)
-            };
+            let reads = |usage: &Usage| matches!(usage.signal.function(), Function::Pio { unit } if unit.as_str() == block.name);
             let need = Need::Reached(&reaches, &reads);
-            let mut roles: Vec<_> = wires.iter().map(|role| self.role(*role, &need, None)).collect();
+            let mut roles: Vec<_> =
+                wires.iter().map(|role| self.role(*role, &need, None)).collect();
             self.push_gpios(&mut roles);
             let board = self.offer.index;
             let resource = Resource::Unit(board, block.name.clone());

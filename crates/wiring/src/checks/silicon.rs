@@ -22,7 +22,8 @@ impl Placed<'_> {
             let served = served(&self.wires.kind);
             let ability = served.ability(offer.board)?;
             let is_programmed = served.takes_machines() && has_machines(offer.board);
-            (ability.channels.is_empty() && !is_programmed).then_some((ability, offer.board.mcu.as_deref()?))
+            (ability.channels.is_empty() && !is_programmed)
+                .then_some((ability, offer.board.mcu.as_deref()?))
         });
         let all: Option<Vec<_>> = unable.collect();
         let (ability, mcu) = all?.into_iter().next()?;
