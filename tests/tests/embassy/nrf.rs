@@ -25,6 +25,7 @@ const SMALL: &str = r#" {
     sensor Stick returns uint16 { id = 3; type = icu; mode = duty; }
     actuator Servo accepts uint16 { id = 4; type = pwm; frequency = 50 Hz; }
     actuator Lamp accepts bool { id = 5; type = digital; }
+    actuator Drive accepts int16 { id = 6; driver = drv8833; reading = speed_a; }
 }
 "#;
 
@@ -126,8 +127,8 @@ fn what_the_chips_lack_is_told() {
     refused("FEATHER_NRF52832", &format!("link {{ transport = none; }} {two}"), "two stop bits");
     let counted = "sensor Odd returns uint32 { id = 1; type = digital; edge = both; }";
     refused("XIAO_NRF52840", counted, "edges counted without");
-    let bridge = "actuator Odd accepts int16 { id = 1; driver = drv8833; reading = speed_a; }";
-    refused("XIAO_NRF52840", bridge, "H-bridges");
+    let bridge = "actuator Odd accepts int16 { id = 1; driver = tb6612fng; reading = speed_a; }";
+    refused("XIAO_NRF52840", bridge, "H-bridges with direction pins");
 }
 
 /// An image begins where the boot loader of its board leaves room for it, and a UF2 file says the same.

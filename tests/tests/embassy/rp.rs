@@ -40,6 +40,19 @@ const KINDS: &str = r#" {
 }
 "#;
 
+/// What state machines and bridges are for.
+const MACHINES: &str = r#" {
+    target = embassy;
+    sensor Wheels returns int32[2] { id = 1; type = encoder; a = [GP0, GP4]; b = [GP1, GP6]; }
+    sensor Speed returns uint32 { id = 2; type = icu; mode = period; pin = GP14; }
+    sensor Share returns uint16 { id = 3; type = icu; mode = duty; pin = GP16; }
+    sensor Rate returns uint32 { id = 4; type = icu; mode = frequency; edge = falling; pin = GP18; }
+    sensor Sticks returns uint16[8] { id = 5; driver = ppm; pin = GP20; }
+    actuator Drive accepts int16 { id = 7; driver = drv8833; reading = speed_a; }
+    actuator Winch accepts int16 { id = 8; driver = tb6612fng; reading = speed_a; failsafe = 0; }
+}
+"#;
+
 /// The link over a serial port, and ports with one direction.
 const PORTS: &str = r#" {
     target = embassy;
@@ -120,9 +133,9 @@ fn nothing_is_left_out_in_silence() {
     }
 }
 
-/// What a slice cannot measure, and edges that tasks cannot count, are refused by name.
+/// What a slice cannot count, and edges that tasks cannot, are refused by name.
 #[test]
-fn what_cannot_be_timed_is_told() {
+fn what_cannot_be_counted_is_told() {
     let refused = |device: &str, word: &str| {
         let text = format!("board RASPBERRYPI_PICO {{ target = embassy; {device} }}");
         with_job(&text, None, |job| {
@@ -133,18 +146,11 @@ fn what_cannot_be_timed_is_told() {
         });
     };
     let sensor = |rest: &str| format!("sensor Odd returns uint32 {{ id = 1; {rest} }}");
-    for mode in ["period", "frequency", "duty"] {
-        refused(&sensor(&format!("type = icu; mode = {mode};")), "times between edges");
-    }
     refused(&sensor("type = icu; edge = both;"), "counts of both edges");
     refused(&sensor("type = digital; edge = both;"), "edges counted without");
-    refused(
-        "actuator Odd accepts int16 { id = 1; driver = drv8833; reading = speed_a; }",
-        "H-bridges",
-    );
 }
 
-/// What the dividers of a slice do not make.
+/// What the dividers of a slice and of a state machine do not make.
 #[test]
 fn clocks_out_of_reach_are_told() {
     let refused = |device: &str, word: &str| {
@@ -158,6 +164,8 @@ fn clocks_out_of_reach_are_told() {
     let width =
         "sensor Odd returns uint32 { id = 1; type = icu; mode = width; resolution = 100 us; }";
     refused(width, "a resolution of 10000 Hz");
+    let period = "sensor Odd returns uint32 { id = 1; type = icu; mode = period; resolution = 500 Hz; }";
+    refused(period, "a resolution of 500 Hz");
 }
 
 /// The whole firmware is taken by the types of the HAL.
@@ -169,7 +177,7 @@ fn projects_compile() {
     let scratch = TempDir::new("embassy-rp-check");
     let boards = BOARDS.iter().take(if is_exhaustive() { 2 } else { 1 });
     for (board, triple) in boards {
-        for design in [KINDS, PORTS] {
+        for design in [KINDS, PORTS, MACHINES] {
             // Both have the same file name.
             compiles(&generated(&scratch, board, design), triple);
         }
