@@ -136,6 +136,7 @@ impl<'a> Lines<'a> {
         let (profile, unit) = (self.context.profile, numbered(unit));
         let mut names = (profile.adcs.iter().map(|one| &one.name))
             .chain(profile.timers.iter().map(|one| &one.name))
+            .chain(profile.pios.iter().map(|one| &one.name))
             .chain(profile.dacs.iter().map(|one| &one.name))
             .chain(profile.usbs.iter().map(|one| &one.name))
             .chain(profile.i2cs.iter().chain(&profile.spis).map(|one| &one.name))

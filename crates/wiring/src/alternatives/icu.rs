@@ -4,7 +4,7 @@ use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;
 use sensedsl_model::design::Board;
 use sensedsl_model::kind::Role;
-use sensedsl_model::kind::icu::{Edge, Icu, Mode};
+use sensedsl_model::kind::icu::{Icu, Mode};
 
 use super::timers::{Channel, TimerUse};
 use super::{Alternatives, Maker, Served};
@@ -14,8 +14,7 @@ const CHANNELS: [u8; 2] = [1, 2];
 
 impl Served for Icu {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
-        let is_width = self.mode == Mode::Width;
-        let is_gated = is_width || self.mode == Mode::Count && self.edge != Edge::Both;
+        let is_gated = matches!(self.mode, Mode::Width | Mode::Count);
         let gates = maker.profile().is_some_and(|all| all.timers.iter().any(|timer| timer.gate));
         let mut all = Vec::new();
         if is_gated || !gates {

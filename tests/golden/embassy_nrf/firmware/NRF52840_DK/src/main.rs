@@ -129,7 +129,7 @@ static STICK_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 /// Stick at P1.02 (TIMER2_CC0).
 #[embassy_executor::task]
 async fn stick_edges(timer: rt::timer::Stopwatch) {
-    rt::timer::pulses(timer, false, &STICK_SEEN).await;
+    rt::capture::pulses(timer, false, &STICK_SEEN).await;
 }
 
 static FAN_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
@@ -137,7 +137,7 @@ static FAN_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 /// Fan at P1.03 (TIMER3_CC0).
 #[embassy_executor::task]
 async fn fan_edges(timer: rt::timer::Stopwatch) {
-    rt::timer::periods(timer, &FAN_SEEN).await;
+    rt::capture::periods(timer, &FAN_SEEN).await;
 }
 
 /// Touch at P1.04 (GPIO): its edges.

@@ -145,18 +145,18 @@ async fn place_listen(_port: hal::uart::Uart<'static, hal::uart::Blocking>) {
 
 static STICK_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
-/// Stick at GP9 (PWM4_B).
+/// Stick at GP9 (PIO0).
 #[embassy_executor::task]
-async fn stick_edges(gate: rt::gate::Gate) {
-    rt::gate::measure(gate, &STICK_SEEN).await;
+async fn stick_edges(timer: rt::pio::Stopwatch<hal::interrupt::typelevel::PIO0_IRQ_0>) {
+    rt::capture::pulses(timer, false, &STICK_SEEN).await;
 }
 
 static NEAR_SEEN: rt::capture::SharedCapture = rt::capture::new_capture();
 
-/// Near at GP13 (PWM6_B), GP12 (GPIO).
+/// Near at GP12 (PIO0), GP13 (GPIO).
 #[embassy_executor::task]
-async fn near_edges(gate: rt::gate::Gate) {
-    rt::gate::measure(gate, &NEAR_SEEN).await;
+async fn near_edges(timer: rt::pio::Stopwatch<hal::interrupt::typelevel::PIO0_IRQ_0>) {
+    rt::capture::pulses(timer, true, &NEAR_SEEN).await;
 }
 
 /// pulse 1000 ms +2.

@@ -9,6 +9,7 @@ bind_interrupts!(pub struct Irqs {
     ADC_IRQ_FIFO => hal::adc::InterruptHandler;
     DMA_IRQ_0 => hal::dma::InterruptHandler<DMA_CH0>, hal::dma::InterruptHandler<DMA_CH1>;
     I2C0_IRQ => hal::i2c::InterruptHandler<I2C0>;
+    PIO0_IRQ_0 => crate::rt::pio::Wake<hal::interrupt::typelevel::PIO0_IRQ_0>;
     UART0_IRQ => crate::PLACERx;
     USBCTRL_IRQ => hal::usb::InterruptHandler<USB>;
 });
@@ -35,10 +36,10 @@ pub struct Wiring {
     pub place: hal::uart::Uart<'static, hal::uart::Blocking>,
     /// Wheel at GP7 (PWM3_B)
     pub wheel: crate::rt::gate::Edges,
-    /// Stick at GP9 (PWM4_B)
-    pub stick: crate::rt::gate::Gate,
-    /// Near at GP13 (PWM6_B), GP12 (GPIO)
-    pub near: crate::rt::gate::Gate,
+    /// Stick at GP9 (PIO0)
+    pub stick: crate::rt::pio::Stopwatch<hal::interrupt::typelevel::PIO0_IRQ_0>,
+    /// Near at GP12 (PIO0), GP13 (GPIO)
+    pub near: crate::rt::pio::Stopwatch<hal::interrupt::typelevel::PIO0_IRQ_0>,
     /// Near: the pulse that makes it measure
     pub near_trigger: Output<'static>,
     /// Touch at GP10 (GPIO)
@@ -78,9 +79,9 @@ pub fn wire(p: Peripherals) -> Wiring {
         gyro_select: Output::new(p.PIN_17, Level::High),
         place: hal::uart::Uart::new_blocking(p.UART0, p.PIN_0, p.PIN_1, crate::rt::uart::config(9600, 8, hal::uart::Parity::ParityNone, 1, false)),
         wheel: crate::rt::gate::Edges::new(p.PWM_SLICE3, p.PIN_7, hal::pwm::InputMode::RisingEdge),
-        stick: crate::rt::gate::Gate::new(p.PWM_SLICE4, p.PIN_9, 2000, false),
-        near: crate::rt::gate::Gate::new(p.PWM_SLICE6, p.PIN_13, 2000, true),
-        near_trigger: Output::new(p.PIN_12, Level::Low),
+        stick: crate::rt::pio::Stopwatch::new(Irqs, 0, p.PIN_9.into(), 16000, crate::rt::pio::Edges::Both),
+        near: crate::rt::pio::Stopwatch::new(Irqs, 1, p.PIN_12.into(), 16000, crate::rt::pio::Edges::Both),
+        near_trigger: Output::new(p.PIN_13, Level::Low),
         touch: Input::new(p.PIN_10, Pull::None),
         bump: Input::new(p.PIN_11, Pull::None),
         outputs: Outputs {
