@@ -163,7 +163,8 @@ fn clocks_out_of_reach_are_told() {
     refused("actuator Odd accepts uint16 { id = 1; type = pwm; frequency = 5 Hz; }", "5 pulses");
     let width = "sensor Odd returns uint32 { id = 1; type = icu; mode = width; unit = PWM4; resolution = 100 us; }";
     refused(width, "a resolution of 10000 Hz");
-    let period = "sensor Odd returns uint32 { id = 1; type = icu; mode = period; resolution = 500 Hz; }";
+    let period =
+        "sensor Odd returns uint32 { id = 1; type = icu; mode = period; resolution = 500 Hz; }";
     refused(period, "a resolution of 500 Hz");
 }
 

@@ -19,7 +19,7 @@ pub(super) fn lacks(
     let devices: Vec<&JobDevice<'_>> = own.collect();
     if devices.iter().any(|one| one.device.coding.drive == Some(Drive::DirectionPins)) {
         return Some(
-            "H-bridges with direction pins on nRF52, whose pulses end with their period; bridges with two PWM inputs are driven",
+            "H-bridges with direction pins on nRF52, where those with two PWM inputs are driven",
         );
     }
     match &connection.connection.kind {
