@@ -1,5 +1,8 @@
 //! What the host sets: pins, pulses, voltages. All are in one static, so that a frame sets them at once.
 
+use std::collections::BTreeMap;
+
+use sensedsl_board::signal::Function;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 
@@ -10,7 +13,7 @@ use super::hal::contract::outputs::{Dac, Pins, Speed};
 use super::missing::{self, Printed};
 use super::section::{Field, Section};
 use super::{bridge, pwm};
-use sensedsl_job::JobConnection;
+use sensedsl_job::{JobConnection, snake};
 
 pub(super) fn plan(
     context: &Context<'_>,
@@ -31,8 +34,11 @@ pub(super) fn plan(
         pwm::plan(context, pulses, &mut section, diagnostics);
     }
     if let Some(dac) = drivers.dac() {
-        for wired in actuators(context, KindName::Dac) {
-            let made = voltage(context, dac, &wired, &mut section);
+        let all = actuators(context, KindName::Dac);
+        let fields = converters(context, dac, &all, &mut section);
+        for wired in &all {
+            let made = fields.as_ref().map_err(Clone::clone);
+            let made = made.and_then(|fields| voltage(dac, wired, fields, &mut section));
             context.report(wired.first.part, made, diagnostics);
         }
     }
@@ -78,25 +84,62 @@ fn digital(wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     Ok(())
 }
 
-/// The analog outputs of a device with what sets them.
-fn voltage(
+/// The field of each analog output, by its wire. The two channels of a converter are one field.
+fn converters<'a>(
     context: &Context<'_>,
     dac: &dyn Dac,
+    all: &[Wired<'a>],
+    section: &mut Section,
+) -> Printed<BTreeMap<&'a str, String>> {
+    let mut units: BTreeMap<&str, BTreeMap<u8, &JobConnection<'_>>> = BTreeMap::new();
+    for wire in all.iter().flat_map(|wired| wired.wires.iter().copied()) {
+        let usage = missing::pad(wire, Role::Out)?.usage;
+        let channel = match usage.map(|usage| usage.signal.function()) {
+            Some(Function::Dac { channel, .. }) => *channel,
+            _ => 1,
+        };
+        units.entry(missing::unit(wire)?).or_default().insert(channel, wire);
+    }
+    let pin = |wire: &JobConnection<'a>| Ok(&missing::pad(wire, Role::Out)?.pin.name);
+    let mut fields = BTreeMap::new();
+    for (unit, channels) in units {
+        let own: Vec<&JobConnection<'_>> = channels.into_values().collect();
+        let field = match own.as_slice() {
+            [first, second] => {
+                let made = dac.channels(context, unit, [pin(first)?, pin(second)?]);
+                let name = snake(unit);
+                fields.insert(first.ident.as_str(), format!("{name}.0"));
+                fields.insert(second.ident.as_str(), format!("{name}.1"));
+                Field::of(name, format!("{unit}: {}; {}", first.place(), second.place()), made)
+            }
+            [first, ..] => {
+                fields.insert(first.ident.as_str(), first.ident.clone());
+                let made = dac.channel(context, unit, pin(first)?);
+                Field::of(first.ident.clone(), first.place(), made)
+            }
+            [] => continue,
+        };
+        section.outputs.push(field);
+    }
+    Ok(fields)
+}
+
+/// What sets the analog outputs of a device.
+fn voltage(
+    dac: &dyn Dac,
     wired: &Wired<'_>,
+    fields: &BTreeMap<&str, String>,
     section: &mut Section,
 ) -> Printed<()> {
     for (at, wire) in wired.wires.iter().enumerate() {
-        let (unit, pad) = (missing::unit(wire)?, missing::pad(wire, Role::Out)?);
         let own = missing::kind(wire.connection.kind.dac())?;
-        let ident = &wire.ident;
-        let made = dac.channel(context, unit, &pad.pin.name);
-        section.outputs.push(Field::of(ident.clone(), wire.place(), made));
+        let field = fields.get(wire.ident.as_str()).map_or(wire.ident.as_str(), String::as_str);
         let (scalar, bytes) = element(wired, at);
         let asked = format!("sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16");
-        let set = dac.set(ident, &asked);
+        let set = dac.set(field, &asked);
         section.sets.entry(wired.index).or_default().push(format!("{set};"));
         if let Some(failsafe) = own.failsafe {
-            let safe = dac.set(ident, &level(failsafe).min(4_095).to_string());
+            let safe = dac.set(field, &level(failsafe).min(4_095).to_string());
             // Before the host speaks it is silent as well, so this is how the output starts.
             section.begins.push(format!("outputs(|outputs| {safe});"));
             section.fails.push(format!("{safe};"));

@@ -10,7 +10,7 @@ mod seeds;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
+use std::sync::PoisonError;
 
 use sensedsl_firmware_embassy::{TypeCheck, profile_of, type_check};
 use sensedsl_generate::target;
@@ -21,6 +21,8 @@ use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
     TempDir, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
 };
+
+use crate::firmware::embassy::{FOLDER, is_newer_than_others};
 
 /// A board with wires of all kinds.
 const KINDS: &str = include_str!("../../firmware/designs/bench.sense");
@@ -184,14 +186,12 @@ fn can_link() -> bool {
     Path::new(RUSTC).exists() && has(LINKER)
 }
 
-/// All projects are built in one folder, where each leaves its image under the same name.
-static BUILDING: Mutex<()> = Mutex::new(());
-
 /// The image of a project, which is built for its core without a warning. It is where `build` leaves it.
 fn linked(project: &Path, triple: &str) -> PathBuf {
     // A test that failed there leaves nothing that others build on.
-    let _building = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
+    let _building = FOLDER.lock().unwrap_or_else(PoisonError::into_inner);
     let target = root().join("target/embassy-build");
+    is_newer_than_others(project);
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
     let variable = triple.to_uppercase().replace(['-', '.'], "_");

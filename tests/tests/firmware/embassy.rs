@@ -8,8 +8,8 @@ use sensedsl_tests::{TempDir, has, is_thorough, missing, printed, root, sensedsl
 
 use super::tools::scratch;
 
-/// All projects are built in one folder, one at a time.
-static FOLDER: Mutex<()> = Mutex::new(());
+/// All projects are built in one folder, one at a time: each leaves its image under the same name.
+pub(crate) static FOLDER: Mutex<()> = Mutex::new(());
 
 /// A program of the only board of a design; none where the machine cannot build it, or has no time to.
 pub(crate) fn program(name: &str, text: &str) -> Option<PathBuf> {
@@ -47,21 +47,34 @@ pub(crate) fn build(board: &Path) -> PathBuf {
     try_build(board).unwrap_or_else(|log| panic!("{log}"))
 }
 
-/// Builds a project without optimisation at link time, which takes long and changes nothing here; or what the compiler
-/// says against it.
+/// All projects have one name: in a folder that they share, cargo would take another's program for this one's, where that
+/// was built later than this was written.
+pub(crate) fn is_newer_than_others(board: &Path) {
+    let main = std::fs::File::options().append(true).open(board.join("src/main.rs")).unwrap();
+    main.set_modified(std::time::SystemTime::now()).unwrap();
+}
+
+/// What makes a build quicker, and its program longer: no optimisation at link time.
+const QUICK: [&str; 2] = ["profile.release.lto=false", "profile.release.codegen-units=16"];
+
+/// Builds a project, quickly if its program then fits in the flash; or what the compiler says against it.
 pub(crate) fn try_build(board: &Path) -> Result<PathBuf, String> {
+    let _alone = FOLDER.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    match compile(board, &QUICK) {
+        Err(log) if log.contains("will not fit in region") => compile(board, &[]),
+        other => other,
+    }
+}
+
+fn compile(board: &Path, settings: &[&str]) -> Result<PathBuf, String> {
     let config = std::fs::read_to_string(board.join(".cargo/config.toml")).unwrap();
     let triple = config.split("target = \"").nth(1).unwrap().split('"').next().unwrap();
     let target = root().join("target/embassy-build");
-    let _alone = FOLDER.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    // All projects have one name: cargo would take another's program for this one's, where that was built later than
-    // this was written.
-    let main = std::fs::File::options().append(true).open(board.join("src/main.rs")).unwrap();
-    main.set_modified(std::time::SystemTime::now()).unwrap();
+    is_newer_than_others(board);
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
     let linker = format!("target.{triple}.linker=\"arm-none-eabi-ld\"");
-    for setting in [&linker, "profile.release.lto=false", "profile.release.codegen-units=16"] {
+    for setting in std::iter::once(linker.as_str()).chain(settings.iter().copied()) {
         cargo.args(["--config", setting]);
     }
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", "/usr/bin/rustc").env_remove("RUSTFLAGS");

@@ -16,7 +16,7 @@ mod codecs;
 mod core;
 mod details;
 mod drives;
-mod embassy;
+pub(crate) mod embassy;
 mod emulated;
 mod facts;
 mod mutants;

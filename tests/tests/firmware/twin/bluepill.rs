@@ -1,8 +1,8 @@
 //! Images for the Blue Pill, judged through the command that users run. Its STM32F103 has another
 //! core than STM32F4, and other versions of most units.
 //!
-//! A small robot with ChibiOS always runs, over both links. Each kind that the board has runs only
-//! with `SENSEDSL_THOROUGH=2`; the robot is too long for the flash as a test builds it for Embassy.
+//! A small robot with ChibiOS always runs, over both links. Each kind that the board has and the robot on Embassy run
+//! only with `SENSEDSL_THOROUGH=2`.
 
 use sensedsl_tests::{is_exhaustive, text};
 
@@ -60,6 +60,7 @@ fn every_kind_agrees_over_both_links() {
     if !is_exhaustive() {
         return;
     }
+    agrees(System::Embassy, "bluepill_embassy_usb", &on_bluepill(USB, ROBOT));
     for system in [System::Chibios, System::Embassy] {
         let target = system.target().unwrap_or("chibios");
         for (link, transport) in [(USB, "usb"), (UART, "uart")] {

@@ -88,8 +88,11 @@ pub(crate) struct Hold {
 
 /// Analog outputs of 12 bits.
 pub(crate) trait Dac {
-    /// A channel of a converter with its pin.
+    /// A channel of a converter with its pin, where the other one is not in use.
     fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor;
+
+    /// Both channels of a converter with their pins, as a pair.
+    fn channels(&self, context: &Context<'_>, unit: &str, pins: [&PinName; 2]) -> Constructor;
 
     /// The expression that sets it, in a scope with `outputs`. `field` is that of `Outputs`, `value` has at most 12
     /// bits.

@@ -7,12 +7,27 @@ use crate::context::Context;
 use crate::hal::contract::outputs::Dac;
 use crate::section::Constructor;
 
+const CHANNEL: &str = "hal::dac::DacChannel<'static, hal::mode::Blocking>";
+
 impl Dac for Settings {
     fn channel(&self, context: &Context<'_>, unit: &str, pin: &PinName) -> Constructor {
         let hal = context.peripheral(unit);
         Constructor {
-            type_: "hal::dac::DacChannel<'static, hal::mode::Blocking>".to_owned(),
+            type_: CHANNEL.to_owned(),
             make: format!("hal::dac::DacChannel::new_blocking(p.{hal}, p.{pin})"),
+        }
+    }
+
+    fn channels(
+        &self,
+        context: &Context<'_>,
+        unit: &str,
+        [first, second]: [&PinName; 2],
+    ) -> Constructor {
+        let hal = context.peripheral(unit);
+        Constructor {
+            type_: format!("({CHANNEL}, {CHANNEL})"),
+            make: format!("hal::dac::Dac::new_blocking(p.{hal}, p.{first}, p.{second}).split()"),
         }
     }
 

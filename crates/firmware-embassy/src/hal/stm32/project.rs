@@ -27,6 +27,9 @@ impl Pins for Settings {
     }
 }
 
+/// The pads of JTAG on F1 that are not those of SWD: JTDI, JTDO and NJTRST (reference manual RM0008, 9.3.5).
+const JTAG: [&str; 3] = ["PA15", "PB3", "PB4"];
+
 impl Project for Settings {
     fn problems(&self, profile: &TargetProfile, names: &Names) -> Vec<String> {
         let line = &profile.line;
@@ -102,16 +105,20 @@ impl Settings {
     fn config(&self, context: &Context<'_>, is_usb: bool) -> Vec<String> {
         let clock = self.line.clock.as_ref();
         let clocks = clock.and_then(|clock| clock.lines(&context.crystal(), is_usb));
-        let Some(clocks) = clocks.filter(|lines| !lines.is_empty()) else {
+        let clocks = clocks.unwrap_or_default();
+        let mut sets: Vec<String> =
+            clocks.iter().map(|clock| format!("config.rcc.{clock};")).collect();
+        if self.file.afio && takes_jtag(context.job) {
+            // The pads that JTAG has after a reset; the two of SWD remain.
+            sets.push("config.swj = hal::gpio::SwjCfg::SwdOnly;".to_owned());
+        }
+        if sets.is_empty() {
             return vec!["hal::Config::default()".to_owned()];
-        };
-        let mut lines = vec![
-            "use hal::rcc::*;".to_owned(),
-            "let mut config = hal::Config::default();".to_owned(),
-        ];
-        lines.extend(clocks.iter().map(|clock| format!("config.rcc.{clock};")));
-        lines.push("config".to_owned());
-        lines
+        }
+        let uses = (!clocks.is_empty()).then(|| "use hal::rcc::*;".to_owned());
+        let begin = "let mut config = hal::Config::default();".to_owned();
+        let end = "config".to_owned();
+        uses.into_iter().chain([begin]).chain(sets).chain([end]).collect()
     }
 
     /// The first statements of `main`, up to the wiring.
@@ -138,6 +145,13 @@ impl Settings {
         }
         lines
     }
+}
+
+/// Whether a wire is on a pad that the debug port has after a reset, though SWD does not need it.
+fn takes_jtag(job: &BoardJob<'_>) -> bool {
+    let linked = job.link.iter().flat_map(|link| &link.pads);
+    let mut pads = job.connections.iter().flat_map(|one| &one.pads).chain(linked);
+    pads.any(|pad| JTAG.contains(&pad.pin.name.as_str()))
 }
 
 /// The feature that says how many banks the flash has.
