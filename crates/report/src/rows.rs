@@ -1,5 +1,6 @@
 //! A wiring as rows: one wire each, ready to be printed.
 
+use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
 
@@ -20,6 +21,8 @@ pub struct Row {
     pub role: String,
     /// The pin.
     pub pin: String,
+    /// What the board is labelled with there, if that is not the name of the pin.
+    pub label: Option<String>,
     /// The signal as the table spells it.
     pub signal: String,
     /// The peripheral instance; empty for a bare GPIO.
@@ -96,6 +99,13 @@ struct Who<'a> {
     unit: &'a str,
 }
 
+fn label(pin: &Pin, wire: &Wire) -> Option<String> {
+    let place = wire.place.and_then(|number| pin.places.get(number));
+    let own = place.and_then(|place| place.label.as_deref());
+    let found = own.or_else(|| pin.labels().first().copied())?;
+    (!found.eq_ignore_ascii_case(pin.name.as_str())).then(|| found.to_owned())
+}
+
 fn row(
     design: &Design,
     (on, board): (&BoardAssignment, &Board),
@@ -111,6 +121,7 @@ fn row(
         kind: who.kind.to_owned(),
         role: wire.name(design),
         pin: pin.name.to_string(),
+        label: label(pin, wire),
         signal: wire.signal(board).to_owned(),
         unit: who.unit.to_owned(),
         place: crate::place::text(pin, wire.place),

@@ -99,7 +99,7 @@ pub(super) fn draw(out: &mut String, one: &PartBox<'_>, x: f64, marks: &[f64]) -
         let Some(wire) = one.part.wires.get(index) else { continue };
         let end = marks.get(index).copied().unwrap_or(pen.y);
         marks::of_kind(pen.out, (x, end), &wire.kind);
-        pen.line("sd-ink", &wire.text);
+        pen.line_or("sd-ink", &format!("{} ({})", wire.text, wire.signal), &wire.text);
         if !wire.shared.is_empty() {
             pen.line("sd-soft", &format!("shared with {}", wire.shared));
         }
@@ -119,8 +119,14 @@ struct Pen<'o> {
 
 impl Pen<'_> {
     fn line(&mut self, class: &'static str, text: &str) {
+        self.line_or(class, text, text);
+    }
+
+    /// The text, or the shorter one where there is no room for it.
+    fn line_or(&mut self, class: &'static str, text: &str, shorter: &str) {
         let room = WIDTH - 2.0 * INSET;
-        let shown = cut(text, SIZE, room);
+        let shown = if width(text, SIZE) <= room { text } else { shorter };
+        let shown = cut(shown, SIZE, room);
         let line = Text::new((self.left, self.y), SIZE, class, &shown);
         // What is cut can be read by pointing at it.
         if shown == text {

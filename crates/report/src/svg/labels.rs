@@ -199,6 +199,10 @@ fn content(shape: &Shape<'_>, contact: &Contact<'_>, words: Words) -> String {
         (Some(label), Words::Both) if !is_said_further_in(shape, contact) => {
             format!("{label} {name}")
         }
+        // Where there is room for one, it is what people see on the board.
+        (Some(label), Words::Short | Words::Small) if !is_said_further_in(shape, contact) => {
+            label.to_owned()
+        }
         (Some(_) | None, _) => name.to_owned(),
     }
 }

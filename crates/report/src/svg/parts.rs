@@ -27,6 +27,8 @@ pub(super) struct WireLine {
     pub(super) kind: String,
     pub(super) pin: String,
     pub(super) text: String,
+    /// The signal, which is said where there is room.
+    pub(super) signal: String,
     /// What else is on the pin.
     pub(super) shared: String,
 }
@@ -70,7 +72,11 @@ fn wire(row: &Row, own: Option<&PartSheet>) -> WireLine {
     WireLine {
         kind: row.kind.clone(),
         pin: row.pin.clone(),
-        text: format!("{end} {} ({})", row.pin, row.signal),
+        text: match &row.label {
+            Some(label) => format!("{end} {label} {}", row.pin),
+            None => format!("{end} {}", row.pin),
+        },
+        signal: row.signal.clone(),
         shared: row.shared.clone(),
     }
 }
