@@ -36,7 +36,8 @@ fn whole(entry: &Entry) -> Table {
 fn there_are_many_and_each_has_its_names() {
     let mut names: BTreeMap<String, &str> = BTreeMap::new();
     for entry in catalog::all() {
-        assert!(find(entry.mcu).is_some(), "{}: {} is not a known part", entry.name, entry.mcu);
+        let is_own = complete(&mut entry.table()) == Completion::Own;
+        assert!(is_own || find(entry.mcu).is_some(), "{}: {} is unknown", entry.name, entry.mcu);
         for name in std::iter::once(&entry.name).chain(entry.aliases) {
             let folded = name.replace(['-', '_'], "").to_lowercase();
             let other = names.insert(folded, entry.name);

@@ -47,7 +47,7 @@ const NOT_YET: &[(&str, &str)] = &[
     ("teensylc", "Teensy LC"),
     ("arduinodue", "Arduino Due"),
     ("arduinogiga", "Arduino Giga"),
-    ("arduinounor4", "Arduino Uno R4"),
+    ("arduinounor4wifi", "Arduino Uno R4 WiFi"),
     ("ra4m1", "RA4M1"),
 ];
 

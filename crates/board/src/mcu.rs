@@ -2,9 +2,9 @@
 
 /// Prefixes by which a name is taken for a part number. This is only a spelling check: boards and
 /// target profiles determine which parts are known in detail.
-const STARTS: [&str; 17] = [
+const STARTS: [&str; 18] = [
     "STM32", "STM8", "RP20", "RP23", "ATMEGA", "ATTINY", "ATXMEGA", "AVR", "ATSAM", "SAM", "NRF5",
-    "ESP", "LPC", "MIMXRT", "MSP430", "GD32", "PIC",
+    "ESP", "LPC", "MIMXRT", "MSP430", "GD32", "PIC", "R7FA",
 ];
 
 /// The canonical spelling: upper case, without white space.

@@ -58,6 +58,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("ARDUINO-NANO-RP2040-CONNECT", &["NANO-RP2040-CONNECT"], "RP2040", "Arduino Nano RP2040 Connect, the pins of its edges"),
     board!("ARDUINO-PRO-MINI", &["PRO-MINI"], "ATMEGA328P-AU", "Arduino Pro Mini, the pins of its edges"),
     board!("ARDUINO-UNO-R3", &["ARDUINO-UNO", "UNO-R3"], "ATMEGA328P-PU", "Arduino Uno R3, the pins of its connectors"),
+    board!("ARDUINO-UNO-R4-MINIMA", &["ARDUINO-UNO-R4", "UNO-R4-MINIMA", "UNO-R4"], "R7FA4M1AB3CFM", "Arduino Uno R4 Minima, the pins of its connectors"),
     board!("ARDUINO-ZERO", &["ARDUINO_ZERO_PRO"], "ATSAMD21G18A-AU", "Arduino Zero, the pins of its connectors"),
     board!("B-G474E-DPOW1", &["ST_STM32G474RE_DISCOVERY_DPOW1"], "STM32G474RET6", "B-G474E-DPOW1, Discovery kit, all pins of its MCU"),
     board!("BLACKPILL-F401CC", &["WEACT-F401CC"], "STM32F401CCU6", "Black Pill F401CC, all pins of its MCU"),

@@ -12,7 +12,7 @@ enum Channels {
 }
 
 /// Timers and counters: the start of a unit's name, its channels, and what they are at a pin.
-const TIMERS: [(&str, Channels, TimerLine); 11] = [
+const TIMERS: [(&str, Channels, TimerLine); 12] = [
     // RP2040 and RP2350: slices.
     ("PWM", Channels::Words(&["A", "B"]), TimerLine::Both),
     // nRF: modules of four outputs, timers that capture, the decoder.
@@ -27,6 +27,8 @@ const TIMERS: [(&str, Channels, TimerLine); 11] = [
     ("TCC", Channels::Counted("WO"), TimerLine::Output),
     ("TC", Channels::Counted("WO"), TimerLine::Output),
     ("PDEC", Channels::Words(&["QDI0", "QDI1"]), TimerLine::Input),
+    // RA: counters with two pins.
+    ("GPT", Channels::Words(&["GTIOCA", "GTIOCB"]), TimerLine::Both),
     // i.MX RT: the decoders. Its other timers have units of two numbers.
     ("ENC", Channels::Words(&["A", "B"]), TimerLine::Input),
 ];
@@ -83,7 +85,7 @@ fn imxrt_timer(name: &str) -> Option<Function> {
 }
 
 /// `SERCOM0_SDA` of SAM D, which can be a bus of any kind; `TWIM0_SCL`, `SPIM3_SCK` and `UARTE0_TX`
-/// of nRF; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT.
+/// of nRF; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT; `IIC1_SCL`, `RSPI0_SCK` and `SCI2_TX` of RA.
 fn bus(name: &str) -> Option<Function> {
     let (unit, line) = name.split_once('_')?;
     let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -93,10 +95,10 @@ fn bus(name: &str) -> Option<Function> {
     let uart = |unit| Some(Function::Uart { unit, line: UartLine::from_name(line)? });
     let spi = |unit| Some(Function::Spi { unit, line: SpiLine::from_name(line)? });
     match stem {
-        "TWIM" | "LPI2C" => i2c(unit),
+        "TWIM" | "LPI2C" | "IIC" => i2c(unit),
         "UARTE" => uart(unit),
-        "SPIM" => spi(unit),
-        "SERCOM" => i2c(unit.clone()).or_else(|| uart(unit.clone())).or_else(|| spi(unit)),
+        "SPIM" | "RSPI" => spi(unit),
+        "SERCOM" | "SCI" => i2c(unit.clone()).or_else(|| uart(unit.clone())).or_else(|| spi(unit)),
         "TWAI" | "FLEXCAN" => Some(Function::Can { unit, line: CanLine::from_name(line)? }),
         "LPSPI" => {
             let line = match line {
