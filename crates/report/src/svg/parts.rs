@@ -55,7 +55,7 @@ fn part(first: &Row, rows: &[&Row], own: Option<&PartSheet>, resistors: Option<S
         note: if first.values.is_empty() { first.ids() } else { String::new() },
         values: values.collect(),
         wires: rows.iter().map(|row| wire(row, own)).collect(),
-        remarks: resistors.into_iter().collect(),
+        remarks: resistors.iter().flat_map(|text| halves(text)).collect(),
         supply: own.map(supply).unwrap_or_default(),
     }
 }
@@ -78,6 +78,14 @@ fn wire(row: &Row, own: Option<&PartSheet>) -> WireLine {
         },
         signal: row.signal.clone(),
         shared: row.shared.clone(),
+    }
+}
+
+/// A divider in two lines: one is too long for a box.
+fn halves(resistors: &str) -> Vec<String> {
+    match resistors.rsplit_once(", ") {
+        Some((upper, lower)) => vec![format!("{upper},"), lower.to_owned()],
+        None => vec![resistors.to_owned()],
     }
 }
 
