@@ -1,7 +1,7 @@
 //! Kernels whose clock needs a timer: the wiring leaves one of those that serve, at the lowest cost, and a design is
 //! refused only where no choice of that timer leaves a wiring.
 #![allow(missing_docs, reason = "tests need none")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "only tests")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "only tests")]
 
 use std::collections::BTreeSet;
 

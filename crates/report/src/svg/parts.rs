@@ -43,19 +43,19 @@ pub(super) fn parts(
     let part = |group: &[&Row]| {
         let first = group.first()?;
         let own = sheet.parts.iter().find(|own| own.name == first.device);
-        Some(part(first, group, own, resistors_of(&first.device)))
+        Some(part(first, group, own, resistors_of(&first.device).as_deref()))
     };
     groups.filter_map(part).collect()
 }
 
-fn part(first: &Row, rows: &[&Row], own: Option<&PartSheet>, resistors: Option<String>) -> Part {
+fn part(first: &Row, rows: &[&Row], own: Option<&PartSheet>, resistors: Option<&str>) -> Part {
     let values = first.values.iter().zip(&first.ids).map(|(value, id)| format!("{id} {value}"));
     Part {
         name: first.device.clone(),
         note: if first.values.is_empty() { first.ids() } else { String::new() },
         values: values.collect(),
         wires: rows.iter().map(|row| wire(row, own)).collect(),
-        remarks: resistors.iter().flat_map(|text| halves(text)).collect(),
+        remarks: resistors.map(halves).unwrap_or_default(),
         supply: own.map(supply).unwrap_or_default(),
     }
 }
