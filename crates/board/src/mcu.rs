@@ -30,6 +30,7 @@ pub fn family(name: &str) -> &str {
     let end = match name.get(..start) {
         Some("STM32") => start + 2,
         Some("RP20" | "RP23" | "ESP") => start + 2,
+        Some("R7FA") => start + 3,
         Some("NRF5") => start + 1,
         _ => start,
     };

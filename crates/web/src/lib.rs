@@ -113,7 +113,7 @@ mod tests {
     /// is named.
     #[test]
     fn what_has_no_firmware_is_foreseen() {
-        let text = "board Robot on RASPBERRYPI_PICO { chip Motors { driver = drv8833; \
+        let text = "board Robot on XIAO_NRF52840 { chip Motors { driver = tb6612fng; \
             actuator SpeedA accepts int16 {} actuator SpeedB accepts int16 {} } }";
         let mut request = json!({ "path": "a.sense", "files": { "a.sense": text } });
         let found = asked(&request);

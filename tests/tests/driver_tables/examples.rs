@@ -31,9 +31,6 @@ const BOARDS: [(&str, &[(&str, &str)]); 4] = [
     (
         "RASPBERRYPI_PICO",
         &[
-            ("gearmotor_tb6612", "E0320"),
-            ("quadrature_encoder", "E0320"),
-            ("n20_encoder", "E0320"),
             ("hcsr04", "E0321"),
             ("maxsonar_pw", "E0321"),
             ("maxsonar_serial", "E0321"),

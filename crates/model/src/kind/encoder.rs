@@ -21,7 +21,7 @@ pub const SPEC: KindSpec = KindSpec {
     inputs_have: &[],
     of_part: &[],
     serves: Serves::Signal(serves),
-    wires: "CH1 and CH2 of one timer, which is taken",
+    wires: "CH1 and CH2 of one timer, which is taken. With Embassy on RP2 a state machine at any two pins",
     example: "",
     colour: "#337F5C",
     colour_on_dark: "#72CE9C",
@@ -36,7 +36,10 @@ pub struct Encoder {
 }
 
 fn serves(_: Role, function: &Function) -> bool {
-    matches!(function, Function::Timer { line, .. } if line.is_input())
+    match function {
+        Function::Timer { line, .. } => line.is_input(),
+        function => matches!(function, Function::Pio { .. }),
+    }
 }
 
 impl Properties for Encoder {

@@ -24,7 +24,7 @@ pub const SPEC: KindSpec = KindSpec {
     inputs_have: &[],
     of_part: &[],
     serves: Serves::Signal(serves),
-    wires: "one input-capture channel (CH1 or CH2; B of an RP2 slice, ICP of an AVR timer); the whole timer is taken. With `pulse` also a GPIO",
+    wires: "one input-capture channel (CH1 or CH2; B of an RP2 slice, ICP of an AVR timer); the whole timer is taken. With Embassy on RP2 a state machine at any pin. With `pulse` also a GPIO",
     example: "",
     colour: "#80B67A",
     colour_on_dark: "#9A9655",
@@ -103,7 +103,10 @@ const fn tick_default_hz(mode: Mode) -> u32 {
 }
 
 fn serves(_: Role, function: &Function) -> bool {
-    matches!(function, Function::Timer { line, .. } if line.is_input())
+    match function {
+        Function::Timer { line, .. } => line.is_input(),
+        function => matches!(function, Function::Pio { .. }),
+    }
 }
 
 impl Properties for Icu {
