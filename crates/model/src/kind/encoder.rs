@@ -36,10 +36,8 @@ pub struct Encoder {
 }
 
 fn serves(_: Role, function: &Function) -> bool {
-    match function {
-        Function::Timer { line, .. } => line.is_input(),
-        function => matches!(function, Function::Pio { .. }),
-    }
+    let is_input = matches!(function, Function::Timer { line, .. } if line.is_input());
+    is_input || matches!(function, Function::Pio { .. })
 }
 
 impl Properties for Encoder {

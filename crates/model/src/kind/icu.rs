@@ -103,10 +103,8 @@ const fn tick_default_hz(mode: Mode) -> u32 {
 }
 
 fn serves(_: Role, function: &Function) -> bool {
-    match function {
-        Function::Timer { line, .. } => line.is_input(),
-        function => matches!(function, Function::Pio { .. }),
-    }
+    let is_input = matches!(function, Function::Timer { line, .. } if line.is_input());
+    is_input || matches!(function, Function::Pio { .. })
 }
 
 impl Properties for Icu {
