@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{TempDir, binary, few, is_thorough, missing, root, sensedsl};
+use sensedsl_tests::{TempDir, binary, few, missing, root, sensedsl};
 use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, Schema, encode_report};
 
 use crate::hosts::designs;
@@ -150,7 +150,7 @@ fn row(line: &str) -> Option<(String, f64, f64)> {
 /// multiplexed and as floats: the user is shown the values that cantools puts into the frames.
 #[test]
 fn values_of_an_imported_file_are_those_of_cantools() {
-    if !is_thorough() || !has_peer() {
+    if !has_peer() {
         return;
     }
     let (scratch, dbc) = (TempDir::new("dbc"), root().join("tests/can/vehicle.dbc"));

@@ -5,7 +5,7 @@ use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use sensedsl_tests::{TempDir, binary, few, has, is_thorough, root, run, sensedsl};
+use sensedsl_tests::{TempDir, binary, few, has, root, run, sensedsl};
 
 const FIG2: &str = "examples/fig2.sense";
 const CAR: &str = "examples/miniature_car.sense";
@@ -118,9 +118,6 @@ fn a_generated_host_reads_the_pseudo_terminal() {
 #[test]
 #[cfg(target_os = "linux")]
 fn nobody_opens_the_terminal() {
-    if !is_thorough() {
-        return;
-    }
     let scratch = TempDir::new("alone");
     let file = scratch.write(
         "alone.sense",

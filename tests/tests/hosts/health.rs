@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
-use sensedsl_tests::{is_thorough, printed};
+use sensedsl_tests::printed;
 use sensedsl_wire::{
     Causes, Checksum, Decoder, DeviceHealth, Direction, Event, Health, NEVER_MS, ResetCause,
     Scalar, Schema, Stamp, Status, UNKNOWN_LOAD, UNKNOWN_STACK, encode_health, encode_hello,
@@ -170,9 +170,6 @@ fn health_of_another_version_is_told_and_not_believed() {
 
 #[test]
 fn a_board_without_health_is_told() {
-    if !is_thorough() {
-        return;
-    }
     let Some(program) = build("health-none", &boards(), "Robot") else { return };
     let scene = Scene::start(&program, &["--health"]);
     scene
@@ -203,9 +200,6 @@ fn stamps_tell_the_time_and_what_was_lost() {
 
 #[test]
 fn typed_commands_are_held() {
-    if !is_thorough() {
-        return;
-    }
     let Some((_, program)) = build("held", &boards(), "Robot") else { return };
     let mut line = Line::new();
     let schema = boards().remove(0).schema;

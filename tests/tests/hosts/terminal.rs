@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_job::host::HostBoard;
-use sensedsl_tests::{compiled_once, has, is_thorough, printed, run};
+use sensedsl_tests::{compiled_once, has, printed, run};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_health_request, encode_hello, encode_hello_request,
     encode_report,
@@ -186,9 +186,6 @@ fn the_paper_s_frames_become_lines() {
 
 #[test]
 fn a_board_of_another_design_is_told() {
-    if !is_thorough() {
-        return;
-    }
     let boards = designs::fig2();
     let Some((_, program)) = build("other", &boards, "STM32F4DiscoveryBoard") else { return };
     let mut line = Line::new();

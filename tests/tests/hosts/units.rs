@@ -38,9 +38,6 @@ fn shared_files_do_what_they_say() {
 
 #[test]
 fn cpp_comes_back() {
-    if !is_thorough() {
-        return;
-    }
     let Some((folder, program)) = terminal::build("link", &design(), "STM32F4DiscoveryBoard")
     else {
         return;
