@@ -262,10 +262,10 @@ fn assert_agrees(made: &Made) {
         assert_eq!(run.written["0"], [0xAA, 0x45, 0x67]);
     }
     let triggers = run.widths(TRIGGER);
-    assert!(
-        triggers.len() > 1 && triggers.iter().all(|(_, us)| (10..=13).contains(us)),
-        "{triggers:?}"
-    );
+    // A pulse has at least its length; an interrupt, such as USB's, may make it longer.
+    let undisturbed = triggers.iter().filter(|(_, us)| *us <= 13).count();
+    assert!(triggers.iter().all(|(_, us)| (10..=40).contains(us)), "{triggers:?}");
+    assert!(triggers.len() > 1 && 10 * undisturbed >= 9 * triggers.len(), "{triggers:?}");
 }
 
 #[test]
