@@ -62,6 +62,15 @@ pub(super) fn channel(pad: &Pad<'_>) -> Printed<u8> {
     Ok(*channel)
 }
 
+/// The output of a digital-analog converter that a pad is on.
+pub(super) fn converter_output(pad: &Pad<'_>) -> Printed<u8> {
+    let function = pad.usage.map(|usage| usage.signal.function());
+    let Some(Function::Dac { channel, .. }) = function else {
+        return Err(Missing::wire(format!("an output of a converter at {}", pad.pin.name)));
+    };
+    Ok(*channel)
+}
+
 /// The settings of a connection's kind.
 pub(super) fn kind<T>(settings: Option<T>) -> Printed<T> {
     settings.ok_or_else(|| Missing::wire("a connection of its kind".to_owned()))

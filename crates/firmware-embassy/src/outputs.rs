@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_board::signal::Function;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 
@@ -10,7 +9,7 @@ use super::actuators::{actuators, element, is_bridge, level, level_of};
 use super::context::{Context, Wired};
 use super::hal::contract::Drivers;
 use super::hal::contract::outputs::{Dac, Pins, Speed};
-use super::missing::{self, Printed};
+use super::missing::{self, Missing, Printed};
 use super::section::{Field, Section};
 use super::{bridge, pwm};
 use sensedsl_job::{JobConnection, snake};
@@ -34,13 +33,7 @@ pub(super) fn plan(
         pwm::plan(context, pulses, &mut section, diagnostics);
     }
     if let Some(dac) = drivers.dac() {
-        let all = actuators(context, KindName::Dac);
-        let fields = converters(context, dac, &all, &mut section);
-        for wired in &all {
-            let made = fields.as_ref().map_err(Clone::clone);
-            let made = made.and_then(|fields| voltage(dac, wired, fields, &mut section));
-            context.report(wired.first.part, made, diagnostics);
-        }
+        voltages(context, dac, &mut section, diagnostics);
     }
     if let Some(pulses) = drivers.pulses() {
         bridge::plan(context, pulses, &mut section, diagnostics);
@@ -84,44 +77,72 @@ fn digital(wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     Ok(())
 }
 
-/// The field of each analog output, by its wire. The two channels of a converter are one field.
-fn converters<'a>(
+/// The wires of each digital-analog converter, by the numbers of its outputs.
+type Converters<'a> = BTreeMap<&'a str, BTreeMap<u8, &'a JobConnection<'a>>>;
+
+/// Puts an output with its converter.
+fn place<'a>(wire: &'a JobConnection<'a>, all: &mut Converters<'a>) -> Printed<()> {
+    let output = missing::converter_output(missing::pad(wire, Role::Out)?)?;
+    all.entry(missing::unit(wire)?).or_default().insert(output, wire);
+    Ok(())
+}
+
+/// The field of a converter, with what each of its wires is there. Both outputs are one field.
+fn converter<'a>(
     context: &Context<'_>,
     dac: &dyn Dac,
-    all: &[Wired<'a>],
+    (unit, outputs): (&str, &BTreeMap<u8, &'a JobConnection<'a>>),
     section: &mut Section,
-) -> Printed<BTreeMap<&'a str, String>> {
-    let mut units: BTreeMap<&str, BTreeMap<u8, &JobConnection<'_>>> = BTreeMap::new();
-    for wire in all.iter().flat_map(|wired| wired.wires.iter().copied()) {
-        let usage = missing::pad(wire, Role::Out)?.usage;
-        let channel = match usage.map(|usage| usage.signal.function()) {
-            Some(Function::Dac { channel, .. }) => *channel,
-            _ => 1,
-        };
-        units.entry(missing::unit(wire)?).or_default().insert(channel, wire);
-    }
+) -> Printed<Vec<(&'a str, String)>> {
     let pin = |wire: &JobConnection<'a>| Ok(&missing::pad(wire, Role::Out)?.pin.name);
-    let mut fields = BTreeMap::new();
-    for (unit, channels) in units {
-        let own: Vec<&JobConnection<'_>> = channels.into_values().collect();
-        let field = match own.as_slice() {
-            [first, second] => {
-                let made = dac.channels(context, unit, [pin(first)?, pin(second)?]);
-                let name = snake(unit);
-                fields.insert(first.ident.as_str(), format!("{name}.0"));
-                fields.insert(second.ident.as_str(), format!("{name}.1"));
-                Field::of(name, format!("{unit}: {}; {}", first.place(), second.place()), made)
-            }
-            [first, ..] => {
-                fields.insert(first.ident.as_str(), first.ident.clone());
-                let made = dac.channel(context, unit, pin(first)?);
-                Field::of(first.ident.clone(), first.place(), made)
-            }
-            [] => continue,
-        };
-        section.outputs.push(field);
+    let own: Vec<&'a JobConnection<'a>> = outputs.values().copied().collect();
+    let (field, reached) = match own.as_slice() {
+        [one] => {
+            let made = dac.channel(context, unit, pin(one)?);
+            let field = Field::of(one.ident.clone(), one.place(), made);
+            (field, vec![(one.ident.as_str(), one.ident.clone())])
+        }
+        [first, second] => {
+            let made = dac.channels(context, unit, [pin(first)?, pin(second)?]);
+            let (name, places) =
+                (snake(unit), format!("{unit}: {}; {}", first.place(), second.place()));
+            let reached = vec![
+                (first.ident.as_str(), format!("{name}.0")),
+                (second.ident.as_str(), format!("{name}.1")),
+            ];
+            (Field::of(name, places, made), reached)
+        }
+        _ => return Err(Missing::unit(format!("{} outputs of {unit}", own.len()))),
+    };
+    section.outputs.push(field);
+    Ok(reached)
+}
+
+/// All analog outputs, with what sets them.
+fn voltages(
+    context: &Context<'_>,
+    dac: &dyn Dac,
+    section: &mut Section,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let all = actuators(context, KindName::Dac);
+    let mut converters = Converters::new();
+    for wire in all.iter().flat_map(|wired| wired.wires.iter().copied()) {
+        context.report(wire.part, place(wire, &mut converters), diagnostics);
     }
-    Ok(fields)
+    let mut fields = BTreeMap::new();
+    for (unit, outputs) in &converters {
+        let made = converter(context, dac, (unit, outputs), section);
+        let first = outputs.values().next().map(|wire| wire.part);
+        match (made, first) {
+            (Ok(reached), _) => fields.extend(reached),
+            (Err(missing), Some(part)) => context.report(part, Err(missing), diagnostics),
+            (Err(_), None) => {}
+        }
+    }
+    for wired in &all {
+        context.report(wired.first.part, voltage(dac, wired, &fields, section), diagnostics);
+    }
 }
 
 /// What sets the analog outputs of a device.
@@ -133,7 +154,8 @@ fn voltage(
 ) -> Printed<()> {
     for (at, wire) in wired.wires.iter().enumerate() {
         let own = missing::kind(wire.connection.kind.dac())?;
-        let field = fields.get(wire.ident.as_str()).map_or(wire.ident.as_str(), String::as_str);
+        // A wire without a field was reported.
+        let Some(field) = fields.get(wire.ident.as_str()) else { continue };
         let (scalar, bytes) = element(wired, at);
         let asked = format!("sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16");
         let set = dac.set(field, &asked);

@@ -151,7 +151,8 @@ fn board_picture(
     let resistors_of =
         |name: &str| resistors.iter().find(|(part, _)| *part == name).map(|(_, text)| text.clone());
     let sheet = sheet::sheet(design, on, board);
-    let parts = parts::parts(&mine, &sheet, resistors_of);
+    let mut parts = parts::parts(&mine, &sheet, resistors_of);
+    nets::label(&mut parts, &shape);
     let is_in_use = |contact: &shape::Contact<'_>| contact.pin().is_some_and(is_used);
     let picture = board::picture(&shape, &parts, &is_in_use);
     legend.add(&shape, &use_of);

@@ -55,6 +55,17 @@ pub fn note(seen: &SharedCapture, change: impl FnOnce(&mut Captured)) {
     });
 }
 
+/// The edges that count.
+#[derive(Clone, Copy)]
+pub enum Edges {
+    /// From low to high.
+    Rising,
+    /// From high to low.
+    Falling,
+    /// Both of them.
+    Both,
+}
+
 /// An input whose edges have times.
 #[allow(async_fn_in_trait, reason = "tasks of firmware are on one core")]
 pub trait Timed {

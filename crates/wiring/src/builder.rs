@@ -63,6 +63,12 @@ pub(crate) struct Builder<'a> {
     /// The peripheral instance, or the clock, that each DMA user is.
     pub(crate) users: Vec<(BoardIndex, String)>,
     pub(crate) streams: Vec<(BoardIndex, Stream)>,
+    stream_ids: BTreeMap<(BoardIndex, Stream), StreamId>,
+    /// The DMA users of each peripheral instance that was asked for, and the kernel's clock of each board.
+    known: BTreeMap<(BoardIndex, String), Vec<DmaUserId>>,
+    clocks: BTreeMap<BoardIndex, DmaUserId>,
+    /// How many machines of each block are in use.
+    machines: BTreeMap<(BoardIndex, String), usize>,
     /// The number of soft rules.
     pub(crate) rules: u32,
     /// The soft rules of each part.
@@ -82,6 +88,10 @@ impl<'a> Builder<'a> {
             dma: Vec::new(),
             users: Vec::new(),
             streams: Vec::new(),
+            stream_ids: BTreeMap::new(),
+            known: BTreeMap::new(),
+            clocks: BTreeMap::new(),
+            machines: BTreeMap::new(),
             rules: 0,
             rules_of: BTreeMap::new(),
             design,
@@ -120,6 +130,10 @@ impl<'a> Builder<'a> {
     /// The DMA users of a peripheral instance: its own requests and, if it is a timer that the kernel may need for its
     /// clock, the clock's. None if it takes nothing that is dealt out.
     pub(crate) fn dma(&mut self, board: BoardIndex, unit: &str) -> Vec<DmaUserId> {
+        let key = (board, unit.to_owned());
+        if let Some(users) = self.known.get(&key) {
+            return users.clone();
+        }
         let design = self.design;
         let Some(profile) = design.board(board).and_then(Board::profile) else { return Vec::new() };
         let timers = profile.kernel.needed();
@@ -134,45 +148,52 @@ impl<'a> Builder<'a> {
             users.push(self.user(board, unit, requests));
         }
         if is_of_clock {
-            let clock = timers.iter().cloned().map(Stream::Timer).collect();
-            users.push(self.user(board, CLOCK, vec![clock]));
+            users.push(self.clock(board, timers));
         }
+        self.known.insert(key, users.clone());
         users
+    }
+
+    /// The user of the timer that a board's clock runs on.
+    fn clock(&mut self, board: BoardIndex, timers: &[String]) -> DmaUserId {
+        if let Some(user) = self.clocks.get(&board) {
+            return *user;
+        }
+        let timers = timers.iter().cloned().map(Stream::Timer).collect();
+        let user = self.user(board, CLOCK, vec![timers]);
+        self.clocks.insert(board, user);
+        user
     }
 
     /// One more user of a state machine of a block.
     pub(crate) fn machine(&mut self, board: BoardIndex, block: &Pio) -> DmaUserId {
-        let is_own = |(on, name): &&(BoardIndex, String)| {
-            *on == board && name.strip_prefix(&block.name).is_some_and(|rest| rest.starts_with(' '))
-        };
-        let name = format!("{} user {}", block.name, self.users.iter().filter(is_own).count() + 1);
+        let count = self.machines.entry((board, block.name.clone())).or_default();
+        *count += 1;
+        let name = format!("{} user {count}", block.name);
         let machines = (0..block.machines).map(|at| Stream::Machine(block.name.clone(), at));
         self.user(board, &name, vec![machines.collect()])
     }
 
-    /// The DMA user with these requests, each the streams that can serve it.
+    /// A new DMA user with these requests, each the streams that can serve it.
     fn user(&mut self, board: BoardIndex, name: &str, requests: Vec<Vec<Stream>>) -> DmaUserId {
-        let is_known = |(on, known): &(BoardIndex, String)| *on == board && known == name;
-        let at = self.users.iter().position(is_known).unwrap_or_else(|| {
-            let requests = requests.into_iter().map(|streams| DmaRequest {
-                streams: streams.into_iter().map(|stream| self.stream(board, stream)).collect(),
-            });
-            let requests = requests.collect();
-            self.dma.push(DmaUser { requests });
-            self.users.push((board, name.to_owned()));
-            self.users.len() - 1
+        let id = DmaUserId(u32::try_from(self.dma.len()).unwrap_or(u32::MAX));
+        let requests = requests.into_iter().map(|streams| DmaRequest {
+            streams: streams.into_iter().map(|stream| self.stream(board, stream)).collect(),
         });
-        DmaUserId(u32::try_from(at).unwrap_or(u32::MAX))
+        let requests = requests.collect();
+        self.dma.push(DmaUser { requests });
+        self.users.push((board, name.to_owned()));
+        id
     }
 
     fn stream(&mut self, board: BoardIndex, stream: Stream) -> StreamId {
+        let next = StreamId(u32::try_from(self.streams.len()).unwrap_or(u32::MAX));
         let key = (board, stream);
-        let known = self.streams.iter().position(|one| *one == key);
-        let at = known.unwrap_or_else(|| {
+        let id = *self.stream_ids.entry(key.clone()).or_insert(next);
+        if id == next {
             self.streams.push(key);
-            self.streams.len() - 1
-        });
-        StreamId(u32::try_from(at).unwrap_or(u32::MAX))
+        }
+        id
     }
 }
 

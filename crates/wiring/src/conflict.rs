@@ -79,6 +79,7 @@ pub(crate) fn named(
     let streams = conflict.streams.iter().filter_map(|id| formulation.streams.get(id.0 as usize));
     let timers = streams.filter(|(_, stream)| matches!(stream, Stream::Timer(_)));
     let mut clocks: Vec<BoardIndex> = timers.map(|(board, _)| *board).collect();
+    clocks.sort_unstable();
     clocks.dedup();
     let (rules, repairs) = (Vec::new(), Vec::new());
     let minimal = conflict.minimal;

@@ -114,7 +114,7 @@ impl Resource {
 }
 
 /// Something that is dealt out: each request gets one of those that can serve it for itself.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Stream {
     /// A DMA stream, as the target profile spells it (`1,0`).
     Dma(String),

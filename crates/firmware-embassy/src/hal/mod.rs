@@ -7,6 +7,7 @@ mod dma;
 mod nrf;
 mod rp;
 mod stm32;
+mod timed;
 
 use sensedsl_board::profile::TargetProfile;
 

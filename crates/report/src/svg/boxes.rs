@@ -99,7 +99,8 @@ pub(super) fn draw(out: &mut String, one: &PartBox<'_>, x: f64, marks: &[f64]) -
         let Some(wire) = one.part.wires.get(index) else { continue };
         let end = marks.get(index).copied().unwrap_or(pen.y);
         marks::of_kind(pen.out, (x, end), &wire.kind);
-        pen.line_or("sd-ink", &format!("{} ({})", wire.text, wire.signal), &wire.text);
+        let text = wire.text();
+        pen.line_or("sd-ink", &format!("{text} ({})", wire.signal), &text);
         if !wire.shared.is_empty() {
             pen.line("sd-soft", &format!("shared with {}", wire.shared));
         }

@@ -65,6 +65,20 @@ fn contacts(shape: &Shape<'_>, pin: &str) -> impl Iterator<Item = (usize, Side)>
     found.into_iter()
 }
 
+/// Names the label of the contact that each wire is drawn to, where a pin has several contacts.
+pub(super) fn label(parts: &mut [Part], shape: &Shape<'_>) {
+    let sides = sides(parts, shape);
+    for (part, side) in parts.iter_mut().zip(sides) {
+        for wire in &mut part.wires {
+            let contact = nearest(shape, &wire.pin, side).and_then(|at| shape.contacts.get(at));
+            let label = contact.and_then(|contact| contact.label);
+            if let Some(label) = label.filter(|label| !label.eq_ignore_ascii_case(&wire.pin)) {
+                wire.label = Some(label.to_owned());
+            }
+        }
+    }
+}
+
 /// The nets of all parts, in the order of the parts.
 pub(super) fn nets<'p>(parts: &'p [Part], sides: &[Side], shape: &Shape<'_>) -> Vec<Net<'p>> {
     let mut nets: Vec<Net<'p>> = Vec::new();

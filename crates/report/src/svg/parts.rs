@@ -26,7 +26,10 @@ pub(super) struct Part {
 pub(super) struct WireLine {
     pub(super) kind: String,
     pub(super) pin: String,
-    pub(super) text: String,
+    /// What is printed at the part's end, or the role.
+    pub(super) end: String,
+    /// What the board is labelled with at the other end.
+    pub(super) label: Option<String>,
     /// The signal, which is said where there is room.
     pub(super) signal: String,
     /// What else is on the pin.
@@ -72,12 +75,20 @@ fn wire(row: &Row, own: Option<&PartSheet>) -> WireLine {
     WireLine {
         kind: row.kind.clone(),
         pin: row.pin.clone(),
-        text: match &row.label {
-            Some(label) => format!("{end} {label} {}", row.pin),
-            None => format!("{end} {}", row.pin),
-        },
+        end,
+        label: row.label.clone(),
         signal: row.signal.clone(),
         shared: row.shared.clone(),
+    }
+}
+
+impl WireLine {
+    /// Both ends of the wire.
+    pub(super) fn text(&self) -> String {
+        match &self.label {
+            Some(label) => format!("{} {label} {}", self.end, self.pin),
+            None => format!("{} {}", self.end, self.pin),
+        }
     }
 }
 

@@ -6,26 +6,13 @@ use embassy_nrf::gpiote::{self, InputChannel, InputChannelPolarity};
 use embassy_nrf::ppi::{ConfigurableChannel, Ppi};
 use embassy_nrf::timer::{Cc, Frequency, Instance, Timer};
 
-use crate::capture::Timed;
+use crate::capture::{Edges, Timed};
 
-/// The edges that count.
-#[derive(Clone, Copy)]
-pub enum Edges {
-    /// From low to high.
-    Rising,
-    /// From high to low.
-    Falling,
-    /// Both of them.
-    Both,
-}
-
-impl Edges {
-    const fn polarity(self) -> InputChannelPolarity {
-        match self {
-            Self::Rising => InputChannelPolarity::LoToHi,
-            Self::Falling => InputChannelPolarity::HiToLo,
-            Self::Both => InputChannelPolarity::Toggle,
-        }
+const fn polarity(edges: Edges) -> InputChannelPolarity {
+    match edges {
+        Edges::Rising => InputChannelPolarity::LoToHi,
+        Edges::Falling => InputChannelPolarity::HiToLo,
+        Edges::Both => InputChannelPolarity::Toggle,
     }
 }
 
@@ -45,7 +32,7 @@ impl Count {
         pin: Peri<'static, AnyPin>,
         edges: Edges,
     ) -> Self {
-        let input = InputChannel::new(channel, pin, Pull::None, edges.polarity());
+        let input = InputChannel::new(channel, pin, Pull::None, polarity(edges));
         let timer = Timer::new_counter(timer);
         let mut route = Ppi::new_one_to_one(route, input.event_in(), timer.task_count());
         route.enable();
@@ -78,7 +65,7 @@ impl Stopwatch {
         edges: Edges,
         power: u8,
     ) -> Self {
-        let input = InputChannel::new(channel, pin, Pull::None, edges.polarity());
+        let input = InputChannel::new(channel, pin, Pull::None, polarity(edges));
         let timer = Timer::new(timer);
         timer.set_frequency(frequency(power));
         let time = timer.cc(0);

@@ -1,6 +1,7 @@
 //! State machines of the PIO as inputs: one decodes an encoder, another one keeps the times of edges. All of a block
 //! run one program. They see pins whatever else these do, so the blocks' own driver is not needed.
 
+use core::cell::Cell;
 use core::future::poll_fn;
 use core::marker::PhantomData;
 use core::task::Poll;
@@ -14,7 +15,7 @@ use embassy_rp::pac::pio::Pio as Registers;
 use embassy_rp::pio::program::{Program, pio_asm};
 use embassy_sync::waitqueue::AtomicWaker;
 
-use crate::capture::Timed;
+use crate::capture::{Edges, Timed};
 
 /// Machines of a block.
 const MACHINES: usize = 4;
@@ -147,6 +148,8 @@ pub struct Decoder {
     _tracks: [Input<'static>; 2],
     /// What it counted before the tracks were known.
     from: u16,
+    /// The last word of its queue.
+    last: Cell<u16>,
 }
 
 impl Decoder {
@@ -207,7 +210,7 @@ impl Decoder {
         };
         let tracks = [a, b].map(|track| Input::new(track, Pull::Up));
         let machine = Machine::new(B::REGISTERS, number, &setting);
-        let mut decoder = Self { machine, _tracks: tracks, from: 0 };
+        let mut decoder = Self { machine, _tracks: tracks, from: 0, last: Cell::new(0) };
         decoder.from = decoder.count();
         decoder
     }
@@ -215,12 +218,12 @@ impl Decoder {
     /// Steps so far; wraps.
     pub fn count(&self) -> u16 {
         // The queue has what was counted when it had room, so the last word is the first that came since.
-        let mut steps = 0;
         for _ in 0..=QUEUE {
-            let found = (0..PATIENCE).find_map(|_| self.machine.pull());
-            steps = found.map_or(steps, |word| word as u16);
+            if let Some(word) = (0..PATIENCE).find_map(|_| self.machine.pull()) {
+                self.last.set(word as u16);
+            }
         }
-        steps.wrapping_sub(self.from)
+        self.last.get().wrapping_sub(self.from)
     }
 }
 
@@ -235,17 +238,6 @@ pub struct Stopwatch<B: Block> {
     /// Whether there was an edge. The first one may be none: the machine begins with a low level.
     has_begun: bool,
     _block: PhantomData<B>,
-}
-
-/// The edges that count.
-#[derive(Clone, Copy)]
-pub enum Edges {
-    /// From low to high.
-    Rising,
-    /// From high to low.
-    Falling,
-    /// Both of them.
-    Both,
 }
 
 /// The greatest time that a machine tells.

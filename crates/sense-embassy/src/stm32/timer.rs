@@ -7,18 +7,7 @@ use embassy_stm32::timer::{Channel, GeneralInstance4Channel};
 use embassy_time::Instant;
 use sense_rt::{Captured, TrainConfig};
 
-use crate::capture::{SharedCapture, SharedTrain, note};
-
-/// The edges that count.
-#[derive(Clone, Copy)]
-pub enum Edges {
-    /// From low to high.
-    Rising,
-    /// From high to low.
-    Falling,
-    /// Both of them.
-    Both,
-}
+use crate::capture::{Edges, SharedCapture, SharedTrain, note};
 
 /// Counts edges, for ever.
 pub async fn count<T: GeneralInstance4Channel>(

@@ -1,18 +1,20 @@
 //! Devices that the silicon of no board in question can serve as they are placed: from a device,
 //! the report with the reason.
 
+use sensedsl_board::signal::Function;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
-use sensedsl_model::design::Board;
 
 use super::{Fixed, Placed};
 use crate::alternatives::served;
 use crate::alternatives::timers::{Channel, channel};
 use crate::offer::Offer;
 
-/// Whether the board's system programs state machines.
-fn has_machines(board: &Board) -> bool {
-    board.profile().is_some_and(|profile| !profile.pios.is_empty())
+/// Whether the board's system programs state machines, and pins name them.
+fn has_machines(offer: &Offer<'_>) -> bool {
+    let is_programmed = offer.board.profile().is_some_and(|profile| !profile.pios.is_empty());
+    let mut usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
+    is_programmed && usages.any(|usage| matches!(usage.signal.function(), Function::Pio { .. }))
 }
 
 impl Placed<'_> {
@@ -21,7 +23,7 @@ impl Placed<'_> {
         let unable = self.offers.iter().map(|offer| {
             let served = served(&self.wires.kind);
             let ability = served.ability(offer.board)?;
-            let is_programmed = served.takes_machines() && has_machines(offer.board);
+            let is_programmed = served.takes_machines() && has_machines(offer);
             (ability.channels.is_empty() && !is_programmed)
                 .then_some((ability, offer.board.mcu.as_deref()?))
         });
@@ -66,9 +68,8 @@ impl Placed<'_> {
         if let Some(report) = self.without_silicon() {
             return Some(report);
         }
-        let programmed = |offer: &&Offer<'_>| {
-            served(&self.wires.kind).takes_machines() && has_machines(offer.board)
-        };
+        let programmed =
+            |offer: &&Offer<'_>| served(&self.wires.kind).takes_machines() && has_machines(offer);
         let ability = self.offers.iter().filter(|offer| !programmed(offer)).find_map(|offer| {
             let ability = served(&self.wires.kind).ability(offer.board)?;
             let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;

@@ -2,12 +2,13 @@
 
 use sensedsl_job::JobConnection;
 use sensedsl_model::kind::Role;
-use sensedsl_model::kind::icu::{Edge, Icu, Mode};
+use sensedsl_model::kind::icu::Mode;
 
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{Capture, CaptureInput, Counter, Encoder, Waiting};
 use crate::hal::contract::outputs::Pins as _;
+use crate::hal::timed;
 use crate::missing::{self, Missing, Printed};
 use crate::section::{Constructor, Section};
 
@@ -25,7 +26,7 @@ impl Capture for Settings {
         }
         let type_ = "rt::timer::Count";
         let route = self.route(context, wire)?;
-        let make = format!("crate::{type_}::new({route}, {})", edges(icu.edge));
+        let make = format!("crate::{type_}::new({route}, crate::{})", timed::edges(icu.edge));
         Ok(Some(Counter {
             made: Constructor { type_: format!("crate::{type_}"), make },
             suffix: "timer",
@@ -42,15 +43,14 @@ impl Capture for Settings {
         let CaptureInput { wire, icu, statics, is_train } = input;
         let power = power(icu.tick_hz)?;
         let type_ = "rt::timer::Stopwatch";
-        let needs_both = matches!(icu.mode, Mode::Width | Mode::Duty) && !is_train;
-        let edge = if needs_both { Edge::Both } else { icu.edge };
+        let edges = timed::edges(timed::seen(icu, *is_train));
         let route = self.route(context, wire)?;
-        let make = format!("crate::{type_}::new({route}, {}, {power})", edges(edge));
+        let make = format!("crate::{type_}::new({route}, crate::{edges}, {power})");
         Ok(Waiting {
             made: Constructor { type_: format!("crate::{type_}"), make },
             parameter: "timer",
             type_: type_.to_owned(),
-            runs: run(icu, statics, *is_train),
+            runs: timed::runs(icu, statics, *is_train),
         })
     }
 }
@@ -65,32 +65,6 @@ impl Settings {
             context.peripheral(unit),
             self.pin(&pad.pin.name)
         ))
-    }
-}
-
-/// The runtime's word for edges.
-fn edges(edge: Edge) -> String {
-    let edges = match edge {
-        Edge::Rising => "Rising",
-        Edge::Falling => "Falling",
-        Edge::Both => "Both",
-    };
-    format!("crate::rt::timer::Edges::{edges}")
-}
-
-/// What the task awaits.
-fn run(icu: &Icu, statics: &str, is_train: bool) -> String {
-    if is_train {
-        return format!("rt::capture::train(timer, &{statics}_TRAIN, &{statics}_SEEN)");
-    }
-    match icu.mode {
-        Mode::Width | Mode::Duty => {
-            let is_high = icu.edge != Edge::Falling;
-            format!("rt::capture::pulses(timer, {is_high}, &{statics}_SEEN)")
-        }
-        Mode::Period | Mode::Frequency | Mode::Count | Mode::Ppm => {
-            format!("rt::capture::periods(timer, &{statics}_SEEN)")
-        }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use sensedsl_job::JobConnection;
 use sensedsl_model::kind::Role;
-use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{CaptureInput, Counter, Encoder, Waiting};
 use crate::hal::contract::outputs::Pins as _;
+use crate::hal::timed;
 use crate::missing::{self, Missing, Printed};
 use crate::section::{Constructor, Section};
 
@@ -54,25 +54,20 @@ impl Settings {
         let CaptureInput { wire, icu, statics, is_train } = input;
         let machine = Machine::of(context, wire)?;
         let divider = machine.divider(context, icu.tick_hz)?;
-        let needs_both = matches!(icu.mode, Mode::Width | Mode::Duty) && !is_train;
-        let edges = match if needs_both { Edge::Both } else { icu.edge } {
-            Edge::Rising => "Rising",
-            Edge::Falling => "Falling",
-            Edge::Both => "Both",
-        };
+        let edges = timed::edges(timed::seen(icu, *is_train));
         let interrupt = machine.interrupt();
         section.bind(machine.vector, format!("crate::rt::pio::Wake<{interrupt}>"));
         section.features.extend(machine.feature());
         let pin = self.pin(&missing::pad(wire, Role::In)?.pin.name);
         let number = machine.number;
         let make = format!(
-            "crate::rt::pio::Stopwatch::new(Irqs, {number}, p.{pin}.into(), {divider}, crate::rt::pio::Edges::{edges})"
+            "crate::rt::pio::Stopwatch::new(Irqs, {number}, p.{pin}.into(), {divider}, crate::{edges})"
         );
         Ok(Waiting {
             made: Constructor { type_: format!("crate::rt::pio::Stopwatch<{interrupt}>"), make },
             parameter: "timer",
             type_: format!("rt::pio::Stopwatch<{interrupt}>"),
-            runs: runs(icu, statics, *is_train),
+            runs: timed::runs(icu, statics, *is_train),
         })
     }
 }
@@ -121,22 +116,6 @@ fn divider(clock_hz: u32, tick_hz: u32) -> Option<u32> {
     let whole = (tick_hz > 0 && clocks.is_multiple_of(steps)).then(|| clocks / steps)?;
     let fits = (FRACTIONS..=DIVIDER * FRACTIONS).contains(&whole);
     fits.then(|| u32::try_from(whole).ok()).flatten()
-}
-
-/// What the task awaits.
-fn runs(icu: &Icu, statics: &str, is_train: bool) -> String {
-    if is_train {
-        return format!("rt::capture::train(timer, &{statics}_TRAIN, &{statics}_SEEN)");
-    }
-    match icu.mode {
-        Mode::Width | Mode::Duty => {
-            let is_high = icu.edge != Edge::Falling;
-            format!("rt::capture::pulses(timer, {is_high}, &{statics}_SEEN)")
-        }
-        Mode::Period | Mode::Frequency | Mode::Count | Mode::Ppm => {
-            format!("rt::capture::periods(timer, &{statics}_SEEN)")
-        }
-    }
 }
 
 #[cfg(test)]

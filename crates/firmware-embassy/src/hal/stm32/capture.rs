@@ -7,6 +7,7 @@ use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use super::settings::Settings;
 use crate::context::Context;
 use crate::hal::contract::inputs::{Capture, CaptureInput, Counter, Encoder, Waiting};
+use crate::hal::timed;
 use crate::missing::{self, Printed};
 use crate::section::{Constructor, Section};
 
@@ -83,15 +84,9 @@ fn swap(hal: &str, channel: u8) -> String {
 
 /// What the task awaits.
 fn run(icu: &Icu, channel: u8, statics: &str) -> String {
-    let edges = match icu.edge {
-        Edge::Rising => "Rising",
-        Edge::Falling => "Falling",
-        Edge::Both => "Both",
-    };
+    let edges = timed::edges(icu.edge);
     if icu.mode == Mode::Count {
-        format!(
-            "rt::timer::count(timer, Channel::Ch{channel}, rt::timer::Edges::{edges}, &{statics}_SEEN)"
-        )
+        format!("rt::timer::count(timer, Channel::Ch{channel}, {edges}, &{statics}_SEEN)")
     } else {
         let is_width = icu.mode == Mode::Width;
         format!("rt::timer::measure(timer, {is_width}, {}, &{statics}_SEEN)", icu.tick_hz)
