@@ -25,6 +25,7 @@
 pub mod catalog;
 pub mod cells;
 mod entry;
+mod facts;
 pub mod finding;
 pub mod form;
 mod load;
