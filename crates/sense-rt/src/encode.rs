@@ -43,13 +43,14 @@ pub fn encode_values(
             out.put(value);
         }
     };
-    encode_each(schema, direction, stamp, &mut put, frame)
+    encode_each((schema, schema.payload_bytes_max(direction)), direction, stamp, &mut put, frame)
 }
 
 /// Like [`encode_values`], but calls `put` for one item after the other to write it if it is due: a
-/// caller that locks the values then locks them for one item at a time.
+/// caller that locks the values then locks them for one item at a time. The schema comes with its longest payload in that
+/// direction, which takes a while to compute.
 pub(crate) fn encode_each(
-    schema: &Schema,
+    (schema, longest_bytes): (&Schema, usize),
     direction: Direction,
     stamp: Stamp,
     put: &mut dyn FnMut(usize, &mut Writer<'_>),
@@ -65,14 +66,14 @@ pub(crate) fn encode_each(
             put(index, out);
         }
     };
-    frame_of(schema, direction, frame, head, &mut all)
+    frame_of((schema, longest_bytes), frame, head, &mut all)
 }
 
 /// The hello of the board, with the hash of its schema.
 pub fn encode_hello(schema: &Schema, frame: &mut [u8]) -> usize {
     let [a, b, c, d] = schema.hash.to_be_bytes();
     let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, a, b, c, d]);
-    frame_of(schema, Direction::ToHost, frame, 0, &mut put)
+    frame_of((schema, schema.payload_bytes_max(Direction::ToHost)), frame, 0, &mut put)
 }
 
 /// The health of the board, and of each device as given by `row_of`.
@@ -99,31 +100,29 @@ pub fn encode_health(
             }
         }
     };
-    frame_of(schema, Direction::ToHost, frame, 0, &mut put)
+    frame_of((schema, schema.payload_bytes_max(Direction::ToHost)), frame, 0, &mut put)
 }
 
 /// The host's request for a hello.
 pub fn encode_hello_request(schema: &Schema, frame: &mut [u8]) -> usize {
     let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO]);
-    frame_of(schema, Direction::ToBoard, frame, 0, &mut put)
+    frame_of((schema, schema.payload_bytes_max(Direction::ToBoard)), frame, 0, &mut put)
 }
 
 /// The host's request for health.
 pub fn encode_health_request(schema: &Schema, frame: &mut [u8]) -> usize {
     let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, HEALTH_REQUEST]);
-    frame_of(schema, Direction::ToBoard, frame, 0, &mut put)
+    frame_of((schema, schema.payload_bytes_max(Direction::ToBoard)), frame, 0, &mut put)
 }
 
 /// A payload with its checksum, length and comma. A payload of at most `empty_bytes` has no
 /// content, and gives no frame.
 fn frame_of(
-    schema: &Schema,
-    direction: Direction,
+    (schema, longest_bytes): (&Schema, usize),
     frame: &mut [u8],
     empty_bytes: usize,
     put: &mut dyn FnMut(&mut Writer<'_>),
 ) -> usize {
-    let longest_bytes = schema.payload_bytes_max(direction);
     let head_bytes = head_bytes(longest_bytes);
     if frame.len() < head_bytes + longest_bytes + 1 {
         return 0;

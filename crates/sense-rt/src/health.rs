@@ -264,6 +264,11 @@ impl Health {
         }
     }
 
+    /// The age of a device's last good value, as in [`HealthRow`].
+    pub(crate) fn age_ms(&self, index: usize, now_ms: u32) -> u32 {
+        self.records.get(index).unwrap_or(&Record::NEW).age_ms(now_ms)
+    }
+
     /// The health of a device.
     #[must_use]
     pub fn row(&self, index: usize, now_ms: u32) -> HealthRow {

@@ -22,6 +22,8 @@ use crate::uses;
 /// Bytes per read and reads per cycle: a host that sends without end must not delay reports.
 const READ_BYTES: usize = 16;
 const READS_MAX: usize = 64;
+/// The time between two looks at the age of a device, a power of two: all of them are seen long before the clock wraps.
+const TICK_MS: u32 = 1024;
 /// A value that has waited for more of its device's cycles, or of the reporter's, is too old.
 const FRESH_CYCLES: u32 = 2;
 
@@ -89,12 +91,14 @@ pub struct ReporterCounts {
 #[derive(Debug)]
 pub struct Reporter<B: ?Sized = [u8]> {
     config: ReporterConfig,
-    /// The size of the longest frame to the host.
+    /// The sizes of the longest payload and frame to the host.
+    payload_bytes: usize,
     frame_bytes: usize,
     listener: Listener,
     silence: Silence,
     counts: ReporterCounts,
     now_us: u64,
+    now_ms: u32,
     /// The size of the frame that is being sent; 0 for none.
     frame_size: usize,
     frame_sent: usize,
@@ -127,6 +131,7 @@ impl<const BYTES: usize> Reporter<[u8; BYTES]> {
                 values_dropped: 0,
             },
             now_us: 0,
+            now_ms: 0,
             frame_size: 0,
             frame_sent: 0,
             taken: Bits::NONE,
@@ -136,6 +141,7 @@ impl<const BYTES: usize> Reporter<[u8; BYTES]> {
             hello_due: false,
             health_due: false,
             has_answered: false,
+            payload_bytes: config.schema.payload_bytes_max(Direction::ToHost),
             frame_bytes: config.schema.frame_bytes(Direction::ToHost),
             config,
             memory: [0; BYTES],
@@ -160,8 +166,8 @@ impl<const BYTES: usize> DerefMut for Reporter<[u8; BYTES]> {
 impl Reporter {
     /// Restarts the host's time limit now, for a start with the clock not at 0.
     pub fn begin_at(&mut self, now_us: u64) {
-        self.now_us = now_us;
-        self.silence = Silence::new(self.config.silence_ms, self.now_ms());
+        self.is_now(now_us);
+        self.silence = Silence::new(self.config.silence_ms, self.now_ms);
     }
 
     /// The event counts since the start.
@@ -190,8 +196,9 @@ impl Reporter {
         self.fall_back(host);
     }
 
-    fn now_ms(&self) -> u32 {
-        milliseconds(self.now_us)
+    fn is_now(&mut self, now_us: u64) {
+        self.now_us = now_us;
+        self.now_ms = milliseconds(now_us);
     }
 
     // ---- from the host ----
@@ -201,13 +208,15 @@ impl Reporter {
         let mut bytes = [0; READ_BYTES];
         for _ in 0..READS_MAX {
             let size = channel.read(&mut bytes).min(READ_BYTES);
-            self.take_bytes(part(&bytes, 0, size), host);
+            if size > 0 {
+                self.take_bytes(part(&bytes, 0, size), host);
+            }
             if size < READ_BYTES {
                 break;
             }
         }
         if self.listener.frames() != frames {
-            self.silence.received(self.now_ms());
+            self.silence.received(self.now_ms);
         }
     }
 
@@ -285,7 +294,7 @@ impl Reporter {
     }
 
     fn send_health(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
-        let now_ms = self.now_ms();
+        let now_ms = self.now_ms;
         let mut board = BoardHealth {
             uptime_ms: now_ms,
             reports_sent: self.counts.reports_sent,
@@ -321,25 +330,32 @@ impl Reporter {
 
     fn send_report(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
         let stamp = Stamp { time_us: self.now_us as u32, counter: self.counter };
-        let (now_ms, cycle_ms) = (self.now_ms(), self.config.cycle_ms);
+        let (now_ms, cycle_ms) = (self.now_ms, self.config.cycle_ms);
         let frame = part_mut(&mut self.memory, 0, self.frame_bytes);
-        let (schema, taken) = (self.config.schema, &mut self.taken);
-        let (mut dropped, mut at) = (0, 0);
-        *taken = Bits::NONE;
+        let (schema, longest_bytes) = (self.config.schema, self.payload_bytes);
+        let taken = &mut self.taken;
+        let (mut dropped, mut at) = (0, 0_usize);
+        host.with(&mut |store, _| *taken = *store.due());
         // The host locks for one item at a time: if that masks interrupts, ports can take
         // characters in between.
         let mut put = |index: usize, out: &mut Writer<'_>| {
             let Some(item) = schema.items.get(index) else { return };
+            let from = at;
+            at = from.wrapping_add(item.bytes());
+            if !taken.has(index) {
+                return;
+            }
             host.with(&mut |store, health| {
-                if store.has_due(index) && is_old(health, index, now_ms, cycle_ms) {
+                if is_old(health, index, now_ms, cycle_ms) {
                     store.forget(index);
+                    taken.clear(index);
                     dropped += 1;
+                } else {
+                    store.hand_out((index, item, from..at), out);
                 }
-                store.hand_out((index, item, at), out, taken);
             });
-            at += item.bytes();
         };
-        let size = encode_each(schema, Direction::ToHost, stamp, &mut put, frame);
+        let size = encode_each((schema, longest_bytes), Direction::ToHost, stamp, &mut put, frame);
         self.counts.values_dropped = self.counts.values_dropped.wrapping_add(dropped);
         if size > 0 {
             self.counter = self.counter.wrapping_add(1);
@@ -369,9 +385,12 @@ impl Reporter {
 
     /// Updates the state at the start of a cycle; `is_open`: frames may use the channel.
     fn begin_cycle(&mut self, now_us: u64, is_open: bool, host: &mut dyn Host) {
-        self.now_us = now_us;
-        let now_ms = self.now_ms();
-        host.with(&mut |_, health| health.tick(now_ms));
+        let before_ms = self.now_ms;
+        self.is_now(now_us);
+        let now_ms = self.now_ms;
+        if (before_ms ^ now_ms) >= TICK_MS {
+            host.with(&mut |_, health| health.tick(now_ms));
+        }
         if !is_open {
             self.give_up(host);
         }
@@ -380,7 +399,7 @@ impl Reporter {
     }
 
     fn fall_back(&mut self, host: &mut dyn Host) {
-        if self.silence.step(self.now_ms()) {
+        if self.silence.step(self.now_ms) {
             host.failsafe();
         }
     }
@@ -390,7 +409,7 @@ impl Reporter {
 fn is_old(health: &Health, index: usize, now_ms: u32, own_ms: u32) -> bool {
     let device_ms = health.cycle_ms(index);
     let cycle_ms = device_ms.max(own_ms);
-    let age_ms = health.row(index, now_ms).age_ms;
+    let age_ms = health.age_ms(index, now_ms);
     let is_late =
         age_ms / FRESH_CYCLES >= cycle_ms && age_ms > cycle_ms.saturating_mul(FRESH_CYCLES);
     device_ms != 0 && age_ms != AGE_NEVER && is_late

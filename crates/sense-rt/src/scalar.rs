@@ -6,39 +6,35 @@ use crate::uses;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
     /// One byte, 0 or 1.
-    Bool,
+    Bool = 0,
     /// 8 bits, unsigned.
-    Uint8,
+    Uint8 = 1,
     /// 8 bits, two's complement.
-    Int8,
+    Int8 = 2,
     /// 16 bits, unsigned.
-    Uint16,
+    Uint16 = 4,
     /// 16 bits, two's complement.
-    Int16,
+    Int16 = 5,
     /// 32 bits, unsigned.
-    Uint32,
+    Uint32 = 8,
     /// 32 bits, two's complement.
-    Int32,
+    Int32 = 9,
     /// 64 bits, unsigned.
-    Uint64,
+    Uint64 = 12,
     /// 64 bits, two's complement.
-    Int64,
+    Int64 = 13,
     /// IEEE 754 binary32.
-    Float32,
+    Float32 = 10,
     /// IEEE 754 binary64.
-    Float64,
+    Float64 = 14,
 }
 
 impl Scalar {
     /// Bytes of one element.
     #[must_use]
+    #[inline]
     pub const fn bytes(self) -> usize {
-        match self {
-            Self::Bool | Self::Uint8 | Self::Int8 => 1,
-            Self::Uint16 | Self::Int16 => 2,
-            Self::Uint32 | Self::Int32 | Self::Float32 => 4,
-            Self::Uint64 | Self::Int64 | Self::Float64 => 8,
-        }
+        1 << (self as u8 >> 2)
     }
 
     /// Whether it is a signed integer.

@@ -60,6 +60,7 @@ impl Item {
 
     /// The size of the value without its identifier.
     #[must_use]
+    #[inline]
     pub const fn bytes(&self) -> usize {
         self.scalar.bytes() * self.count as usize
     }

@@ -4,6 +4,8 @@
 //! what is due, in the order of the schema, and never a zero that nobody measured. If several tasks
 //! share a store, the caller locks it.
 
+use core::ops::Range;
+
 use core::ops::{Deref, DerefMut};
 
 use crate::bits::Bits;
@@ -152,6 +154,11 @@ impl Store {
         self.record_filtered(health, index, (outcome, reported), value, now_ms);
     }
 
+    /// The items that are due.
+    pub(crate) const fn due(&self) -> &Bits {
+        &self.due
+    }
+
     /// Whether anything is due.
     #[must_use]
     pub fn is_due(&self) -> bool {
@@ -169,18 +176,15 @@ impl Store {
         self.due.clear(index);
     }
 
-    /// Writes the identifier and the value of an item, which is at `at` in the memory, if it is
-    /// due, and makes it no longer due; `taken` notes it.
+    /// Writes the identifier and the value of an item, which is at `place` in the memory, and makes
+    /// it no longer due.
     pub(crate) fn hand_out(
         &mut self,
-        (index, item, at): (usize, &Item, usize),
+        (index, item, place): (usize, &Item, Range<usize>),
         out: &mut Writer<'_>,
-        taken: &mut Bits,
     ) {
-        let value = self.values.get(at..at.wrapping_add(item.bytes()));
-        if let Some(value) = value.filter(|_| self.due.has(index)) {
+        if let Some(value) = self.values.get(place) {
             self.due.clear(index);
-            taken.set(index);
             out.put(&[item.id]);
             out.put(value);
         }

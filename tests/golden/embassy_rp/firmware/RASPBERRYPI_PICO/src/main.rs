@@ -21,7 +21,7 @@ use embassy_time::{Duration, Instant, Ticker, Timer};
 use sense_embassy as rt;
 use sense_rt::{
     BoardHealth, Capture, CaptureConfig, CaptureMode, Chip, Counter, Direction, Filter, Health, Host, Outcome, Repeat, Reporter,
-    ReporterConfig, Scalar, Store, Watch, pulse_level, store_count,
+    ReporterConfig, Scalar, Store, Watch, milliseconds, pulse_level, store_count,
 };
 use static_cell::StaticCell;
 
@@ -291,13 +291,14 @@ async fn reporter(
         {
             BUMP_STATE.sample();
         }
-        reporter.cycle(Instant::now().as_micros(), &mut Near(&LINK), &mut Board);
-        BOARD.with(|_, health| health.tick(now_ms()));
-        match WATCH.hanging(now_ms()) {
+        let now_us = Instant::now().as_micros();
+        reporter.cycle(now_us, &mut Near(&LINK), &mut Board);
+        let now_ms = milliseconds(now_us);
+        match WATCH.hanging(now_ms) {
             None => watchdog.pet(),
             Some(task) => rt::status::note_hang(tables::WATCHED_DEVICES.get(task).copied().unwrap_or(0)),
         }
-        led.set_level(if now_ms() / 500 % 2 == 0 { Level::High } else { Level::Low });
+        led.set_level(if now_ms / 500 % 2 == 0 { Level::High } else { Level::Low });
         ticker.next().await;
     }
 }
