@@ -32,6 +32,10 @@ const TARGETS: &[(&str, usize)] = &[
     ("import_ioc", 2048),
     ("import_hwdef", 2048),
     ("import_micropython", 2048),
+    ("import_betaflight", 2048),
+    ("import_zephyr", 2048),
+    ("import_arduino", 2048),
+    ("import_dbc", 2048),
     ("certificate", 128),
     ("decoders", 160),
 ];

@@ -381,7 +381,8 @@ impl Reader<'_> {
                     *text = Some(value);
                     continue;
                 }
-                let names = value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ','));
+                let names =
+                    value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ',' | ';'));
                 for name in names.take(PIN_USAGES_MAX + 1) {
                     if !is_empty(name) && !matches!(name, "EVENTOUT" | "SIO") {
                         let number = numbers.get(&at).copied();

@@ -37,6 +37,10 @@ pub const TARGETS: &[Target] = &[
     Target { name: "import_ioc", body: import::ioc },
     Target { name: "import_hwdef", body: import::hwdef },
     Target { name: "import_micropython", body: import::micropython },
+    Target { name: "import_betaflight", body: import::betaflight },
+    Target { name: "import_zephyr", body: import::zephyr },
+    Target { name: "import_arduino", body: import::arduino },
+    Target { name: "import_dbc", body: import::dbc },
     Target { name: "certificate", body: certificate::run },
     Target { name: "decoders", body: decoders::rust_alone },
 ];

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::Signal;
 use sensedsl_diagnostics::{FileId, Span};
 
 use crate::assemble::{self, Row};
@@ -61,14 +62,17 @@ pub(super) fn import(file: FileId, text: &str, log: &mut Log) -> Texts {
         if name == "NC" {
             continue;
         }
+        let span = Span::new(file, start..start + line.len());
         // `PA_0_ALT1` is the pin for another unit.
         let Some(pin) = pad(name.split("_ALT").next().unwrap_or_default()) else {
-            let span = Span::new(file, start..start + line.len());
             log.dropped(span, "", &format!("`{name}` is not a pin of a port"));
             continue;
         };
         let row = rows.entry(pin.clone()).or_insert_with(|| Row::new(pin));
-        if let Some(signal) = signal(list, rest) {
+        let Some(signal) = signal(list, rest) else { continue };
+        if Signal::parse(&signal).1.is_some() {
+            log.dropped(span, "", &format!("`{signal}` is not a signal"));
+        } else {
             row.usages.push((signal, alternate(rest)));
         }
     }
