@@ -7,7 +7,7 @@ use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::place::Place;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
-use sensedsl_board::table::{Column, Pin, Property, Role, Table, Usage};
+use sensedsl_board::table::{Column, Pin, Property, ROUTED, Role, Table, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_limits::{PIN_USAGES_MAX, PINS_MAX};
 
@@ -129,7 +129,9 @@ fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
     let mut usages: Vec<Usage> = Vec::new();
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     for (spelled, alternate) in list {
-        let (spelled, blocks) = Blocks::split(&spelled);
+        let own = spelled.strip_prefix(ROUTED);
+        let is_routed = own.is_some();
+        let (spelled, blocks) = Blocks::split(own.unwrap_or(&spelled));
         let (signal, _) = Signal::parse(spelled);
         if let Function::Adc { units, channel } = signal.function() {
             converters.entry(*channel).or_default().extend(units);
@@ -137,7 +139,11 @@ fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
             same.alternate = same.alternate.or(alternate);
         } else {
             known.insert(signal.name().to_owned(), usages.len());
-            usages.push(Usage { blocks, ..usage(signal, spelled.to_owned(), alternate) });
+            usages.push(Usage {
+                blocks,
+                is_routed,
+                ..usage(signal, spelled.to_owned(), alternate)
+            });
         }
     }
     for (channel, mut units) in converters {

@@ -8,7 +8,7 @@ use sensedsl_board::cells::{self, Cell};
 use sensedsl_board::finding::FindingKind;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::remap::Blocks;
-use sensedsl_board::table::{self, Occupation, Onboard, Role};
+use sensedsl_board::table::{self, Occupation, Onboard, ROUTED, Role};
 use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::{PIN_USAGES_MAX, USAGES_MAX};
 use sensedsl_model::table_diagnostic;
@@ -405,13 +405,14 @@ impl Reader<'_> {
     ) -> Option<(String, Option<u8>)> {
         let whole = name;
         let (name, own) = name.split_once('@').map_or((name, None), |(n, own)| (n, Some(own)));
-        if is_empty(Blocks::split(name).0) {
+        let bare = name.strip_prefix(ROUTED).unwrap_or(name);
+        if is_empty(Blocks::split(bare).0) {
             let what = format!("`{whole}` names no signal and is left out");
             log.dropped(self.span(cell), &self.place(cell), &what);
             return None;
         }
         let own = own.and_then(|own| own.parse().ok()).filter(|own| *own < 16);
-        let (_, malformed) = sensedsl_board::signal::Signal::parse(name);
+        let (_, malformed) = sensedsl_board::signal::Signal::parse(bare);
         if let Some(malformed) = malformed {
             let meant = malformed
                 .nearest

@@ -87,12 +87,14 @@ pub(super) fn import(file: FileId, text: &str, log: &mut Log) -> Texts {
 
 /// The signal of a row: what its comment says, or its unit with the role of the list.
 fn signal(list: &str, row: &str) -> Option<String> {
+    let is_word =
+        |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
     let said = row.rsplit_once("//").map(|(_, comment)| comment.trim());
-    if let Some(said) = said.filter(|said| said.contains('_') && !said.contains(' ')) {
+    if let Some(said) = said.filter(is_word).filter(|said| said.contains('_')) {
         return Some(said.to_owned());
     }
     let (_, line) = LISTS.iter().find(|(name, _)| *name == list)?;
-    let unit = row.split(',').next()?.trim();
+    let unit = row.split(',').next().map(str::trim).filter(is_word)?;
     Some(format!("{unit}_{line}"))
 }
 
