@@ -16,6 +16,9 @@ use sensedsl_machine::{PortState, Setting};
 /// The greatest error of a serial port's speed, in per cent, at which it still receives characters.
 const BAUD_PERCENT: u64 = 2;
 
+/// Above it, a bus needs pads that pull stronger than others, which not every driver turns on.
+const FAST_HZ: u64 = 400_000;
+
 /// How a port must be set up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct PlannedPort {
@@ -134,7 +137,7 @@ fn fits(wanted: RequiredSettings, state: Setting) -> bool {
         // A driver that only divides without a remainder may have to stay below the allowed speed.
         (RequiredSettings::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
             let most_hz = most_hz.min(fastest_hz);
-            (most_hz / 2..=most_hz).contains(&clock_hz)
+            (slow_enough_hz(most_hz)..=most_hz).contains(&clock_hz)
         }
         (RequiredSettings::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => {
             bitrate_hz == found
@@ -150,6 +153,11 @@ fn fits(wanted: RequiredSettings, state: Setting) -> bool {
             | Setting::Can { .. },
         ) => false,
     }
+}
+
+/// The slowest clock of a bus whose parts stand this one.
+fn slow_enough_hz(most_hz: u64) -> u64 {
+    most_hz.min(FAST_HZ) / 2
 }
 
 fn serial(baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8) -> String {
@@ -174,7 +182,7 @@ fn expected(wanted: RequiredSettings, state: Setting) -> String {
                 Setting::I2c { fastest_hz, .. } => most_hz.min(fastest_hz),
                 Setting::Serial { .. } | Setting::Spi { .. } | Setting::Can { .. } => most_hz,
             };
-            format!("at {} to {most_hz} Hz", most_hz / 2)
+            format!("at {} to {most_hz} Hz", slow_enough_hz(most_hz))
         }
         RequiredSettings::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
     }

@@ -93,14 +93,17 @@ impl Bench {
             })
         });
         let readings = readings.collect();
+        let address = one.connection.kind.register_access().and_then(|own| own.address);
+        let least_bytes = job.board.profile().filter(|_| address.is_some());
+        let least_bytes = least_bytes.map_or(1, |profile| profile.i2c.read_bytes_min.into());
         Chip {
             part,
             name: one.part.name.value.clone(),
             unit,
-            address: one.connection.kind.register_access().and_then(|own| own.address),
+            address,
             connection: one.index,
             is_selected: false,
-            registers: Registers::new(protocol, readings, sleep),
+            registers: Registers::new(protocol, readings, sleep).read_at_least(least_bytes),
         }
     }
 }

@@ -115,10 +115,16 @@ impl Judge {
         }
     }
 
-    /// The board has reported its own health and that of its devices.
-    pub fn health(&mut self, now_ns: u64, health: &Health) {
+    /// The number of reports received.
+    #[must_use]
+    pub const fn received(&self) -> u64 {
+        self.received
+    }
+
+    /// The board has reported its own health and that of its devices, after this many reports.
+    pub fn health(&mut self, now_ns: u64, health: &Health, received: u64) {
         if let Some(board) = self.undisturbed.clone() {
-            let what = health::board_differs(health, now_ns, self.received);
+            let what = health::board_differs(health, now_ns, received);
             let load = self.load.differs(health).filter(|_| what.is_none());
             for what in what.into_iter().chain(load) {
                 self.say_of_board(now_ns, &board, what);

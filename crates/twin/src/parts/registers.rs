@@ -83,6 +83,8 @@ pub(crate) struct Registers {
     /// The bytes that are read in this transfer.
     answer: Vec<u8>,
     at: usize,
+    /// The fewest bytes that the board's driver reads at once; what a part has no byte for it drops.
+    least_bytes: u16,
     began_ns: u64,
     /// Whether its identity was read, and whether anything else was.
     is_asked: bool,
@@ -100,11 +102,17 @@ impl Registers {
         Self { protocol, readings, sleep, ..Self::default() }
     }
 
+    /// On a bus whose driver reads at least that many bytes.
+    pub(crate) fn read_at_least(self, least_bytes: u16) -> Self {
+        Self { least_bytes, ..self }
+    }
+
     /// The supply was lost.
     pub(crate) fn reset(&mut self) {
         let readings = std::mem::take(&mut self.readings);
         let (is_asked, is_used, odd) = (self.is_asked, self.is_used, self.odd.take());
         let new = Self::new(self.protocol.clone(), readings, self.sleep);
+        let new = new.read_at_least(self.least_bytes);
         *self = Self { is_asked, is_used, odd, waits: self.waits, rest: self.rest.again(), ..new };
     }
 

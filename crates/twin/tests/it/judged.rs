@@ -229,7 +229,7 @@ fn health_of_other_devices_is_wrong() {
         };
         let found = |health: &Health| {
             let mut judge = Judge::new(job, &bench);
-            judge.health(1_000_000_000, health);
+            judge.health(1_000_000_000, health, 0);
             let judged = judge.finish(1_000_000_000);
             judged.iter().any(|one| one.wrong > 0 && one.name == job.board.name.value)
         };

@@ -117,7 +117,8 @@ fn run(
                 }
                 Event::Health(output) => {
                     judge.answered();
-                    judge.health(ms * 1_000_000, &output);
+                    let received = judge.received();
+                    judge.health(ms * 1_000_000, &output, received);
                     is_healthy = true;
                 }
                 Event::Hello(_)

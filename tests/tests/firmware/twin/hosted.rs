@@ -55,7 +55,7 @@ impl Host {
     pub(super) fn pass(&mut self, ms: u64, messages: &[u8]) -> Vec<u8> {
         self.line.say_all(messages);
         self.received.extend(self.line.received());
-        if ms < GREETING_MS || ms % HEARS_EVERY_MS != 0 {
+        if ms < GREETING_MS || !ms.is_multiple_of(HEARS_EVERY_MS) {
             return Vec::new();
         }
         std::mem::take(&mut self.received)

@@ -108,7 +108,8 @@ pub(super) struct Session<'a> {
     /// The bytes that came before the board identified itself.
     greeting: Vec<u8>,
     is_other_design: bool,
-    last: Option<Health>,
+    /// The last health, and the number of reports before it.
+    last: Option<(Health, u64)>,
     reports: u64,
     /// Whether the firmware has done something that is not in the plan.
     is_wrong: bool,
@@ -186,7 +187,7 @@ impl<'a> Session<'a> {
             }
             Event::Health(health) => {
                 judge.answered();
-                *last = Some(health);
+                *last = Some((health, judge.received()));
             }
             Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
         });
@@ -362,10 +363,10 @@ impl<'a> Session<'a> {
         }
         self.judge.reported(&self.commands.as_ref().map(Commands::reported).unwrap_or_default());
         match &self.last {
-            Some(health) => self.judge.health(self.now_ns, health),
+            Some((health, received)) => self.judge.health(self.now_ns, health, *received),
             None => self.judge.no_health(self.now_ns, &self.scenery.job.board.name.value),
         }
-        Ok(self.last.clone())
+        Ok(self.last.as_ref().map(|(health, _)| health.clone()))
     }
 
     /// Asks the board for its health, and prints the answer.

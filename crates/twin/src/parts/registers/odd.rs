@@ -109,7 +109,8 @@ impl Registers {
         } else {
             self.used();
         }
-        if let Some(end) = self.end_of(self.pointer).filter(|end| *end <= place) {
+        let end = self.end_of(self.pointer).map(|end| end.max(self.least_bytes));
+        if let Some(end) = end.filter(|end| *end <= place) {
             let from = self.pointer.map(|at| format!(" from register 0x{at:02X} on"));
             let from = from.unwrap_or_default();
             self.record(|| format!("more is read{from} than {end} bytes, which is all there is"));
