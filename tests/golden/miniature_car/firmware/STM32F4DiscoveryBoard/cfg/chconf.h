@@ -33,6 +33,8 @@
 #if !defined(_FROM_ASM_)
 void up_on_idle_enter(void);
 void up_on_idle_leave(void);
+void up_on_interrupt_enter(void);
+void up_on_interrupt_leave(void);
 void up_on_halt(const char *why);
 void up_on_switch(const void *next);
 #endif
@@ -40,6 +42,10 @@ void up_on_switch(const void *next);
 #define CH_CFG_IDLE_ENTER_HOOK() up_on_idle_enter()
 #undef CH_CFG_IDLE_LEAVE_HOOK
 #define CH_CFG_IDLE_LEAVE_HOOK() up_on_idle_leave()
+#undef CH_CFG_IRQ_PROLOGUE_HOOK
+#define CH_CFG_IRQ_PROLOGUE_HOOK() up_on_interrupt_enter()
+#undef CH_CFG_IRQ_EPILOGUE_HOOK
+#define CH_CFG_IRQ_EPILOGUE_HOOK() up_on_interrupt_leave()
 #undef CH_CFG_SYSTEM_HALT_HOOK
 #define CH_CFG_SYSTEM_HALT_HOOK(reason) up_on_halt(reason)
 #undef CH_CFG_CONTEXT_SWITCH_HOOK
