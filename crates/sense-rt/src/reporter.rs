@@ -166,7 +166,7 @@ impl<const BYTES: usize> DerefMut for Reporter<[u8; BYTES]> {
 impl Reporter {
     /// Restarts the host's time limit now, for a start with the clock not at 0.
     pub fn begin_at(&mut self, now_us: u64) {
-        self.is_now(now_us);
+        self.set_now(now_us);
         self.silence = Silence::new(self.config.silence_ms, self.now_ms);
     }
 
@@ -196,7 +196,7 @@ impl Reporter {
         self.fall_back(host);
     }
 
-    fn is_now(&mut self, now_us: u64) {
+    fn set_now(&mut self, now_us: u64) {
         self.now_us = now_us;
         self.now_ms = milliseconds(now_us);
     }
@@ -386,7 +386,7 @@ impl Reporter {
     /// Updates the state at the start of a cycle; `is_open`: frames may use the channel.
     fn begin_cycle(&mut self, now_us: u64, is_open: bool, host: &mut dyn Host) {
         let before_ms = self.now_ms;
-        self.is_now(now_us);
+        self.set_now(now_us);
         let now_ms = self.now_ms;
         if (before_ms ^ now_ms) >= TICK_MS {
             host.with(&mut |_, health| health.tick(now_ms));

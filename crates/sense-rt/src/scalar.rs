@@ -2,7 +2,8 @@
 
 use crate::uses;
 
-/// A scalar type.
+/// A scalar type. Its number without the two lowest bits is the exponent of its size, which boards need for each item
+/// of each report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
     /// One byte, 0 or 1.
