@@ -25,7 +25,6 @@
 pub mod catalog;
 pub mod cells;
 mod entry;
-mod facts;
 pub mod finding;
 pub mod form;
 mod load;

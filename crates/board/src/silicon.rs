@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 
+use crate::mcu;
 use crate::pin::PinName;
-use crate::{facts, mcu};
 
 /// The files of `silicon/`.
 const FILES: &[&str] = &[
@@ -280,7 +280,7 @@ fn covers(parts: &[String], name: &str) -> bool {
 /// All families; a damaged file, which tests rule out, is skipped.
 fn all() -> &'static [Silicon] {
     static ALL: OnceLock<Vec<Silicon>> = OnceLock::new();
-    ALL.get_or_init(|| FILES.iter().filter_map(|text| facts::read(text).ok()).collect())
+    ALL.get_or_init(|| FILES.iter().filter_map(|text| toml::from_str(text).ok()).collect())
 }
 
 #[cfg(test)]
@@ -301,7 +301,7 @@ mod tests {
             }
             count += 1;
             let text = std::fs::read_to_string(&path).unwrap();
-            let silicon: Silicon = facts::read(&text).unwrap();
+            let silicon: Silicon = toml::from_str(&text).unwrap();
             assert!(FILES.contains(&text.as_str()), "{} is not embedded", path.display());
             assert!(!silicon.parts.is_empty());
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {

@@ -45,10 +45,8 @@ static uint32_t window_start;
 static uint8_t load_percent = LOAD_UNKNOWN;
 static volatile uint32_t idle_ticks;
 static uint32_t idle_since;
-#if PORT_SUPPORTS_RT == TRUE
 static volatile bool is_idle;
 static uint32_t interrupted_at;
-#endif
 extern uint8_t __main_thread_stack_base__[];
 extern uint8_t __main_thread_stack_end__[];
 
@@ -221,34 +219,25 @@ void up_on_switch(const void *next) {
 
 void up_on_idle_enter(void) {
   idle_since = UP_LOAD_CLOCK();
-#if PORT_SUPPORTS_RT == TRUE
   is_idle = true;
-#endif
 }
 
 void up_on_idle_leave(void) {
-#if PORT_SUPPORTS_RT == TRUE
   is_idle = false;
-#endif
   idle_ticks += UP_LOAD_CLOCK() - idle_since;
 }
 
-/* What interrupts do while no thread runs is work, too; kernel ticks are too coarse to tell. Of one that came while
- * another was at work, the time counts twice. */
+/* What interrupts do while no thread runs is work, too. The sum is a little wrong where one interrupts another. */
 void up_on_interrupt_enter(void) {
-#if PORT_SUPPORTS_RT == TRUE
   if (is_idle) {
     interrupted_at = UP_LOAD_CLOCK();
   }
-#endif
 }
 
 void up_on_interrupt_leave(void) {
-#if PORT_SUPPORTS_RT == TRUE
   if (is_idle) {
     idle_since += UP_LOAD_CLOCK() - interrupted_at;
   }
-#endif
 }
 
 uint8_t up_load_percent(void) {

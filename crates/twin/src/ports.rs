@@ -1,4 +1,4 @@
-//! How ports must be set up, from the wiring alone, and which of them differ.
+//! How ports must be set up, from the wiring and what the drivers can do, and which of them differ.
 //!
 //! In: a board's job, and the state of the ports of the emulated MCU. Out: the differences. A real part that is
 //! addressed at the wrong speed, or at the wrong edge of its clock, understands nothing, but the parts of the simulated
@@ -15,9 +15,6 @@ use sensedsl_machine::{PortState, Setting};
 
 /// The greatest error of a serial port's speed, in per cent, at which it still receives characters.
 const BAUD_PERCENT: u64 = 2;
-
-/// Above it, a bus needs pads that pull stronger than others, which not every driver turns on.
-const FAST_HZ: u64 = 400_000;
 
 /// How a port must be set up.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,8 +51,10 @@ pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
             (_, _) => port.wanted.push(wanted),
         }
     };
+    let profile = job.board.profile();
+    let fastest_hz = profile.map_or(u64::MAX, |profile| profile.i2c.speed_max_hz.into());
     for one in &job.connections {
-        if let (Some(unit), Some(wanted)) = (one.unit, of_kind(&one.connection.kind)) {
+        if let (Some(unit), Some(wanted)) = (one.unit, of_kind(&one.connection.kind, fastest_hz)) {
             add(unit, &one.title, wanted);
         }
     }
@@ -67,7 +66,8 @@ pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
     ports.into_values().collect()
 }
 
-fn of_kind(kind: &Kind) -> Option<RequiredSettings> {
+/// The settings for a device; `fastest_hz` is the fastest I²C bus that the system's driver accepts.
+fn of_kind(kind: &Kind, fastest_hz: u64) -> Option<RequiredSettings> {
     match kind.interface() {
         Interface::Uart(own) => Some(RequiredSettings::Serial {
             baud: u64::from(own.baud),
@@ -82,7 +82,9 @@ fn of_kind(kind: &Kind) -> Option<RequiredSettings> {
         Interface::Spi(own) => {
             Some(RequiredSettings::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode })
         }
-        Interface::I2c(own) => Some(RequiredSettings::I2c { most_hz: u64::from(own.speed_hz) }),
+        Interface::I2c(own) => {
+            Some(RequiredSettings::I2c { most_hz: u64::from(own.speed_hz).min(fastest_hz) })
+        }
         Interface::Can(own) => {
             Some(RequiredSettings::Can { bitrate_hz: u64::from(own.bitrate_hz) })
         }
@@ -137,7 +139,7 @@ fn fits(wanted: RequiredSettings, state: Setting) -> bool {
         // A driver that only divides without a remainder may have to stay below the allowed speed.
         (RequiredSettings::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
             let most_hz = most_hz.min(fastest_hz);
-            (slow_enough_hz(most_hz)..=most_hz).contains(&clock_hz)
+            (most_hz / 2..=most_hz).contains(&clock_hz)
         }
         (RequiredSettings::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => {
             bitrate_hz == found
@@ -153,11 +155,6 @@ fn fits(wanted: RequiredSettings, state: Setting) -> bool {
             | Setting::Can { .. },
         ) => false,
     }
-}
-
-/// The slowest clock of a bus whose parts stand this one.
-fn slow_enough_hz(most_hz: u64) -> u64 {
-    most_hz.min(FAST_HZ) / 2
 }
 
 fn serial(baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8) -> String {
@@ -182,7 +179,7 @@ fn expected(wanted: RequiredSettings, state: Setting) -> String {
                 Setting::I2c { fastest_hz, .. } => most_hz.min(fastest_hz),
                 Setting::Serial { .. } | Setting::Spi { .. } | Setting::Can { .. } => most_hz,
             };
-            format!("at {} to {most_hz} Hz", slow_enough_hz(most_hz))
+            format!("at {} to {most_hz} Hz", most_hz / 2)
         }
         RequiredSettings::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
     }

@@ -73,6 +73,8 @@ fn source(name: &str, format: Option<Format>, bytes: &[u8]) {
         beside: &beside,
     });
     check(&made);
+    let has_table = !matches!(format, None | Some(Format::Dbc));
+    assert!(made.failed() || made.table.is_some() || !has_table, "no table and no reason");
 }
 
 /// What holds of all that is imported.

@@ -14,7 +14,6 @@ use super::entries::{
 };
 use super::rates::Costs;
 use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
-use crate::facts;
 
 /// A file of `targets/`.
 #[derive(Debug, Deserialize)]
@@ -110,7 +109,7 @@ fn of_line<E: Entry>(units: Vec<E>, line: &Line) -> impl Iterator<Item = E> {
 impl File {
     /// Reads a file.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        facts::read(text)
+        toml::from_str(text).map_err(|error| error.to_string())
     }
 
     /// The line of an MCU.
