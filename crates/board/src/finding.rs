@@ -101,7 +101,7 @@ pub enum FindingKind {
         nearest: Option<String>,
     },
     /// An alternate function that is not a number from 0 to 15, or a remap block that is not one
-    /// from 0 to 7.
+    /// from 0 to 15.
     BadAlternate {
         /// The cell's text.
         spelled: String,

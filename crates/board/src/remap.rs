@@ -2,23 +2,25 @@
 //!
 //! On STM32F1, a register field for each peripheral chooses one of a few blocks of pins, so all
 //! signals of the peripheral that are used must be in one block. A usage lists the blocks of its
-//! peripheral that it is in: `TIM2_CH1#0|2`.
+//! peripheral that it is in: `TIM2_CH1#0|2`. The pads of a SERCOM on SAM D that go together are
+//! blocks as well.
 
 use std::fmt;
 
 /// The highest block number.
-const LAST: u8 = 7;
+const LAST: u8 = 15;
 
 /// The blocks that have a signal on a pin; never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Blocks(u8);
+pub struct Blocks(u16);
 
 impl Blocks {
-    /// Reads numbers from 0 to 7, separated by `|`.
+    /// Reads numbers from 0 to 15, separated by `|`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let bit = |number: &str| match number.as_bytes() {
-            [digit @ b'0'..=b'7'] => Some(1_u8 << (digit - b'0')),
+            [digit @ b'0'..=b'9'] => Some(1_u16 << (digit - b'0')),
+            [b'1', digit @ b'0'..=b'5'] => Some(1_u16 << (10 + digit - b'0')),
             _ => None,
         };
         text.split('|').try_fold(0, |bits, number| Some(bits | bit(number)?)).map(Self)
@@ -66,7 +68,7 @@ pub fn agree_by_pairs(sets: &[Blocks]) -> bool {
     let mut triples = triples.flat_map(|(a, b)| (b + 1..=LAST).map(move |c| [a, b, c]));
     triples.all(|triple| {
         let touching = |set: &&Blocks| triple.iter().filter(|block| set.has(**block)).count() >= 2;
-        sets.iter().filter(touching).fold(u8::MAX, |common, set| common & set.0) != 0
+        sets.iter().filter(touching).fold(u16::MAX, |common, set| common & set.0) != 0
     })
 }
 
@@ -91,11 +93,11 @@ mod tests {
 
     #[test]
     fn blocks_are_read_and_written() {
-        for text in ["0", "3", "0|2", "1|3|7"] {
+        for text in ["0", "3", "0|2", "1|3|7", "9|10|15"] {
             assert_eq!(blocks(text).to_string(), text);
         }
         assert_eq!(blocks("2|0|2").to_string(), "0|2");
-        for text in ["", "8", "0|", "|1", "a", "01", "0,1", "-1"] {
+        for text in ["", "16", "20", "0|", "|1", "a", "01", "0,1", "-1"] {
             assert_eq!(Blocks::parse(text), None, "{text}");
         }
     }

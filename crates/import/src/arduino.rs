@@ -46,7 +46,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let console = variant.console(mcu.as_deref());
     let wires = variant.wires(console.as_deref(), log);
     if wires.is_empty() && labels.is_empty() {
-        log.no_table(whole, "no `#define` names a pin such as `PA5`");
+        log.no_pins(whole, "no `#define` names a pin such as `PA5`");
         return Texts::default();
     }
     let project = Project {

@@ -69,7 +69,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         dump::read(file, &text, log)
     };
     if board.resources.is_empty() {
-        log.no_table(whole, "no line says what a pin is for");
+        log.no_pins(whole, "no line says what a pin is for");
         return Texts::default();
     }
     let sheet = board.mcu.as_ref().and_then(|(mcu, _)| chip::widest(mcu));

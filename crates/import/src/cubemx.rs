@@ -103,7 +103,7 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Texts
     let reader = Reader { file, functions: &functions };
     let rows = reader.pins(&mcu, log);
     if rows.is_empty() {
-        log.no_table(whole, "the MCU has no general-purpose pin");
+        log.no_pins(whole, "the MCU has no general-purpose pin");
         return Texts::default();
     }
     let table = assemble::table(&properties(&mcu), rows, whole, log);

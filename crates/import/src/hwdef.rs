@@ -35,7 +35,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         return Texts::default();
     };
     if reader.wires.is_empty() {
-        log.no_table(whole, "no line begins with a pin");
+        log.no_pins(whole, "no line begins with a pin");
         return Texts::default();
     }
     let addressed = reader.addressed(log);

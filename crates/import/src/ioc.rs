@@ -32,7 +32,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let reader = Reader { file, values: &values };
     let wires = reader.wires(log);
     if wires.is_empty() {
-        log.no_table(whole, "no pin of the project has a signal");
+        log.no_pins(whole, "no pin of the project has a signal");
         return Texts::default();
     }
     let name = value("ProjectManager.ProjectName").or(value("board"));

@@ -122,6 +122,10 @@ impl Log {
         self.push(e0802_import_no_table::import_no_table(span, what));
     }
 
+    pub(crate) fn no_pins(&mut self, span: Span, what: &str) {
+        self.push(e0802_import_no_table::import_no_pins(span, what));
+    }
+
     pub(crate) fn no_sheet(&mut self, span: Span, name: &str, sheets: &[String]) {
         self.push(e0803_import_no_sheet::import_no_sheet(span, name, sheets));
     }

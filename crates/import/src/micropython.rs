@@ -38,7 +38,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
         return Texts::default();
     }
     if labels.is_empty() {
-        log.no_table(whole, "no line has a label and a pin");
+        log.no_pins(whole, "no line has a label and a pin");
         return Texts::default();
     }
     let board = Board::read(source, whole, log);

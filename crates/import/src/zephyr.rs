@@ -46,7 +46,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     }
     reader.nodes(log);
     if reader.wires.is_empty() {
-        log.no_table(whole, "no node of the tree that is in use names a pin");
+        log.no_pins(whole, "no node of the tree that is in use names a pin");
         return Texts::default();
     }
     let stem = source.name.rsplit(['/', '\\']).next().and_then(|name| name.split('.').next());

@@ -84,6 +84,15 @@ fn a_project_has_all_pins_its_link_and_its_rules() {
     assert!(row(&made, "PA0").contains("ADC123_IN0"));
 }
 
+/// A device that is added later can join the bus, as the debugger has given its pins up.
+#[test]
+fn a_bus_without_devices_keeps_the_pins_of_the_debugger() {
+    let ioc = "Mcu.Name=STM32G474CBTx\nPA13.Signal=I2C1_SCL\nPA14.Signal=I2C1_SDA\n";
+    let made = with("a.ioc", ioc, &[]);
+    holds(&made, &["    release PA13, PA14; // otherwise for the debugger\n"]);
+    assert_eq!(row(&made, "PA13"), "I2C1:bus I2C1_SCL");
+}
+
 #[test]
 fn a_project_without_console_takes_what_is_free() {
     let ioc = "Mcu.Name=STM32F411CEUx\nPA11.Signal=GPIO_Output\nPA9.Signal=USART1_TX\n\

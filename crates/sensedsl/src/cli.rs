@@ -318,8 +318,9 @@ pub(crate) struct DriversArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
-    /// A spreadsheet (CSV, XLSX, ODS), an MCU (XML) or project (.ioc) of CubeMX, an hwdef.dat of
-    /// ArduPilot, alternate functions of MicroPython, messages of CAN (.dbc); - is the standard input
+    /// A spreadsheet (CSV, XLSX, ODS), an MCU (XML) or project (.ioc) of CubeMX, a board of ArduPilot,
+    /// Betaflight, Zephyr, MicroPython or an Arduino core, messages of CAN (.dbc); - is the standard
+    /// input
     pub(crate) source: PathBuf,
     /// Where to write the result; the table of a project goes beside it, as .csv
     #[arg(short, long, value_name = "FILE")]

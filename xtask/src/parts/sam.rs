@@ -1,9 +1,11 @@
 //! The SAM D21, D51 and E5x files of `modm-devices`.
 
+mod iosets;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use roxmltree::{Document, Node};
 
 use super::metapac::Pins;
@@ -33,6 +35,8 @@ struct Line {
     spi: &'static [(&'static str, &'static str)],
     /// The same as UART: the settings of TXPO.
     uart: &'static [(&'static str, &'static str)],
+    /// Whether the pads of a SERCOM must be of one set.
+    has_sets: bool,
     /// RAM in KiB for each code of the flash's size.
     ram_kib: &'static [(&'static str, usize)],
 }
@@ -61,6 +65,7 @@ const LINES: [Line; 2] = [
             ("2", "RX#4"),
             ("3", "RX#4|5"),
         ],
+        has_sets: false,
         ram_kib: &[("15", 4), ("16", 8), ("17", 16), ("18", 32)],
     },
     Line {
@@ -76,6 +81,7 @@ const LINES: [Line; 2] = [
             ("3", "MISO#0"),
         ],
         uart: &[("0", "TX"), ("1", "RX"), ("2", "RX"), ("3", "RX")],
+        has_sets: true,
         ram_kib: &[("18", 128), ("19", 192), ("20", 256)],
     },
 ];
@@ -125,7 +131,8 @@ fn pins(line: &Line, root: Node<'_, '_>, identity: &Identity) -> Result<Pins> {
     for node in children(gpio, "gpio").filter(|node| applies(*node, identity)) {
         let attribute = |name: &str| node.attribute(name).context("no name");
         let number: u8 = attribute("pin")?.parse()?;
-        let usages = pins.entry(format!("P{}{number}", attribute("port")?)).or_default();
+        let pin = format!("P{}{number}", attribute("port")?);
+        let usages = pins.entry(pin.clone()).or_default();
         for signal in children(node, "signal").filter(|node| applies(*node, identity)) {
             // The multiplexer's setting is a letter, and a number for us: A is 0.
             let function = signal.attribute("function").unwrap_or_default();
@@ -133,24 +140,40 @@ fn pins(line: &Line, root: Node<'_, '_>, identity: &Identity) -> Result<Pins> {
                 [letter @ b'a'..=b'p'] => Some(letter - b'a'),
                 _ => None,
             };
-            usages.extend(named(line, signal).into_iter().map(|name| (name, setting)));
+            usages.extend(named(line, &pin, signal)?.into_iter().map(|name| (name, setting)));
         }
     }
     Ok(pins)
 }
 
-/// The usages that a signal of the file is.
-fn named(line: &Line, signal: Node<'_, '_>) -> Vec<String> {
+/// A SERCOM's line with the blocks that it is in on a pin: of each set the two orders of SPI lines (DOPO 0 and 2), and
+/// of a line of another bus both of them.
+fn in_sets(line: &str, sets: &[u8]) -> String {
+    let (line, orders) = line.split_once('#').unwrap_or((line, "0|2"));
+    let orders: Vec<u8> = ["0", "2"]
+        .into_iter()
+        .zip(0..)
+        .filter_map(|(order, at)| orders.contains(order).then_some(at))
+        .collect();
+    let blocks = sets.iter().flat_map(|set| orders.iter().map(move |order| (set - 1) * 2 + order));
+    let blocks: Vec<String> = blocks.map(|block| block.to_string()).collect();
+    format!("{line}#{}", blocks.join("|"))
+}
+
+/// The usages that a signal of the file is on a pin.
+fn named(line: &Line, pin: &str, signal: Node<'_, '_>) -> Result<Vec<String>> {
     let of = |name: &str| signal.attribute(name).unwrap_or_default();
     let (driver, unit, name, index) = (of("driver"), of("instance"), of("name"), of("index"));
-    match (driver, name) {
+    Ok(match (driver, name) {
         ("sercom", _) => {
-            let mut names = Vec::new();
             let bus = [("0", "SDA"), ("1", "SCL")];
             let lines = bus.iter().chain(line.spi).chain(line.uart);
-            let lines = lines.filter(|(pad, _)| *pad == index);
-            names.extend(lines.map(|(_, line)| format!("SERCOM{unit}_{line}")));
-            names
+            let lines = lines.filter(|(pad, _)| *pad == index).map(|(_, line)| *line);
+            let sets: Vec<u8> = iosets::sets_of(unit, index, pin).collect();
+            ensure!(!line.has_sets || !sets.is_empty(), "{pin} is in no set of SERCOM{unit}");
+            let spelled =
+                |own: &str| if line.has_sets { in_sets(own, &sets) } else { own.to_owned() };
+            lines.map(|own| format!("SERCOM{unit}_{}", spelled(own))).collect()
         }
         ("tcc", "wo") => {
             let own = unit.parse::<usize>().ok().and_then(|unit| line.channels.get(unit));
@@ -173,5 +196,5 @@ fn named(line: &Line, signal: Node<'_, '_>) -> Vec<String> {
         ("pdec", "qdi") => vec![format!("PDEC_QDI{index}")],
         ("eic", _) => Vec::new(),
         (driver, name) => vec![format!("{driver}{unit}_{name}{index}").to_uppercase()],
-    }
+    })
 }

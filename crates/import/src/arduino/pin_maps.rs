@@ -77,7 +77,7 @@ pub(super) fn import(file: FileId, text: &str, log: &mut Log) -> Texts {
         }
     }
     if rows.is_empty() {
-        log.no_table(whole, "no list has a row with a pin");
+        log.no_pins(whole, "no list has a row with a pin");
         return Texts::default();
     }
     let mcu = mcu(text).map(|mcu| ("mcu", mcu)).into_iter().collect::<Vec<_>>();

@@ -37,7 +37,7 @@ pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mu
 
 /// The rules of the board.
 struct Rules {
-    /// Pins that devices are on although the MCU needs them for itself, by what it needs them for.
+    /// Pins that devices and buses are on although the MCU needs them for itself, by what it needs them for.
     release: BTreeMap<&'static str, Vec<String>>,
     /// Units that the project uses for something that is not a device.
     reserve: Vec<String>,
@@ -52,15 +52,17 @@ impl Rules {
     ) -> Self {
         let standing = inferred.devices.iter().filter(|device| !device.open);
         let used: BTreeSet<&PinName> = standing.flat_map(|device| &device.pins).collect();
-        let is_linked = |wire: &&Wire| {
+        // A bus keeps its pins although its devices are comments still.
+        let is_kept = |wire: &&Wire| {
             let unit = wire.using.signal().and_then(chip::unit_of);
-            unit.is_some() && unit.as_deref() == linked
+            let serves =
+                |unit: &String| Some(unit.as_str()) == linked || inferred.buses.contains(unit);
+            used.contains(&wire.pin) || unit.as_ref().is_some_and(serves)
         };
-        let of_link: BTreeSet<&PinName> =
-            project.wires.iter().filter(is_linked).map(|wire| &wire.pin).collect();
-        let pins = project.wires.iter().map(|wire| &wire.pin);
+        let kept: BTreeSet<&PinName> =
+            project.wires.iter().filter(is_kept).map(|wire| &wire.pin).collect();
         let mut release: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
-        for pin in pins.filter(|pin| used.contains(pin) || of_link.contains(pin)) {
+        for pin in kept {
             if let Some(role) = chip.needed_for(pin, is_bare) {
                 release.entry(role.describe()).or_default().push(pin.to_string());
             }

@@ -45,7 +45,7 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
         }
         Kind::BadAlternate { spelled } => {
             let here = if spelled.contains('#') {
-                "behind `#` are remap blocks from 0 to 7, as in `#0|2`"
+                "behind `#` are remap blocks from 0 to 15, as in `#0|2`"
             } else {
                 "the number behind `@` is an alternate function from 0 to 15"
             };

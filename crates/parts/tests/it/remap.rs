@@ -147,3 +147,29 @@ fn all_pairs_of_a_timer_s_outputs() {
     }
     assert_eq!(seen, [48, 61], "pairs that have none, that have one");
 }
+
+/// On SAM D5x the pads of a SERCOM are of one set, as the data sheet has them, or of those that boards have their SPI
+/// lines on.
+#[test]
+fn pads_of_a_sercom_are_of_one_set() {
+    let on = |devices: &str| feasible("ATSAMD51J19A", "none", devices);
+    for (sda, scl, is_set) in
+        [("PA8", "PA9", true), ("PA4", "PA5", true), ("PA8", "PA5", false), ("PA4", "PA9", false)]
+    {
+        let devices = format!("i2c unit = SERCOM0, sda = {sda}, scl = {scl}");
+        assert_eq!(on(&devices), is_set, "{devices}");
+    }
+    for (mosi, sck, miso, is_set) in [
+        // Set 1 in both orders, with a pad of set 3, and the lines of Feather M4.
+        ("PA8", "PA9", "PA10", true),
+        ("PA11", "PA9", "PA8", true),
+        ("PA11", "PA9", "PA10", true),
+        ("PA11", "PA5", "PA8", false),
+        ("PA8", "PA9", "PA6", false),
+    ] {
+        let devices = format!("spi unit = SERCOM0, mosi = {mosi}, sck = {sck}, miso = {miso}");
+        assert_eq!(on(&devices), is_set, "{devices}");
+    }
+    assert!(on("spi unit = SERCOM1, mosi = PB23, sck = PA17, miso = PB22"));
+    assert!(!on("spi unit = SERCOM1, mosi = PB23, sck = PA17, miso = PA18"));
+}
