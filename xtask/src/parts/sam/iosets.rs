@@ -1,7 +1,7 @@
 //! The pads of SAM D5x and E5x that go together (IOSET), from the data sheet's tables by way of `atsamd-hal` 0.23.4.
 
 /// The SERCOM, the set's number, the pins of its pads 0 to 3. Sets 7 and 8 are not in the data sheet: Adafruit's boards
-/// have their SPI lines on them (Feather M4 and ItsyBitsy M4).
+/// have their SPI lines on them (Feather M4 and `ItsyBitsy` M4).
 const SETS: [(u8, u8, [&str; 4]); 38] = [
     (0, 1, ["PA8", "PA9", "PA10", "PA11"]),
     (0, 2, ["PB24", "PB25", "PC24", "PC25"]),
