@@ -90,6 +90,11 @@ fn embassy_rp() {
 }
 
 #[test]
+fn embassy_esp() {
+    agrees_as("embassy_esp", "tests/firmware/embassy/esp32c6.sense", &["--without", "host"]);
+}
+
+#[test]
 fn embassy_nrf() {
     agrees_as("embassy_nrf", "tests/firmware/embassy/nrf52840.sense", &["--without", "host"]);
 }

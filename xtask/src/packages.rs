@@ -1,8 +1,9 @@
 //! `cargo xtask packages FOLDER`: writes the table that Embassy's lock files are computed from.
 //!
 //! In: a folder with the lock files of all sorts of projects, as cargo writes them: `check.lock`, `check-f3.lock`,
-//! `check-g4.lock`, `check-rp.lock`, `check-nrf.lock`, and the same with `firmware`. Out: `packages.txt` of `crates/firmware-embassy`,
-//! which has each crate once, with conditions for its dependencies.
+//! `check-g4.lock`, `check-rp.lock`, `check-nrf.lock`, the same with `firmware`, and `firmware-esp32c3.lock` and
+//! `firmware-esp32c6.lock`. Out: `packages.txt` of `crates/firmware-embassy`, which has each crate once, with conditions
+//! for its dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -12,7 +13,7 @@ use anyhow::{Context as _, Result, bail, ensure};
 use crate::parts::sources::{self, text};
 
 /// The sorts of projects, with the tags that apply to each.
-const SORTS: [(&str, &[&str]); 10] = [
+const SORTS: [(&str, &[&str]); 12] = [
     ("check", &["check", "stm32"]),
     ("check-g4", &["check", "stm32", "g4"]),
     ("check-f3", &["check", "stm32", "f3"]),
@@ -23,15 +24,20 @@ const SORTS: [(&str, &[&str]); 10] = [
     ("firmware-f3", &["firmware", "stm32", "f3"]),
     ("firmware-rp", &["firmware", "rp"]),
     ("firmware-nrf", &["firmware", "nrf"]),
+    ("firmware-esp32c3", &["firmware", "esp", "esp32c3"]),
+    ("firmware-esp32c6", &["firmware", "esp", "esp32c6"]),
 ];
 /// The conditions, the simplest ones first.
-const CONDITIONS: [&str; 19] = [
+const CONDITIONS: [&str; 26] = [
     "",
     "check",
     "firmware",
     "stm32",
     "rp",
     "nrf",
+    "esp",
+    "esp32c3",
+    "esp32c6",
     "f3",
     "g4",
     "check stm32",
@@ -45,6 +51,10 @@ const CONDITIONS: [&str; 19] = [
     "check or rp",
     "f3 or g4",
     "stm32 or firmware nrf",
+    "stm32 or rp or nrf",
+    "stm32 or rp",
+    "firmware nrf or esp",
+    "firmware stm32 or firmware rp or firmware nrf",
 ];
 /// The HAL's dependencies that it only has if a timer is left for the clock; a lock file of a project with one has
 /// them.
@@ -99,8 +109,12 @@ fn condition(package: &Package, need: &Package, here: &[(&[&str], &Locked)]) -> 
         all.all(|(tags, (_, needs))| holds(condition, tags) == needs.contains(need))
     };
     let found = CONDITIONS.iter().find(fits);
-    let found =
-        found.with_context(|| format!("{} needs {} sometimes", shown(package), shown(need)))?;
+    let found = found.with_context(|| {
+        let needing = here.iter().filter(|(_, (_, needs))| needs.contains(need));
+        let needing: Vec<String> = needing.map(|(tags, _)| tags.join(" ")).collect();
+        let (package, need) = (shown(package), shown(need));
+        format!("no condition holds where {package} needs {need}: {}", needing.join(" or "))
+    })?;
     Ok(if found.is_empty() { String::new() } else { format!(" if {found}") })
 }
 

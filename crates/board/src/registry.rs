@@ -247,6 +247,8 @@ pub(crate) const TARGETS: &[Target] = &[
     target!("chibios-21.11", "stm32h7.toml", "STM32H7", &["STM32H723", "STM32H725", "STM32H730", "STM32H733", "STM32H735", "STM32H743", "STM32H753", "STM32H745", "STM32H755", "STM32H747", "STM32H757", "STM32H750", "STM32H7A3", "STM32H7B3"]),
     target!("chibios-21.11", "stm32l4.toml", "STM32L4", &["STM32L422", "STM32L431", "STM32L432", "STM32L433", "STM32L443", "STM32L452", "STM32L475", "STM32L476", "STM32L486", "STM32L496", "STM32L4A6"]),
     target!("chibios-21.11", "stm32l4plus.toml", "STM32L4", &["STM32L4P5", "STM32L4Q5", "STM32L4R5", "STM32L4R7", "STM32L4R9", "STM32L4S5", "STM32L4S7", "STM32L4S9"]),
+    target!("embassy-0.6", "esp32c3.toml", "ESP32-C3", &["ESP32-C3"]),
+    target!("embassy-0.6", "esp32c6.toml", "ESP32-C6", &["ESP32-C6"]),
     target!("embassy-0.6", "nrf52.toml", "nRF52", &["NRF52832", "NRF52833", "NRF52840"]),
     target!("embassy-0.6", "rp2040.toml", "RP2040", &["RP2040"]),
     target!("embassy-0.6", "rp2350.toml", "RP2350", &["RP2350A", "RP2350B"]),

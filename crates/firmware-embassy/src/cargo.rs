@@ -16,8 +16,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_job::part::uses;
 
 /// What `sense-embassy` needs under any HAL, besides what its template has.
-const RUNTIME_NEEDS: [&str; 7] = [
-    "cortex-m = { version = \"=0.7.7\", features = [\"critical-section-single-core\"] }",
+const RUNTIME_NEEDS: [&str; 6] = [
     "embassy-futures = \"=0.1.2\"",
     "embassy-sync = \"=0.8.0\"",
     "embassy-time = \"=0.5.1\"",
@@ -25,6 +24,10 @@ const RUNTIME_NEEDS: [&str; 7] = [
     "embedded-hal-async = \"=1.0.0\"",
     "embedded-io-async = \"=0.7.0\"",
 ];
+
+/// What it needs on a Cortex-M beside that.
+const CORTEX_M: &str =
+    "cortex-m = { version = \"=0.7.7\", features = [\"critical-section-single-core\"] }";
 
 /// The manifest of a check of types.
 #[derive(Template)]
@@ -60,15 +63,15 @@ pub(super) struct Manifests {
     pub(super) hal: &'static Package,
     /// The family of the chip in UF2 files, as a number of TOML.
     pub(super) uf2_family: Option<String>,
-    /// The features that the firmware needs of the HAL.
-    pub(super) hal_features: String,
+    /// The lines of the firmware's dependencies.
+    pub(super) needs: BTreeSet<String>,
+    /// The crates that every interrupt goes through, with how they are optimised.
+    pub(super) speeds: BTreeSet<(&'static str, &'static str)>,
     /// The lines of what `sense-embassy` needs.
     pub(super) runtime_needs: Vec<String>,
-    /// The features that the firmware needs of `sense-embassy`, and all that there are.
-    pub(super) features: String,
+    /// All features of `sense-embassy`.
     pub(super) all_features: Vec<&'static str>,
-    /// The features that the firmware needs of `sense-rt`, and all that there are.
-    pub(super) uses: String,
+    /// All features of `sense-rt`.
     pub(super) all_uses: Vec<&'static str>,
 }
 
@@ -81,17 +84,29 @@ impl Manifests {
         versions: &BTreeSet<&'static str>,
     ) -> Self {
         let hal_features = project.features(context);
-        let features = ["runtime", hal.name].into_iter().chain(versions.iter().copied());
+        let hal_features = quoted(hal_features.iter().map(String::as_str));
+        let features = quoted(["runtime", hal.name].into_iter().chain(versions.iter().copied()));
         let used = features_of_values(context.job).filter(|(_, is_used)| *is_used);
+        let uses = quoted(used.map(|(name, _)| name));
+        let Package { crate_name, version, tick_hz, core, .. } = hal;
+        let needs = core.needs.iter().map(|line| (*line).to_owned()).chain([
+            format!("{crate_name} = {{ version = \"={version}\", features = [{hal_features}] }}"),
+            "embassy-sync = \"=0.8.0\"".to_owned(),
+            format!(
+                "embassy-time = {{ version = \"=0.5.1\", features = [\"tick-hz-{tick_hz}\"] }}"
+            ),
+            format!("sense-embassy = {{ path = \"sense-embassy\", features = [{features}] }}"),
+            format!("sense-rt = {{ path = \"sense-rt\", features = [{uses}] }}"),
+            "static_cell = \"=2.1.1\"".to_owned(),
+        ]);
         Self {
             board: context.job.board.name.value.clone(),
             hal,
+            needs: needs.chain(project.needs(context)).collect(),
+            speeds: core.speeds.iter().copied().chain([(*crate_name, "\"s\"")]).collect(),
             uf2_family: project.uf2_family(context).map(|family| format!("{family:#010x}")),
-            hal_features: quoted(hal_features.iter().map(String::as_str)),
             runtime_needs: runtime_needs(hal),
-            features: quoted(features),
             all_features: runtime_features(hal),
-            uses: quoted(used.map(|(name, _)| name)),
             all_uses: features_of_values(context.job).map(|(name, _)| name).collect(),
         }
     }
@@ -100,12 +115,14 @@ impl Manifests {
 /// The lines of what `sense-embassy` needs under a HAL, in alphabetical order.
 fn runtime_needs(hal: &Package) -> Vec<String> {
     let own = format!(
-        "embassy-{} = {{ version = \"={}\", features = [{}] }}",
-        hal.name,
+        "{} = {{ version = \"={}\", features = [{}] }}",
+        hal.crate_name,
         hal.version,
         quoted(hal.runtime_asks.iter().copied())
     );
-    let needs = RUNTIME_NEEDS.iter().chain(hal.runtime_needs).map(|line| (*line).to_owned());
+    let core = hal.core.is_cortex_m.then_some(&CORTEX_M);
+    let needs = RUNTIME_NEEDS.iter().chain(hal.runtime_needs).chain(core);
+    let needs = needs.map(|line| (*line).to_owned());
     let lines: BTreeSet<String> = needs.chain([own]).collect();
     lines.into_iter().collect()
 }

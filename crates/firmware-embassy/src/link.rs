@@ -7,7 +7,7 @@ use sensedsl_model::kind::Role;
 
 use super::context::Context;
 use super::hal::contract::Drivers;
-use super::hal::contract::link::{Link, LinkPads, UsbLink};
+use super::hal::contract::link::{Link, LinkPads, StreamLink, UsbLink};
 use super::item::{Item, Task};
 use super::section::{Constructor, Field, Keep, LinkPlan, Section, Start};
 
@@ -17,14 +17,19 @@ pub(super) fn plan(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Section {
     let mut section = Section::default();
-    let made = match context.job.board.link.transport {
+    let transport = context.job.board.link.transport;
+    if let Some(stream) = drivers.link().stream(context, transport, &mut section) {
+        over_stream(stream, &mut section);
+        return section;
+    }
+    let made = match transport {
         Transport::Usb => over_usb(context, drivers.link(), &mut section),
         Transport::Uart => over_uart(context, drivers.link(), &mut section),
         Transport::None => None,
     };
     if made.is_none() {
         let name = &context.job.board.name;
-        let why = match context.job.board.link.transport {
+        let why = match transport {
             Transport::None => "it has no link to send reports over (`transport = none`)",
             Transport::Usb => {
                 "USB needs a clock of 48 MHz, which its firmware cannot make without a crystal, or not on this MCU yet; \
@@ -57,21 +62,27 @@ fn over_uart(context: &Context<'_>, driver: &dyn Link, section: &mut Section) ->
     Some(())
 }
 
+fn over_stream(stream: StreamLink, section: &mut Section) {
+    let StreamLink { comment, made } = stream;
+    task(&made, "device.run(&LINK).await;".to_owned(), section);
+    section.fields.push(Field::of("link".to_owned(), comment, made));
+    section.link = LinkPlan::Stream;
+}
+
 fn over_usb(context: &Context<'_>, link: &dyn Link, section: &mut Section) -> Option<()> {
     let UsbLink { comment, made, is_otg } = link.usb(context, section)?;
-    let driver = made.type_.clone();
+    let product = &context.job.board.name.value;
+    task(&made, format!("rt::link_usb::run(device, {product:?}, &LINK).await;"), section);
     section.fields.push(Field::of("link".to_owned(), comment, made));
-    usb_task(context, &driver, section);
     section.link = if is_otg { LinkPlan::Otg } else { LinkPlan::Usb };
     Some(())
 }
 
-/// The task of the USB device. `driver` is the type of its driver.
-fn usb_task(context: &Context<'_>, driver: &str, section: &mut Section) {
-    let product = &context.job.board.name.value;
+/// The task of the link's driver. `runs` is its only statement.
+fn task(made: &Constructor, runs: String, section: &mut Section) {
     let mut task = Task::new("The link's device".to_owned(), "link".to_owned());
-    task.parameters.push(format!("device: {driver}"));
-    task.before.push(format!("rt::link_usb::run(device, {product:?}, &LINK).await;"));
+    task.parameters.push(format!("device: {}", made.type_));
+    task.before.push(runs);
     section.items.push(Item::Task(task));
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
 }

@@ -87,7 +87,10 @@ pub(super) fn lock(root: &str, tags: &[&str]) -> String {
             text.push_str("source = \"registry+https://github.com/rust-lang/crates.io-index\"\n");
             text.push_str(&format!("checksum = \"{}\"\n", row.checksum));
         }
-        let needs: Vec<String> = table.needs(package, tags).map(|one| named(one, &all)).collect();
+        let mut needs: Vec<String> =
+            table.needs(package, tags).map(|one| named(one, &all)).collect();
+        // As text: 0.10 comes before 0.9 there.
+        needs.sort_unstable();
         if !needs.is_empty() {
             text.push_str(&format!("dependencies = [\n{}]\n", needs.concat()));
         }

@@ -44,6 +44,8 @@ pub(super) struct Plan {
     pub(super) chip: String,
     /// What debug probes call the chip.
     pub(super) probe: String,
+    /// The command that runs a program on a board.
+    pub(super) runner: String,
     /// The triple of the core.
     pub(super) target: String,
     pub(super) manifests: Manifests,
@@ -79,7 +81,8 @@ pub(super) struct Plan {
     pub(super) silence_ms: u32,
     /// The pin of the light, whether it shines when high, and what it is made of.
     pub(super) led: Option<(String, bool, String)>,
-    pub(super) is_usb: bool,
+    /// Whether queues lie between the reporter and the link's driver.
+    pub(super) is_queued: bool,
     pub(super) is_otg: bool,
     pub(super) is_uart: bool,
     /// The size of a serial port's queue for what the host sends.
@@ -128,6 +131,7 @@ pub(super) fn plan(
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
         probe: context.chip.probe.clone(),
+        runner: hal.core.runner.replace("{chip}", &context.chip.probe),
         target: context.names.target.clone(),
         manifests: Manifests::new(context, hal, project, &section.features),
         lock: cargo::firmware_lock(context, hal, project),
@@ -144,7 +148,7 @@ pub(super) fn plan(
         report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| light(drivers.pins(), led)),
-        is_usb,
+        is_queued: section.link.is_queued(),
         is_otg: section.link == LinkPlan::Otg,
         is_uart: section.link == LinkPlan::Uart,
         received_bytes: link::received_bytes(board.link.baud, report_ms),

@@ -54,6 +54,15 @@ pub(super) enum LinkPlan {
     Otg,
     /// A serial port.
     Uart,
+    /// A port that carries bytes, with a task of its own.
+    Stream,
+}
+
+impl LinkPlan {
+    /// Whether a task has the driver, and queues lie between it and the reporter.
+    pub(super) fn is_queued(self) -> bool {
+        matches!(self, Self::Usb | Self::Otg | Self::Stream)
+    }
 }
 
 /// A statement of `main`.

@@ -6,7 +6,7 @@ use sensedsl_model::kind::{KindName, Role};
 
 use super::context::Context;
 use super::hal::contract::Drivers;
-use super::hal::contract::buses::{self, Half, PortPins, Serial};
+use super::hal::contract::buses::{self, Half, Hearing, PortPins, Serial};
 use super::item::{Handler, Item, Task, beat};
 use super::missing::{self, Missing, Printed};
 use super::section::{Constructor, Field, Section, Start, Watched};
@@ -180,9 +180,16 @@ impl<'a> Port<'a> {
         let (half, place) = self.half(true);
         let title = format!("{}: what it says, each {} ms", self.wire.place(), cycle.delay_ms);
         let mut task = Task::in_turn(title, format!("{ident}_listen"), cycle);
+        let mut call = String::new();
         if has_fields {
-            self.interrupt(section)?;
-            task.parameters.push(format!("_port: {}", self.driver.half_type(half)));
+            match self.driver.hearing() {
+                Hearing::Interrupt => {
+                    self.interrupt(section)?;
+                    task.parameters.push(format!("_port: {}", self.driver.half_type(half)));
+                    call.clone_from(&place);
+                }
+                Hearing::Task => self.hear((half, &place), section),
+            }
         }
         let is_own = |index: usize| self.wire.devices.contains(&index);
         let (filters, pass) = filter::of_items(self.context, is_own, section);
@@ -201,30 +208,56 @@ impl<'a> Port<'a> {
         task.cycle.push(beat(&constant));
         task.cycle.push("Timer::at(until).await;".to_owned());
         section.items.push(Item::Task(task));
-        let call = if has_fields { place } else { String::new() };
         section.starts.push(Start::Task(cycle.prio, format!("{ident}_listen({call})")));
         section.watched.push(Watched::new(constant, cycle, self.context.id_of(self.wire)));
         Ok(())
     }
 
+    /// The queue of what the port receives.
+    fn queue(&self) -> Item {
+        let queue = serial::waiting_bytes(self.uart);
+        let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
+        Item::Line(format!(
+            "static {}_RX: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();",
+            self.upper()
+        ))
+    }
+
+    /// The bits of a character that are data.
+    fn mask(&self) -> &'static str {
+        if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" }
+    }
+
+    /// The task that takes what the port receives, and what it fills.
+    fn hear(&self, (half, place): (Half, &str), section: &mut Section) {
+        let (ident, upper) = (&self.wire.ident, self.upper());
+        let port = if half == Half::Rx { "port" } else { "port.split().1" };
+        let mut task =
+            Task::new(format!("The bytes of {}", self.wire.place()), format!("{ident}_hear"));
+        task.parameters.push(format!("port: {}", self.driver.half_type(half)));
+        task.before.push(format!(
+            "rt::{}::receive({port}, &{upper}_RX, {}).await;",
+            self.driver.module(),
+            self.mask()
+        ));
+        section.items.extend([self.queue(), Item::Task(task)]);
+        section.starts.push(Start::Task(self.wire.cycle.prio, format!("{ident}_hear({place})")));
+    }
+
     /// The handler of the port's interrupt, and what it fills.
     fn interrupt(&self, section: &mut Section) -> Printed<()> {
         let upper = self.upper();
-        let queue = serial::waiting_bytes(self.uart);
-        let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
         let interrupt = self.context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Rx"));
         let registers = self.driver.registers(&self.context.peripheral(self.unit));
-        let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
+        let mask = self.mask();
         let module = self.driver.module();
         section.begins.extend([
             format!("rt::{module}::listen({registers});"),
             "// Its handler is there.".to_owned(),
             format!("unsafe {{ interrupt::{interrupt}.enable() }};"),
         ]);
-        section.items.push(Item::Line(format!(
-            "static {upper}_RX: rt::serial::RxQueue<{queue}> = rt::serial::RxQueue::new();"
-        )));
+        section.items.push(self.queue());
         section.items.push(Item::Handler(Handler {
             doc: format!("The bytes of {}", self.wire.place()),
             name: format!("{upper}Rx"),

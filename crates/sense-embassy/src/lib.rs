@@ -8,11 +8,12 @@
 //! | feature | HAL | folder |
 //! | --- | --- | --- |
 //! | `stm32` | `embassy-stm32` | `src/stm32` |
+//! | `esp` | `esp-hal` | `src/esp` |
 //! | `nrf` | `embassy-nrf` | `src/nrf` |
 //! | `rp` | `embassy-rp` | `src/rp` |
 //!
 //! Further features say which versions of a unit the MCU has: `can-banks` or `can-fd`, `i2c-v1` or
-//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-v2`, `gpio-v2`, `otg`. The HALs themselves
+//! `i2c-v2`, `usart-v1` or `usart-v3`, `adc-v2`, `gpio-v2`, `otg`, `pcnt`. The HALs themselves
 //! are dependencies for MCUs alone, so `no-hal` leaves the folders out where all features are on;
 //! everything else is compiled and tested on a computer.
 //!
@@ -48,14 +49,23 @@ pub mod devices;
 #[cfg(feature = "runtime")]
 pub mod link;
 #[cfg(feature = "runtime")]
+pub mod link_stream;
+#[cfg(feature = "runtime")]
 pub mod link_uart;
 #[cfg(feature = "runtime")]
 pub mod link_usb;
 #[cfg(feature = "runtime")]
 pub mod serial;
-#[cfg(all(any(feature = "nrf", feature = "rp", feature = "stm32"), not(feature = "no-hal")))]
+#[cfg(all(
+    any(feature = "esp", feature = "nrf", feature = "rp", feature = "stm32"),
+    not(feature = "no-hal")
+))]
 pub mod status;
 
+#[cfg(all(feature = "esp", not(feature = "no-hal")))]
+mod esp;
+#[cfg(all(feature = "esp", not(feature = "no-hal")))]
+pub use esp::*;
 #[cfg(all(feature = "nrf", not(feature = "no-hal")))]
 mod nrf;
 #[cfg(all(feature = "nrf", not(feature = "no-hal")))]

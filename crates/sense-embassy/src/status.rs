@@ -17,6 +17,7 @@ const SPARED_BYTES: u32 = 256;
 
 unsafe extern "C" {
     /// The end of all statics, up to which the stack may grow.
+    #[cfg_attr(feature = "esp", link_name = "_stack_end")]
     static __sheap: u32;
 }
 
@@ -26,7 +27,8 @@ struct Kept(UnsafeCell<[u32; 2]>);
 // SAFETY: the words are written at the start, and then only before a reset.
 unsafe impl Sync for Kept {}
 
-#[unsafe(link_section = ".uninit.sense_record")]
+#[cfg_attr(feature = "esp", unsafe(link_section = ".rtc_fast.persistent.sense_record"))]
+#[cfg_attr(not(feature = "esp"), unsafe(link_section = ".uninit.sense_record"))]
 static KEPT: Kept = Kept(UnsafeCell::new([0; 2]));
 
 fn keep(words: [u32; 2]) {

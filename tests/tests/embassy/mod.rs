@@ -2,6 +2,7 @@
 //!
 //! What needs cargo and its registry runs with `SENSEDSL_THOROUGH=1`.
 
+mod esp;
 mod nrf;
 mod rp;
 mod rp_machines;
@@ -180,10 +181,18 @@ fn wirings_of_other_targets_compile() {
 
 /// A compiler that comes with the source of its core library.
 const RUSTC: &str = "/usr/bin/rustc";
-const LINKER: &str = "arm-none-eabi-ld";
 
-fn can_link() -> bool {
-    Path::new(RUSTC).exists() && has(LINKER)
+/// The linker of a core. Each is that of the compilers for it.
+fn linker(triple: &str) -> &'static str {
+    if triple.starts_with("riscv") { "riscv64-unknown-elf-ld" } else { "arm-none-eabi-ld" }
+}
+
+fn can_link(triple: &str) -> bool {
+    let can = Path::new(RUSTC).exists() && has(linker(triple));
+    if !can {
+        missing(&format!("rustc-web with rust-web-src, and {}", linker(triple)));
+    }
+    can
 }
 
 /// The image of a project, which is built for its core without a warning. It is where `build` leaves it.
@@ -195,7 +204,12 @@ fn linked(project: &Path, triple: &str) -> PathBuf {
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
     let variable = triple.to_uppercase().replace(['-', '.'], "_");
-    cargo.env(format!("CARGO_TARGET_{variable}_LINKER"), LINKER);
+    cargo.env(format!("CARGO_TARGET_{variable}_LINKER"), linker(triple));
+    if triple.starts_with("riscv32") {
+        // The linker is that of 64 bits.
+        let flags = format!("target.{triple}.rustflags=['-Clink-arg=-melf32lriscv']");
+        cargo.args(["--config", &flags]);
+    }
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", RUSTC).env_remove("RUSTFLAGS");
     let output = cargo.current_dir(project).output().unwrap();
     let log = String::from_utf8_lossy(&output.stderr);
@@ -223,8 +237,8 @@ fn fig2_builds() {
     if !is_exhaustive() {
         return;
     }
-    if !can_link() {
-        return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
+    if !can_link("thumbv7em-none-eabihf") {
+        return;
     }
     let scratch = TempDir::new("embassy-fig2");
     let out = scratch.join("out").display().to_string();

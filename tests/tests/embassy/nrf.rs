@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use sensedsl_generate::target;
-use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, missing, printed, sensedsl, tree};
+use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, printed, sensedsl, tree};
 
 use super::{
     can_link, checked, is_told, linked, source, uf2_of, versions_are_those_of_the_lock_file,
@@ -137,8 +137,8 @@ fn images_link() {
     if !is_thorough() {
         return;
     }
-    if !can_link() {
-        return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
+    if !can_link("thumbv7em-none-eabihf") {
+        return;
     }
     let scratch = TempDir::new("embassy-nrf-link");
     for (board, design, from) in &boards()[..if is_exhaustive() { 4 } else { 2 }] {

@@ -67,9 +67,10 @@ pub(super) fn is_possible() -> bool {
     if !is_exhaustive() {
         return false;
     }
-    if !can_link() {
-        missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
-    } else if !has("node")
+    if !can_link("thumbv6m-none-eabi") {
+        return false;
+    }
+    if !has("node")
         || !["rp2040js", "uf2"].iter().all(|name| folder().join("node_modules").join(name).exists())
     {
         missing(

@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
         let Some(made) = cells::all_on(entry.name, entry.mcu, TARGET) else { continue };
         let (notes, refused) = match made {
             Made::Files(files, notes) => {
-                let refused = check(&files, &scratch, (&host, flags(entry.mcu)))?;
+                let refused = check(&files, &scratch, &Compiler::of(entry.mcu, &host))?;
                 (notes, refused)
             }
             Made::NotOffered => (Notes::default(), Some("no kind fits".to_owned())),
@@ -109,17 +109,35 @@ fn host() -> Result<String> {
     Ok(host.context("rustc -vV names no host")?.to_owned())
 }
 
-/// The compiler flags for an MCU: the HAL of RP2350 uses registers that the core's crate has only for ARMv8-M.
-fn flags(mcu: &str) -> Option<&'static str> {
-    mcu.starts_with("RP235").then_some("--cfg armv8m --cfg armv8m_main")
+/// How a project is compiled.
+struct Compiler<'a> {
+    triple: &'a str,
+    flags: Option<&'static str>,
+    /// Whether it is Debian's, which has the source of `core`: for a HAL that does not compile for a computer.
+    has_core: bool,
+}
+
+impl<'a> Compiler<'a> {
+    fn of(mcu: &str, host: &'a str) -> Self {
+        match mcu {
+            "ESP32-C3" => {
+                Self { triple: "riscv32imc-unknown-none-elf", flags: None, has_core: true }
+            }
+            "ESP32-C6" => {
+                Self { triple: "riscv32imac-unknown-none-elf", flags: None, has_core: true }
+            }
+            // Its HAL uses registers that the core's crate has only for ARMv8-M.
+            _ if mcu.starts_with("RP235") => {
+                let flags = Some("--cfg armv8m --cfg armv8m_main");
+                Self { triple: host, flags, has_core: false }
+            }
+            _ => Self { triple: host, flags: None, has_core: false },
+        }
+    }
 }
 
 /// The first error of the compiler, or its first warning about our files.
-fn check(
-    files: &FileSet,
-    scratch: &Path,
-    (host, flags): (&str, Option<&str>),
-) -> Result<Option<String>> {
+fn check(files: &FileSet, scratch: &Path, compiler: &Compiler<'_>) -> Result<Option<String>> {
     let project = scratch.join("project");
     if project.exists() {
         std::fs::remove_dir_all(&project).with_context(|| project.display().to_string())?;
@@ -132,13 +150,24 @@ fn check(
     }
     let manifest = find(&project).context("no Cargo.toml was generated")?;
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["check", "--locked", "--quiet", "--message-format", "short", "--target", host]);
+    cargo.args([
+        "check",
+        "--locked",
+        "--quiet",
+        "--message-format",
+        "short",
+        "--target",
+        compiler.triple,
+    ]);
     cargo.arg("--target-dir").arg(scratch.join("target")).arg("--manifest-path").arg(&manifest);
     for name in ["CARGO_BUILD_TARGET", "CARGO_ENCODED_RUSTFLAGS", "RUSTFLAGS", "RUSTC_WRAPPER"] {
         cargo.env_remove(name);
     }
-    if let Some(flags) = flags {
+    if let Some(flags) = compiler.flags {
         cargo.env("RUSTFLAGS", flags);
+    }
+    if compiler.has_core {
+        cargo.arg("-Zbuild-std=core").env("RUSTC", "/usr/bin/rustc").env("RUSTC_BOOTSTRAP", "1");
     }
     let output = cargo.env("CARGO_INCREMENTAL", "0").output().context("cargo")?;
     let text = String::from_utf8_lossy(&output.stderr).into_owned();

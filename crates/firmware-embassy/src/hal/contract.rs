@@ -43,10 +43,14 @@ pub(crate) trait Hal: Sync {
 /// The crate of a HAL, and texts that are the same for all its MCUs.
 #[derive(Debug)]
 pub(crate) struct Package {
-    /// The name after `embassy-`. Profiles name the HAL by it, and it is the HAL's feature in `sense-embassy`.
+    /// What profiles call the HAL, which is its feature in `sense-embassy` as well.
     pub(crate) name: &'static str,
+    /// The crate: `embassy-rp`.
+    pub(crate) crate_name: &'static str,
     /// The exact version.
     pub(crate) version: &'static str,
+    /// How programs run on its cores.
+    pub(crate) core: &'static Core,
     /// The ticks of its time driver in a second, as features of `embassy-time` are spelled: `1_000_000`.
     pub(crate) tick_hz: &'static str,
     /// The imports of `main.rs`: complete lines.
@@ -64,6 +68,50 @@ pub(crate) struct Package {
     /// How a program is written to a board without a debug probe; `None` if that takes a probe.
     pub(crate) loader: Option<Loader>,
 }
+
+/// How programs are put together, started and run on a sort of cores.
+#[derive(Debug)]
+pub(crate) struct Core {
+    /// Whether it is a Cortex-M, whose assembler and atomics `sense-embassy` needs crates for.
+    pub(crate) is_cortex_m: bool,
+    /// The lines of a program's manifest for what starts it and runs its tasks.
+    pub(crate) needs: &'static [&'static str],
+    /// The crates that every interrupt goes through, with how they are optimised.
+    pub(crate) speeds: &'static [(&'static str, &'static str)],
+    /// The attribute of `main`.
+    pub(crate) main: &'static str,
+    /// What a boot loader looks for in a program: an item of `main.rs`.
+    pub(crate) item: Option<&'static str>,
+    /// Arguments of the compiler, as a list of TOML without its brackets.
+    pub(crate) rustflags: &'static str,
+    /// The command that runs a program on a board, without the program. `{chip}` is what debug probes call the chip.
+    pub(crate) runner: &'static str,
+    /// How one gets that command, and what it does.
+    pub(crate) runner_from: &'static str,
+    pub(crate) runs: &'static str,
+}
+
+/// Cortex-M, with the executor that runs a level of priority in an interrupt.
+pub(crate) static CORTEX_M: Core = Core {
+    is_cortex_m: true,
+    needs: &[
+        "cortex-m-rt = \"=0.7.7\"",
+        "embassy-executor = { version = \"=0.10.0\", features = [\"executor-interrupt\", \"executor-thread\", \"platform-cortex-m\"] }",
+    ],
+    speeds: &[
+        ("embassy-executor", "3"),
+        ("embassy-hal-internal", "3"),
+        ("embassy-sync", "\"s\""),
+        ("embassy-time", "3"),
+        ("embassy-time-queue-utils", "3"),
+    ],
+    main: "embassy_executor::main",
+    item: None,
+    rustflags: "\"-C\", \"link-arg=--nmagic\", \"-C\", \"link-arg=-Tlink.x\"",
+    runner: "probe-rs run --chip {chip}",
+    runner_from: "Debug probes: `cargo install probe-rs-tools`.",
+    runs: "writes it to the board by a debug probe; needs probe-rs",
+};
 
 /// How a boot loader takes a program over USB.
 #[derive(Clone, Copy, Debug)]
@@ -172,6 +220,11 @@ pub(crate) trait Project {
 
     /// The features of the HAL's crate, the chip's among them.
     fn features(&self, context: &Context<'_>) -> Vec<String>;
+
+    /// The lines of the manifest for what only this chip's program needs, beside the HAL.
+    fn needs(&self, _context: &Context<'_>) -> Vec<String> {
+        Vec::new()
+    }
 
     /// Conditions of `templates/packages.txt` that hold for a chip, beside the name of the HAL.
     fn lock_tags(&self, _chip: &Chip) -> Vec<&'static str> {

@@ -3,7 +3,9 @@
 //! In: a target profile, which names its HAL by a word. Out: the HAL with its drivers for the profile's line of MCUs.
 
 pub(crate) mod contract;
+mod counted;
 mod dma;
+mod esp;
 mod nrf;
 mod rp;
 mod stm32;
@@ -15,7 +17,7 @@ use crate::names::Names;
 use contract::{Drivers, Hal};
 
 /// All HALs. A profile that names none has the first.
-pub(crate) const HALS: &[&dyn Hal] = &[&stm32::Stm32, &rp::Rp, &nrf::Nrf];
+pub(crate) const HALS: &[&dyn Hal] = &[&stm32::Stm32, &rp::Rp, &nrf::Nrf, &esp::Esp];
 
 /// The HAL of a profile, with all that is read from it.
 pub(crate) struct Opened {

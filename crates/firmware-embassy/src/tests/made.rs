@@ -8,7 +8,7 @@ use crate::context::Context;
 use crate::hal::contract::inputs::{Analog, AnalogInput, each_round};
 use crate::hal::contract::link::{Link, LinkPads, PortLink};
 use crate::hal::contract::outputs::{Pins, Speed};
-use crate::hal::contract::{Begin, Drivers, Hal, Package, Project, Watchdog, drivers};
+use crate::hal::contract::{Begin, CORTEX_M, Drivers, Hal, Package, Project, Watchdog, drivers};
 use crate::missing::Printed;
 use crate::names::Names;
 use crate::section::{Constructor, Section};
@@ -17,6 +17,8 @@ pub(super) struct MadeUp;
 
 static PACKAGE: Package = Package {
     name: "made-up",
+    crate_name: "embassy-made-up",
+    core: &CORTEX_M,
     version: "0.9.0",
     tick_hz: "32_768",
     main_uses: "use embassy_made_up::{self as hal, Peri, gpio::*, interrupt, peripherals::*};\n",

@@ -138,7 +138,7 @@ fn what_the_hal_lacks_is_a_gap() {
 fn an_unknown_hal_is_reported_with_the_known_ones() {
     with_job(SERVED, |job| {
         let error = Opened::new(job.profile.unwrap(), HALS).err();
-        let expected = "unknown HAL `made-up`, expected one of `stm32`, `rp`, `nrf`";
+        let expected = "unknown HAL `made-up`, expected one of `stm32`, `rp`, `nrf`, `esp`";
         assert_eq!(error.as_deref(), Some(expected));
         let reports = generate(job, HALS).unwrap_err();
         assert!(reports[0].message.contains(expected), "{reports:?}");

@@ -46,10 +46,15 @@ pub(crate) trait Spi {
     ) -> Printed<Constructor>;
 }
 
-/// Serial ports of devices. The project has the handler of their interrupts.
+/// Serial ports of devices.
 pub(crate) trait Serial {
-    /// The runtime's module of serial ports, which has `transmit`, `listen` and `on_interrupt`.
+    /// The runtime's module of serial ports, which has `transmit` and what [`Serial::hearing`] says.
     fn module(&self) -> &'static str;
+
+    /// Who takes the bytes that a port receives.
+    fn hearing(&self) -> Hearing {
+        Hearing::Interrupt
+    }
 
     /// Whether a port can take wires whose levels are inverted.
     fn can_invert(&self) -> bool {
@@ -66,6 +71,15 @@ pub(crate) trait Serial {
     fn registers(&self, unit: &str) -> String {
         format!("hal::pac::{unit}")
     }
+}
+
+/// Who takes the bytes that a port receives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Hearing {
+    /// The project's handler of the port's interrupt, with the module's `listen` and `on_interrupt`.
+    Interrupt,
+    /// A task, with the module's `receive`.
+    Task,
 }
 
 /// A serial port or one of its directions.

@@ -2,12 +2,11 @@
 
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::protocol::Drive;
-use sensedsl_wire::{Direction, ScalarType};
 
 use super::settings::Settings;
+use crate::hal::counted;
 
 /// What a connection needs and there is no code for.
 pub(super) fn lacks(
@@ -24,7 +23,7 @@ pub(super) fn lacks(
     }
     match &connection.connection.kind {
         Kind::Uart(uart) => of_port(settings, uart),
-        Kind::Digital(own) if counts(own, &devices) => {
+        Kind::Digital(own) if counted::is_counted(own, &devices) => {
             Some("edges counted without `debounce` on nRF52, where `type = icu` counts them")
         }
         Kind::Icu(_)
@@ -50,13 +49,4 @@ fn of_port(settings: &Settings, uart: &Uart) -> Option<&'static str> {
     } else {
         None
     }
-}
-
-/// Whether any number of edges is counted in any time. An edge wakes a task, which may see two of them as one.
-fn counts(own: &Digital, devices: &[&JobDevice<'_>]) -> bool {
-    let is_count = |one: &&JobDevice<'_>| {
-        one.device.direction == Direction::Sensor
-            && one.device.value.value.scalar != ScalarType::Bool
-    };
-    own.edge.is_some() && own.debounce_us == 0 && devices.iter().any(is_count)
 }

@@ -16,7 +16,7 @@ use super::contract::buses::{I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::Pulses;
 use super::contract::types::Types;
-use super::contract::{Drivers, Hal, Package, drivers};
+use super::contract::{CORTEX_M, Drivers, Hal, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
 
@@ -25,6 +25,8 @@ pub(super) struct Nrf;
 
 static PACKAGE: Package = Package {
     name: "nrf",
+    crate_name: "embassy-nrf",
+    core: &CORTEX_M,
     version: "0.11.0",
     tick_hz: "32_768",
     main_uses: include_str!("templates/main_uses.rs.txt"),

@@ -17,7 +17,7 @@ use super::contract::buses::{I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::Pulses;
 use super::contract::types::Types;
-use super::contract::{Drivers, Hal, Loader, Package, drivers};
+use super::contract::{CORTEX_M, Drivers, Hal, Loader, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
 
@@ -26,6 +26,8 @@ pub(super) struct Rp;
 
 static PACKAGE: Package = Package {
     name: "rp",
+    crate_name: "embassy-rp",
+    core: &CORTEX_M,
     version: "0.10.0",
     tick_hz: "1_000_000",
     main_uses: include_str!("templates/main_uses.rs.txt"),

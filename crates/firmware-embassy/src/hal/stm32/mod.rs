@@ -19,7 +19,7 @@ use super::contract::buses::{Can, I2c, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::{Dac, Pulses};
 use super::contract::types::Types;
-use super::contract::{Drivers, Hal, Package, drivers};
+use super::contract::{CORTEX_M, Drivers, Hal, Package, drivers};
 use crate::names::Names;
 use settings::Settings;
 
@@ -28,6 +28,8 @@ pub(super) struct Stm32;
 
 static PACKAGE: Package = Package {
     name: "stm32",
+    crate_name: "embassy-stm32",
+    core: &CORTEX_M,
     version: "0.6.0",
     tick_hz: "1_000_000",
     main_uses: include_str!("templates/main_uses.rs.txt"),
