@@ -47,7 +47,7 @@ fn row(entry: &Entry) -> String {
             Transport::Uart => link.unit.as_str(),
             Transport::Usb => "USB",
         };
-        format!("{unit} ({})", names.join(" "))
+        if names.is_empty() { unit.to_owned() } else { format!("{unit} ({})", names.join(" ")) }
     });
     let links: Vec<String> = links.collect();
     let chibios = Facts::of(&board).unwrap();

@@ -46,7 +46,7 @@ fn projects_are_whole() {
         let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
         let lock = text_of("Cargo.lock");
         versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &lock, 7);
-        versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 9);
+        versions_are_those_of_the_lock_file(&text_of("sense-embassy/Cargo.toml"), &lock, 10);
         let config = text_of(".cargo/config.toml");
         assert!(config.contains(triple) && config.contains("espflash flash"), "{config}");
         assert!(text_of("src/main.rs").contains("esp_bootloader_esp_idf::esp_app_desc!();"));

@@ -165,6 +165,23 @@ fn how_a_board_gets_ready_is_told() {
     refused(run(&machine, &["flash", "pill.sense"], &[]), "E0518", &words);
 }
 
+/// Its program goes behind a boot loader that no other tool brings.
+#[test]
+fn an_esp32_is_written_by_its_own_tool() {
+    let machine = machine();
+    let text = "board XIAO_ESP32C3 { target = embassy; sensor Light returns bool { id = 1; type = digital; } }";
+    let _ = machine.file("esp.sense", text);
+    machine.tool("st-info", "echo Found 1 stlink programmers");
+    machine.tool("openocd", "echo \"$@\" >> \"$LOG\"");
+    let words = ["espflash (not installed)", "install it: `cargo install espflash`"];
+    refused(run(&machine, &["flash", "esp.sense"], &[]), "E0518", &words);
+    machine.tool("espflash", "echo \"$@\" >> \"$LOG\"");
+    let elf = elf(&machine, ("XIAO_ESP32C3", "riscv32imc-unknown-none-elf", 0, ""));
+    let _ = run(&machine, &["flash", "esp.sense"], &[]).exits(0);
+    let calls = machine.calls();
+    assert!(calls.ends_with(&format!("flash --chip esp32c3 {elf}\n")), "{calls}");
+}
+
 #[test]
 fn a_tool_that_finds_the_board_comes_first() {
     let machine = machine();

@@ -7,11 +7,11 @@ pub const CODE: Code = Code(&CodeInfo {
     code: "E0518",
     title: "there is nothing to flash with",
     explanation: r#"`flash` looks for a tool and for a board that the tool can reach, in this order: `st-flash` (asked by `st-info
---probe`), `probe-rs` (`probe-rs list`), `dfu-util` (`dfu-util --list`), `picotool` (`picotool info`), the board's
-drive, and `openocd`, which cannot be asked and is tried where nothing else is installed. `st-flash` and `dfu-util`
-write to STM32, `picotool` to RP2040 and RP2350. All of them look on USB: for an ST-LINK, which Nucleo and Discovery
-boards carry, or for a board whose boot loader runs. A drive takes the program as a file and needs no tool: that of an
-ST-LINK, or that of the boot loader of RP2040 and RP2350.
+--probe`), `probe-rs` (`probe-rs list`), `dfu-util` (`dfu-util --list`), `picotool` (`picotool info`), `espflash`, the
+board's drive, and `openocd`, which cannot be asked and is tried where nothing else is installed. `st-flash` and
+`dfu-util` write to STM32, `picotool` to RP2040 and RP2350, `espflash` alone to ESP32. All of them look on USB: for an
+ST-LINK, which Nucleo and Discovery boards carry, or for a board whose boot loader runs. A drive takes the program as a
+file and needs no tool: that of an ST-LINK, or that of the boot loader of RP2040 and RP2350.
 
 Way out: plug the board in at the connector of its ST-LINK, with a cable that carries data; or start the boot loader of
 a board without one. On RP2040 and RP2350: hold BOOTSEL (on some boards BOOT) while you plug the board in. On STM32, for
@@ -20,6 +20,7 @@ DFU: hold BOOT0 while you plug the board in, or hold BOOT0 and press NRST. Insta
     Debian, Ubuntu    sudo apt install stlink-tools     (or openocd, dfu-util)
     macOS             brew install stlink               (or openocd, dfu-util, picotool)
     Windows           in WSL, where `usbipd attach --wsl` hands over the board
+    ESP32, anywhere   cargo install espflash
 
 On Linux, a probe that only root sees needs udev rules, which these packages bring: unplug it and plug it in again. A
 drive must be mounted, which a desktop does by itself. `--with TOOL` takes one tool only, `--drive DIR` the drive that
@@ -31,6 +32,8 @@ is mounted there."#,
 pub struct Board<'a> {
     /// What makes it ready to take a program, if that is known; a clause.
     pub ready: Option<&'a str>,
+    /// How the only tool that can write to it is installed, if there is only one; a command in backticks.
+    pub installs: Option<&'a str>,
     /// Whether it is then a drive.
     pub has_drive: bool,
     /// The label of such a drive that is there and not mounted.
@@ -55,8 +58,10 @@ impl Board<'_> {
 
 /// `looked` says what was looked for, and the result.
 pub fn no_tool(span: Span, looked: &str, board: &Board<'_>) -> Diagnostic {
-    let tools =
-        "Debian, Ubuntu: `sudo apt install stlink-tools`; macOS: `brew install stlink`; or install another of them";
+    let installs = board.installs.map(|command| format!("install it: {command}"));
+    let tools = installs.as_deref().unwrap_or(
+        "Debian, Ubuntu: `sudo apt install stlink-tools`; macOS: `brew install stlink`; or install another of them",
+    );
     let help = match (board.by_drive(), board.ready) {
         (Some(help), _) => help,
         (None, Some(ready)) => format!("{ready}; and install a tool: {tools}"),

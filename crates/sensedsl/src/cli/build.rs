@@ -57,6 +57,8 @@ pub(crate) enum Tool {
     DfuUtil,
     /// By the boot loader of RP2040 and RP2350
     Picotool,
+    /// By the boot loader of ESP32
+    Espflash,
     /// By copying a file to the drive of the boot loader, or of an ST-LINK
     Drive,
     /// By a probe, through `OpenOCD`

@@ -11,12 +11,21 @@ use super::drive::{self, Drive};
 use super::{Program, asked};
 use crate::cli::Tool;
 
+/// What the names of ESP32 chips begin with.
+const ESP: &str = "ESP32";
 /// The address of the flash on every STM32.
 const FLASH: &str = "0x08000000";
 
 /// All tools, in the order in which they are tried.
-const TOOLS: [Tool; 6] =
-    [Tool::StFlash, Tool::ProbeRs, Tool::DfuUtil, Tool::Picotool, Tool::Drive, Tool::Openocd];
+const TOOLS: [Tool; 7] = [
+    Tool::StFlash,
+    Tool::ProbeRs,
+    Tool::DfuUtil,
+    Tool::Picotool,
+    Tool::Espflash,
+    Tool::Drive,
+    Tool::Openocd,
+];
 
 /// A tool's answer about boards on this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +59,7 @@ impl Tool {
             Self::ProbeRs => "probe-rs",
             Self::DfuUtil => "dfu-util",
             Self::Picotool => "picotool",
+            Self::Espflash => "espflash",
             Self::Drive => "the board's drive",
             Self::Openocd => "openocd",
         }
@@ -59,7 +69,7 @@ impl Tool {
     pub(crate) fn takes_raw(self) -> bool {
         match self {
             Self::StFlash | Self::DfuUtil => true,
-            Self::ProbeRs | Self::Picotool | Self::Drive | Self::Openocd => false,
+            Self::ProbeRs | Self::Picotool | Self::Espflash | Self::Drive | Self::Openocd => false,
         }
     }
 
@@ -67,9 +77,11 @@ impl Tool {
     fn serves(self, program: &Program) -> bool {
         let is_of = |make: &str| program.mcu.as_deref().is_some_and(|mcu| mcu.starts_with(make));
         match self {
-            Self::StFlash | Self::DfuUtil => !(is_of("RP") || is_of("NRF")),
+            Self::StFlash | Self::DfuUtil => !(is_of("RP") || is_of("NRF") || is_of(ESP)),
             Self::Picotool => is_of("RP"),
-            Self::ProbeRs | Self::Drive | Self::Openocd => true,
+            Self::Espflash => is_of(ESP),
+            // The program of an ESP32 goes behind a boot loader, which only its own tool brings.
+            Self::ProbeRs | Self::Drive | Self::Openocd => !is_of(ESP),
         }
     }
 
@@ -81,6 +93,11 @@ impl Tool {
             Self::DfuUtil => ("dfu-util", &["--list"], |reported| reported.contains("Found DFU:")),
             Self::Picotool => {
                 ("picotool", &["info"], |reported| reported.contains("Program Information"))
+            }
+            // It asks the person which port it is, if it cannot tell.
+            Self::Espflash => {
+                let here = asked("espflash", &["--version"]).is_some();
+                return if here { Found::Unknown } else { Found::NoTool };
             }
             // Drives are looked at by themselves.
             Self::Drive => return Found::Nothing,
@@ -107,6 +124,7 @@ impl Tool {
             Self::ProbeRs => "probe-rs list",
             Self::DfuUtil => "dfu-util --list",
             Self::Picotool => "picotool info",
+            Self::Espflash => "espflash",
             Self::Drive => "a drive of the board",
             Self::Openocd => "openocd",
         };
@@ -163,6 +181,7 @@ pub(crate) fn choose(
     let no_tool = tools().next().is_some() && tools().all(|(_, found)| *found == Found::NoTool);
     let board = e0518_no_probe::Board {
         ready: program.ready.as_deref(),
+        installs: Tool::Espflash.serves(program).then_some("`cargo install espflash`"),
         has_drive: program.build.family().is_some(),
         not_mounted: drive::not_mounted(),
     };
@@ -234,6 +253,10 @@ pub(crate) fn command(
             ["-a", "0", "-s", &address, "-D", &raw].map(str::to_owned).into()
         }
         Tool::Picotool => ["load", "-u", "-v", "-x", "-t", "elf", &elf].map(str::to_owned).into(),
+        Tool::Espflash => {
+            let chip = mcu()?.to_ascii_lowercase().replace('-', "");
+            ["flash", "--chip", &chip, &elf].map(str::to_owned).into()
+        }
         // A file is copied there.
         Tool::Drive => Vec::new(),
         Tool::Openocd => {
