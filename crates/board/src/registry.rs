@@ -46,6 +46,7 @@ macro_rules! target {
 
 #[rustfmt::skip]
 pub(crate) const BOARDS: &[Entry] = &[
+    board!("ARDUINO-DUE", &["DUE"], "ATSAM3X8E", "Arduino Due, the pins of its connectors"),
     board!("ARDUINO-LEONARDO", &["LEONARDO"], "ATMEGA32U4-AU", "Arduino Leonardo, the pins of its connectors"),
     board!("ARDUINO-MEGA-2560", &["ARDUINO-MEGA", "MEGA-2560"], "ATMEGA2560-16AU", "Arduino Mega 2560, the pins of its connectors"),
     board!("ARDUINO-MICRO", &["MICRO"], "ATMEGA32U4-AU", "Arduino Micro, the pins of its edges"),
@@ -207,6 +208,7 @@ pub(crate) const BOARDS: &[Entry] = &[
 pub(crate) const FORMS: &[(&str, &str)] = &[
     form!("arduino-micro"),
     form!("bluepill"),
+    form!("due"),
     form!("esp32-c3-devkitm-1"),
     form!("esp32-c6-devkitc-1"),
     form!("esp32-devkitc-v4"),

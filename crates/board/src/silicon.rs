@@ -20,6 +20,7 @@ const FILES: &[&str] = &[
     include_str!("../silicon/nrf52.toml"),
     include_str!("../silicon/ra4m1.toml"),
     include_str!("../silicon/rp2.toml"),
+    include_str!("../silicon/sam3x.toml"),
     include_str!("../silicon/samd.toml"),
     include_str!("../silicon/stm32.toml"),
 ];

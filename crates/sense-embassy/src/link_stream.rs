@@ -41,8 +41,11 @@ pub async fn carry<const BYTES: usize>(
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use core::convert::Infallible;
     use core::future::pending;
+    use std::vec::Vec;
 
     use embassy_futures::poll_once;
     use embedded_io_async::{ErrorType, Read, Write};

@@ -12,7 +12,7 @@ enum Channels {
 }
 
 /// Timers and counters: the start of a unit's name, its channels, and what they are at a pin.
-const TIMERS: [(&str, Channels, TimerLine); 12] = [
+const TIMERS: [(&str, Channels, TimerLine); 15] = [
     // RP2040 and RP2350: slices.
     ("PWM", Channels::Words(&["A", "B"]), TimerLine::Both),
     // nRF: modules of four outputs, timers that capture, the decoder.
@@ -27,6 +27,10 @@ const TIMERS: [(&str, Channels, TimerLine); 12] = [
     ("TCC", Channels::Counted("WO"), TimerLine::Output),
     ("TC", Channels::Counted("WO"), TimerLine::Output),
     ("PDEC", Channels::Words(&["QDI0", "QDI1"]), TimerLine::Input),
+    // SAM3X: channels of the PWM controller, each with a period of its own; timers with two pins.
+    ("PWM", Channels::Words(&["H"]), TimerLine::Output),
+    ("PWM", Channels::Words(&["L"]), TimerLine::Inverted),
+    ("TC", Channels::Words(&["TIOA", "TIOB"]), TimerLine::Both),
     // RA: counters with two pins.
     ("GPT", Channels::Words(&["GTIOCA", "GTIOCB"]), TimerLine::Both),
     // i.MX RT: the decoders. Its other timers have units of two numbers.
