@@ -45,7 +45,6 @@ const NOT_YET: &[(&str, &str)] = &[
     ("nodemcu", "ESP8266"),
     ("teensy3", "Teensy 3"),
     ("teensylc", "Teensy LC"),
-    ("arduinodue", "Arduino Due"),
     ("arduinogiga", "Arduino Giga"),
     ("arduinounor4wifi", "Arduino Uno R4 WiFi"),
     ("ra4m1", "RA4M1"),

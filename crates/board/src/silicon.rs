@@ -18,6 +18,7 @@ const FILES: &[&str] = &[
     include_str!("../silicon/esp32.toml"),
     include_str!("../silicon/imxrt.toml"),
     include_str!("../silicon/nrf52.toml"),
+    include_str!("../silicon/nrf53.toml"),
     include_str!("../silicon/ra4m1.toml"),
     include_str!("../silicon/rp2.toml"),
     include_str!("../silicon/sam3x.toml"),

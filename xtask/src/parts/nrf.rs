@@ -1,4 +1,4 @@
-//! The nRF52 files of `modm-devices`, with the peripherals that may be at any pin.
+//! The nRF52 and nRF53 files of `modm-devices`, with the peripherals that may be at any pin.
 
 use std::path::Path;
 
@@ -23,18 +23,39 @@ pub(crate) struct Part {
     pub(crate) ram_bytes: usize,
 }
 
-/// What a chip has, from its product specification. Peripherals that share a block with another are left out: the
-/// first two units of SPI are those of TWI.
+/// What a chip has, from its product specification. Of the peripherals that share a block with another on nRF52, one is
+/// named: the first two units of SPI are those of TWI.
 struct Chip {
     name: &'static str,
     file: &'static str,
+    /// Blocks that are a bus of any kind.
+    blocks: u8,
+    i2cs: u8,
     spis: &'static [u8],
     serials: u8,
     pulses: u8,
+    decoders: &'static [&'static str],
+    /// Without the radio's.
+    timers: std::ops::Range<u8>,
+    core: &'static str,
     kib: (usize, usize),
 }
 
-const CHIPS: [Chip; 3] = [
+const NRF52: Chip = Chip {
+    name: "nrf52840",
+    file: "nrf52820_840.xml",
+    blocks: 0,
+    i2cs: 2,
+    spis: &[2, 3],
+    serials: 2,
+    pulses: 4,
+    decoders: &["QDEC"],
+    timers: 1..5,
+    core: "Cortex-M4",
+    kib: (1024, 256),
+};
+
+const CHIPS: [Chip; 4] = [
     Chip {
         name: "nrf52832",
         file: "nrf52832_833.xml",
@@ -42,22 +63,23 @@ const CHIPS: [Chip; 3] = [
         serials: 1,
         pulses: 3,
         kib: (512, 64),
+        ..NRF52
     },
+    Chip { name: "nrf52833", file: "nrf52832_833.xml", kib: (512, 128), ..NRF52 },
+    NRF52,
+    // The core for applications; the other one is the radio's.
     Chip {
-        name: "nrf52833",
-        file: "nrf52832_833.xml",
-        spis: &[2, 3],
-        serials: 2,
-        pulses: 4,
-        kib: (512, 128),
-    },
-    Chip {
-        name: "nrf52840",
-        file: "nrf52820_840.xml",
-        spis: &[2, 3],
-        serials: 2,
-        pulses: 4,
-        kib: (1024, 256),
+        name: "nrf5340",
+        file: "nrf5340.xml",
+        blocks: 4,
+        i2cs: 0,
+        spis: &[4],
+        serials: 0,
+        decoders: &["QDEC0", "QDEC1"],
+        timers: 0..3,
+        core: "Cortex-M33",
+        kib: (1024, 512),
+        ..NRF52
     },
 ];
 
@@ -73,6 +95,10 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Part>> {
         for identity in identities(root, schema) {
             let name = spell(schema, &identity);
             let Some(code) = name.strip_prefix(chip.name) else { continue };
+            let (code, core) = code.split_once('@').unwrap_or((code, "app"));
+            if core != "app" {
+                continue;
+            }
             let is_small = code.ends_with("ab");
             let kib = if is_small { (256, 32) } else { chip.kib };
             let gpio = children(root, "driver");
@@ -86,7 +112,7 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Part>> {
                 layout: package.and_then(|package| {
                     Some((package.attribute("name")?.to_owned(), places(package, &identity)))
                 }),
-                core: "Cortex-M4",
+                core: chip.core,
                 flash_bytes: kib.0 << 10,
                 ram_bytes: kib.1 << 10,
             });
@@ -129,7 +155,11 @@ fn routed(chip: &Chip) -> Vec<String> {
     let mut add = |unit: &str, lines: &[&str]| {
         names.extend(lines.iter().map(|line| format!("{unit}_{line}")));
     };
-    for unit in 0..2 {
+    for unit in 0..chip.blocks {
+        let lines = ["SCL", "SDA", "SCK", "MISO", "MOSI", "TX", "RX"];
+        add(&format!("SERIAL{unit}"), &lines);
+    }
+    for unit in 0..chip.i2cs {
         add(&format!("TWIM{unit}"), &["SCL", "SDA"]);
     }
     for unit in chip.spis {
@@ -141,9 +171,10 @@ fn routed(chip: &Chip) -> Vec<String> {
     for unit in 0..chip.pulses {
         add(&format!("PWM{unit}"), &["OUT0", "OUT1", "OUT2", "OUT3"]);
     }
-    add("QDEC", &["A", "B"]);
-    // The first timer is that of the radio.
-    for unit in 1..5 {
+    for unit in chip.decoders {
+        add(unit, &["A", "B"]);
+    }
+    for unit in chip.timers.clone() {
         add(&format!("TIMER{unit}"), &["CC0"]);
     }
     names

@@ -89,7 +89,7 @@ fn imxrt_timer(name: &str) -> Option<Function> {
 }
 
 /// `SERCOM0_SDA` of SAM D, which can be a bus of any kind; `TWIM0_SCL`, `SPIM3_SCK` and `UARTE0_TX`
-/// of nRF; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT; `IIC1_SCL`, `RSPI0_SCK` and `SCI2_TX` of RA.
+/// of nRF52, `SERIAL0_TX` of nRF53; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT; `IIC1_SCL`, `RSPI0_SCK` and `SCI2_TX` of RA.
 fn bus(name: &str) -> Option<Function> {
     let (unit, line) = name.split_once('_')?;
     let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -102,7 +102,9 @@ fn bus(name: &str) -> Option<Function> {
         "TWIM" | "LPI2C" | "IIC" => i2c(unit),
         "UARTE" => uart(unit),
         "SPIM" | "RSPI" => spi(unit),
-        "SERCOM" | "SCI" => i2c(unit.clone()).or_else(|| uart(unit.clone())).or_else(|| spi(unit)),
+        "SERCOM" | "SCI" | "SERIAL" => {
+            i2c(unit.clone()).or_else(|| uart(unit.clone())).or_else(|| spi(unit))
+        }
         "TWAI" | "FLEXCAN" => Some(Function::Can { unit, line: CanLine::from_name(line)? }),
         "LPSPI" => {
             let line = match line {
