@@ -93,6 +93,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("METRO-RP2040", &["ADAFRUIT-METRO-RP2040"], "RP2040", "Adafruit Metro RP2040, the pins of its edges"),
     board!("METRO-RP2350", &["ADAFRUIT-METRO-RP2350"], "RP2350B", "Adafruit Metro RP2350, the pins of its edges"),
     board!("MICROBIT-V2", &["BBC-MICROBIT-V2", "MICROBIT"], "NRF52833-QIAA", "BBC micro:bit V2, the strips of its edge connector"),
+    board!("NRF5340-DK", &["PCA10095"], "NRF5340-QKAA", "Nordic nRF5340-DK, its Arduino connectors"),
     board!("NRF52840-DK", &["PCA10056"], "NRF52840-QIAA", "Nordic nRF52840-DK, its Arduino connectors"),
     board!("NUCLEO-C031C6", &["ST_NUCLEO64_C031C6", "NUCLEO64-C031C6"], "STM32C031C6T6", "Nucleo-64 C031C6, all pins of its MCU"),
     board!("NUCLEO-C071RB", &["ST_NUCLEO64_C071RB", "NUCLEO64-C071RB"], "STM32C071RBT6", "Nucleo-64 C071RB, all pins of its MCU"),
