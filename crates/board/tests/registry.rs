@@ -38,6 +38,7 @@ const UNKNOWN_CONTACTS: &[(&str, &str, usize)] = &[
     ("METRO-NRF52840", "POWER", 1),
     ("METRO-RP2040", "POWER", 1),
     ("METRO-RP2350", "POWER", 1),
+    ("NRF5340-DK", "P4_DIGITAL_H", 1),
     ("NUCLEO-C071RB", "CN10", 2),
     ("NUCLEO-C071RB", "CN7", 5),
     ("NUCLEO-H503RB", "CN10", 7),
