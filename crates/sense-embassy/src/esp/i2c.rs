@@ -9,10 +9,11 @@ use esp_hal::i2c::master::{Config, Error, I2c, Instance};
 use esp_hal::time::Rate;
 use sense_rt::{Outcome, Step};
 
+use super::OneCore;
 use crate::bus::Line;
 
 /// A unit as master.
-pub type Master = I2c<'static, Async>;
+pub type Master = OneCore<I2c<'static, Async>>;
 
 /// A bus that several tasks share.
 pub type I2cBus = Mutex<CriticalSectionRawMutex, Master>;
@@ -32,7 +33,7 @@ where
 {
     let config = Config::default().with_frequency(Rate::from_hz(clock_hz));
     match I2c::new(unit, config) {
-        Ok(bus) => bus.with_sda(sda).with_scl(scl).into_async(),
+        Ok(bus) => OneCore(bus.with_sda(sda).with_scl(scl).into_async()),
         Err(_) => crate::restart(),
     }
 }
@@ -50,6 +51,7 @@ fn outcome(result: &Result<Result<(), Error>, embassy_time::TimeoutError>) -> Ou
 impl Line for I2cLine {
     async fn transfer(&mut self, address: u8, step: Step<'_>, timeout: Duration) -> Outcome {
         let mut bus = self.0.lock().await;
+        let bus = &mut bus.0;
         outcome(&match step {
             Step::Write(bytes) => with_timeout(timeout, bus.write_async(address, bytes)).await,
             Step::WriteRead([], bytes) => {

@@ -10,11 +10,12 @@ use esp_hal::spi::master::{Config, Instance, Spi};
 use esp_hal::time::Rate;
 use sense_rt::{Outcome, Step};
 
+use super::OneCore;
 use super::gpio::Output;
 use crate::bus::{Line, exchange};
 
 /// A unit as master.
-pub type Master = Spi<'static, Async>;
+pub type Master = OneCore<Spi<'static, Async>>;
 
 /// A bus that several tasks share.
 pub type SpiBus = Mutex<CriticalSectionRawMutex, Master>;
@@ -37,7 +38,7 @@ pub fn bus(
     miso: impl PeripheralInput<'static>,
 ) -> Master {
     match Spi::new(unit, Config::default()) {
-        Ok(bus) => bus.with_sck(sck).with_mosi(mosi).with_miso(miso).into_async(),
+        Ok(bus) => OneCore(bus.with_sck(sck).with_mosi(mosi).with_miso(miso).into_async()),
         Err(_) => crate::restart(),
     }
 }
@@ -57,12 +58,13 @@ pub fn config(mode: u8, clock_hz: u32) -> Config {
 impl Line for SpiLine {
     async fn transfer(&mut self, _: u8, step: Step<'_>, timeout: Duration) -> Outcome {
         let mut bus = self.bus.lock().await;
+        let bus = &mut bus.0;
         // The clock rests at the part's level before the part looks at it.
         if bus.apply_config(&self.config).is_err() {
             return Outcome::BusError;
         }
         self.select.set_low();
-        let outcome = exchange(&mut *bus, step, timeout).await;
+        let outcome = exchange(bus, step, timeout).await;
         self.select.set_high();
         outcome
     }

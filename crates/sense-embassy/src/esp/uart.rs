@@ -4,13 +4,14 @@ use esp_hal::Async;
 use esp_hal::gpio::interconnect::{PeripheralInput, PeripheralOutput};
 use esp_hal::uart::{self, DataBits, Instance, Parity, StopBits};
 
+use super::OneCore;
 use crate::serial::{self, RxQueue, TxQueue};
 
 /// What a port sends with.
-pub struct UartTx(uart::UartTx<'static, Async>);
+pub struct UartTx(OneCore<uart::UartTx<'static, Async>>);
 
 /// What a port receives with.
-pub struct UartRx(uart::UartRx<'static, Async>);
+pub struct UartRx(OneCore<uart::UartRx<'static, Async>>);
 
 /// A port with both directions.
 pub struct Uart(UartRx, UartTx);
@@ -32,7 +33,7 @@ impl Uart {
         config: uart::Config,
     ) -> Self {
         let (rx, tx) = port(unit, config).with_rx(rx).with_tx(tx).split();
-        Self(UartRx(rx), UartTx(tx))
+        Self(UartRx(OneCore(rx)), UartTx(OneCore(tx)))
     }
 
     /// Its directions: what sends, and what receives.
@@ -49,7 +50,7 @@ impl UartTx {
         tx: impl PeripheralOutput<'static>,
         config: uart::Config,
     ) -> Self {
-        Self(port(unit, config).with_tx(tx).split().1)
+        Self(OneCore(port(unit, config).with_tx(tx).split().1))
     }
 }
 
@@ -60,7 +61,7 @@ impl UartRx {
         rx: impl PeripheralInput<'static>,
         config: uart::Config,
     ) -> Self {
-        Self(port(unit, config).with_rx(rx).split().0)
+        Self(OneCore(port(unit, config).with_rx(rx).split().0))
     }
 }
 
@@ -97,7 +98,7 @@ pub async fn receive<const BYTES: usize>(
 ) -> ! {
     loop {
         let mut bytes = [0; 32];
-        match port.0.read_async(&mut bytes).await {
+        match port.0.0.read_async(&mut bytes).await {
             Ok(size) => {
                 let came = bytes.get(..size).unwrap_or_default();
                 came.iter().for_each(|byte| queue.take(Some(*byte), true, mask));
@@ -115,7 +116,7 @@ pub async fn transmit<const BYTES: usize>(
 ) -> ! {
     // The port has room: the last byte was given the time that it takes.
     let put = |bytes: &[u8]| {
-        let _ = port.0.write(bytes);
+        let _ = port.0.0.write(bytes);
     };
     serial::transmit(put, queue, baud).await
 }
