@@ -139,6 +139,8 @@ fn pins(chip: &Chip, gpio: Node<'_, '_>, identity: &Identity) -> Result<Pins> {
                 }
                 // The comparators have the inputs of the converter.
                 ("comp" | "lpcomp", _) => {}
+                // A bus with fast pins of its own may be at any others.
+                ("spim" | "twim" | "twis", _) => {}
                 (driver, name) => {
                     usages.insert((format!("{driver}_{name}").to_uppercase(), None));
                 }

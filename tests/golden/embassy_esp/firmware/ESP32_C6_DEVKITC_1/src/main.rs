@@ -87,9 +87,9 @@ async fn adc1_1000ms_prio_2(unit: &'static ADC1Unit, mut light: crate::rt::conve
 
 static I2C0_BUS: StaticCell<rt::i2c::I2cBus> = StaticCell::new();
 
-/// I2C0 1000 ms.
+/// I2C0 1000 ms +1.
 #[embassy_executor::task]
-async fn i2c0_1000ms(bus: &'static rt::i2c::I2cBus) {
+async fn i2c0_1000ms_prio_1(bus: &'static rt::i2c::I2cBus) {
     let mut range_line = rt::i2c::I2cLine(bus, ());
     let mut range: Chip<[u8; tables::RANGE_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::RANGE_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(11);
@@ -97,16 +97,16 @@ async fn i2c0_1000ms(bus: &'static rt::i2c::I2cBus) {
         let mut idle_ms = 1000;
         let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut range_line, &mut range, timeout, &mut report).await);
-        WATCH.beat(tables::I2C0_1000MS, now_ms());
+        WATCH.beat(tables::I2C0_1000MS_PRIO_1, now_ms());
         rt::bus::rest(idle_ms).await;
     }
 }
 
 static SPI2_BUS: StaticCell<rt::spi::SpiBus> = StaticCell::new();
 
-/// SPI2 1000 ms.
+/// SPI2 1000 ms +1.
 #[embassy_executor::task]
-async fn spi2_1000ms(bus: &'static rt::spi::SpiBus, gyro_select: Output<'static>) {
+async fn spi2_1000ms_prio_1(bus: &'static rt::spi::SpiBus, gyro_select: Output<'static>) {
     let mut gyro_line = rt::spi::SpiLine { bus, select: gyro_select, config: rt::spi::config(0, 1000000) };
     let mut gyro: Chip<[u8; tables::GYRO_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::GYRO_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(10);
@@ -114,7 +114,7 @@ async fn spi2_1000ms(bus: &'static rt::spi::SpiBus, gyro_select: Output<'static>
         let mut idle_ms = 1000;
         let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
         idle_ms = idle_ms.min(rt::bus::serve(&mut gyro_line, &mut gyro, timeout, &mut report).await);
-        WATCH.beat(tables::SPI2_1000MS, now_ms());
+        WATCH.beat(tables::SPI2_1000MS_PRIO_1, now_ms());
         rt::bus::rest(idle_ms).await;
     }
 }
@@ -263,11 +263,11 @@ async fn main(spawner: Spawner) {
     start!(spawner, adc1_1000ms(adc1, wiring.pair_0, wiring.pair_1));
     start!(level_1, adc1_1000ms_prio_2(adc1, wiring.light));
     let i2c0: &'static rt::i2c::I2cBus = I2C0_BUS.init(Mutex::new(wiring.i2c0));
-    start!(spawner, i2c0_1000ms(i2c0));
+    start!(level_0, i2c0_1000ms_prio_1(i2c0));
     let spi2: &'static rt::spi::SpiBus = SPI2_BUS.init(Mutex::new(wiring.spi2));
-    start!(spawner, spi2_1000ms(spi2, wiring.gyro_select));
-    start!(spawner, place_hear(wiring.place));
-    start!(spawner, place_listen());
+    start!(level_0, spi2_1000ms_prio_1(spi2, wiring.gyro_select));
+    start!(level_1, place_hear(wiring.place));
+    start!(level_1, place_listen());
     start!(level_0, touch_edges(wiring.touch));
     start!(spawner, gpio_1000ms(wiring.door));
     start!(spawner, reporter(wiring.watchdog, wiring.turns));

@@ -52,8 +52,8 @@ pub const CYCLES_MS: &[u32] = &[1000, 1000, 1000, 1000, 1000, 1000, 1000, 0, 100
 // The tasks that the watchdog watches.
 pub const ADC1_1000MS: usize = 0;
 pub const ADC1_1000MS_PRIO_2: usize = 1;
-pub const I2C0_1000MS: usize = 2;
-pub const SPI2_1000MS: usize = 3;
+pub const I2C0_1000MS_PRIO_1: usize = 2;
+pub const SPI2_1000MS_PRIO_1: usize = 3;
 pub const PLACE_LISTEN: usize = 4;
 pub const GPIO_1000MS: usize = 5;
 
