@@ -160,15 +160,17 @@ impl Loader<'_> {
 /// mean something else, such as `USART1_RTS/DE`, stays whole.
 fn separated(word: Word) -> Vec<Word> {
     const SEPARATORS: [char; 3] = [',', '/', ';'];
-    if !word.text.contains(SEPARATORS) || word.text.len() != word.range.len() {
+    if !word.text.contains(SEPARATORS) {
         return vec![word];
     }
+    // A word with characters that do not show is pointed at as a whole.
+    let is_exact = word.text.len() == word.range.len();
     let mut at = word.range.start;
     let mut pieces = Vec::new();
     // No pin has more usages, so those behind them need not be looked at.
     for text in word.text.split(SEPARATORS).take(PIN_USAGES_MAX + 2) {
-        let range = at..at + text.len();
-        at = range.end + 1;
+        let range = if is_exact { at..at + text.len() } else { word.range.clone() };
+        at += text.len() + 1;
         if !text.is_empty() {
             pieces.push(Word { text: text.to_owned(), range });
         }
