@@ -166,8 +166,8 @@ fn fig2_on(entry: &Entry, target: Option<&str>) -> String {
             {}
         }}",
         entry.name.replace('-', "_"),
-        // Where nothing captures, there is no wheel; firmware for ESP32 has no code for that yet.
-        if captures(entry) && (target.is_some() || !entry.mcu.starts_with("ESP32-C")) {
+        // Where nothing captures, there is no wheel.
+        if captures(entry) && has_driver(entry, target) {
             "sensor Wheel returns uint32 { id = 20; type = icu; }"
         } else {
             ""
@@ -179,6 +179,18 @@ fn fig2_on(entry: &Entry, target: Option<&str>) -> String {
 pub(crate) fn captures(entry: &Entry) -> bool {
     let capture = silicon::of(entry.mcu).and_then(|silicon| silicon.timers.capture.as_ref());
     capture.is_none_or(|ability| !ability.channels.is_empty())
+}
+
+/// Whether the target that a file has by itself, if `target` names no other, drives a timer that captures.
+fn has_driver(entry: &Entry, target: Option<&str>) -> bool {
+    let target = target.unwrap_or_else(|| profile::usual(entry.mcu));
+    match profile::find(target, entry.mcu) {
+        Ok(Target::Profile(profile)) => {
+            !profile.pios.is_empty() || profile.timers.iter().any(|timer| timer.icu.is_some())
+        }
+        // The pins alone count.
+        Ok(Target::None) | Err(_) => true,
+    }
 }
 
 #[track_caller]

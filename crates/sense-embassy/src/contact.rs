@@ -5,6 +5,7 @@ use core::cell::RefCell;
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::Instant;
+use embedded_hal_async::digital::Wait;
 use sense_rt::{Contact, ContactConfig, ContactReport, Scalar, store_count};
 
 /// Microseconds, which wrap.
@@ -95,6 +96,36 @@ impl<P: Level> Watched<P> {
             reported.edges = contact.edges();
             store_count(scalar, i64::from(reported.edges), element);
             is_news
+        }
+    }
+}
+
+/// The edges that count.
+#[derive(Clone, Copy)]
+pub enum Trigger {
+    /// From low to high.
+    Rising,
+    /// From high to low.
+    Falling,
+    /// Both of them.
+    Any,
+}
+
+/// Waits for edges of a pin whose interrupt is the HAL's, for ever. Edges between one and the look at it are one with
+/// it. No HAL here fails to wait; one that does is asked again.
+pub async fn watch<P: Level>(
+    mut pin: impl Wait,
+    trigger: Trigger,
+    contact: &'static Watched<P>,
+) -> ! {
+    loop {
+        let edge = match trigger {
+            Trigger::Rising => pin.wait_for_rising_edge().await,
+            Trigger::Falling => pin.wait_for_falling_edge().await,
+            Trigger::Any => pin.wait_for_any_edge().await,
+        };
+        if edge.is_ok() {
+            contact.on_interrupt();
         }
     }
 }

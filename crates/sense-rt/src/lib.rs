@@ -112,7 +112,7 @@ pub use message::{
 };
 pub use outcome::{Outcome, Sink};
 pub use parse::{field, parse_decimal, parse_degrees, parse_hex};
-pub use pulse_width::{LEVEL_FULL, PulseWidth, pulse_level};
+pub use pulse_width::{LEVEL_FULL, PulseWidth, pulse_counts, pulse_level};
 pub use reporter::{Channel, Host, Reporter, ReporterConfig, ReporterCounts};
 pub use requests::Requests;
 pub use scalar::Scalar;

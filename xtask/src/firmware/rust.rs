@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
         let Some(made) = cells::all_on(entry.name, entry.mcu, TARGET) else { continue };
         let (notes, refused) = match made {
             Made::Files(files, notes) => {
-                let refused = check(&files, &scratch, &Compiler::of(entry.mcu, &host))?;
+                let refused = check(&files, &scratch, (&host, flags(entry.mcu)))?;
                 (notes, refused)
             }
             Made::NotOffered => (Notes::default(), Some("no kind fits".to_owned())),
@@ -109,35 +109,25 @@ fn host() -> Result<String> {
     Ok(host.context("rustc -vV names no host")?.to_owned())
 }
 
-/// How a project is compiled.
-struct Compiler<'a> {
-    triple: &'a str,
-    flags: Option<&'static str>,
-    /// Whether it is Debian's, which has the source of `core`: for a HAL that does not compile for a computer.
-    has_core: bool,
+/// The compiler flags for an MCU: the HAL of RP2350 uses registers that the core's crate has only for ARMv8-M.
+fn flags(mcu: &str) -> Option<&'static str> {
+    mcu.starts_with("RP235").then_some("--cfg armv8m --cfg armv8m_main")
 }
 
-impl<'a> Compiler<'a> {
-    fn of(mcu: &str, host: &'a str) -> Self {
-        match mcu {
-            "ESP32-C3" => {
-                Self { triple: "riscv32imc-unknown-none-elf", flags: None, has_core: true }
-            }
-            "ESP32-C6" => {
-                Self { triple: "riscv32imac-unknown-none-elf", flags: None, has_core: true }
-            }
-            // Its HAL uses registers that the core's crate has only for ARMv8-M.
-            _ if mcu.starts_with("RP235") => {
-                let flags = Some("--cfg armv8m --cfg armv8m_main");
-                Self { triple: host, flags, has_core: false }
-            }
-            _ => Self { triple: host, flags: None, has_core: false },
-        }
-    }
+/// The core that a project is for, where its HAL does not compile for a computer: one of RISC-V.
+fn foreign(files: &FileSet) -> Option<String> {
+    let (_, config) = files.iter().find(|(path, _)| path.ends_with(".cargo/config.toml"))?;
+    let config = str::from_utf8(&config.bytes).ok()?.parse::<toml::Table>().ok()?;
+    let triple = config.get("build")?.get("target")?.as_str()?;
+    triple.starts_with("riscv").then(|| triple.to_owned())
 }
 
 /// The first error of the compiler, or its first warning about our files.
-fn check(files: &FileSet, scratch: &Path, compiler: &Compiler<'_>) -> Result<Option<String>> {
+fn check(
+    files: &FileSet,
+    scratch: &Path,
+    (host, flags): (&str, Option<&str>),
+) -> Result<Option<String>> {
     let project = scratch.join("project");
     if project.exists() {
         std::fs::remove_dir_all(&project).with_context(|| project.display().to_string())?;
@@ -150,23 +140,18 @@ fn check(files: &FileSet, scratch: &Path, compiler: &Compiler<'_>) -> Result<Opt
     }
     let manifest = find(&project).context("no Cargo.toml was generated")?;
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args([
-        "check",
-        "--locked",
-        "--quiet",
-        "--message-format",
-        "short",
-        "--target",
-        compiler.triple,
-    ]);
+    let foreign = foreign(files);
+    let triple = foreign.as_deref().unwrap_or(host);
+    cargo.args(["check", "--locked", "--quiet", "--message-format", "short", "--target", triple]);
     cargo.arg("--target-dir").arg(scratch.join("target")).arg("--manifest-path").arg(&manifest);
     for name in ["CARGO_BUILD_TARGET", "CARGO_ENCODED_RUSTFLAGS", "RUSTFLAGS", "RUSTC_WRAPPER"] {
         cargo.env_remove(name);
     }
-    if let Some(flags) = compiler.flags {
+    if let Some(flags) = flags {
         cargo.env("RUSTFLAGS", flags);
     }
-    if compiler.has_core {
+    if foreign.is_some() {
+        // Debian's compiler has the source of `core`.
         cargo.arg("-Zbuild-std=core").env("RUSTC", "/usr/bin/rustc").env("RUSTC_BOOTSTRAP", "1");
     }
     let output = cargo.env("CARGO_INCREMENTAL", "0").output().context("cargo")?;

@@ -88,8 +88,9 @@ fn imxrt_timer(name: &str) -> Option<Function> {
     both("QTIMER", "TIMER").and_then(|unit| timer(unit, 1, TimerLine::Both))
 }
 
-/// `SERCOM0_SDA` of SAM D, which can be a bus of any kind; `TWIM0_SCL`, `SPIM3_SCK` and `UARTE0_TX`
-/// of nRF52, `SERIAL0_TX` of nRF53; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT; `IIC1_SCL`, `RSPI0_SCK` and `SCI2_TX` of RA.
+/// `SERCOM0_SDA` of SAM D and `SERIAL0_TX` of nRF53, which can be a bus of any kind; `TWIM0_SCL`, `SPIM3_SCK` and
+/// `UARTE0_TX` of nRF52; `TWAI0_TX` of ESP32; `LPI2C1_SCL` and `LPSPI4_SDO` of i.MX RT; `IIC1_SCL`, `RSPI0_SCK` and
+/// `SCI2_TX` of RA.
 fn bus(name: &str) -> Option<Function> {
     let (unit, line) = name.split_once('_')?;
     let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -16,8 +16,6 @@ const SUPPLY_MV: u32 = 3_300;
 const SAMPLE_MAX: u32 = 4_095;
 /// How long a start takes until there can be another one.
 const BETWEEN_STARTS: Duration = Duration::from_micros(40);
-/// How often the converter is asked whether it is ready. A sample takes some microseconds.
-const ASKED: usize = 1_000;
 
 /// The converter, whose clock runs as long as it is there.
 pub struct Converter {
@@ -59,10 +57,8 @@ impl Converter {
             Timer::after(BETWEEN_STARTS).await;
             Unit::start_onetime_sample();
         }
-        for _ in 0..ASKED {
-            if Unit::is_done() {
-                break;
-            }
+        // One that never ends is found by the watchdog, as its task hangs.
+        while !Unit::is_done() {
             yield_now().await;
         }
         let millivolts = u32::from(input.correction.adc_val(Unit::read_data()));

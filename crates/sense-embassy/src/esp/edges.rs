@@ -3,7 +3,8 @@
 use esp_hal::peripherals::GPIO;
 
 use super::gpio::Input;
-use crate::contact::{Level, Watched};
+pub use crate::contact::Trigger;
+use crate::contact::{self, Level, Watched};
 
 /// A pin by its number, which the task that waits for its edges owns.
 pub struct Pad(pub u8);
@@ -20,29 +21,7 @@ impl Level for Pad {
     }
 }
 
-/// The edges that count.
-#[derive(Clone, Copy)]
-pub enum Trigger {
-    /// From low to high.
-    Rising,
-    /// From high to low.
-    Falling,
-    /// Both of them.
-    Any,
-}
-
-/// Waits for edges, for ever. Edges between one and the look at it are one with it.
-pub async fn watch(
-    mut pin: Input<'static>,
-    trigger: Trigger,
-    contact: &'static InterruptInput,
-) -> ! {
-    loop {
-        match trigger {
-            Trigger::Rising => pin.0.wait_for_rising_edge().await,
-            Trigger::Falling => pin.0.wait_for_falling_edge().await,
-            Trigger::Any => pin.0.wait_for_any_edge().await,
-        }
-        contact.on_interrupt();
-    }
+/// Waits for edges, for ever.
+pub async fn watch(pin: Input<'static>, trigger: Trigger, contact: &'static InterruptInput) -> ! {
+    contact::watch(pin.0, trigger, contact).await
 }

@@ -41,8 +41,11 @@ impl Counter {
             macro_rules! set_up {
                 ($own:expr) => {{
                     let unit = &$own;
-                    let _ = unit.set_low_limit(Some(-LIMIT));
-                    let _ = unit.set_high_limit(Some(LIMIT));
+                    let limits =
+                        (unit.set_low_limit(Some(-LIMIT)), unit.set_high_limit(Some(LIMIT)));
+                    if !matches!(limits, (Ok(()), Ok(()))) {
+                        crate::restart();
+                    }
                     unit.clear();
                     unit.channel0.set_ctrl_signal(a.peripheral_input());
                     unit.channel0.set_edge_signal(b.peripheral_input());

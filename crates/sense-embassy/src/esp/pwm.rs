@@ -7,7 +7,7 @@ use esp_hal::ledc::timer::{self, LSClockSource, TimerIFace};
 use esp_hal::ledc::{LSGlobalClkSource, Ledc, LowSpeed};
 use esp_hal::peripherals::LEDC;
 use esp_hal::time::Rate;
-use sense_rt::LEVEL_FULL;
+use sense_rt::pulse_counts;
 
 /// A timer of the controller; it is a `static`. The HAL's own takes the clock of the bus for that of the controller,
 /// which on ESP32-C6 has twice as much.
@@ -111,14 +111,8 @@ impl Pulses {
 
     /// Sets the pulse of a level on a channel, from the least to the greatest of `[least, greatest, period]` in any
     /// unit. It is that from the next period on.
-    pub fn set(&mut self, channel: u8, [least, greatest, period]: [u32; 3], level: u32) {
-        let full = u64::from(LEVEL_FULL);
-        let level = u64::from(level.min(LEVEL_FULL));
-        let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
-        let whole = u64::from(period.max(1)) * full;
-        let counts = u64::from(self.counts);
-        let duty = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
-        let duty = u32::try_from(duty).unwrap_or(self.counts);
+    pub fn set(&mut self, channel: u8, pulse: [u32; 3], level: u32) {
+        let duty = pulse_counts(self.counts, pulse, level);
         Channel::<LowSpeed>::new(channel_number(channel), NoPin).set_duty_hw(duty);
     }
 }

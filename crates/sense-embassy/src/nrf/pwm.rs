@@ -4,7 +4,7 @@ use core::sync::atomic::{Ordering, compiler_fence};
 
 use embassy_nrf::pac::pwm::Pwm as Registers;
 use embassy_nrf::pwm::{Prescaler, SimpleConfig, SimplePwm};
-use sense_rt::LEVEL_FULL;
+use sense_rt::pulse_counts;
 
 /// Marks a duty that an output begins its period with: it is high while the unit counts up to it.
 const HIGH_FIRST: u16 = 0x8000;
@@ -49,13 +49,8 @@ impl Pulses {
 
     /// Sets the pulse of a level on a channel, from the least to the greatest of `[least, greatest, period]` in any
     /// unit. It is that from the period after [`Pulses::apply`] on.
-    pub fn set(&mut self, channel: u8, [least, greatest, period]: [u32; 3], level: u32) {
-        let full = u64::from(LEVEL_FULL);
-        let level = u64::from(level.min(LEVEL_FULL));
-        let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
-        let whole = u64::from(period.max(1)) * full;
-        let counts = u64::from(self.counts);
-        let duty = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
+    pub fn set(&mut self, channel: u8, pulse: [u32; 3], level: u32) {
+        let duty = pulse_counts(self.counts.into(), pulse, level);
         let duty = HIGH_FIRST | u16::try_from(duty).unwrap_or(self.counts);
         for (own, place) in self.channels.iter().zip(&mut self.duties) {
             if *own == channel {

@@ -4,6 +4,7 @@ use embassy_rp::gpio::Input;
 use embassy_rp::pac::SIO;
 
 use crate::contact::{Level, Watched};
+pub use crate::contact::{Trigger, watch};
 
 /// A pin by its number, which the task that waits for its edges owns.
 pub struct Pad(pub u8);
@@ -17,32 +18,5 @@ pub type InterruptInput = Watched<Pad>;
 impl Level for Pad {
     fn level(&self) -> bool {
         SIO.gpio_in(usize::from(self.0 / 32)).read() >> (self.0 % 32) & 1 != 0
-    }
-}
-
-/// The edges that count.
-#[derive(Clone, Copy)]
-pub enum Trigger {
-    /// From low to high.
-    Rising,
-    /// From high to low.
-    Falling,
-    /// Both of them.
-    Any,
-}
-
-/// Waits for edges, for ever. Edges between one and the look at it are one with it.
-pub async fn watch(
-    mut pin: Input<'static>,
-    trigger: Trigger,
-    contact: &'static InterruptInput,
-) -> ! {
-    loop {
-        match trigger {
-            Trigger::Rising => pin.wait_for_rising_edge().await,
-            Trigger::Falling => pin.wait_for_falling_edge().await,
-            Trigger::Any => pin.wait_for_any_edge().await,
-        }
-        contact.on_interrupt();
     }
 }

@@ -2,7 +2,7 @@
 
 use embassy_rp::pwm::{Config, Pwm};
 use fixed::FixedU16;
-use sense_rt::LEVEL_FULL;
+use sense_rt::pulse_counts;
 
 /// The greatest divider of a slice's clock.
 const DIVIDER: u32 = 255;
@@ -30,13 +30,8 @@ impl Slice {
 
     /// Sets the pulse of a level at output 1 (A) or 2 (B), from the least to the greatest of `[least, greatest,
     /// period]` in any unit. It is that from the period after [`Slice::apply`] on.
-    pub fn set(&mut self, output: u8, [least, greatest, period]: [u32; 3], level: u32) {
-        let full = u64::from(LEVEL_FULL);
-        let level = u64::from(level.min(LEVEL_FULL));
-        let width = u64::from(least) * (full - level) + u64::from(greatest) * level;
-        let whole = u64::from(period.max(1)) * full;
-        let counts = u64::from(self.config.top) + 1;
-        let compare = if width >= whole { counts } else { (counts * width + whole / 2) / whole };
+    pub fn set(&mut self, output: u8, pulse: [u32; 3], level: u32) {
+        let compare = pulse_counts(u32::from(self.config.top) + 1, pulse, level);
         let compare = u16::try_from(compare).unwrap_or(u16::MAX);
         if output == 1 {
             self.config.compare_a = compare;

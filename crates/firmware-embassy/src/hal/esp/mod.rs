@@ -1,4 +1,5 @@
-//! `esp-hal`: what only the HAL of ESP32-C3 and C6 needs. It is no crate of Embassy's, but runs its tasks.
+//! `esp-hal`: what only the HAL of ESP32-C3 and C6 needs. The crate comes from Espressif, not from Embassy, whose tasks
+//! it runs.
 
 mod analog;
 mod buses;
