@@ -1,4 +1,4 @@
-//! `cargo xtask typecheck`: the wiring of the same devices on every built-in board with an MCU that Embassy knows,
+//! `cargo xtask typecheck`: the wiring of the same devices on every built-in board whose MCU has types in a HAL,
 //! checked by the Rust compiler as in `sensedsl check --typecheck`.
 //!
 //! The wiring is for ChibiOS if that covers the board, so that tables of other people judge ours; otherwise for
@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::catalog;
 use sensedsl_board::profile;
-use sensedsl_firmware_embassy::profile_of;
+use sensedsl_firmware_embassy::is_judged;
 use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let wanted = |name: &str| boards.as_ref().is_none_or(|boards| boards.contains(name));
     let (tool, mut done) = (tool()?, Vec::new());
     for entry in catalog::all() {
-        if wanted(entry.name) && profile_of(entry.mcu).is_some() {
+        if wanted(entry.name) && is_judged(entry.mcu) {
             let one = judge(&tool, entry.name, entry.mcu)?;
             let state = match &one.outcome {
                 Outcome::Taken(lines, _) => format!("{lines} lines"),
@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
             done.push(one);
         }
     }
-    ensure!(!done.is_empty(), "there is no such board with an MCU that Embassy knows");
+    ensure!(!done.is_empty(), "there is no such board whose MCU has types in a HAL");
     let page = page(&done, boards.is_some())?;
     if is_written {
         std::fs::write(PAGE, &page).context(PAGE)?;

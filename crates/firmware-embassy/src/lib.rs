@@ -73,7 +73,7 @@ use hal::{HALS, Opened};
 use sensedsl_files::FileSet;
 use sensedsl_job::Target;
 use sensedsl_job::{BoardJob, JobConnection};
-pub use typed::{Judged, TypeCheck, profile_of, type_check};
+pub use typed::{Judged, TypeCheck, is_judged, type_check};
 
 /// The target `embassy`.
 pub struct Embassy;

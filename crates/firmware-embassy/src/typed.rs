@@ -45,9 +45,16 @@ pub struct Judged {
 
 /// The profile of Embassy for the MCU of a board, whatever the board's own target is.
 #[must_use]
-pub fn profile_of(mcu: &str) -> Option<TargetProfile> {
+fn profile_of(mcu: &str) -> Option<TargetProfile> {
     let Ok(Target::Profile(profile)) = profile::find("embassy", mcu) else { return None };
     Some(*profile)
+}
+
+/// Whether the HAL of an MCU has types that can judge its wiring.
+#[must_use]
+pub fn is_judged(mcu: &str) -> bool {
+    let drivers = profile_of(mcu).and_then(|profile| Opened::new(&profile, HALS).ok());
+    drivers.is_some_and(|opened| opened.drivers.types().is_some())
 }
 
 /// The check of a board's wiring.
