@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use crate::landmark::LandmarkKind;
 use crate::pin::PinName;
 
 /// A mistake and its place.
@@ -85,6 +86,14 @@ pub enum FindingKind {
         spelled: String,
         /// The name that was probably meant.
         nearest: Option<String>,
+    },
+    /// An entry of a table's line `# buttons = …` or `# leds = …` is not a name with two numbers; the
+    /// line is not read.
+    BadLandmark {
+        /// What the line lists.
+        kind: LandmarkKind,
+        /// The entry.
+        spelled: String,
     },
     /// A usage is in a row twice; it is read, and counts, once.
     DuplicateUsage {

@@ -1,4 +1,4 @@
-//! The shapes of boards: outline, and where the contacts of each connector are.
+//! The shapes of boards: outline, where the contacts of each connector are, buttons and LEDs.
 //!
 //! Many boards share a form: all Nucleo-64 have their connectors at the same places. The forms are
 //! the files of `forms/`, embedded by the generated module `registry`. Seen from the side of the
@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 use sensedsl_diagnostics::nearest;
 use serde::Deserialize;
 
+use crate::landmark::Landmark;
 use crate::registry::FORMS;
 
 /// The shape of a board.
@@ -28,6 +29,9 @@ pub struct Form {
     pub source: String,
     /// The connectors.
     pub connector: Vec<Connector>,
+    /// The buttons and LEDs that are at the same place on all boards of this form.
+    #[serde(default)]
+    pub landmark: Vec<Landmark>,
 }
 
 /// A connector of a form.

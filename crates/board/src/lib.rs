@@ -27,6 +27,7 @@ pub mod cells;
 mod entry;
 pub mod finding;
 pub mod form;
+pub mod landmark;
 mod load;
 pub mod mcu;
 pub mod pin;

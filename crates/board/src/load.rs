@@ -15,6 +15,7 @@ use sensedsl_limits::{COLUMNS_MAX, DIAGNOSTICS_MAX, PINS_MAX, TABLE_PROPERTIES_M
 use crate::cells::{self, Cell, Sheet, is_zero_width};
 use crate::finding::{Finding, FindingKind};
 use crate::form::{self, Form};
+use crate::landmark::{self, LandmarkKind};
 use crate::mcu;
 use crate::pin::PinName;
 use crate::place::Place;
@@ -204,7 +205,7 @@ impl<'a> Loader<'a> {
                     board.mcu = Some(property.value.clone());
                 }
                 "form" => self.form(&property),
-                _ => {}
+                key => self.landmarks(key, &property),
             }
             if board.properties.len() == TABLE_PROPERTIES_MAX {
                 return self.too_large("lines `# key = value`", TABLE_PROPERTIES_MAX, comment);
@@ -219,6 +220,15 @@ impl<'a> Loader<'a> {
             let nearest = form::nearest_name(&property.value).map(str::to_owned);
             let spelled = property.value.clone();
             self.report(FindingKind::UnknownForm { spelled, nearest }, &property.range, None);
+        }
+    }
+
+    /// Reports the first button or LED that cannot be read.
+    fn landmarks(&mut self, key: &str, property: &Property) {
+        let Some(kind) = LandmarkKind::of_property(key) else { return };
+        if let Err(entry) = landmark::parse(kind, &property.value) {
+            let spelled = entry.to_owned();
+            self.report(FindingKind::BadLandmark { kind, spelled }, &property.range, None);
         }
     }
 

@@ -9,6 +9,7 @@ use std::ops::Range;
 use crate::cells::{bare, guarded, inner, says_nothing};
 use crate::finding::Finding;
 use crate::form::{self, Form};
+use crate::landmark::{self, Landmark, LandmarkKind};
 use crate::pin::{PinName, natural};
 use crate::place::{Contact, Place};
 use crate::remap::Blocks;
@@ -323,6 +324,26 @@ impl Table {
     #[must_use]
     pub fn form(&self) -> Option<&'static Form> {
         self.property("form").and_then(form::find)
+    }
+
+    /// The buttons and LEDs: those of its lines `# buttons = …` and `# leds = …`, and those of its
+    /// form that have other names. None if it has no form, because nothing says where they would be.
+    #[must_use]
+    pub fn landmarks(&self) -> Vec<Landmark> {
+        let Some(form) = self.form() else { return Vec::new() };
+        let own = |kind: LandmarkKind| {
+            self.property(kind.property()).and_then(|list| landmark::parse(kind, list).ok())
+        };
+        let mut all: Vec<Landmark> =
+            LandmarkKind::ALL.into_iter().filter_map(own).flatten().collect();
+        let own = all.len();
+        for shared in &form.landmark {
+            let mut known = all.iter().take(own);
+            if !known.any(|one| one.kind == shared.kind && one.name == shared.name) {
+                all.push(shared.clone());
+            }
+        }
+        all
     }
 
     /// What the contacts without a pin carry, each signal with the words of all its contacts.

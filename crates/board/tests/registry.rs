@@ -205,6 +205,30 @@ fn every_form_is_sound() {
 
 /// A board has no places, or every pin on a connector has one, and all contacts of a connector are there.
 #[test]
+fn buttons_and_leds_are_on_their_boards() {
+    let mut with = 0;
+    for entry in catalog::all() {
+        let table = entry.table();
+        let landmarks = table.landmarks();
+        with += usize::from(!landmarks.is_empty());
+        let name = entry.name;
+        for (at, one) in landmarks.iter().enumerate() {
+            let form = table.form().unwrap();
+            let [x, y] = one.at_mm;
+            let is_inside =
+                (0.0..=form.width_mm).contains(&x) && (0.0..=form.height_mm).contains(&y);
+            assert!(is_inside, "{name}: {one:?}");
+            for other in &landmarks[..at] {
+                assert_ne!((&one.name, one.kind), (&other.name, other.kind), "{name}");
+                let [dx, dy] = [x - other.at_mm[0], y - other.at_mm[1]];
+                assert!(dx.hypot(dy) > 1.0, "{name}: {one:?} and {other:?}");
+            }
+        }
+    }
+    assert!(with >= 110, "{with} boards");
+}
+
+#[test]
 fn places_are_complete() {
     let (mut without, mut unknown) = (Vec::new(), Vec::new());
     for entry in catalog::all() {

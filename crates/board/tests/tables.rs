@@ -140,6 +140,26 @@ fn wrong_places_are_reported() {
 }
 
 #[test]
+fn buttons_and_leds_have_places() {
+    let names = |table: &Table| -> Vec<String> {
+        table.landmarks().iter().map(|one| format!("{} {:?}", one.name, one.at_mm)).collect()
+    };
+    let text =
+        "# form = bluepill\n# buttons = RESET 3 4.5\n# leds = RGB LED 5 6; LED 1 2\nPin\nPA0\n";
+    let table = check(text, &[]);
+    // Those of the form come last, but not the one that the table has itself.
+    let expected = ["RESET [3.0, 4.5]", "RGB LED [5.0, 6.0]", "LED [1.0, 2.0]", "PWR [14.8, 45.4]"];
+    assert_eq!(names(&table), expected);
+    assert_eq!(table.to_csv(), text);
+    // A table of no form has no place to show them, and a line with a mistake is not read.
+    assert_eq!(names(&check("# leds = LED 1 2\nPin\nPA0\n", &[])), [""; 0]);
+    let wrong = "# form = nucleo32\n# leds = LED 1 2; LD9 x 3\nPin\nPA0\n";
+    let table =
+        check(wrong, &["2:- `LED 1 2; LD9 x 3` BadLandmark { kind: Led, spelled: \"LD9 x 3\""]);
+    assert_eq!(names(&table), [""; 0]);
+}
+
+#[test]
 fn alternate_functions() {
     let alternates = |text: &str, expected: &[&str]| -> Vec<Option<u8>> {
         let table = check(text, expected);

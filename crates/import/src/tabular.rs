@@ -266,6 +266,7 @@ impl Reader<'_> {
                 | FindingKind::AlternateConflict { .. }
                 | FindingKind::BadPlace { .. }
                 | FindingKind::UnknownForm { .. }
+                | FindingKind::BadLandmark { .. }
                 | FindingKind::DuplicateProperty { .. } => {
                     log.dropped(span, &place, &as_table.message);
                 }

@@ -12,6 +12,7 @@ mod columns;
 mod draw;
 mod exits;
 mod labels;
+mod landmarks;
 mod lanes;
 mod legend;
 mod marks;
@@ -155,7 +156,7 @@ fn board_picture(
     nets::label(&mut parts, &shape);
     let is_in_use = |contact: &shape::Contact<'_>| contact.pin().is_some_and(is_used);
     let picture = board::picture(&shape, &parts, &is_in_use);
-    legend.add(&shape, &use_of);
+    legend.add(&picture, &use_of);
     let mut elements = String::new();
     let names = names(board);
     let area = draw::draw(&mut elements, &picture, &use_of, &names);

@@ -1,6 +1,7 @@
 //! Findings in a board table in, diagnostics out. Crate `board` reads tables without knowing of diagnostics.
 
 use sensedsl_board::finding::{Finding, FindingKind};
+use sensedsl_board::landmark::LandmarkKind;
 use sensedsl_diagnostics::codes::{
     e0117_more_mistakes, e0303_table_empty, e0304_table_pin_twice, e0305_table_pin_name,
     e0306_table_signal, e0307_table_ragged_row, e0308_table_column_twice, e0309_table_usage_twice,
@@ -61,6 +62,7 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
         | Kind::BadOccupation { .. }
         | Kind::UnknownMcu { .. }
         | Kind::UnknownForm { .. }
+        | Kind::BadLandmark { .. }
         | Kind::BadPlace { .. }
         | Kind::NoContact { .. }
         | Kind::ContactTwice { .. }
@@ -98,6 +100,17 @@ fn oddity(kind: &FindingKind) -> String {
         }
         Kind::UnknownForm { spelled, nearest } => {
             format!("`{spelled}` is not a known form of a board{}", meant(nearest))
+        }
+        Kind::BadLandmark { kind, spelled } => {
+            format!(
+                "`{spelled}` is not the place of {}: write its name, x and y in mm, and `;` before the next, as in \
+                 `# {} = A 6.1 12.3; B 20 12.3`",
+                match kind {
+                    LandmarkKind::Button => "a button",
+                    LandmarkKind::Led => "an LED",
+                },
+                kind.property()
+            )
         }
         Kind::BadPlace { spelled } => {
             format!(

@@ -8,6 +8,7 @@ use super::area::{Area, Point, Side};
 use super::boxes::{self, PartBox};
 use super::exits::{Start, Surroundings, WIRE_GAP, exits};
 use super::labels::{labels, pads};
+use super::landmarks;
 use super::lanes::{self, Run, boxes_at};
 use super::nets::{Net, nets, sides};
 use super::parts::Part;
@@ -21,6 +22,7 @@ pub(super) struct Picture<'p> {
     pub(super) shape: &'p Shape<'p>,
     /// The texts beside its contacts, and the names of its connectors.
     pub(super) texts: Vec<Text>,
+    pub(super) landmarks: Vec<landmarks::Placed>,
     pub(super) boxes: Vec<Placed<'p>>,
     pub(super) wires: Vec<Wire<'p>>,
 }
@@ -59,10 +61,12 @@ pub(super) fn picture<'p>(
         Some(Start { contact: net.contact, at, side: net.side })
     });
     let exits = exits(&starts.collect::<Vec<_>>(), &around);
-    add_captions(shape, &around.pads, &exits, &mut texts);
+    let taken = taken(shape, &around.pads, &exits);
+    add_captions(shape, &taken, &mut texts);
+    let landmarks = landmarks::place(shape, &taken, &mut texts);
     let routed: Vec<Routed<'_, 'p>> =
         nets.iter().zip(&exits).filter(|(_, way)| !way.is_empty()).collect();
-    let mut picture = Picture { shape, texts, boxes: Vec::new(), wires: Vec::new() };
+    let mut picture = Picture { shape, texts, landmarks, boxes: Vec::new(), wires: Vec::new() };
     for side in Side::BOTH {
         let routed: Vec<Routed<'_, 'p>> =
             routed.iter().copied().filter(|(net, _)| net.side == side).collect();
@@ -78,13 +82,17 @@ pub(super) fn picture<'p>(
 /// A net and how it leaves the board.
 type Routed<'n, 'p> = (&'n Net<'p>, &'n Vec<Point>);
 
-/// The names of connectors, where they touch nothing.
-fn add_captions(shape: &Shape<'_>, pads: &[Area], ways: &[Vec<Point>], texts: &mut Vec<Text>) {
+/// What names on the board must not touch: the marks of contacts, wires, and the plug.
+fn taken(shape: &Shape<'_>, pads: &[Area], ways: &[Vec<Point>]) -> Vec<Area> {
     let lines = ways.iter().flat_map(|way| way.windows(2)).filter_map(|pair| match pair {
         [from, to] => Some(Area::of_line(*from, *to, WIRE_GAP)),
         _ => None,
     });
-    let taken: Vec<Area> = pads.iter().copied().chain(lines).collect();
+    pads.iter().copied().chain(lines).chain(shape.plug()).collect()
+}
+
+/// The names of connectors, where they touch nothing.
+fn add_captions(shape: &Shape<'_>, taken: &[Area], texts: &mut Vec<Text>) {
     for (name, (x, y)) in &shape.captions {
         let name = cut(name, 9.0, 3.5 * PITCH);
         let half = width(&name, 9.0) / 2.0 + 3.0;

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::area::{Area, Point};
 use super::board::{Picture, Placed, Wire};
 use super::boxes;
+use super::landmarks;
 use super::marks::{self, Unused};
 use super::shape::{Carries, Contact, Shape};
 use super::text::{Anchor, Text, cut, number};
@@ -34,6 +35,7 @@ pub(super) fn draw(
     let mut room =
         Area { left: 0.0, top: 0.0, right: shape.width, bottom: shape.height }.grown(1.0);
     outline(out, shape, &mut room);
+    landmarks::draw(out, &picture.landmarks);
     for wire in &picture.wires {
         room = draw_wire(out, wire, room);
     }
@@ -60,7 +62,7 @@ fn outline(out: &mut String, shape: &Shape<'_>, room: &mut Area) {
         out,
         "<rect x=\"0\" y=\"0\" width=\"{width}\" height=\"{height}\" rx=\"8\" class=\"sd-board\"/>"
     );
-    let Some(area) = plug(shape) else { return };
+    let Some(area) = shape.plug() else { return };
     *room = room.with(&area.grown(1.0));
     let _ = writeln!(
         out,
@@ -72,18 +74,6 @@ fn outline(out: &mut String, shape: &Shape<'_>, room: &mut Area) {
     );
     let at = (f64::midpoint(area.left, area.right), f64::midpoint(area.top, area.bottom));
     Text::new(at, 9.0, "sd-ink", "USB").anchored(Anchor::Middle).write(out);
-}
-
-/// The USB plug, which sticks out a little over the edge that it is at.
-fn plug(shape: &Shape<'_>) -> Option<Area> {
-    const WIDTH: f64 = 52.0;
-    const HEIGHT: f64 = 26.0;
-    let (x, y) = shape.usb?;
-    let inward = if y * 2.0 < shape.height { 1.0 } else { -1.0 };
-    // Where forms give the far end of a plug that sticks out, all of it is drawn.
-    let out = if y * 2.0 < shape.height { y.min(-6.0) } else { y.max(shape.height + 6.0) };
-    let height = HEIGHT.max(if inward > 0.0 { -out } else { out - shape.height } + 8.0);
-    Some(Area::around((x, out + inward * height / 2.0), WIDTH, height))
 }
 
 fn draw_wire(out: &mut String, wire: &Wire<'_>, room: Area) -> Area {
@@ -214,5 +204,6 @@ fn taken(picture: &Picture<'_>) -> Vec<Area> {
             _ => None,
         })
     });
-    pads.chain(texts).chain(lines).chain(plug(shape)).collect()
+    let landmarks = picture.landmarks.iter().map(|one| one.symbol.body);
+    pads.chain(texts).chain(lines).chain(landmarks).chain(shape.plug()).collect()
 }

@@ -2,10 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use sensedsl_board::landmark::LandmarkKind;
+
 use super::area::Point;
+use super::board::Picture;
 use super::draw::{Use, unused};
+use super::landmarks::Symbol;
 use super::marks::{self, Unused};
-use super::shape::Shape;
 use super::text::{Text, width};
 
 const SIZE: f64 = 11.0;
@@ -18,6 +21,7 @@ const GAP: f64 = 12.0;
 pub(super) struct Legend {
     unused: BTreeSet<Unused>,
     has_shared: bool,
+    landmarks: BTreeSet<LandmarkKind>,
 }
 
 /// A mark with its words.
@@ -25,12 +29,14 @@ enum Entry<'k> {
     Kind(&'k str),
     Shared,
     Unused(Unused),
+    Landmark(LandmarkKind),
 }
 
 impl Legend {
     /// Notes the marks of a board.
-    pub(super) fn add(&mut self, shape: &Shape<'_>, use_of: &dyn Fn(&str) -> Option<Use>) {
-        for contact in &shape.contacts {
+    pub(super) fn add(&mut self, picture: &Picture<'_>, use_of: &dyn Fn(&str) -> Option<Use>) {
+        self.landmarks.extend(picture.landmarks.iter().map(|one| one.symbol.kind));
+        for contact in &picture.shape.contacts {
             match contact.pin().and_then(|pin| use_of(pin.name.as_str())) {
                 Some(used) => self.has_shared |= used.is_shared,
                 None => {
@@ -50,7 +56,9 @@ impl Legend {
     ) -> f64 {
         let kinds = kinds.iter().copied().map(Entry::Kind);
         let shared = self.has_shared.then_some(Entry::Shared);
-        let entries = kinds.chain(shared).chain(self.unused.iter().copied().map(Entry::Unused));
+        let landmarks = self.landmarks.iter().copied().map(Entry::Landmark);
+        let unused = self.unused.iter().copied().map(Entry::Unused);
+        let entries = kinds.chain(shared).chain(unused).chain(landmarks);
         let (mut x, mut y) = (left, top);
         for entry in entries {
             let words = entry.words();
@@ -64,6 +72,7 @@ impl Legend {
                 Entry::Kind(kind) => marks::of_kind(out, at, kind),
                 Entry::Shared => marks::shared(out, at),
                 Entry::Unused(what) => marks::unused(out, at, what),
+                Entry::Landmark(kind) => Symbol::small(kind, at).draw(out),
             }
             Text::new((at.0 + GAP, at.1), SIZE, "sd-ink", words).write(out);
             x += room;
@@ -78,6 +87,7 @@ impl Entry<'_> {
             Self::Kind(kind) => kind,
             Self::Shared => "shared with a part of the board",
             Self::Unused(what) => what.words(),
+            Self::Landmark(kind) => kind.word(),
         }
     }
 }

@@ -69,7 +69,8 @@ fn rules(out: &mut String, theme: &Theme, kinds: &[&str]) {
         ".sd-page{{fill:{page}}}\n.sd-board{{fill:{board};stroke:{line};stroke-width:1.5}}\n\
          .sd-box{{fill:{page};stroke:{line}}}\n.sd-ink{{fill:{ink}}}\n.sd-soft{{fill:{soft}}}\n\
          .sd-free{{fill:{page};stroke:{line}}}\n.sd-taken{{fill:{taken};stroke:{line}}}\n\
-         .sd-line{{fill:none;stroke:{line}}}\n.sd-shared{{fill:none;stroke:{ink};stroke-dasharray:2}}"
+         .sd-line{{fill:none;stroke:{line}}}\n.sd-landmark{{fill:{page};stroke:{taken}}}\n\
+         .sd-shared{{fill:none;stroke:{ink};stroke-dasharray:2}}"
     );
     let kinds = kinds.iter().filter_map(|name| KindName::from_name(name));
     for spec in kinds.map(KindName::spec) {

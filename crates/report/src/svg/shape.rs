@@ -6,10 +6,11 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::form::{Connector, Form};
+use sensedsl_board::landmark::LandmarkKind;
 use sensedsl_board::place::Place;
 use sensedsl_board::table::{Pin, Table};
 
-use super::area::{Point, Side};
+use super::area::{Area, Point, Side};
 
 /// Pixels for a millimetre: 2.54 mm are enough for a line of text and a wire below it.
 const SCALE: f64 = 8.0;
@@ -53,6 +54,16 @@ impl Contact<'_> {
     }
 }
 
+/// A button or LED in the picture.
+#[derive(Clone, Debug)]
+pub(super) struct Landmark<'a> {
+    pub(super) kind: LandmarkKind,
+    pub(super) name: String,
+    pub(super) at: Point,
+    /// The pin that it is connected to, as far as the table says.
+    pub(super) pin: Option<&'a Pin>,
+}
+
 /// A board in the picture, in pixels from its upper left corner.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shape<'a> {
@@ -63,6 +74,7 @@ pub(super) struct Shape<'a> {
     /// Whether it is the board's own shape.
     pub(super) is_to_scale: bool,
     pub(super) contacts: Vec<Contact<'a>>,
+    pub(super) landmarks: Vec<Landmark<'a>>,
     /// The names of connectors, each where it is best shown.
     pub(super) captions: Vec<(String, Point)>,
 }
@@ -71,6 +83,18 @@ impl Shape<'_> {
     /// The edge that is nearer to a point.
     pub(super) fn side(&self, at: Point) -> Side {
         if at.0 * 2.0 < self.width { Side::Left } else { Side::Right }
+    }
+
+    /// The USB plug, which sticks out a little over the edge that it is at.
+    pub(super) fn plug(&self) -> Option<Area> {
+        const WIDTH: f64 = 52.0;
+        const HEIGHT: f64 = 26.0;
+        let (x, y) = self.usb?;
+        let inward = if y * 2.0 < self.height { 1.0 } else { -1.0 };
+        // Where forms give the far end of a plug that sticks out, all of it is drawn.
+        let out = if y * 2.0 < self.height { y.min(-6.0) } else { y.max(self.height + 6.0) };
+        let height = HEIGHT.max(if inward > 0.0 { -out } else { out - self.height } + 8.0);
+        Some(Area::around((x, out + inward * height / 2.0), WIDTH, height))
     }
 }
 
@@ -87,7 +111,8 @@ pub(super) fn of_form<'a>(
     let occupants = occupants(table, is_used);
     let (width, height) = frame.size();
     let usb = form.usb_mm.map(|[x, y]| frame.place(x, y));
-    let mut shape = Shape { width, height, usb, is_to_scale: true, ..Shape::default() };
+    let landmarks = landmarks(table, &frame);
+    let mut shape = Shape { width, height, usb, is_to_scale: true, landmarks, ..Shape::default() };
     let mut row = 0;
     for connector in &form.connector {
         let first = shape.contacts.len();
@@ -100,6 +125,18 @@ pub(super) fn of_form<'a>(
         shape.captions.extend(caption.map(|at| (connector.name.clone(), at)));
     }
     shape
+}
+
+fn landmarks<'a>(table: &'a Table, frame: &Frame) -> Vec<Landmark<'a>> {
+    let pin_of = |one: &sensedsl_board::landmark::Landmark| {
+        let mut pins = table.pins.iter();
+        pins.find(|pin| pin.onboard.as_ref().is_some_and(|onboard| one.is_part(&onboard.part)))
+    };
+    let all = table.landmarks().into_iter().map(|one| {
+        let [x, y] = one.at_mm;
+        Landmark { kind: one.kind, at: frame.place(x, y), pin: pin_of(&one), name: one.name }
+    });
+    all.collect()
 }
 
 fn add_row<'a>(
