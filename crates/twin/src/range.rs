@@ -8,7 +8,7 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::ScalarType;
 
 use crate::parts::{formula, words};
-use crate::truth::Scale;
+use crate::truth::scale_of;
 
 /// Whether the device counts edges, so that its value never decreases.
 #[must_use]
@@ -79,7 +79,7 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
 #[must_use]
 pub fn shown_range(device: &Device) -> Option<(f64, f64)> {
     let (least, greatest) = raw_range(device)?;
-    let scale = Scale::of(&device.shown);
+    let scale = scale_of(&device.shown);
     let ends = [least, greatest].map(|raw| scale.shown(raw));
     let curve = device.shown.curve.iter().map(|point| point.1);
     let all = ends.into_iter().filter(|_| device.shown.curve.is_empty()).chain(curve);

@@ -4,98 +4,17 @@
 //! A host shows `curve(scale * raw + offset)`. This is inverted here, so that a world can be written in degrees and
 //! centimetres, and parts get the numbers that real hardware would have measured.
 
+use sensedsl_host::Scale;
 use sensedsl_model::design::{Device, DeviceIndex, Presentation};
 use sensedsl_wire::{Scalar, ScalarType};
 
 use crate::arith::{rounded, signed_number};
 use crate::world::Signal;
 
-/// The conversion of raw numbers to shown ones.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scale {
-    factor: f64,
-    offset: f64,
-    curve: Vec<(f64, f64)>,
-}
-
-impl Scale {
-    /// The scale of a device.
-    #[must_use]
-    pub fn of(shown: &Presentation) -> Self {
-        let factor = shown.scale.filter(|factor| *factor != 0.0).unwrap_or(1.0);
-        let mut curve = shown.curve.clone();
-        curve.sort_by(|one, other| one.0.total_cmp(&other.0));
-        Self { factor, offset: shown.offset.unwrap_or(0.0), curve }
-    }
-
-    /// The number that a host shows for a raw number.
-    #[must_use]
-    pub fn shown(&self, raw: f64) -> f64 {
-        let linear = self.factor * raw + self.offset;
-        interpolated(&self.curve, linear).unwrap_or(linear)
-    }
-
-    /// The raw number for a shown one. Beyond the ends of a curve, it is the one for the nearer end.
-    #[must_use]
-    pub fn raw(&self, shown: f64) -> f64 {
-        let linear = self.before_curve(shown);
-        (linear - self.offset) / self.factor
-    }
-
-    /// Finds the place on the curve by bisection of the piece that has the value.
-    fn before_curve(&self, shown: f64) -> f64 {
-        let (Some(first), Some(last)) = (self.curve.first(), self.curve.last()) else {
-            return shown;
-        };
-        let pieces = self.curve.windows(2).filter_map(|pair| match pair {
-            [one, next] => Some((*one, *next)),
-            _ => None,
-        });
-        for (one, next) in pieces {
-            let (least, greatest) = (one.1.min(next.1), one.1.max(next.1));
-            if shown >= least && shown <= greatest {
-                return halved(one.0, next.0, |at| {
-                    let value = interpolated(&[one, next], at).unwrap_or(at);
-                    if next.1 >= one.1 { value < shown } else { value > shown }
-                });
-            }
-        }
-        if (shown - first.1).abs() <= (shown - last.1).abs() { first.0 } else { last.0 }
-    }
-
-    /// By how much the shown number changes if the raw one changes by one.
-    #[must_use]
-    pub fn shown_step(&self, raw: f64) -> f64 {
-        let (above, below) = (self.shown(raw + 1.0), self.shown(raw - 1.0));
-        (above - below).abs() / 2.0
-    }
-}
-
-/// The least place between two ends from which on the condition no longer holds, to the precision of a double.
-pub(crate) fn halved(mut from: f64, mut to: f64, is_before: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..64 {
-        let middle = from + (to - from) / 2.0;
-        if is_before(middle) {
-            from = middle;
-        } else {
-            to = middle;
-        }
-    }
-    to
-}
-
-fn interpolated(curve: &[(f64, f64)], at: f64) -> Option<f64> {
-    let (first, last) = (curve.first()?, curve.last()?);
-    if at <= first.0 {
-        return Some(first.1);
-    }
-    let next = curve.partition_point(|point| point.0 <= at);
-    let (Some(before), Some(after)) = (curve.get(next.checked_sub(1)?), curve.get(next)) else {
-        return Some(last.1);
-    };
-    let width = after.0 - before.0;
-    let share = if width == 0.0 { 0.0 } else { (at - before.0) / width };
-    Some(before.1 + (after.1 - before.1) * share)
+/// The conversion of a device's raw numbers to shown ones.
+#[must_use]
+pub fn scale_of(shown: &Presentation) -> Scale {
+    Scale::new(shown.scale, shown.offset, shown.curve.clone())
 }
 
 /// A device and its signals.
@@ -124,7 +43,7 @@ impl Subject {
             name: device.name.value.clone(),
             id: device.id.value,
             scalar: device.value.value.scalar,
-            scale: Scale::of(&device.shown),
+            scale: scale_of(&device.shown),
             signals,
         }
     }
@@ -197,13 +116,7 @@ mod tests {
     use super::*;
 
     fn scale(factor: f64, offset: f64, curve: &[(f64, f64)]) -> Scale {
-        let curve = curve.to_vec();
-        Scale::of(&Presentation {
-            scale: Some(factor),
-            offset: Some(offset),
-            curve,
-            ..Presentation::default()
-        })
+        Scale::new(Some(factor), Some(offset), curve.to_vec())
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! One actuator: its commands and their times, the time by which each must have taken effect, and
 //! the findings.
 
+use sensedsl_host::Scale;
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Interface;
@@ -12,7 +13,7 @@ use super::outputs::Outputs;
 use super::{MS, compare};
 use crate::arith::number;
 use crate::bench::Bench;
-use crate::truth::{Scale, real};
+use crate::truth::{real, scale_of};
 
 /// The time that every command takes: a few cycles of the reporter.
 const SETTLE_NS: u64 = 60 * MS;
@@ -126,7 +127,7 @@ impl Actor {
         Self {
             index,
             id: one.map_or(0, |one| one.device.id.value),
-            scale: Scale::of(&shown),
+            scale: scale_of(&shown),
             quantity: shown.quantity.map(|unit| format!(" {unit}")).unwrap_or_default(),
             settle_ns: one.map_or(0, |one| settles_ns(job, one)),
             steps: values.into_iter().map(|value| (0, value)).collect(),

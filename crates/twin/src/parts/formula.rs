@@ -3,10 +3,10 @@
 //! The formulas are those that the data sheets give for floating point. The board computes with integers, so the two
 //! share nothing. The board's result is close to the wanted quantity, and [`step`] tells how close.
 
+use sensedsl_host::halved;
 use sensedsl_model::protocol::{Formula, Output};
 
 use crate::arith::{ln, number};
-use crate::truth::halved;
 
 /// The calibration of a BME280 or BMP280 on this bench: that of the BMP280 data sheet, with humidity constants that
 /// most parts have. The order is that of the registers: from 0x88 on, then 0xA1, then from 0xE1 on.

@@ -14,7 +14,7 @@ use toml::de::DeValue;
 use super::entry::{duration, number};
 use super::file::{Reader, short};
 use crate::commands::Command;
-use crate::truth::{Scale, scalar};
+use crate::truth::{scalar, scale_of};
 
 type Value<'i> = Spanned<DeValue<'i>>;
 
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
 
     fn element(&self, device: &Device, wanted: &Value<'_>) -> Result<Scalar, Box<Diagnostic>> {
         let span = self.span(wanted);
-        let (scale, of) = (Scale::of(&device.shown), device.value.value.scalar);
+        let (scale, of) = (scale_of(&device.shown), device.value.value.scalar);
         let name = &device.name.value;
         let read = match wanted.get_ref().as_str() {
             Some(text) => given::value(text, device),

@@ -17,7 +17,7 @@ use super::fault::{Fault, FaultKind};
 use super::{Shape, Signal, World};
 use crate::arith::scrambled;
 use crate::range::{edges_a_second_max, is_counter, shown_range};
-use crate::truth::Scale;
+use crate::truth::scale_of;
 
 /// How long the board is without supply if a fault does not give a time.
 const RESET_NS: u64 = 100_000_000;
@@ -316,7 +316,7 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     if is_turning(device) && matches!(signal.shape, Shape::Square { .. }) {
         return Some(value::jumps(span, name));
     }
-    let scale = Scale::of(&device.shown);
+    let scale = scale_of(&device.shown);
     let each = scale.shown(1.0) - scale.shown(0.0);
     if let (Some(most), Some(wanted)) = (edges_a_second_max(device), signal.steepest())
         && wanted / each >= most
@@ -345,7 +345,7 @@ fn too_fast(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> 
         let what = format!("{wanted} changes a second");
         return Some(e0554_world_too_fast::too_fast(span, name, &what, "100000"));
     }
-    let scale = Scale::of(&device.shown);
+    let scale = scale_of(&device.shown);
     let each = (scale.shown(1.0) - scale.shown(0.0)).abs().max(f64::MIN_POSITIVE);
     let wanted = signal.fastest() / each;
     (is_turning(device) && wanted > EDGES_A_SECOND_MAX).then(|| {

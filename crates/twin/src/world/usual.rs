@@ -1,6 +1,7 @@
 //! The signals of sensors that a world does not mention: each moves within the sensor's range at a pace of its own, so
 //! that a board without a world shows live values that differ from each other.
 
+use sensedsl_host::Scale;
 use sensedsl_model::design::{Device, DeviceIndex};
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
@@ -13,7 +14,7 @@ use crate::arith::{nanoseconds, number};
 use crate::parts::formula;
 use crate::parts::line::Spikes;
 use crate::range::{edges_a_second_max, is_counter, raw_range};
-use crate::truth::Scale;
+use crate::truth::scale_of;
 
 /// How often a sensor has nothing to measure, and for how long.
 const INVALID_EVERY_NS: u64 = 6_000_000_000;
@@ -70,7 +71,7 @@ fn invalid_code(device: &Device) -> Option<f64> {
     if !is_coded && !device.kind.is_sampled() {
         return None;
     }
-    let scale = Scale::of(&device.shown);
+    let scale = scale_of(&device.shown);
     let (least, greatest) = raw_range(device)?;
     let codes = device.filter.invalid.iter().flat_map(|(low, high)| [*low, *high]);
     let is_there = |code: &f64| {
@@ -81,7 +82,7 @@ fn invalid_code(device: &Device) -> Option<f64> {
 
 fn shape(device: &Device, place: u64) -> Shape {
     let pace = number(place % 11);
-    let scale = Scale::of(&device.shown);
+    let scale = scale_of(&device.shown);
     if is_counter(&device.kind, device) {
         let (zero, each) = (scale.shown(0.0), scale.shown(1.0) - scale.shown(0.0));
         let edges = 20.0 + 7.0 * pace;

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_host::Scale;
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::Device;
-use sensedsl_twin::truth::{Scale, real};
+use sensedsl_twin::truth::{real, scale_of};
 use sensedsl_wire::{Direction, Scalar, ScalarType};
 
 use crate::commands::table::table;
@@ -82,7 +83,7 @@ impl Row {
             id: device.id.value,
             name: device.name.value.clone(),
             quantity: device.shown.quantity.clone().unwrap_or_default(),
-            scale: Scale::of(&device.shown),
+            scale: scale_of(&device.shown),
             scalar: device.value.value.scalar,
             direction: device.direction,
             value: None,

@@ -1,0 +1,40 @@
+//! A board as its host sees it: what its link carries, whether it is the board that is meant, and its values as
+//! people read and write them.
+//!
+//! In: the text of `schema.json`, the bytes of a link, a clock that only goes forward. Out: values, notes for people,
+//! bytes to send. [`Session`] decides all that; it has no thread, no clock and no I/O. With the feature `serial`,
+//! [`port`] opens serial ports, for one program alone, and finds a USB device again under another name.
+//!
+//! # Example
+//!
+//! ```
+//! use std::time::Duration;
+//! use sensedsl_host::{Board, Event, Session};
+//!
+//! let schema = r#"{ "version": 2, "boards": [ { "name": "Rover", "hash": "0x00b4763a", "checksum": "none",
+//!     "items": [ { "id": 17, "name": "Light", "direction": "sensor", "type": "uint16", "scale": 0.1 } ] } ] }"#;
+//! let boards = Board::all_of_json(schema).unwrap();
+//! let mut session = Session::new(&boards[0], Duration::ZERO);
+//!
+//! // The board is asked who it is; its value counts once it has said so.
+//! assert_eq!(session.to_send(Duration::ZERO), b"1:\0,");
+//! let mut events = Vec::new();
+//! session.feed(b"5:\0\x00\xb4\x76\x3a,3:\x11\x01\xf4,", Duration::ZERO, &mut |event| events.push(event));
+//! let Event::Values(_, values) = &events[1] else { panic!("{events:?}") };
+//! let (device, value) = &values[0];
+//! assert_eq!(boards[0].devices[*device].text(value), "500 (50)");
+//! ```
+
+mod difference;
+#[cfg(feature = "serial")]
+pub mod port;
+mod scale;
+mod schema;
+mod session;
+mod value;
+
+pub use difference::{answered_schema, differences};
+pub use scale::{Scale, halved};
+pub use schema::{Board, Device, SchemaError};
+pub use session::{Counts, Event, Session, State};
+pub use value::{CommandError, Overstep};

@@ -1,0 +1,179 @@
+//! Serial ports: opened for this program alone, and found again under another name.
+
+use std::fmt;
+use std::io::{self, Read as _, Write as _};
+use std::time::Duration;
+
+use serialport::{ErrorKind, SerialPort, SerialPortType, UsbPortInfo};
+
+/// The longest time that writing may take; a board that does not read for so long is gone.
+const WRITE_WITHIN: Duration = Duration::from_secs(1);
+
+/// A serial port that is open.
+pub struct Port {
+    port: Box<dyn SerialPort>,
+    path: String,
+    identity: Option<Identity>,
+}
+
+/// What tells a serial port of a USB device from all others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    vendor: u16,
+    product: u16,
+    serial: Option<String>,
+    interface: Option<u8>,
+}
+
+impl fmt::Display for Identity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04x}:{:04x}", self.vendor, self.product)?;
+        match &self.serial {
+            Some(serial) => write!(f, ", serial number {serial}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Identity {
+    fn of(info: &UsbPortInfo) -> Self {
+        Self {
+            vendor: info.vid,
+            product: info.pid,
+            serial: info.serial_number.clone(),
+            interface: info.interface,
+        }
+    }
+}
+
+/// Why a port is not opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OpenError {
+    /// There is no such device.
+    Missing,
+    /// The user may not open it.
+    Denied,
+    /// Another program has it.
+    Busy,
+    /// It is no serial port.
+    NotSerial,
+    /// The system's reason.
+    Other(String),
+}
+
+impl fmt::Display for OpenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("there is no such device"),
+            Self::Denied => f.write_str("you may not open it"),
+            Self::Busy => f.write_str("another program has it open"),
+            Self::NotSerial => f.write_str("it is no serial port"),
+            Self::Other(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for OpenError {}
+
+impl Port {
+    /// Opens a port raw and for this program alone.
+    ///
+    /// # Errors
+    /// Fails if it is not there, not a serial port, in use, or not this user's.
+    pub fn open(path: &str, baud: u32) -> Result<Self, OpenError> {
+        let port = serialport::new(path, baud).timeout(Duration::from_millis(1)).open();
+        let port = port.map_err(|error| why(&error))?;
+        // Bytes from before are somebody else's.
+        let _ = port.clear(serialport::ClearBuffer::Input);
+        Ok(Self { port, path: path.to_owned(), identity: identity(path) })
+    }
+
+    /// Its path.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The USB device that it is, if it is one.
+    #[must_use]
+    pub fn identity(&self) -> Option<&Identity> {
+        self.identity.as_ref()
+    }
+
+    /// The bytes that come within a time; none if nothing comes.
+    ///
+    /// # Errors
+    /// Fails if the device is gone.
+    pub fn read(&mut self, within: Duration) -> io::Result<Vec<u8>> {
+        let mut bytes = vec![0; 4_096];
+        self.port.set_timeout(within.max(Duration::from_millis(1)))?;
+        match self.port.read(&mut bytes) {
+            Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
+            Ok(count) => {
+                bytes.truncate(count);
+                Ok(bytes)
+            }
+            Err(error) if is_nothing(&error) => Ok(Vec::new()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Sends bytes.
+    ///
+    /// # Errors
+    /// Fails if the device is gone, or does not take them.
+    pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.port.set_timeout(WRITE_WITHIN)?;
+        self.port.write_all(bytes)
+    }
+}
+
+fn is_nothing(error: &io::Error) -> bool {
+    let nothing = [io::ErrorKind::TimedOut, io::ErrorKind::WouldBlock, io::ErrorKind::Interrupted];
+    nothing.contains(&error.kind())
+}
+
+fn why(error: &serialport::Error) -> OpenError {
+    let text = error.to_string();
+    match error.kind() {
+        ErrorKind::Io(io::ErrorKind::NotFound) => OpenError::Missing,
+        ErrorKind::Io(io::ErrorKind::PermissionDenied) => OpenError::Denied,
+        ErrorKind::NoDevice if text.contains("busy") => OpenError::Busy,
+        ErrorKind::NoDevice if text.contains("Not a typewriter") => OpenError::NotSerial,
+        ErrorKind::NoDevice => OpenError::Missing,
+        ErrorKind::Io(_) if text.contains("busy") => OpenError::Busy,
+        ErrorKind::InvalidInput | ErrorKind::Unknown | ErrorKind::Io(_) => OpenError::Other(text),
+    }
+}
+
+/// The serial ports of this machine that are USB devices, in order, each with what it is.
+#[must_use]
+pub fn usb_ports() -> Vec<(String, Identity)> {
+    let all = serialport::available_ports().unwrap_or_default();
+    let mut found: Vec<(String, Identity)> = Vec::new();
+    for port in all {
+        // A Mac lists each port twice; `cu` is the one that does not wait for a carrier.
+        if let SerialPortType::UsbPort(info) = &port.port_type
+            && !port.port_name.starts_with("/dev/tty.")
+        {
+            found.push((port.port_name.clone(), Identity::of(info)));
+        }
+    }
+    found.sort_by(|one, other| one.0.cmp(&other.0));
+    found
+}
+
+/// What a port is, by its path; links are followed.
+fn identity(path: &str) -> Option<Identity> {
+    #[expect(clippy::disallowed_methods, reason = "ports are what this module is for")]
+    let real = std::fs::canonicalize(path).ok();
+    let real = real.and_then(|path| path.into_os_string().into_string().ok());
+    let real = real.as_deref().unwrap_or(path);
+    usb_ports().into_iter().find(|(name, _)| name == real).map(|(_, identity)| identity)
+}
+
+/// The path of the port with an identity, if it is there.
+#[must_use]
+pub fn find(identity: &Identity) -> Option<String> {
+    usb_ports().into_iter().find(|(_, one)| one == identity).map(|(name, _)| name)
+}
