@@ -138,10 +138,12 @@ fn why(error: &serialport::Error) -> OpenError {
     match error.kind() {
         ErrorKind::Io(io::ErrorKind::NotFound) => OpenError::Missing,
         ErrorKind::Io(io::ErrorKind::PermissionDenied) => OpenError::Denied,
-        ErrorKind::NoDevice if text.contains("busy") => OpenError::Busy,
-        ErrorKind::NoDevice if text.contains("Not a typewriter") => OpenError::NotSerial,
+        // What the system says when somebody has locked it; a device that is not there is `NotFound`.
+        ErrorKind::NoDevice if cfg!(unix) => OpenError::Busy,
         ErrorKind::NoDevice => OpenError::Missing,
-        ErrorKind::Io(_) if text.contains("busy") => OpenError::Busy,
+        ErrorKind::Unknown if text.contains("typewriter") || text.contains("ioctl") => {
+            OpenError::NotSerial
+        }
         ErrorKind::InvalidInput | ErrorKind::Unknown | ErrorKind::Io(_) => OpenError::Other(text),
     }
 }

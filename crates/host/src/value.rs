@@ -8,6 +8,8 @@ use crate::schema::{Board, Device};
 
 /// Significant digits of a shown number that is not whole.
 const DIGITS: usize = 9;
+/// The same where there is little room, for numbers that have no step.
+const BRIEF_DIGITS: usize = 6;
 
 /// The side on which a value is outside of its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +85,11 @@ fn number(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 {
         return format!("{value}");
     }
-    let text = format!("{value:.*e}", DIGITS - 1);
+    significant(value, DIGITS)
+}
+
+fn significant(value: f64, digits: usize) -> String {
+    let text = format!("{value:.*e}", digits.saturating_sub(1));
     text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
 }
 
@@ -123,6 +129,29 @@ impl Device {
             return self.list(value.iter().map(ToString::to_string));
         }
         format!("{}{}", self.list(self.numbers(value)), self.unit())
+    }
+
+    /// What is shown, with as many digits as a code more or less would change, and its unit: `37.98 cm`.
+    #[must_use]
+    pub fn brief(&self, value: &[Scalar]) -> String {
+        if self.value.scalar == ScalarType::Bool {
+            return self.list(value.iter().map(ToString::to_string));
+        }
+        let is_real = matches!(self.value.scalar, ScalarType::Float32 | ScalarType::Float64);
+        let all = value.iter().map(|raw| {
+            let (shown, step) = (self.shown(*raw), self.scale.shown_step(real(*raw)));
+            if is_real || !step.is_finite() {
+                return significant(shown, BRIEF_DIGITS);
+            }
+            let mut scaled = step;
+            let decimals = (0..DIGITS).find(|_| {
+                let is_enough = scaled >= 0.999;
+                scaled *= 10.0;
+                is_enough
+            });
+            format!("{shown:.*}", decimals.unwrap_or(DIGITS))
+        });
+        format!("{}{}", self.list(all), self.unit())
     }
 
     fn numbers(&self, value: &[Scalar]) -> impl Iterator<Item = String> {
@@ -349,6 +378,7 @@ mod tests {
         let winch = device(ScalarType::Uint16, None);
         assert_eq!(winch.text(&[Scalar::Unsigned(1001)]), "1001 (510.5 us)");
         assert_eq!(winch.shown_text(&[Scalar::Unsigned(1001)]), "510.5 us");
+        assert_eq!(winch.brief(&[Scalar::Unsigned(1001)]), "510.5 us");
         assert_eq!(number(1.0 / 3.0), "0.333333333");
         for (typed, code) in
             [("1500", 2980), ("1.5 ms", 2980), ("1500 us", 2980), ("raw 7", 7), ("raw 0x1F", 31)]

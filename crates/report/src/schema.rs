@@ -1,6 +1,6 @@
 //! `schema.json`: the wire, for programs that decode it without generated code.
 
-use sensedsl_model::design::{Board, Design, Device, DeviceIndex};
+use sensedsl_model::design::{Board, Design, Device, DeviceIndex, Transport};
 use sensedsl_wire::{Direction, ScalarType, Schema};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use serde_json::{Map, Value, json};
@@ -26,6 +26,7 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
         "hash": format!("0x{:08x}", schema.hash()),
         "checksum": schema.checksum.name(),
         "stamp": schema.stamp,
+        "baud": (board.link.transport == Transport::Uart).then_some(board.link.baud),
         "silence_ms": board.link.silence_ms,
         "frame_bytes_max": {
             "sensors": schema.frame_bytes_max(Direction::Sensor),
@@ -45,6 +46,9 @@ fn item(design: &Design, device: &Device) -> Option<Value> {
     object.insert("type".into(), scalar.name().into());
     object.insert("length".into(), device.value.value.length.map_or(Value::Null, Value::from));
     object.insert("kind".into(), device.kind.name().name().into());
+    let has_cycle = device.kind.name().spec().has_cycle && device.direction == Direction::Sensor;
+    let cycle = has_cycle.then_some(device.delay_ms);
+    object.insert("cycle_ms".into(), cycle.map_or(Value::Null, Value::from));
     let chip = part.chip.is_some();
     let chip = chip.then(|| json!({ "name": part.name.value, "driver": part.driver }));
     object.insert("chip".into(), chip.unwrap_or_default());

@@ -2,6 +2,7 @@
 
 mod build;
 mod common;
+mod monitor;
 mod parts;
 mod simulate;
 
@@ -14,6 +15,7 @@ use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
 pub(crate) use common::{On, Reach, TableFormat, seconds};
+pub(crate) use monitor::{MonitorArgs, MonitorFormat};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 
@@ -50,6 +52,8 @@ pub(crate) enum Command {
     Flash(FlashArgs),
     /// Run a board without hardware: its sensors measure a simulated world
     Simulate(SimulateArgs),
+    /// Show what a board measures as it comes, and set its actuators
+    Monitor(MonitorArgs),
     /// Explain a diagnostic, why a device is on its pin, or what the hardware has to do in a second
     Explain(ExplainArgs),
     /// Say what can still be added to a wiring, and what blocks the next device

@@ -60,6 +60,8 @@ pub enum FileUse {
     World,
     /// An image of firmware.
     Image,
+    /// A generated `schema.json`.
+    Schema,
 }
 
 impl FileUse {
@@ -73,6 +75,8 @@ impl FileUse {
             Self::Source => SOURCE_BYTES_MAX,
             Self::World => WORLD_BYTES_MAX,
             Self::Image => IMAGE_BYTES_MAX,
+            // As much as an answer: both have an entry for each device.
+            Self::Schema => ANSWER_BYTES_MAX,
         }
     }
 
@@ -84,6 +88,7 @@ impl FileUse {
             Self::Source => "a source of `import`",
             Self::World => "a world, or samples of one",
             Self::Image => "an image of firmware",
+            Self::Schema => "a `schema.json`",
         }
     }
 }

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::common::{Reach, seconds};
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct SimulateArgs {
     /// The file; - is the standard input
     pub(crate) file: PathBuf,

@@ -17,6 +17,7 @@ pub(crate) mod help;
 pub(crate) mod import;
 mod in_the_way;
 mod input;
+pub(crate) mod monitor;
 pub(crate) mod new;
 mod output;
 pub(crate) mod parts;

@@ -11,6 +11,7 @@ mod emulated;
 mod pty;
 mod run;
 mod screen;
+mod simulated;
 mod simulation;
 #[cfg(unix)]
 mod slcan;
@@ -40,6 +41,7 @@ use crate::files::{Disk, read_bytes, read_text, shown};
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
+pub(crate) use simulated::Simulated;
 use simulation::Simulation;
 
 /// The seed of the random numbers if none is given.
@@ -160,7 +162,11 @@ fn machine(
 }
 
 /// Reads the world, and the values set on the command line; `None` if they have errors, which have been reported.
-fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
+pub(super) fn world(
+    args: &SimulateArgs,
+    terminal: &Terminal,
+    job: &BoardJob<'_>,
+) -> Result<Option<World>> {
     let mut sources = SourceMap::default();
     let (name, text) = match &args.world {
         Some(path) => (shown(path), read_text(path, FileUse::World)?),

@@ -1,0 +1,67 @@
+//! The arguments of `monitor`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::common::{Reach, seconds};
+
+#[derive(Debug, Args)]
+pub(crate) struct MonitorArgs {
+    /// The board's serial port; a file with bytes of one, or - for the standard input; `simulate` for
+    /// a board in this program. Without it the board is looked for on all USB ports
+    #[arg(value_name = "DEVICE")]
+    pub(crate) device: Option<String>,
+    /// The design
+    #[arg(value_name = "FILE", conflicts_with = "schema")]
+    pub(crate) file: Option<PathBuf>,
+    /// The design's generated `schema.json`, in place of the design
+    #[arg(long, value_name = "FILE")]
+    pub(crate) schema: Option<PathBuf>,
+    /// The board of that name in the file; the first one unless you say, or the one that answers
+    #[arg(long, value_name = "NAME")]
+    pub(crate) board: Option<String>,
+    /// How to print values; a table where people see it, otherwise lines
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<MonitorFormat>,
+    /// Set an actuator as soon as the board is there, and hold it: --set Servo=20, --set 'Servo=raw 1500'
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Ask the board how it and its devices are, that often
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, num_args = 0..=1, require_equals = true, default_missing_value = "1")]
+    pub(crate) health: Option<f64>,
+    /// The rate of a serial link; as the design says unless you do
+    #[arg(long, value_name = "RATE")]
+    pub(crate) baud: Option<u32>,
+    /// End when the device goes, in place of waiting for it
+    #[arg(long)]
+    pub(crate) no_reconnect: bool,
+    /// Stop after that time
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) seconds: Option<f64>,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
+}
+
+/// How values are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MonitorFormat {
+    /// The latest value of each device, refreshed in place
+    Table,
+    /// A line a value, for people
+    Lines,
+    /// A JSON object a value, one a line
+    Ndjson,
+    /// A row an element, with a header
+    Csv,
+}
+
+/// `NAME=VALUE`.
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        Some(_) | None => Err("an actuator and its value, such as Servo=20".into()),
+    }
+}

@@ -1,0 +1,134 @@
+//! Which boards are meant: a design, or its generated `schema.json`, in, boards out.
+
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use sensedsl_diagnostics::codes::e0557_not_a_schema::not_a_schema;
+use sensedsl_diagnostics::codes::{e0519_which_board, e0558_no_board as no_board};
+use sensedsl_diagnostics::{FileId, SourceMap, Span};
+use sensedsl_host::Board;
+use sensedsl_job::{BoardJob, jobs};
+use sensedsl_model::FileUse;
+use sensedsl_report::schema::schema;
+use sensedsl_session::{Ask, has_errors};
+
+use super::source::Source;
+use crate::cli::{MonitorArgs, On};
+use crate::commands::input;
+use crate::commands::simulate::Simulated;
+use crate::files::{Refused, read_text};
+use crate::status::{Reported, Status};
+use crate::terminal::Terminal;
+
+/// The boards that a link may be of.
+pub(super) struct Subject {
+    pub(super) boards: Vec<Board>,
+    pub(super) sources: SourceMap,
+    /// The place for diagnostics about the whole.
+    pub(super) at: Span,
+}
+
+impl Subject {
+    /// The board that the arguments name, or the first one; none if there is no such board, which was told.
+    pub(super) fn board(&self, args: &MonitorArgs, terminal: &Terminal) -> Result<Option<&Board>> {
+        let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
+        let Some(asked) = &args.board else {
+            if let [_, others @ ..] = names.as_slice()
+                && !others.is_empty()
+            {
+                terminal.aside(&format!("`--board` is another one: {}", others.join(", ")))?;
+            }
+            return Ok(self.boards.first());
+        };
+        let found = self.boards.iter().find(|board| board.name == *asked);
+        if found.is_none() {
+            let why = e0519_which_board::not_in_file(self.at, asked, &names);
+            terminal.diagnostics(&[why], &self.sources)?;
+        }
+        Ok(found)
+    }
+}
+
+/// Reads the design or its schema.
+pub(super) fn read(
+    args: &MonitorArgs,
+    file: Option<&Path>,
+    terminal: &Terminal,
+) -> Result<Subject> {
+    let subject = match (&args.schema, file) {
+        (Some(path), _) => of_schema(path)?,
+        (None, Some(path)) => of_design(args, path, terminal)?,
+        (None, None) => {
+            let mut sources = SourceMap::default();
+            let at = Span::new(sources.add("monitor", ""), 0..0);
+            terminal.diagnostics(&[no_board::no_design(at)], &sources)?;
+            bail!(Reported(Status::Misused));
+        }
+    };
+    if subject.boards.is_empty() {
+        terminal.diagnostics(&[no_board::nothing_on_it(subject.at)], &subject.sources)?;
+        bail!(Reported(Status::Wrong));
+    }
+    Ok(subject)
+}
+
+fn of_schema(path: &Path) -> Result<Subject> {
+    let text = read_text(path, FileUse::Schema)?;
+    match Board::all_of_json(&text) {
+        Ok(boards) => {
+            let mut sources = SourceMap::default();
+            let at = start(sources.add(crate::files::shown(path), text.as_str()));
+            Ok(Subject { boards, sources, at })
+        }
+        Err(why) => {
+            bail!(Refused::new(path, |at, shown| not_a_schema(at, shown, &why.to_string())))
+        }
+    }
+}
+
+fn start(file: FileId) -> Span {
+    Span::new(file, 0..0)
+}
+
+fn on(args: &MonitorArgs) -> On {
+    On { board: None, target: None, reach: args.reach.clone() }
+}
+
+/// Solves the design: which devices are on which board may depend on the wiring.
+fn of_design(args: &MonitorArgs, path: &Path, terminal: &Terminal) -> Result<Subject> {
+    let on = on(args);
+    let snapshot = input::load(path, &on);
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
+    if has_errors(&answer.diagnostics) {
+        terminal.diagnostics(&answer.diagnostics, snapshot.sources())?;
+        bail!(Reported(Status::Wrong));
+    }
+    let text = schema(design, wiring).to_string();
+    // What is written here is what is read there: `generate` gives the same text to other programs.
+    let boards = Board::all_of_json(&text)?;
+    Ok(Subject { boards, sources: snapshot.sources().clone(), at: input::place(design) })
+}
+
+/// Runs a board in this program, and what is to be done with it.
+pub(super) fn simulated(
+    args: &MonitorArgs,
+    path: &Path,
+    terminal: &Terminal,
+    watch: impl FnOnce(&Board, Source) -> Result<Status>,
+) -> Result<Status> {
+    let on = on(args);
+    let snapshot = input::load(path, &on);
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
+    let subject = of_design(args, path, terminal)?;
+    let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
+    let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
+    let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else {
+        terminal.diagnostics(&[no_board::nothing_on_it(subject.at)], &subject.sources)?;
+        return Ok(Status::Wrong);
+    };
+    let simulated = Simulated::new(job, &args.reach, terminal)?;
+    let Some(simulated) = simulated else { return Ok(Status::Wrong) };
+    watch(board, Source::Simulated(Box::new(simulated)))
+}

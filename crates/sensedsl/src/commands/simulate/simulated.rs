@@ -1,0 +1,54 @@
+//! A board in this program at the pace of the clock, for a command that is its host.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use sensedsl_job::BoardJob;
+use sensedsl_twin::bench::Bench;
+
+use super::board::{self, Board};
+use super::run::MS;
+use super::{SEED, world};
+use crate::cli::{Reach, SimulateArgs};
+use crate::terminal::Terminal;
+
+/// The board, and how far it has run.
+pub(crate) struct Simulated {
+    board: Box<dyn Board>,
+    began: Instant,
+    now_ns: u64,
+}
+
+impl Simulated {
+    /// A board whose sensors move within their ranges; none if that has an error, which was told.
+    pub(crate) fn new(
+        job: &BoardJob<'_>,
+        reach: &Reach,
+        terminal: &Terminal,
+    ) -> Result<Option<Self>> {
+        let args = SimulateArgs { reach: reach.clone(), ..SimulateArgs::default() };
+        let Some(world) = world(&args, terminal, job)? else { return Ok(None) };
+        let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
+        let mut board = board::soft(job, bench);
+        board.link_open(true);
+        Ok(Some(Self { board, began: Instant::now(), now_ns: 0 }))
+    }
+
+    /// The bytes that the board has sent by now.
+    pub(crate) fn read(&mut self) -> Vec<u8> {
+        let due = u64::try_from(self.began.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        let mut bytes = Vec::new();
+        while self.now_ns + MS <= due {
+            self.now_ns += MS;
+            self.board.run_until(self.now_ns);
+            bytes.extend(self.board.link_read());
+        }
+        let _ = self.board.received();
+        bytes
+    }
+
+    /// Sends bytes to the board.
+    pub(crate) fn write(&mut self, bytes: &[u8]) {
+        self.board.link_write(bytes);
+    }
+}
