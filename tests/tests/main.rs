@@ -29,6 +29,7 @@ mod library_page;
 mod limits;
 mod limits_page;
 mod messages;
+mod monitor;
 mod no_panic;
 mod pages;
 mod paper;

@@ -271,6 +271,16 @@ const PREFIXES: [(&str, f64); 6] =
     [("", 1.0), ("u", 1e-6), ("m", 1e-3), ("c", 1e-2), ("k", 1e3), ("M", 1e6)];
 
 impl Board {
+    /// The actuator whose name is so close that it was probably meant.
+    fn meant(&self, name: &str) -> Option<String> {
+        let distance = |one: &Device| {
+            strsim::damerau_levenshtein(&one.name.to_lowercase(), &name.to_lowercase())
+        };
+        let actuators = self.devices.iter().filter(|one| one.direction == Direction::Actuator);
+        let near = actuators.map(|one| (distance(one), &one.name)).min()?;
+        (3 * near.0 <= name.chars().count()).then(|| near.1.clone())
+    }
+
     /// The frame that sets an actuator to what somebody typed, and what has become of it.
     ///
     /// # Errors
@@ -284,9 +294,7 @@ impl Board {
         let of_any_case =
             || self.devices.iter().position(|one| one.name.eq_ignore_ascii_case(name));
         let Some(index) = found.or_else(of_any_case) else {
-            let near = self.devices.iter().filter(|one| one.direction == Direction::Actuator);
-            let near = near.map(|one| one.name.as_str()).find(|one| is_near(one, name));
-            return Err(CommandError::Name(name.to_owned(), near.map(str::to_owned)));
+            return Err(CommandError::Name(name.to_owned(), self.meant(name)));
         };
         let Some(device) =
             self.devices.get(index).filter(|one| one.direction == Direction::Actuator)
@@ -302,15 +310,6 @@ impl Board {
             frame.map_err(|error: EncodeError| CommandError::OutOfReach(error.to_string()))?;
         Ok((frame, index, value))
     }
-}
-
-/// Whether a name may be a slip of the pen: one letter is missing, another, or too many.
-fn is_near(one: &str, other: &str) -> bool {
-    let (one, other) = (one.to_lowercase(), other.to_lowercase());
-    let common = one.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();
-    let tails = one.chars().rev().zip(other.chars().rev()).take_while(|(a, b)| a == b).count();
-    let longest = one.chars().count().max(other.chars().count());
-    longest > 2 && common + tails + 1 >= longest
 }
 
 fn real(raw: Scalar) -> f64 {

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0558_no_board as no_board;
+use sensedsl_diagnostics::codes::e0557_no_board as no_board;
 use sensedsl_host::Board;
 use sensedsl_host::port::{OpenError, Port, usb_ports};
 

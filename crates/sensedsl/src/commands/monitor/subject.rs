@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use sensedsl_diagnostics::codes::e0557_not_a_schema::not_a_schema;
-use sensedsl_diagnostics::codes::{e0519_which_board, e0558_no_board as no_board};
+use sensedsl_diagnostics::codes::e0556_not_a_schema::not_a_schema;
+use sensedsl_diagnostics::codes::{e0519_which_board, e0557_no_board as no_board};
 use sensedsl_diagnostics::{FileId, SourceMap, Span};
 use sensedsl_host::Board;
 use sensedsl_job::{BoardJob, jobs};

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use sensedsl_diagnostics::codes::e0559_other_firmware::other_firmware;
+use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
 use sensedsl_host::port::Port;
 use sensedsl_host::{Board, Counts, Event, Session, State};
 use sensedsl_wire::{

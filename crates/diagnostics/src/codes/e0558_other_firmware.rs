@@ -1,10 +1,10 @@
-//! E0559: the board runs other firmware.
+//! E0558: the board runs other firmware.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
-    code: "E0559",
+    code: "E0558",
     title: "the board runs other firmware",
     explanation: r#"Host and board know by the hash of their schema that they speak of the same devices. The board told another hash, so no
 value of it is believed. Where the board's shell answers, the devices that differ are named.

@@ -1,10 +1,10 @@
-//! E0557: a file is no `schema.json` that can be used.
+//! E0556: a file is no `schema.json` that can be used.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
-    code: "E0557",
+    code: "E0556",
     title: "not a schema",
     explanation: r#"`monitor --schema` takes the `schema.json` that `generate` writes: what each board's link carries. The file is not
 one, is of a version that this program does not read, or was changed after it was generated, which its hash tells.

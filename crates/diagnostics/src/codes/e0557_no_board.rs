@@ -1,10 +1,10 @@
-//! E0558: there is no board to monitor.
+//! E0557: there is no board to monitor.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
-    code: "E0558",
+    code: "E0557",
     title: "no board to monitor",
     explanation: r#"`monitor` needs a board and the design that it was made for. The device cannot be opened, no device of this machine
 answers as a board of the design does, or the call does not say which design is meant.
