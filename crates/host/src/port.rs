@@ -167,7 +167,6 @@ pub fn usb_ports() -> Vec<(String, Identity)> {
 
 /// What a port is, by its path; links are followed.
 fn identity(path: &str) -> Option<Identity> {
-    #[expect(clippy::disallowed_methods, reason = "ports are what this module is for")]
     let real = std::fs::canonicalize(path).ok();
     let real = real.and_then(|path| path.into_os_string().into_string().ok());
     let real = real.as_deref().unwrap_or(path);

@@ -157,6 +157,9 @@ impl Board {
     fn read(entry: BoardEntry) -> Result<Self, SchemaError> {
         let checksum = [Checksum::None, Checksum::Crc16, Checksum::Crc32];
         let checksum = checksum.into_iter().find(|one| one.name() == entry.checksum);
+        if !is_name(&entry.name) {
+            return Err(SchemaError::Form(format!("{:?} is no name of a board", entry.name)));
+        }
         let Some(checksum) = checksum else {
             return Err(SchemaError::Form(format!("`{}` is no checksum", entry.checksum)));
         };
@@ -197,6 +200,12 @@ impl Device {
         if entry.length == Some(0) {
             return form(format!("`{}` is an array without elements", entry.name));
         }
+        if !is_name(&entry.name) {
+            return form(format!("{:?} is no name of a device", entry.name));
+        }
+        if let Some(unit) = entry.quantity.as_ref().filter(|unit| !is_shown(unit)) {
+            return form(format!("the unit {unit:?} has characters that are not shown"));
+        }
         if matches!(entry.id, 0 | 255) {
             return form(format!("`{}` has the identifier {} of the link", entry.name, entry.id));
         }
@@ -213,6 +222,19 @@ impl Device {
             cycle_ms: entry.cycle_ms,
         })
     }
+}
+
+/// Whether a text is a name of the language: a stranger's file must not write to the terminal.
+fn is_name(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// Whether all characters of a text are seen where they stand.
+fn is_shown(text: &str) -> bool {
+    !text.chars().any(|c| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+    })
 }
 
 #[cfg(test)]
@@ -241,6 +263,9 @@ mod tests {
             ("\"length\": 2", "\"length\": 0", "without elements"),
             ("\"id\": 1", "\"id\": 255", "identifier 255"),
             ("\"id\": 1,", "", "missing field `id`"),
+            ("\"Pair\"", "\"Pa\\u001bir\"", "is no name of a device"),
+            ("\"new\": true", "\"quantity\": \"a\\u202eb\"", "characters that are not shown"),
+            ("\"A\"", "\"\"", "is no name of a board"),
             ("{", "", "it is no schema"),
         ] {
             let error = read(&text.replacen(from, to, 1)).unwrap_err();

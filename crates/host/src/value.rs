@@ -217,22 +217,19 @@ impl Device {
 
     /// A code that is written: decimal, or hexadecimal behind `0x`.
     fn code(&self, word: &str) -> Option<Scalar> {
-        match self.value.scalar {
-            ScalarType::Float32 => {
-                word.parse().ok().filter(|n: &f32| n.is_finite()).map(Scalar::Float32)
-            }
-            ScalarType::Float64 => {
-                word.parse().ok().filter(|n: &f64| n.is_finite()).map(Scalar::Float64)
-            }
-            integer => {
-                let digits = word.strip_prefix("0x").or_else(|| word.strip_prefix("0X"));
-                let whole = match digits {
-                    Some(digits) => i128::from_str_radix(digits, 16).ok()?,
-                    None => word.parse().ok()?,
-                };
-                of_integer(integer, whole)
-            }
+        let scalar = self.value.scalar;
+        if scalar == ScalarType::Float32 {
+            return word.parse().ok().filter(|n: &f32| n.is_finite()).map(Scalar::Float32);
         }
+        if scalar == ScalarType::Float64 {
+            return word.parse().ok().filter(|n: &f64| n.is_finite()).map(Scalar::Float64);
+        }
+        let digits = word.strip_prefix("0x").or_else(|| word.strip_prefix("0X"));
+        let whole = match digits {
+            Some(digits) => i128::from_str_radix(digits, 16).ok()?,
+            None => word.parse().ok()?,
+        };
+        of_integer(scalar, whole)
     }
 
     fn checked(&self, code: Scalar, word: &str) -> Result<Scalar, CommandError> {
@@ -329,10 +326,12 @@ fn of_integer(scalar: ScalarType, whole: i128) -> Option<Scalar> {
     if whole < least || whole > greatest {
         return None;
     }
-    Some(match scalar {
-        ScalarType::Bool => Scalar::Bool(whole == 1),
-        _ if least < 0 => Scalar::Signed(i64::try_from(whole).ok()?),
-        _ => Scalar::Unsigned(u64::try_from(whole).ok()?),
+    Some(if scalar == ScalarType::Bool {
+        Scalar::Bool(whole == 1)
+    } else if least < 0 {
+        Scalar::Signed(i64::try_from(whole).ok()?)
+    } else {
+        Scalar::Unsigned(u64::try_from(whole).ok()?)
     })
 }
 
@@ -341,14 +340,15 @@ fn nearest(scalar: ScalarType, code: f64) -> Option<Scalar> {
     if !code.is_finite() {
         return None;
     }
-    #[expect(clippy::cast_possible_truncation, reason = "checked against the type's range")]
-    match scalar {
-        ScalarType::Float32 => {
-            Some(Scalar::Float32(code as f32)).filter(|_| code.abs() <= f32::MAX.into())
-        }
-        ScalarType::Float64 => Some(Scalar::Float64(code)),
-        integer => of_integer(integer, code.round() as i128),
+    if scalar == ScalarType::Float64 {
+        return Some(Scalar::Float64(code));
     }
+    if scalar == ScalarType::Float32 {
+        #[expect(clippy::cast_possible_truncation, reason = "within its range, and rounded")]
+        return (code.abs() <= f32::MAX.into()).then_some(Scalar::Float32(code as f32));
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "checked against the type's range next")]
+    of_integer(scalar, code.round() as i128)
 }
 
 #[cfg(test)]

@@ -29,25 +29,16 @@ const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     let (device, file) = places(args);
-    let subject = match subject::read(args, file, terminal) {
-        Ok(subject) => subject,
-        Err(error) => return Err(error),
-    };
-    let refuse = |why: Diagnostic, status: Status| -> Result<Status> {
-        terminal.diagnostics(&[why], &subject.sources)?;
-        Ok(status)
-    };
+    if let (Some("simulate"), Some(file)) = (device, file) {
+        return subject::simulated(args, file, terminal, |subject, board, source| {
+            Watch::new(args, terminal, subject, board, source).run()
+        });
+    }
+    let subject = subject::read(args, file, terminal)?;
     let opened = match device {
-        Some("simulate") => {
-            let Some(file) = file else {
-                return refuse(no_board::no_design(subject.at), Status::Misused);
-            };
-            return subject::simulated(args, file, terminal, |board, source| {
-                Watch::new(args, terminal, &subject, board, source).run()
-            });
-        }
+        Some("simulate") => Err(Box::new(no_board::no_design(subject.at))),
         Some(path) if is_recording(path) => Source::recording(path)
-            .map_err(|error| no_board::unreadable(subject.at, path, &error.to_string())),
+            .map_err(|error| Box::new(no_board::unreadable(subject.at, path, &error.to_string()))),
         Some(path) => open(path, args, &subject),
         None => return found(args, terminal, &subject),
     };
@@ -56,7 +47,10 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
             let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
             Watch::new(args, terminal, &subject, board, source).run()
         }
-        Err(why) => refuse(why, Status::Misused),
+        Err(why) => {
+            terminal.diagnostics(&[*why], &subject.sources)?;
+            Ok(Status::Misused)
+        }
     }
 }
 
@@ -86,16 +80,16 @@ fn is_recording(path: &str) -> bool {
     false
 }
 
-fn open(path: &str, args: &MonitorArgs, subject: &Subject) -> Result<Source, Diagnostic> {
+fn open(path: &str, args: &MonitorArgs, subject: &Subject) -> Result<Source, Box<Diagnostic>> {
     let baud = args.baud.or(subject.boards.first().and_then(|board| board.baud)).unwrap_or(BAUD);
     let cure = |why: OpenError| {
         let ports: Vec<String> = usb_ports().into_iter().map(|(name, _)| name).collect();
-        no_board::not_opened(
+        Box::new(no_board::not_opened(
             subject.at,
             &shown(Path::new(path)),
             &why.to_string(),
             &cure(&why, path, &ports),
-        )
+        ))
     };
     Port::open(path, baud).map(Source::Port).map_err(cure)
 }

@@ -9,8 +9,10 @@ use sensedsl_diagnostics::{FileId, SourceMap, Span};
 use sensedsl_host::Board;
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::FileUse;
+use sensedsl_model::design::Design;
 use sensedsl_report::schema::schema;
-use sensedsl_session::{Ask, has_errors};
+use sensedsl_session::{Answer, Ask, Snapshot, has_errors};
+use sensedsl_wiring::assignment::Assignment;
 
 use super::source::Source;
 use crate::cli::{MonitorArgs, On};
@@ -94,20 +96,34 @@ fn on(args: &MonitorArgs) -> On {
     On { board: None, target: None, reach: args.reach.clone() }
 }
 
-/// Solves the design: which devices are on which board may depend on the wiring.
+/// The boards of a design: which devices are on which may depend on the wiring.
 fn of_design(args: &MonitorArgs, path: &Path, terminal: &Terminal) -> Result<Subject> {
     let on = on(args);
     let snapshot = input::load(path, &on);
     let answer = snapshot.solve(&Ask::default());
-    let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
+    let wired = wired(&answer, &snapshot, &on, terminal)?;
+    subject(wired, snapshot.sources())
+}
+
+/// The design and its wiring; what is wrong with them was told.
+fn wired<'a>(
+    answer: &'a Answer<'_>,
+    snapshot: &Snapshot,
+    on: &On,
+    terminal: &Terminal,
+) -> Result<(&'a Design, &'a Assignment)> {
+    let wired = input::wired(answer, snapshot, on, terminal)?;
     if has_errors(&answer.diagnostics) {
         terminal.diagnostics(&answer.diagnostics, snapshot.sources())?;
         bail!(Reported(Status::Wrong));
     }
-    let text = schema(design, wiring).to_string();
-    // What is written here is what is read there: `generate` gives the same text to other programs.
-    let boards = Board::all_of_json(&text)?;
-    Ok(Subject { boards, sources: snapshot.sources().clone(), at: input::place(design) })
+    Ok(wired)
+}
+
+/// What is written here is what is read there: `generate` gives the same text to other programs.
+fn subject((design, wiring): (&Design, &Assignment), sources: &SourceMap) -> Result<Subject> {
+    let boards = Board::all_of_json(&schema(design, wiring).to_string())?;
+    Ok(Subject { boards, sources: sources.clone(), at: input::place(design) })
 }
 
 /// Runs a board in this program, and what is to be done with it.
@@ -115,13 +131,13 @@ pub(super) fn simulated(
     args: &MonitorArgs,
     path: &Path,
     terminal: &Terminal,
-    watch: impl FnOnce(&Board, Source) -> Result<Status>,
+    watch: impl FnOnce(&Subject, &Board, Source) -> Result<Status>,
 ) -> Result<Status> {
     let on = on(args);
     let snapshot = input::load(path, &on);
     let answer = snapshot.solve(&Ask::default());
-    let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
-    let subject = of_design(args, path, terminal)?;
+    let (design, wiring) = wired(&answer, &snapshot, &on, terminal)?;
+    let subject = subject((design, wiring), snapshot.sources())?;
     let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
     let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else {
@@ -130,5 +146,5 @@ pub(super) fn simulated(
     };
     let simulated = Simulated::new(job, &args.reach, terminal)?;
     let Some(simulated) = simulated else { return Ok(Status::Wrong) };
-    watch(board, Source::Simulated(Box::new(simulated)))
+    watch(&subject, board, Source::Simulated(Box::new(simulated)))
 }
