@@ -1,6 +1,7 @@
 //! The host applications that can be generated: each is a line of [`HOSTS`].
 
 use sensedsl_host_cpp as cpp;
+use sensedsl_host_python::Python;
 use sensedsl_job::host::Host;
 
 /// All hosts, in the order in which they are documented.
@@ -9,6 +10,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::OpenDavinci2014,
     &cpp::Libcluon,
     &cpp::Plain,
+    &Python,
 ];
 
 /// The host with this name.
