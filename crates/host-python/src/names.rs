@@ -11,7 +11,8 @@ const RESERVED: &str = "False None True and as assert async await break class co
     finally for from global if import in is lambda nonlocal not or pass raise return try while with yield match case \
     type bool bytes classmethod float int object property str tuple super print annotations dataclass DESIGN ClassVar \
     Tuple Board DeviceError Facts Health Item Message OtherFirmware STATUS Scaling Schema Stamp boards_of of_raw \
-    of_shown to_pandas";
+    of_shown to_pandas \
+    FACTS at of outside raw stamp unit value";
 
 /// Hands out names, each at most once.
 pub(super) struct PythonNames {

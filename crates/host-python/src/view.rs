@@ -86,7 +86,7 @@ impl BoardView {
                 message.id == device.id
                     && message.is_sensor == (device.direction == Direction::Sensor)
             })?;
-            Some(format!("{}.FACTS.item, ", found.ident))
+            Some(format!("\n        {}.FACTS.item,", found.ident))
         });
         Self {
             ident,
@@ -95,7 +95,7 @@ impl BoardView {
             stamp: boolean(plan.has_stamp),
             baud: plan.baud,
             silence_ms: optional(plan.silence_ms),
-            order: in_order.collect::<String>().trim_end().to_owned(),
+            order: in_order.collect(),
             messages,
         }
     }

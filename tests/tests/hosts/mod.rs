@@ -15,6 +15,7 @@ mod health;
 mod link;
 mod middleware;
 mod page;
+mod python;
 mod shown;
 pub(crate) mod terminal;
 pub(crate) mod tools;

@@ -12,17 +12,27 @@ use sensedsl_wire::{
 use sensedsl_tests::{answered, few, has, is_exhaustive, is_thorough};
 
 use super::designs::{board, item};
-use super::files;
+use super::files as folders;
 
 /// The requests to the C++ program, and the expected answers.
 #[derive(Default)]
-struct Exchange {
+pub(super) struct Exchange {
     asked: String,
     expected: String,
     cases: usize,
 }
 
 impl Exchange {
+    /// What is asked, a line each.
+    pub(super) fn asked(&self) -> &str {
+        &self.asked
+    }
+
+    /// What a right program answers.
+    pub(super) fn expected(&self) -> &str {
+        &self.expected
+    }
+
     fn ask(&mut self, command: &str, answer: &str) {
         self.asked.push_str(&format!("{command}\n"));
         self.expected.push_str(&format!("{answer}end\n"));
@@ -35,7 +45,7 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// Turns a vector file into one exchange and the schema that it needs. All numbers stay text.
-fn read(path: &Path) -> (Schema, Exchange) {
+pub(super) fn read(path: &Path) -> (Schema, Exchange) {
     let text = std::fs::read_to_string(path).unwrap();
     let mut schema = Schema::default();
     let mut exchange = Exchange::default();
@@ -89,7 +99,7 @@ fn run(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) {
 fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -> String {
     let mut vectors = board("Vectors", schema.checksum, "");
     vectors.schema = schema.clone();
-    let folder = files::generate("cpp", &format!("vectors-{name}-{}", compiler[0]), &[vectors]);
+    let folder = folders::generate("cpp", &format!("vectors-{name}-{}", compiler[0]), &[vectors]);
     let mut items = String::from("#define ITEMS(X)");
     for item in &schema.items {
         let cpp_type = match item.value.scalar.name() {
@@ -117,7 +127,7 @@ fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -
 
 /// The answer with each float32 value in a common form, because the languages print them
 /// differently.
-fn with_reals_alike(schema: &Schema, answer: &str) -> String {
+pub(super) fn with_reals_alike(schema: &Schema, answer: &str) -> String {
     let is_real = |id: &str| {
         let mut items = schema.items.iter().filter(|item| item.id.to_string() == id);
         items.any(|item| item.value.scalar == ScalarType::Float32)
@@ -132,7 +142,8 @@ fn with_reals_alike(schema: &Schema, answer: &str) -> String {
     answer.split_inclusive([' ', '\n']).map(alike).collect()
 }
 
-fn vector_files() -> Vec<PathBuf> {
+/// All vector files of the wire.
+pub(super) fn files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors");
     let mut files: Vec<PathBuf> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -156,7 +167,7 @@ fn shared_vectors_cut_at_every_place() {
         if !has(compiler[0]) {
             continue;
         }
-        for path in few(&vector_files(), 1) {
+        for path in few(&files(), 1) {
             let (schema, exchange) = read(path);
             assert!(exchange.cases > 5, "{}: {} cases", path.display(), exchange.cases);
             run(compiler, path.file_stem().unwrap().to_str().unwrap(), &schema, &exchange);
@@ -206,9 +217,14 @@ fn health_words(health: &Health) -> String {
 }
 
 /// Pseudorandom numbers that are the same in each run.
-struct Numbers(u64);
+pub(super) struct Numbers(u64);
 
 impl Numbers {
+    /// A sequence of its own for each seed.
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
     fn below(&mut self, bound: usize) -> usize {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -238,7 +254,7 @@ fn damaged(numbers: &mut Numbers, frames: &[Vec<u8>]) -> Vec<u8> {
 }
 
 /// The vector files whose frames are damaged.
-const DAMAGED: [&str; 9] = [
+pub(super) const DAMAGED: [&str; 9] = [
     "arrays_crc32",
     "stamp_checksum",
     "health",
@@ -250,29 +266,34 @@ const DAMAGED: [&str; 9] = [
     "stamp",
 ];
 
+/// Damaged frames of a vector file, and how the reference reads them.
+pub(super) fn damage(name: &str, numbers: &mut Numbers, count: usize) -> (Schema, Exchange) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
+    let (schema, vectors) = read(&path);
+    let frames: Vec<Vec<u8>> = vectors
+        .expected
+        .lines()
+        .filter_map(|line| line.strip_prefix("frame ").or_else(|| line.strip_prefix("hello ")))
+        .map(|digits| {
+            let at = (0..digits.len()).step_by(2);
+            at.map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap()).collect()
+        })
+        .collect();
+    let mut exchange = Exchange::default();
+    for _ in 0..count {
+        let stream = damaged(numbers, &frames);
+        exchange.ask(&format!("decode sensors {}", hex(&stream)), &reference(&schema, &stream));
+    }
+    (schema, exchange)
+}
+
 #[test]
 fn damaged_streams_are_read_as_by_the_reference() {
     if !is_thorough() || !has("g++") {
         return;
     }
     for name in few(&DAMAGED, 1) {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
-        let (schema, vectors) = read(&path);
-        let frames: Vec<Vec<u8>> = vectors
-            .expected
-            .lines()
-            .filter_map(|line| line.strip_prefix("frame ").or_else(|| line.strip_prefix("hello ")))
-            .map(|digits| {
-                let at = (0..digits.len()).step_by(2);
-                at.map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap()).collect()
-            })
-            .collect();
-        let mut numbers = Numbers(2014);
-        let mut exchange = Exchange::default();
-        for _ in 0..2000 {
-            let stream = damaged(&mut numbers, &frames);
-            exchange.ask(&format!("decode sensors {}", hex(&stream)), &reference(&schema, &stream));
-        }
+        let (schema, exchange) = damage(name, &mut Numbers::new(2014), 2000);
         let compiler = ["g++", "-std=c++17", "-O0"];
         let found = answer(&compiler, &format!("damaged-{name}"), &schema, &exchange);
         let alike = |answer| with_reals_alike(&schema, answer);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import time
 from typing import Any, BinaryIO, List, Optional, Tuple, Union
 
@@ -12,11 +13,10 @@ class DeviceError(Exception):
 
 def _serial() -> Any:
     try:
-        import serial
-        import serial.tools.list_ports
+        importlib.import_module("serial.tools.list_ports")
+        return importlib.import_module("serial")
     except ImportError:
         raise DeviceError("pyserial is missing: `pip install pyserial`") from None
-    return serial
 
 
 def usb_ports() -> List[str]:
