@@ -1,6 +1,6 @@
 //! The host in Python: a typed package with a class for each message and each board.
 //!
-//! In: a [`HostPlan`](sensedsl_job::host::HostPlan). Out: files. `names.rs` makes Python names, `view.rs` puts the plan
+//! In: a [`HostPlan`]. Out: files. `names.rs` makes Python names, `view.rs` puts the plan
 //! in Python's words, `runtime/` is hand-written and copied into the package.
 //!
 //! # Example
