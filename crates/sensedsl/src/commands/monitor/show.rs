@@ -70,13 +70,27 @@ impl<'b> Show<'b> {
         text
     }
 
-    /// The table, printed over the previous one.
-    pub(super) fn refreshed(&mut self, now: Duration, session: &Session<'_>) -> String {
+    /// The table, printed over the previous one. What does not fit the terminal is left out: a line that wraps, or one
+    /// above its first row, could not be printed over.
+    pub(super) fn refreshed(
+        &mut self,
+        now: Duration,
+        session: &Session<'_>,
+        size: Option<(usize, usize)>,
+    ) -> String {
         let text = self.table(now, session);
-        let lines: Vec<String> = text.lines().map(|line| format!("{line}\x1b[K\n")).collect();
+        let lines = fitting(&text, size);
         let up = if self.lines > 0 { format!("\x1b[{}A", self.lines) } else { String::new() };
         self.lines = lines.len();
+        let lines: Vec<String> = lines.iter().map(|line| format!("{line}\x1b[K\n")).collect();
         format!("{up}{}", lines.concat())
+    }
+
+    /// The whole table, for the end and for pipes.
+    pub(super) fn last(&mut self, now: Duration, session: &Session<'_>) -> String {
+        let up = if self.lines > 0 { format!("\x1b[{}A\x1b[J", self.lines) } else { String::new() };
+        self.lines = 0;
+        format!("{up}{}", self.table(now, session))
     }
 
     /// Something else was printed: the next table begins below it.
@@ -130,6 +144,24 @@ impl<'b> Show<'b> {
         }
         [device.name.clone(), shown, format!("{age} ms"), count, marks]
     }
+}
+
+/// The lines of a text that fit a terminal, each cut to its width; the last one says how many are missing.
+fn fitting(text: &str, size: Option<(usize, usize)>) -> Vec<String> {
+    let all: Vec<&str> = text.lines().collect();
+    let Some((columns, rows)) = size else { return all.into_iter().map(str::to_owned).collect() };
+    let cut = |line: &str| line.chars().take(columns.saturating_sub(1)).collect::<String>();
+    // The cursor is in the row below the table.
+    let room = rows.saturating_sub(1).max(2);
+    if all.len() <= room {
+        return all.into_iter().map(cut).collect();
+    }
+    let mut lines: Vec<String> = all.iter().take(room - 1).map(|line| cut(line)).collect();
+    let missing = all.len() - lines.len();
+    lines.push(cut(&format!(
+        "  and {missing} more: make the window higher, or use `--format lines`"
+    )));
+    lines
 }
 
 /// What is said behind a value outside of its limits.
@@ -248,4 +280,19 @@ pub(super) fn causes(counts: [u16; 6]) -> String {
     ];
     let some = counts.iter().zip(words).filter(|(count, _)| **count > 0);
     some.map(|(count, word)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_stays_in_its_terminal() {
+        let text = "head\nabcdef\nb\nc\n";
+        assert_eq!(fitting(text, None), ["head", "abcdef", "b", "c"]);
+        assert_eq!(fitting(text, Some((5, 5))), ["head", "abcd", "b", "c"]);
+        let cut = fitting(text, Some((20, 4)));
+        assert_eq!(cut, ["head", "abcdef", "  and 2 more: make "]);
+        assert_eq!(fitting(text, Some((1, 1))).len(), 2);
+    }
 }

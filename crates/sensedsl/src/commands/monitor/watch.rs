@@ -124,7 +124,8 @@ impl<'a> Watch<'a> {
                 && shown.elapsed() >= REFRESH
             {
                 shown = Instant::now();
-                let text = self.show.refreshed(self.began.elapsed(), &self.session);
+                let text =
+                    self.show.refreshed(self.began.elapsed(), &self.session, self.terminal.size());
                 self.terminal.result(&text)?;
             }
         };
@@ -390,8 +391,8 @@ impl<'a> Watch<'a> {
     /// Prints the last table and the counts.
     fn finish(mut self, status: Status) -> Result<Status> {
         if self.format == MonitorFormat::Table {
-            let text = self.show.refreshed(self.began.elapsed(), &self.session);
-            self.terminal.result(&text.replace("\x1b[K", ""))?;
+            let text = self.show.last(self.began.elapsed(), &self.session);
+            self.terminal.result(&text)?;
         }
         let mut counts = self.session.counts();
         counts += self.before;
