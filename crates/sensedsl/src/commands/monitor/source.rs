@@ -12,7 +12,7 @@ use crate::commands::simulate::Simulated;
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 
 /// What came of reading.
-pub(super) enum Read1 {
+pub(super) enum Input {
     /// Bytes, or nothing for a while.
     Bytes(Vec<u8>),
     /// A recording is over.
@@ -51,26 +51,26 @@ impl Source {
     }
 
     /// The bytes that come within a time.
-    pub(super) fn read(&mut self, within: Duration) -> io::Result<Read1> {
+    pub(super) fn read(&mut self, within: Duration) -> io::Result<Input> {
         Ok(match self {
-            Self::Port(port) => port.read(within).map_or(Read1::Gone, Read1::Bytes),
+            Self::Port(port) => port.read(within).map_or(Input::Gone, Input::Bytes),
             Self::Away(_) => {
                 std::thread::sleep(within.min(LOOK_EVERY));
-                Read1::Bytes(Vec::new())
+                Input::Bytes(Vec::new())
             }
             Self::Recording(reader) => {
                 let mut bytes = vec![0; 1 << 16];
                 match reader.read(&mut bytes)? {
-                    0 => Read1::Over,
+                    0 => Input::Over,
                     count => {
                         bytes.truncate(count);
-                        Read1::Bytes(bytes)
+                        Input::Bytes(bytes)
                     }
                 }
             }
             Self::Simulated(board) => {
                 std::thread::sleep(within.min(Duration::from_millis(2)));
-                Read1::Bytes(board.read())
+                Input::Bytes(board.read())
             }
         })
     }

@@ -1,8 +1,7 @@
 //! The loop of `monitor`: bytes in, values and notes out, commands back.
 
 use std::io::BufRead as _;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -17,7 +16,7 @@ use sensedsl_wire::{
 
 use super::BAUD;
 use super::show::{self, Show};
-use super::source::{Read1, Source};
+use super::source::{Input, Source};
 use super::subject::Subject;
 use crate::cli::{MonitorArgs, MonitorFormat};
 use crate::commands::deadline::interruption;
@@ -141,9 +140,9 @@ impl<'a> Watch<'a> {
         }
         self.find_again()?;
         match self.source.read(WAIT)? {
-            Read1::Over => return Ok(Some(self.status())),
-            Read1::Gone => return self.lose(),
-            Read1::Bytes(bytes) => {
+            Input::Over => return Ok(Some(self.status())),
+            Input::Gone => return self.lose(),
+            Input::Bytes(bytes) => {
                 let now = self.began.elapsed();
                 let events = &mut self.events;
                 self.session.feed(&bytes, now, &mut |event| events.push(event));
@@ -372,11 +371,10 @@ impl<'a> Watch<'a> {
             return None;
         }
         let (sender, receiver): (Sender<String>, _) = channel();
-        let is_over = Arc::new(AtomicBool::new(false));
         // It ends with the program: nothing can take a thread away from a read.
         let _ = std::thread::spawn(move || {
             for line in std::io::stdin().lock().lines().map_while(Result::ok) {
-                if is_over.load(Ordering::Relaxed) || sender.send(line).is_err() {
+                if sender.send(line).is_err() {
                     return;
                 }
             }
