@@ -162,7 +162,7 @@ fn schema_json_says_how_values_are_shown() {
     let (_, schema) = generate("cpp", "fields");
     assert_eq!(schema["version"], 2);
     let board = &schema["boards"][0];
-    assert_eq!(board["stamp"], false);
+    assert_eq!((&board["stamp"], &board["baud"]), (&json!(false), &Value::Null));
     assert_eq!(board["hash"], format!("0x{:08x}", boards()[0].schema.hash()));
     let item = |name: &str| {
         let mut items = board["items"].as_array().unwrap().iter();
@@ -170,7 +170,7 @@ fn schema_json_says_how_values_are_shown() {
     };
     let ranger = json!({
         "id": 1, "name": "Ranger", "direction": "sensor", "type": "uint16", "length": null,
-        "kind": "analog", "chip": null, "label": "a GP2Y0A21 behind the bumper", "quantity": "cm",
+        "kind": "analog", "cycle_ms": 1000, "chip": null, "label": "a GP2Y0A21 behind the bumper", "quantity": "cm",
         "scale": 3.3 / 4096.0, "offset": null, "min": 8.0, "max": 70.0,
         "curve": [[0.4, 80.0], [0.5, 60.0], [0.75, 40.0], [1.3, 20.0], [2.3, 10.0], [3.1, 6.0]],
         "invalid": [[0, 0], [4000, 4095]],
