@@ -2,6 +2,7 @@
 
 use sensedsl_host_cpp as cpp;
 use sensedsl_host_python::Python;
+use sensedsl_host_rust::Rust;
 use sensedsl_job::host::Host;
 
 /// All hosts, in the order in which they are documented.
@@ -11,6 +12,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::Libcluon,
     &cpp::Plain,
     &Python,
+    &Rust,
 ];
 
 /// The host with this name.

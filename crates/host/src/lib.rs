@@ -29,12 +29,22 @@ mod difference;
 #[cfg(feature = "serial")]
 pub mod port;
 mod scale;
+#[cfg(feature = "schema")]
 mod schema;
+#[cfg(feature = "schema")]
 mod session;
+#[cfg(feature = "schema")]
 mod value;
+
+#[cfg(feature = "sources")]
+#[path = "../sources.rs"]
+pub mod sources;
 
 pub use difference::{answered_schema, differences};
 pub use scale::{Scale, halved};
+#[cfg(feature = "schema")]
 pub use schema::{Board, Device, SchemaError};
+#[cfg(feature = "schema")]
 pub use session::{Counts, Event, Session, State};
+#[cfg(feature = "schema")]
 pub use value::{CommandError, Overstep};

@@ -16,6 +16,7 @@ mod link;
 mod middleware;
 mod page;
 mod python;
+mod rust;
 mod shown;
 pub(crate) mod terminal;
 pub(crate) mod tools;
