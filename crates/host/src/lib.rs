@@ -25,16 +25,22 @@
 //! assert_eq!(boards[0].devices[*device].text(value), "500 (50)");
 //! ```
 
+mod clock;
 mod difference;
+mod news;
 #[cfg(feature = "serial")]
 pub mod port;
 mod scale;
 mod schema;
 mod session;
+mod stats;
 mod value;
 
+pub use clock::{BoardClock, ClockError};
 pub use difference::{answered_schema, differences};
+pub use news::{Moment, News, Output, Report, What, Wish};
 pub use scale::{Scale, halved};
 pub use schema::{Board, Device, SchemaError};
 pub use session::{Counts, Event, Session, State};
+pub use stats::{DeviceStats, Histogram};
 pub use value::{CommandError, Overstep};
