@@ -18,9 +18,12 @@ pub(crate) struct MonitorArgs {
     /// The design's generated `schema.json`, in place of the design
     #[arg(long, value_name = "FILE")]
     pub(crate) schema: Option<PathBuf>,
-    /// The board of that name in the file; the first one unless you say, or the one that answers
+    /// That board of the file alone; all that answer unless you say
     #[arg(long, value_name = "NAME")]
     pub(crate) board: Option<String>,
+    /// The port of one of several boards: --at Left=/dev/ttyACM0 --at Right=/dev/ttyACM1
+    #[arg(long, value_name = "NAME=DEVICE", value_parser = assignment, conflicts_with = "device")]
+    pub(crate) at: Vec<(String, String)>,
     /// How to print values; a table where people see it, otherwise lines
     #[arg(long, value_enum)]
     pub(crate) format: Option<MonitorFormat>,
@@ -62,6 +65,6 @@ fn assignment(text: &str) -> Result<(String, String), String> {
         Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
             Ok((name.trim().to_owned(), value.trim().to_owned()))
         }
-        Some(_) | None => Err("an actuator and its value, such as Servo=20".into()),
+        Some(_) | None => Err("a name and its value, such as Servo=20".into()),
     }
 }

@@ -31,23 +31,40 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    /// The board that the arguments name, or the first one; none if there is no such board, which was told.
-    pub(super) fn board(&self, args: &MonitorArgs, terminal: &Terminal) -> Result<Option<&Board>> {
-        let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
-        let Some(asked) = &args.board else {
-            if let [_, others @ ..] = names.as_slice()
-                && !others.is_empty()
-            {
-                terminal.aside(&format!("`--board` is another one: {}", others.join(", ")))?;
-            }
-            return Ok(self.boards.first());
-        };
-        let found = self.boards.iter().find(|board| board.name == *asked);
+    /// The boards that are wanted: the one that the arguments name, or all; none if there is no such board, which was
+    /// told.
+    pub(super) fn wanted(
+        &self,
+        args: &MonitorArgs,
+        terminal: &Terminal,
+    ) -> Result<Option<Vec<&Board>>> {
+        match &args.board {
+            Some(name) => Ok(self.named(name, terminal)?.map(|board| vec![board])),
+            None => Ok(Some(self.boards.iter().collect())),
+        }
+    }
+
+    /// The board of that name; none if there is no such board, which was told.
+    pub(super) fn named(&self, name: &str, terminal: &Terminal) -> Result<Option<&Board>> {
+        let found = self.boards.iter().find(|board| board.name == name);
         if found.is_none() {
-            let why = e0519_which_board::not_in_file(self.at, asked, &names);
+            let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
+            let why = e0519_which_board::not_in_file(self.at, name, &names);
             terminal.diagnostics(&[why], &self.sources)?;
         }
         Ok(found)
+    }
+
+    /// Says which other boards a recording may be of.
+    pub(super) fn hint(&self, args: &MonitorArgs, terminal: &Terminal) -> Result<()> {
+        let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
+        if let [_, others @ ..] = names.as_slice()
+            && !others.is_empty()
+            && args.board.is_none()
+        {
+            terminal.aside(&format!("`--board` is another one: {}", others.join(", ")))?;
+        }
+        Ok(())
     }
 }
 
@@ -126,25 +143,31 @@ fn subject((design, wiring): (&Design, &Assignment), sources: &SourceMap) -> Res
     Ok(Subject { boards, sources: sources.clone(), at: input::place(design) })
 }
 
-/// Runs a board in this program, and what is to be done with it.
+/// Runs boards in this program, and what is to be done with them.
 pub(super) fn simulated(
     args: &MonitorArgs,
     path: &Path,
     terminal: &Terminal,
-    watch: impl FnOnce(&Subject, &Board, Source) -> Result<Status>,
+    watch: impl FnOnce(&Subject, Vec<(&Board, Source)>) -> Result<Status>,
 ) -> Result<Status> {
     let on = on(args);
     let snapshot = input::load(path, &on);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = wired(&answer, &snapshot, &on, terminal)?;
     let subject = subject((design, wiring), snapshot.sources())?;
-    let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
+    let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
-    let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else {
+    let mut found = Vec::new();
+    for board in wanted {
+        let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else { continue };
+        let Some(simulated) = Simulated::new(job, &args.reach, terminal)? else {
+            return Ok(Status::Wrong);
+        };
+        found.push((board, Source::Simulated(Box::new(simulated))));
+    }
+    if found.is_empty() {
         terminal.diagnostics(&[no_board::nothing_on_it(subject.at)], &subject.sources)?;
         return Ok(Status::Wrong);
-    };
-    let simulated = Simulated::new(job, &args.reach, terminal)?;
-    let Some(simulated) = simulated else { return Ok(Status::Wrong) };
-    watch(&subject, board, Source::Simulated(Box::new(simulated)))
+    }
+    watch(&subject, found)
 }
