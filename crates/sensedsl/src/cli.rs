@@ -15,7 +15,7 @@ use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
 pub(crate) use common::{On, Reach, TableFormat, seconds};
-pub(crate) use monitor::{MonitorArgs, MonitorFormat};
+pub(crate) use monitor::{MonitorArgs, MonitorFormat, Speed};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 
