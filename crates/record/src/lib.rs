@@ -9,10 +9,15 @@
 //! its last whole chunk.
 
 mod channels;
+pub mod convert;
+pub mod page;
 mod read;
+mod series;
+pub mod summary;
 pub mod text;
 mod write;
 
 pub use channels::{EVENTS, HEALTH, PROFILE, RECEIVED, SCHEMA_FILE, SENT};
 pub use read::{Ending, Entry, Past, RecordError, RecordReader};
+pub use series::Series;
 pub use write::Recorder;

@@ -165,7 +165,10 @@ impl<R: Read> RecordReader<R> {
     /// When the run began.
     #[must_use]
     pub fn begin(&self) -> Moment {
-        Moment { run: Duration::ZERO, unix: Duration::from_nanos(self.first_ns.unwrap_or_default()) }
+        Moment {
+            run: Duration::ZERO,
+            unix: Duration::from_nanos(self.first_ns.unwrap_or_default()),
+        }
     }
 
     /// The next entry; none at the end.

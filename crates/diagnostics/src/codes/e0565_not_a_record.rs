@@ -26,3 +26,8 @@ pub fn other_boards(span: Span, file: &str, wanted: &str, boards: &[&str]) -> Di
     Diagnostic::new(CODE, span, format!("{file} is no record of `{wanted}`"))
         .help(format!("it is of {}", boards.join(", ")))
 }
+
+/// It has no board or device of that name.
+pub fn no_such_name(span: Span, file: &str, name: &str, all: &[String]) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{file} has no `{name}`")).help(format!("it has {}", all.join(", ")))
+}

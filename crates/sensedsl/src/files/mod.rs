@@ -24,7 +24,8 @@ use sensedsl_model::{FileRequest, FileUse, ReadError};
 pub(crate) use growing::Growing;
 pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
 pub(crate) use write::{
-    begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_together, write_whole,
+    begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_streamed, write_together,
+    write_whole,
 };
 
 /// The name under which people see a file.
