@@ -88,6 +88,15 @@ impl Port {
         Ok(Self { port, path: path.to_owned(), identity: identity(path) })
     }
 
+    /// The same port once more, for a thread that reads while another one writes.
+    ///
+    /// # Errors
+    /// Fails if the system has no room for it, or the device is gone.
+    pub fn try_clone(&self) -> io::Result<Self> {
+        let port = self.port.try_clone()?;
+        Ok(Self { port, path: self.path.clone(), identity: self.identity.clone() })
+    }
+
     /// Its path.
     #[must_use]
     pub fn path(&self) -> &str {

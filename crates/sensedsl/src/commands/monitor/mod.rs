@@ -1,25 +1,41 @@
-//! `sensedsl monitor`: the values of a board as they come, and commands to it.
+//! `sensedsl monitor`: the values of boards as they come, and commands to them.
 //!
-//! `subject.rs` says which boards are meant, `source.rs` where bytes come from, `watch.rs` is the loop between them and
-//! `show.rs`. Whether the board is the one that is meant decides `sensedsl_host::Session`.
+//! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
+//! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
+//! prints (`show.rs`), and outputs (`outputs.rs`), such as a
+//! record (`record.rs`), which `replay.rs` plays again. Whether a board is the one that is meant decides `sensedsl_host::Session`.
 
+mod face;
+mod find;
+mod link;
+mod outputs;
+#[cfg(unix)]
+mod pty;
+mod record;
+mod replay;
 mod show;
 mod source;
 mod subject;
 mod watch;
+mod words;
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0557_no_board as no_board;
+use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
 use sensedsl_host::Board;
-use sensedsl_host::port::{OpenError, Port, usb_ports};
 
-use crate::cli::MonitorArgs;
-use crate::files::shown;
-use crate::status::{Reported, Status};
+use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::files::Refused;
+use crate::status::Status;
 use crate::terminal::Terminal;
+use face::Face;
+use find::{found, is_recording, open, who};
+use link::Link;
+use replay::Replay;
+use show::Printer;
 use source::Source;
 use subject::Subject;
 use watch::Watch;
@@ -28,24 +44,32 @@ use watch::Watch;
 const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
+    if let Some(path) = args.record_file() {
+        return replayed(path, args, terminal);
+    }
     let (device, file) = places(args);
     if let (Some("simulate"), Some(file)) = (device, file) {
-        return subject::simulated(args, file, terminal, |subject, board, source| {
-            Watch::new(args, terminal, subject, board, source).run()
+        return subject::simulated(args, file, terminal, |subject, found| {
+            watch(args, terminal, subject, found, None)
         });
     }
     let subject = subject::read(args, file, terminal)?;
-    let opened = match device {
+    let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
+    let found = match device {
         Some("simulate") => Err(Box::new(no_board::no_design(subject.at))),
-        Some(path) if is_recording(path) => Source::recording(path)
-            .map_err(|error| Box::new(no_board::unreadable(subject.at, path, &error.to_string()))),
-        Some(path) => open(path, args, &subject),
-        None => return found(args, terminal, &subject),
+        Some(path) => one(path, args, &subject, &wanted, terminal)?,
+        None if args.at.is_empty() => Ok(found(args, terminal, &subject, wanted)?),
+        None => Ok(Vec::new()),
     };
-    match opened {
-        Ok(source) => {
-            let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
-            Watch::new(args, terminal, &subject, board, source).run()
+    let at = args.at.iter().map(|(name, path)| named(name, path, args, &subject, terminal));
+    let at: Result<Vec<Option<(&Board, Source)>>> = at.collect();
+    match found {
+        Ok(mut found) => {
+            let Some(at) = at?.into_iter().collect::<Option<Vec<_>>>() else {
+                return Ok(Status::Misused);
+            };
+            found.extend(at);
+            watch(args, terminal, &subject, found, None)
         }
         Err(why) => {
             terminal.diagnostics(&[*why], &subject.sources)?;
@@ -64,83 +88,102 @@ fn places(args: &MonitorArgs) -> (Option<&str>, Option<&Path>) {
     }
 }
 
-/// Whether a path holds bytes of a board and is none: a file, a pipe, or the standard input.
-fn is_recording(path: &str) -> bool {
-    if path == "-" {
-        return true;
-    }
-    let Ok(about) = std::fs::metadata(path) else { return false };
-    let kind = about.file_type();
-    if kind.is_file() {
-        return true;
-    }
-    #[cfg(unix)]
-    return std::os::unix::fs::FileTypeExt::is_fifo(&kind);
-    #[cfg(not(unix))]
-    false
-}
+type Found<'s> = Vec<(&'s Board, Source)>;
 
-fn open(path: &str, args: &MonitorArgs, subject: &Subject) -> Result<Source, Box<Diagnostic>> {
-    let baud = args.baud.or(subject.boards.first().and_then(|board| board.baud)).unwrap_or(BAUD);
-    let cure = |why: OpenError| {
-        let ports: Vec<String> = usb_ports().into_iter().map(|(name, _)| name).collect();
-        Box::new(no_board::not_opened(
-            subject.at,
-            &shown(Path::new(path)),
-            &why.to_string(),
-            &cure(&why, path, &ports),
-        ))
-    };
-    Port::open(path, baud).map(Source::Port).map_err(cure)
-}
-
-/// What helps.
-fn cure(why: &OpenError, path: &str, ports: &[String]) -> String {
-    let instead = match ports {
-        [] => "no USB port of this machine has a device: is the board plugged in, and is the cable one for data?".to_owned(),
-        ports => format!("these are there: {}", ports.join(", ")),
-    };
-    match why {
-        OpenError::Missing => instead,
-        OpenError::Denied if cfg!(target_os = "linux") => format!(
-            "the group that `ls -l {path}` names may open it: `sudo usermod -aG dialout $USER`, then log in again"
-        ),
-        OpenError::Denied => "run it as a user who may open the device".to_owned(),
-        OpenError::Busy if cfg!(unix) => {
-            format!("close that program; `fuser {path}` says which it is")
-        }
-        OpenError::Busy => "close that program".to_owned(),
-        OpenError::NotSerial | OpenError::Other(_) => instead,
-    }
-}
-
-/// Looks for the board on all USB ports: the first one that answers with the hash of a board of the design.
-fn found(args: &MonitorArgs, terminal: &Terminal, subject: &Subject) -> Result<Status> {
-    let mut tried = Vec::new();
-    let wanted: Vec<&Board> = match &args.board {
-        Some(_) => subject.board(args, terminal)?.into_iter().collect(),
-        None => subject.boards.iter().collect(),
-    };
-    if wanted.is_empty() {
-        return Ok(Status::Misused);
-    }
-    for (path, _) in usb_ports() {
-        let port = match open(&path, args, subject) {
-            Ok(Source::Port(port)) => port,
-            Ok(_) => continue,
-            Err(why) => {
-                tried.push(format!("{path}: {}", why.message));
-                continue;
-            }
+/// The board at a path: the one that is wanted, or of several the one that answers.
+fn one<'s>(
+    path: &str,
+    args: &MonitorArgs,
+    subject: &'s Subject,
+    wanted: &[&'s Board],
+    terminal: &Terminal,
+) -> Result<Result<Found<'s>, Box<Diagnostic>>> {
+    let Some(first) = wanted.first() else { return Ok(Ok(Vec::new())) };
+    if is_recording(path) {
+        subject.hint(args, terminal)?;
+        let source = Source::recording(path);
+        let refused = |error: std::io::Error| {
+            Box::new(no_board::unreadable(subject.at, path, &error.to_string()))
         };
-        match watch::who(port, &wanted) {
-            Ok((board, port)) => {
-                terminal.aside(&format!("`{}` is at {path}", board.name))?;
-                return Watch::new(args, terminal, subject, board, Source::Port(port)).run();
-            }
-            Err(why) => tried.push(format!("{path}: {why}")),
+        return Ok(source.map(|source| vec![(*first, source)]).map_err(refused));
+    }
+    let baud = args.baud.or(first.baud);
+    let port = match open(path, baud, subject) {
+        Ok(port) => port,
+        Err(why) => return Ok(Err(why)),
+    };
+    if wanted.len() == 1 {
+        return Ok(Ok(vec![(*first, Source::Port(port))]));
+    }
+    Ok(match who(port, wanted) {
+        Ok((board, port)) => {
+            terminal.aside(&format!("`{}` is at {path}", board.name))?;
+            Ok(vec![(board, Source::Port(port))])
+        }
+        Err(why) => Err(Box::new(no_board::none_found(subject.at, &[format!("{path}: {why}")]))),
+    })
+}
+
+/// The board of a name at a path that the arguments give; none if either is not there, which was told.
+fn named<'s>(
+    name: &str,
+    path: &str,
+    args: &MonitorArgs,
+    subject: &'s Subject,
+    terminal: &Terminal,
+) -> Result<Option<(&'s Board, Source)>> {
+    let Some(board) = subject.named(name, terminal)? else { return Ok(None) };
+    match open(path, args.baud.or(board.baud), subject) {
+        Ok(port) => Ok(Some((board, Source::Port(port)))),
+        Err(why) => {
+            terminal.diagnostics(&[*why], &subject.sources)?;
+            Ok(None)
         }
     }
-    terminal.diagnostics(&[no_board::none_found(subject.at, &tried)], &subject.sources)?;
-    Err(Reported(Status::Misused).into())
+}
+
+/// How values are shown.
+fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
+    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
+    args.format.unwrap_or(usual)
+}
+
+/// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
+fn replayed(path: &Path, args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
+    let mut replay = match Replay::open(path) {
+        Ok(replay) => replay,
+        Err(why) => {
+            bail!(Refused::new(path, |at, shown| not_a_record(at, shown, &why.to_string())))
+        }
+    };
+    let (_, file) = places(args);
+    let subject = match (&args.schema, file) {
+        (None, None) => subject::of_record(&replay),
+        _ => subject::read(args, file, terminal)?,
+    };
+    let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
+    let recorded: Vec<&str> = replay.boards().iter().map(|board| board.name.as_str()).collect();
+    let watched: Vec<&Board> =
+        wanted.iter().copied().filter(|board| recorded.contains(&board.name.as_str())).collect();
+    let (Some(first), true) = (wanted.first(), watched.is_empty()) else {
+        replay.of(&watched);
+        let found = watched.into_iter().map(|board| (board, Source::Replayed)).collect();
+        return watch(args, terminal, &subject, found, Some(replay));
+    };
+    bail!(Refused::new(path, |at, shown| other_boards(at, shown, &first.name, &recorded)))
+}
+
+fn watch(
+    args: &MonitorArgs,
+    terminal: &Terminal,
+    subject: &Subject,
+    found: Found<'_>,
+    replay: Option<Replay>,
+) -> Result<Status> {
+    let links: Vec<Link<'_>> =
+        found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
+    let begin = replay.as_ref().map(|replay| replay.begin);
+    let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
+    let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
+    Watch::new(args, terminal, subject, links, face, outputs, replay).run()
 }

@@ -14,6 +14,7 @@ use sensedsl_report::schema::schema;
 use sensedsl_session::{Answer, Ask, Snapshot, has_errors};
 use sensedsl_wiring::assignment::Assignment;
 
+use super::replay::Replay;
 use super::source::Source;
 use crate::cli::{MonitorArgs, On};
 use crate::commands::input;
@@ -25,29 +26,48 @@ use crate::terminal::Terminal;
 /// The boards that a link may be of.
 pub(super) struct Subject {
     pub(super) boards: Vec<Board>,
+    /// The text that describes them.
+    pub(super) schema_json: String,
     pub(super) sources: SourceMap,
     /// The place for diagnostics about the whole.
     pub(super) at: Span,
 }
 
 impl Subject {
-    /// The board that the arguments name, or the first one; none if there is no such board, which was told.
-    pub(super) fn board(&self, args: &MonitorArgs, terminal: &Terminal) -> Result<Option<&Board>> {
-        let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
-        let Some(asked) = &args.board else {
-            if let [_, others @ ..] = names.as_slice()
-                && !others.is_empty()
-            {
-                terminal.aside(&format!("`--board` is another one: {}", others.join(", ")))?;
-            }
-            return Ok(self.boards.first());
-        };
-        let found = self.boards.iter().find(|board| board.name == *asked);
+    /// The boards that are wanted: the one that the arguments name, or all; none if there is no such board, which was
+    /// told.
+    pub(super) fn wanted(
+        &self,
+        args: &MonitorArgs,
+        terminal: &Terminal,
+    ) -> Result<Option<Vec<&Board>>> {
+        match &args.board {
+            Some(name) => Ok(self.named(name, terminal)?.map(|board| vec![board])),
+            None => Ok(Some(self.boards.iter().collect())),
+        }
+    }
+
+    /// The board of that name; none if there is no such board, which was told.
+    pub(super) fn named(&self, name: &str, terminal: &Terminal) -> Result<Option<&Board>> {
+        let found = self.boards.iter().find(|board| board.name == name);
         if found.is_none() {
-            let why = e0519_which_board::not_in_file(self.at, asked, &names);
+            let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
+            let why = e0519_which_board::not_in_file(self.at, name, &names);
             terminal.diagnostics(&[why], &self.sources)?;
         }
         Ok(found)
+    }
+
+    /// Says which other boards a recording may be of.
+    pub(super) fn hint(&self, args: &MonitorArgs, terminal: &Terminal) -> Result<()> {
+        let names: Vec<&str> = self.boards.iter().map(|board| board.name.as_str()).collect();
+        if let [_, others @ ..] = names.as_slice()
+            && !others.is_empty()
+            && args.board.is_none()
+        {
+            terminal.aside(&format!("`--board` is another one: {}", others.join(", ")))?;
+        }
+        Ok(())
     }
 }
 
@@ -80,11 +100,23 @@ fn of_schema(path: &Path) -> Result<Subject> {
         Ok(boards) => {
             let mut sources = SourceMap::default();
             let at = start(sources.add(crate::files::shown(path), text.as_str()));
-            Ok(Subject { boards, sources, at })
+            Ok(Subject { boards, schema_json: text, sources, at })
         }
         Err(why) => {
             bail!(Refused::new(path, |at, shown| not_a_schema(at, shown, &why.to_string())))
         }
+    }
+}
+
+/// The boards that a record describes.
+pub(super) fn of_record(replay: &Replay) -> Subject {
+    let mut sources = SourceMap::default();
+    let at = start(sources.add(crate::files::shown(&replay.path), ""));
+    Subject {
+        boards: replay.boards().to_vec(),
+        schema_json: replay.schema_json().to_owned(),
+        sources,
+        at,
     }
 }
 
@@ -122,29 +154,36 @@ fn wired<'a>(
 
 /// What is written here is what is read there: `generate` gives the same text to other programs.
 fn subject((design, wiring): (&Design, &Assignment), sources: &SourceMap) -> Result<Subject> {
-    let boards = Board::all_of_json(&schema(design, wiring).to_string())?;
-    Ok(Subject { boards, sources: sources.clone(), at: input::place(design) })
+    let schema_json = schema(design, wiring).to_string();
+    let boards = Board::all_of_json(&schema_json)?;
+    Ok(Subject { boards, schema_json, sources: sources.clone(), at: input::place(design) })
 }
 
-/// Runs a board in this program, and what is to be done with it.
+/// Runs boards in this program, and what is to be done with them.
 pub(super) fn simulated(
     args: &MonitorArgs,
     path: &Path,
     terminal: &Terminal,
-    watch: impl FnOnce(&Subject, &Board, Source) -> Result<Status>,
+    watch: impl FnOnce(&Subject, Vec<(&Board, Source)>) -> Result<Status>,
 ) -> Result<Status> {
     let on = on(args);
     let snapshot = input::load(path, &on);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = wired(&answer, &snapshot, &on, terminal)?;
     let subject = subject((design, wiring), snapshot.sources())?;
-    let Some(board) = subject.board(args, terminal)? else { return Ok(Status::Misused) };
+    let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
-    let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else {
+    let mut found = Vec::new();
+    for board in wanted {
+        let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else { continue };
+        let Some(simulated) = Simulated::new(job, &args.reach, terminal)? else {
+            return Ok(Status::Wrong);
+        };
+        found.push((board, Source::Simulated(Box::new(simulated))));
+    }
+    if found.is_empty() {
         terminal.diagnostics(&[no_board::nothing_on_it(subject.at)], &subject.sources)?;
         return Ok(Status::Wrong);
-    };
-    let simulated = Simulated::new(job, &args.reach, terminal)?;
-    let Some(simulated) = simulated else { return Ok(Status::Wrong) };
-    watch(&subject, board, Source::Simulated(Box::new(simulated)))
+    }
+    watch(&subject, found)
 }

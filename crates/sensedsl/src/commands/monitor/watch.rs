@@ -1,58 +1,53 @@
-//! The loop of `monitor`: bytes in, values and notes out, commands back.
+//! The loop of `monitor`: bytes of all links in, news out to people and outputs, commands back.
 
-use std::io::BufRead as _;
-use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::{Duration, Instant};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
-use sensedsl_host::port::Port;
-use sensedsl_host::{Board, Counts, Event, Session, State};
-use sensedsl_wire::{
-    Decoder, Direction, Event as Received, Health, Scalar, Status as HealthStatus,
-    encode_hello_request,
-};
+use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
+use sensedsl_host::{Moment, News, Output, What, Wish};
+use sensedsl_record::Ending;
+use sensedsl_wire::Direction;
 
-use super::BAUD;
-use super::show::{self, Show};
-use super::source::{Input, Source};
+use super::face::{Ask, Face};
+use super::link::{Happening, Link};
+use super::replay::Replay;
+use super::source::{Heard, Input, Source};
 use super::subject::Subject;
-use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::cli::MonitorArgs;
 use crate::commands::deadline::interruption;
+use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
 
-/// The interval at which the table is refreshed.
-const REFRESH: Duration = Duration::from_millis(200);
-/// How long the loop waits for bytes.
+/// How long the loop waits for something to happen; a board in this program is asked more often.
 const WAIT: Duration = Duration::from_millis(20);
-/// How long a board may take to say who it is.
-const ANSWERS_WITHIN: Duration = Duration::from_millis(1_500);
-/// The time after which a device that is back and cannot be opened is told.
-const TOLD_AFTER: Duration = Duration::from_secs(2);
+const SIMULATED_WAIT: Duration = Duration::from_millis(1);
+/// How often what is due is looked for, at least.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
+/// How many messages of threads wait for the loop: a recording is not read faster than it is shown.
+const WAITING_MAX: usize = 256;
 
-/// A board that is watched.
+/// All boards that are watched, and who is told of them.
 pub(super) struct Watch<'a> {
     args: &'a MonitorArgs,
     terminal: &'a Terminal,
     subject: &'a Subject,
-    board: &'a Board,
-    source: Source,
-    session: Session<'a>,
-    show: Show<'a>,
-    format: MonitorFormat,
+    links: Vec<Link<'a>>,
+    face: Box<dyn Face + 'a>,
+    outputs: Vec<Box<dyn Output>>,
+    to_loop: SyncSender<Heard>,
+    heard: Receiver<Heard>,
     began: Instant,
-    /// The counts of sessions before this one.
-    before: Counts,
-    events: Vec<Event>,
-    /// When a frame was sent last.
-    sent: Duration,
-    /// What holds: the frame that set each actuator.
-    held: Vec<(usize, Vec<u8>)>,
-    worries: Vec<Option<HealthStatus>>,
-    trouble: Option<String>,
-    is_met: bool,
+    began_unix: Duration,
+    looked: Option<Instant>,
+    status: Option<Status>,
+    replay: Option<Replay>,
+    /// Where a record that is played has got to.
+    past: Option<Moment>,
 }
 
 impl<'a> Watch<'a> {
@@ -60,402 +55,351 @@ impl<'a> Watch<'a> {
         args: &'a MonitorArgs,
         terminal: &'a Terminal,
         subject: &'a Subject,
-        board: &'a Board,
-        source: Source,
+        links: Vec<Link<'a>>,
+        face: Box<dyn Face + 'a>,
+        outputs: Vec<Box<dyn Output>>,
+        replay: Option<Replay>,
     ) -> Self {
-        let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
-        let format = args.format.unwrap_or(usual);
-        let session = if source.is_recording() {
-            Session::recording(board)
-        } else {
-            Session::new(board, Duration::ZERO)
-        };
-        let mut watch = Self {
+        let (to_loop, heard) = sync_channel(WAITING_MAX);
+        Self {
             args,
             terminal,
             subject,
-            board,
-            source,
-            session,
-            show: Show::new(board, format),
-            format,
+            links,
+            face,
+            outputs,
+            to_loop,
+            heard,
             began: Instant::now(),
-            before: Counts::default(),
-            events: Vec::new(),
-            sent: Duration::ZERO,
-            held: Vec::new(),
-            worries: vec![None; board.devices.len()],
-            trouble: None,
-            is_met: false,
-        };
-        watch.ask_for_health();
-        watch
-    }
-
-    fn ask_for_health(&mut self) {
-        if let Some(seconds) = self.args.health {
-            self.session.health_every(Duration::from_secs_f64(seconds));
+            began_unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
+            looked: None,
+            status: None,
+            past: replay.as_ref().map(|replay| replay.begin),
+            replay,
         }
     }
 
-    /// Watches until it is stopped, the recording is over, or the board turns out to be another one.
+    fn moment(&self, at: Instant) -> Moment {
+        let run = at.saturating_duration_since(self.began);
+        Moment { run, unix: self.began_unix + run }
+    }
+
+    fn now(&self) -> Moment {
+        self.past.unwrap_or_else(|| self.moment(Instant::now()))
+    }
+
+    /// Watches until it is stopped, all recordings are over, or a board turns out to be another one.
     pub(super) fn run(mut self) -> Result<Status> {
         for (name, text) in &self.args.set {
             self.prepare(name, text)?;
         }
+        for (index, link) in self.links.iter_mut().enumerate() {
+            link.source.listen(index, link.opening, &self.to_loop)?;
+        }
+        if let Some(replay) = self.replay.take() {
+            replay.play(self.args.speed, self.to_loop.clone());
+        }
         let stop = interruption()?;
-        let typed = self.listen();
-        let mut shown = Instant::now();
+        self.listen();
+        let result = self.turns(&stop);
+        // The terminal is given back whatever happened.
+        let now = self.now();
+        let closed = self.face.close(now, &self.links);
+        let status = result?;
+        closed?;
+        self.finish(now)?;
+        Ok(status)
+    }
+
+    fn turns(&mut self, stop: &AtomicBool) -> Result<Status> {
         let end = self.args.seconds.map(Duration::from_secs_f64);
-        let status = loop {
-            let now = self.began.elapsed();
-            if stop.load(Ordering::Relaxed) || end.is_some_and(|end| now >= end) {
-                break Status::Done;
+        let is_simulated =
+            self.links.iter().any(|link| matches!(link.source, Source::Simulated(_)));
+        let wait = if is_simulated { SIMULATED_WAIT } else { WAIT };
+        loop {
+            if stop.load(Ordering::Relaxed) || end.is_some_and(|end| self.began.elapsed() >= end) {
+                return Ok(Status::Done);
             }
-            if let Some(status) = self.turn(now)? {
-                break status;
+            self.look()?;
+            match self.heard.recv_timeout(wait) {
+                Ok(heard) => self.hear(heard)?,
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
             }
-            while let Some(line) = typed.as_ref().and_then(|typed| typed.try_recv().ok()) {
-                self.typed(&line)?;
+            self.ask_simulated()?;
+            if let Some(status) = self.status {
+                return Ok(status);
             }
-            if self.format == MonitorFormat::Table
-                && self.terminal.is_watched()
-                && shown.elapsed() >= REFRESH
-            {
-                shown = Instant::now();
-                let text =
-                    self.show.refreshed(self.began.elapsed(), &self.session, self.terminal.size());
-                self.terminal.result(&text)?;
+        }
+    }
+
+    /// What is due, whether or not something came.
+    fn look(&mut self) -> Result<()> {
+        if self.looked.is_some_and(|looked| looked.elapsed() < LOOK_EVERY) {
+            return Ok(());
+        }
+        self.looked = Some(Instant::now());
+        let now = self.now();
+        for index in 0..self.links.len() {
+            if let Some(link) = self.links.get_mut(index) {
+                link.turn(now.run);
             }
+            self.tell(index, now)?;
+        }
+        for ask in self.face.look(now, &self.links)? {
+            match ask {
+                Ask::Set { name, text } => self.set(&name, &text)?,
+                Ask::Quit => self.status = Some(Status::Done),
+            }
+        }
+        let wishes: Vec<Wish> =
+            self.outputs.iter_mut().flat_map(|output| output.look(now)).collect();
+        self.grant(wishes)
+    }
+
+    fn hear(&mut self, heard: Heard) -> Result<()> {
+        let (index, opening, what) = match heard {
+            Heard::Line(line) => return self.typed(&line),
+            Heard::Past { link, at, what } => {
+                self.past = Some(at);
+                if let Some(link) = self.links.get_mut(link) {
+                    link.replay(what, at);
+                }
+                return self.tell(link, at);
+            }
+            Heard::PastOver(end) => return self.past_over(end),
+            Heard::Of { link, opening, what } => (link, opening, what),
         };
-        self.finish(status)
-    }
-
-    /// One turn of the loop; the status if it is the last one.
-    fn turn(&mut self, now: Duration) -> Result<Option<Status>> {
-        let bytes = self.session.to_send(now);
-        let bytes = if bytes.is_empty() { self.keep_alive(now) } else { bytes };
-        if !self.send(&bytes, now) {
-            return self.lose();
-        }
-        self.find_again()?;
-        match self.source.read(WAIT)? {
-            Input::Over => return Ok(Some(self.status())),
-            Input::Gone => return self.lose(),
-            Input::Bytes(bytes) => {
-                let now = self.began.elapsed();
-                let events = &mut self.events;
-                self.session.feed(&bytes, now, &mut |event| events.push(event));
-            }
-        }
-        if !matches!(self.source, Source::Away(_)) {
-            let now = self.began.elapsed();
-            let events = &mut self.events;
-            self.session.look(now, &mut |event| events.push(event));
-        }
-        for event in std::mem::take(&mut self.events) {
-            if let Some(status) = self.take(event)? {
-                return Ok(Some(status));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Sends; false if the device is gone.
-    fn send(&mut self, bytes: &[u8], now: Duration) -> bool {
-        if !bytes.is_empty() {
-            self.sent = now;
-        }
-        self.source.write(bytes)
-    }
-
-    /// A question that keeps actuators from their failsafe while something was set.
-    fn keep_alive(&self, now: Duration) -> Vec<u8> {
-        let Some(silence) = self.board.silence_ms.filter(|_| !self.held.is_empty()) else {
-            return Vec::new();
+        let mut at = self.now();
+        let moment = |instant| self.moment(instant);
+        let when = match &what {
+            Input::Bytes(instant, _) => Some(moment(*instant)),
+            Input::Over(_) | Input::Gone => None,
         };
-        // Several frames may be lost on the way.
-        let is_time =
-            now.saturating_sub(self.sent) >= Duration::from_millis(u64::from(silence) / 4);
-        let is_there = self.session.state() == State::Matched;
-        if is_time && is_there { encode_hello_request(&self.board.schema) } else { Vec::new() }
-    }
-
-    fn take(&mut self, event: Event) -> Result<Option<Status>> {
-        let now = self.began.elapsed();
-        let name = |index: usize| {
-            self.board.devices.get(index).map_or_else(String::new, |device| device.name.clone())
+        at = when.unwrap_or(at);
+        let Some(link) =
+            self.links.get_mut(index).filter(|link| link.opening == opening && !link.is_over)
+        else {
+            return Ok(());
         };
-        match event {
-            Event::Values(stamp, values) => {
-                let printed = values.into_iter().map(|(index, value)| self.show.take(now, index, value, stamp));
-                let printed: String = printed.collect();
-                if !printed.is_empty() {
-                    self.terminal.result(&printed)?;
+        match what {
+            Input::Bytes(_, bytes) => link.feed(bytes, at),
+            Input::Gone => link.lose(),
+            Input::Over(error) => {
+                link.end(false);
+                if let Some(error) = error {
+                    bail!("the recording cannot be read any more: {error}");
                 }
             }
-            Event::Matched => {
-                if !self.is_met {
-                    self.say(&format!("{}: firmware and design agree", self.board.name))?;
-                }
-                self.is_met = true;
-                for (index, frame) in self.held.clone() {
-                    self.send(&frame, now);
-                    self.say(&format!("set {}", name(index)))?;
-                }
-            }
-            Event::Unverified => {
-                self.say("no hello before the first value: nobody knows whether this recording is of this design")?;
-            }
-            Event::Unanswered => self.say(self.unanswered())?,
-            Event::Silent(time) => {
-                self.say(&format!("{} says nothing for {}; asking it again", self.board.name, span(time)))?;
-            }
-            Event::Overdue(index, time) => {
-                let expected = self.board.devices.get(index).and_then(|device| device.cycle_ms).unwrap_or_default();
-                let expected = span(Duration::from_millis(expected.into()));
-                self.say(&format!("{}: no value for {} (expected every {expected})", name(index), span(time)))?;
-            }
-            Event::Again(index, time) => {
-                self.say(&format!("{}: values again after {}", name(index), span(time)))?;
-            }
-            Event::Health(health) => self.health(&health)?,
-            Event::OtherHealth(version) => self.say(&format!(
-                "{} tells its health in version {version}, which is not known here: flash the board again",
-                self.board.name
-            ))?,
-            Event::Other { hash, differences } => {
-                let own = self.board.schema.hash();
-                let why = other_firmware(self.subject.at, &self.board.name, (own, hash), &differences);
-                self.terminal.diagnostics(&[why], &self.subject.sources)?;
-                return Ok(Some(Status::Wrong));
-            }
         }
-        Ok(None)
+        self.tell(index, at)
     }
 
-    fn unanswered(&self) -> &'static str {
-        let counts = self.session.counts();
-        if counts.bytes == 0 {
-            "nothing comes: does the board run firmware of this design? asking again"
-        } else if counts.frames > 0 {
-            "frames come, but the board does not say which firmware it runs; asking again"
-        } else {
-            "what comes are no frames: is the rate right (`--baud`)? asking again"
-        }
-    }
-
-    /// Says something for people.
-    fn say(&mut self, what: &str) -> Result<()> {
-        self.show.interrupted();
-        Ok(self.terminal.aside(what)?)
-    }
-
-    /// Prints health if it was asked for; otherwise says only what is wrong, once.
-    fn health(&mut self, health: &Health) -> Result<()> {
-        if self.args.health.is_some() {
-            let text = show::health(self.board, health);
-            self.show.interrupted();
-            return Ok(eprint_lines(self.terminal, &text)?);
-        }
-        for (index, one) in health.devices.iter().enumerate() {
-            let (Some(device), Some(worry)) =
-                (self.board.devices.get(index), self.worries.get_mut(index))
-            else {
-                continue;
-            };
-            let is_bad = matches!(one.status, HealthStatus::Failed | HealthStatus::Stale);
-            let last = std::mem::replace(worry, Some(one.status).filter(|_| is_bad));
-            if is_bad && last != Some(one.status) {
-                let causes = show::causes(one.causes.counts());
-                let causes = if causes.is_empty() { causes } else { format!(" ({causes})") };
-                self.show.interrupted();
-                self.terminal.aside(&format!(
-                    "{}: {}{causes}",
-                    device.name,
-                    show::status(one.status)
-                ))?;
+    fn past_over(&mut self, end: Result<Ending, String>) -> Result<()> {
+        match end {
+            Ok(Ending::Whole) => self.status = Some(Status::Done),
+            Ok(Ending::Cut) => {
+                self.status = Some(Status::Done);
+                self.face.say("the record was cut off: this is all up to its last whole chunk")?;
             }
-        }
-        Ok(())
-    }
-
-    fn lose(&mut self) -> Result<Option<Status>> {
-        let baud = self.args.baud.or(self.board.baud).unwrap_or(BAUD);
-        let Some(path) = self.source.lose(baud) else { return Ok(None) };
-        if self.args.no_reconnect {
-            self.say(&format!("lost {path}: the device is gone"))?;
-            return Ok(Some(Status::Wrong));
-        }
-        self.say(&format!("lost {path}: the device is gone; waiting for it"))?;
-        Ok(None)
-    }
-
-    fn find_again(&mut self) -> Result<()> {
-        let since = match &self.source {
-            Source::Away(away) => away.since,
-            Source::Port(_) | Source::Recording(_) | Source::Simulated(_) => return Ok(()),
-        };
-        match self.source.find_again() {
-            Ok(Some((path, after))) => {
-                self.before += self.session.counts();
-                self.session = Session::new(self.board, self.began.elapsed());
-                self.ask_for_health();
-                self.trouble = None;
-                self.say(&format!("back on {path} after {}", span(after)))?;
-            }
-            Ok(None) => {}
-            // Rights are given a moment after the device appears.
             Err(why) => {
-                let why = why.to_string();
-                if since.elapsed() > TOLD_AFTER && self.trouble.as_ref() != Some(&why) {
-                    self.say(&format!("the device is back, but {why}"))?;
-                    self.trouble = Some(why);
-                }
+                let at = self.args.record_file().unwrap_or(Path::new(""));
+                bail!(Refused::new(at, |at, shown| not_a_record(at, shown, &why)));
             }
         }
         Ok(())
+    }
+
+    fn ask_simulated(&mut self) -> Result<()> {
+        for index in 0..self.links.len() {
+            let at = self.now();
+            let Some(link) = self.links.get_mut(index) else { continue };
+            let Source::Simulated(board) = &mut link.source else { continue };
+            let bytes = board.read();
+            if !bytes.is_empty() {
+                link.feed(bytes, at);
+                self.tell(index, at)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells everybody what happened on a link.
+    fn tell(&mut self, index: usize, at: Moment) -> Result<()> {
+        let Some(link) = self.links.get_mut(index) else { return Ok(()) };
+        for happening in link.happened() {
+            let what = match &happening {
+                Happening::Received(bytes) => What::Received(bytes),
+                Happening::Sent(bytes) => What::Sent(bytes),
+                Happening::Online => What::Online,
+                Happening::Offline(why) => What::Offline(why),
+                Happening::Report(report) => What::Report(report),
+                Happening::Command(device, value) => What::Command { device: *device, value },
+                Happening::Health(health) => What::Health(health),
+                Happening::Say(text) => {
+                    self.face.say(text)?;
+                    continue;
+                }
+                Happening::Other(hash, differences) => {
+                    self.refuse(index, *hash, differences)?;
+                    continue;
+                }
+                Happening::Opened => {
+                    if let Some(link) = self.links.get_mut(index) {
+                        link.source.listen(index, link.opening, &self.to_loop)?;
+                    }
+                    continue;
+                }
+                Happening::Ended { is_lost } => {
+                    self.ended(*is_lost);
+                    continue;
+                }
+            };
+            let news = News { board: index, at, what };
+            self.face.take(&news, &self.links)?;
+            self.outputs.iter_mut().for_each(|output| output.take(&news));
+        }
+        Ok(())
+    }
+
+    fn refuse(&mut self, index: usize, hash: u32, differences: &[String]) -> Result<()> {
+        let Some(link) = self.links.get(index) else { return Ok(()) };
+        let own = link.board.schema.hash();
+        let why = other_firmware(self.subject.at, &link.board.name, (own, hash), differences);
+        let now = self.now();
+        self.face.close(now, &self.links)?;
+        self.terminal.diagnostics(&[why], &self.subject.sources)?;
+        self.status = Some(Status::Wrong);
+        Ok(())
+    }
+
+    fn ended(&mut self, is_lost: bool) {
+        if is_lost {
+            self.status = Some(Status::Wrong);
+        } else if self.links.iter().all(|link| link.is_over) {
+            self.status = Some(Status::Done);
+        }
+    }
+
+    fn grant(&mut self, wishes: Vec<Wish>) -> Result<()> {
+        for wish in wishes {
+            match wish {
+                Wish::Set { board, name, text } => self.set_on(board, &name, &text)?,
+                Wish::Trouble { what, help } => self.face.say(&format!("{what}; {help}"))?,
+                Wish::Note(text) => self.face.say(&text)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The board that a name is of, and the name on it: `Servo`, or `Rover/Servo` where several boards have one.
+    fn place<'n>(&self, name: &'n str) -> Result<(usize, &'n str), String> {
+        if let Some((board, name)) = name.split_once('/') {
+            let found = self.links.iter().position(|link| link.board.name == board);
+            return found
+                .map(|index| (index, name))
+                .ok_or_else(|| format!("no board `{board}` is watched"));
+        }
+        let mut having = self.links.iter().enumerate().filter(|(_, link)| link.has_actuator(name));
+        match (having.next(), having.next()) {
+            (Some((index, _)), None) => Ok((index, name)),
+            (None, _) => Ok((0, name)),
+            (Some((_, one)), Some((_, other))) => {
+                let (one, other) = (&one.board.name, &other.board.name);
+                Err(format!("several boards have it: write `{one}/{name}` or `{other}/{name}`"))
+            }
+        }
     }
 
     /// What is set as soon as the board is there.
     fn prepare(&mut self, name: &str, text: &str) -> Result<()> {
-        match self.board.command(name, text) {
-            Ok((frame, index, _)) => {
-                self.held.retain(|(held, _)| *held != index);
-                self.held.push((index, frame));
-                Ok(())
-            }
-            Err(why) => anyhow::bail!("--set {name}={text}: {why}"),
+        let place = self.place(name);
+        let done = match place {
+            Ok((index, name)) => self
+                .links
+                .get_mut(index)
+                .map_or(Ok(()), |link| link.prepare(name, text))
+                .map_err(|why| why.to_string()),
+            Err(why) => Err(why),
+        };
+        done.map_err(|why| anyhow::anyhow!("--set {name}={text}: {why}"))
+    }
+
+    fn set(&mut self, name: &str, text: &str) -> Result<()> {
+        match self.place(name) {
+            Ok((index, name)) => self.set_on(index, name, text),
+            Err(why) => self.face.say(&format!("not sent: {name} {text}: {why}")),
         }
+    }
+
+    fn set_on(&mut self, index: usize, name: &str, text: &str) -> Result<()> {
+        let now = self.now();
+        let Some(link) = self.links.get_mut(index) else { return Ok(()) };
+        link.command(name, text, now.run);
+        self.tell(index, now)
     }
 
     /// A line that somebody typed: an actuator's name and its value.
     fn typed(&mut self, line: &str) -> Result<()> {
         let line = line.trim();
-        let Some((name, text)) = line.split_once(|c: char| c.is_whitespace() || c == '=') else {
-            if !line.is_empty() {
-                self.say(&format!(
-                    "not sent: `{line}`: write the name of an actuator and its value"
-                ))?;
-            }
-            return Ok(());
-        };
-        match self.board.command(name, text.trim_start_matches(['=', ' '])) {
-            Ok((frame, index, value)) => self.set(index, frame, value),
-            Err(why) => self.say(&format!("not sent: {line}: {why}")),
+        match line.split_once(|c: char| c.is_whitespace() || c == '=') {
+            Some((name, text)) => self.set(name, text.trim_start_matches(['=', ' '])),
+            None if line.is_empty() => Ok(()),
+            None => self
+                .face
+                .say(&format!("not sent: `{line}`: write the name of an actuator and its value")),
         }
     }
 
-    fn set(&mut self, index: usize, frame: Vec<u8>, value: Vec<Scalar>) -> Result<()> {
-        let now = self.began.elapsed();
-        let Some(device) = self.board.devices.get(index) else { return Ok(()) };
-        let text = format!("{} = {}", device.name, device.text(&value));
-        if self.session.state() != State::Matched {
-            return self.say(&format!("not sent: {text}: the board is not there"));
-        }
-        self.send(&frame, now);
-        self.held.retain(|(held, _)| *held != index);
-        self.held.push((index, frame));
-        if self.format == MonitorFormat::Table {
-            let _ = self.show.take(now, index, value, None);
-        }
-        self.say(&format!("sent: {text}"))
-    }
-
-    /// Lines of the standard input, unless it is the recording, or people would type into the table.
-    fn listen(&self) -> Option<Receiver<String>> {
+    /// Lines of the standard input, unless it is the recording, or a screen reads keys.
+    fn listen(&self) {
         let is_taken = self.args.device.as_deref() == Some("-");
-        let has_actuators =
-            self.board.devices.iter().any(|one| one.direction == Direction::Actuator);
-        if is_taken || !has_actuators || self.format == MonitorFormat::Table {
-            return None;
+        let all = self.links.iter().flat_map(|link| &link.board.devices);
+        let has_actuators = all.into_iter().any(|one| one.direction == Direction::Actuator);
+        if is_taken || !has_actuators || self.is_screen() {
+            return;
         }
-        let (sender, receiver): (Sender<String>, _) = channel();
+        let to_loop = self.to_loop.clone();
         // It ends with the program: nothing can take a thread away from a read.
         let _ = std::thread::spawn(move || {
-            for line in std::io::stdin().lock().lines().map_while(Result::ok) {
-                if sender.send(line).is_err() {
+            for line in std::io::stdin().lines().map_while(Result::ok) {
+                if to_loop.send(Heard::Line(line)).is_err() {
                     return;
                 }
             }
         });
-        Some(receiver)
     }
 
-    fn status(&self) -> Status {
-        if self.session.state() == State::Refused { Status::Wrong } else { Status::Done }
+    fn is_screen(&self) -> bool {
+        super::format(self.args, self.terminal) == crate::cli::MonitorFormat::Table
     }
 
-    /// Prints the last table and the counts.
-    fn finish(mut self, status: Status) -> Result<Status> {
-        if self.format == MonitorFormat::Table {
-            let text = self.show.last(self.began.elapsed(), &self.session);
-            self.terminal.result(&text)?;
-        }
-        let mut counts = self.session.counts();
-        counts += self.before;
-        let lost = if self.board.schema.stamp {
-            format!(", {} reports lost", counts.lost)
-        } else {
-            String::new()
-        };
-        self.terminal.aside(&format!(
-            "{} frames, {} bytes dropped{lost}",
-            counts.frames, counts.dropped_bytes
-        ))?;
-        Ok(status)
-    }
-}
-
-fn eprint_lines(terminal: &Terminal, text: &str) -> std::io::Result<()> {
-    text.lines().try_for_each(|line| terminal.aside(line))
-}
-
-/// A time for people.
-fn span(time: Duration) -> String {
-    if time < Duration::from_secs(1) {
-        format!("{} ms", time.as_millis())
-    } else {
-        format!("{:.1} s", time.as_secs_f64())
-    }
-}
-
-/// Which of some boards is behind a port; otherwise why none is.
-pub(super) fn who<'b>(mut port: Port, boards: &[&'b Board]) -> Result<(&'b Board, Port), String> {
-    let began = Instant::now();
-    let mut decoders: Vec<(&Board, Decoder<'_>)> = boards
-        .iter()
-        .map(|board| (*board, Decoder::new(&board.schema, Direction::Sensor)))
-        .collect();
-    let mut asked: Option<Instant> = None;
-    let (mut bytes_seen, mut other) = (0, None);
-    while began.elapsed() < ANSWERS_WITHIN {
-        if asked.is_none_or(|asked| asked.elapsed() >= Duration::from_millis(250)) {
-            asked = Some(Instant::now());
-            for board in boards {
-                port.write(&encode_hello_request(&board.schema))
-                    .map_err(|error| error.to_string())?;
-            }
-        }
-        let bytes = port.read(WAIT).map_err(|error| error.to_string())?;
-        bytes_seen += bytes.len();
-        for (board, decoder) in &mut decoders {
-            let mut hash = None;
-            decoder.feed(&bytes, |event| {
-                if let Received::Hello(said) = event {
-                    hash = Some(said);
+    /// Closes the outputs and prints the counts.
+    fn finish(&mut self, now: Moment) -> Result<()> {
+        for output in &mut self.outputs {
+            for wish in output.close(now) {
+                match wish {
+                    Wish::Trouble { what, help } => {
+                        self.terminal.aside(&format!("{what}; {help}"))?
+                    }
+                    Wish::Note(text) => self.terminal.aside(&text)?,
+                    Wish::Set { .. } => {}
                 }
-            });
-            match hash {
-                Some(hash) if hash == board.schema.hash() => return Ok((board, port)),
-                Some(hash) => other = Some(hash),
-                None => {}
             }
         }
+        for link in &self.links {
+            let counts = link.counts();
+            let lost = if link.board.schema.stamp {
+                format!(", {} reports lost", counts.lost)
+            } else {
+                String::new()
+            };
+            let name =
+                if self.links.len() > 1 { format!("{}: ", link.board.name) } else { String::new() };
+            self.terminal.aside(&format!(
+                "{name}{} frames, {} bytes dropped{lost}",
+                counts.frames, counts.dropped_bytes
+            ))?;
+        }
+        Ok(())
     }
-    Err(match other {
-        Some(hash) => format!("it runs the firmware of another design (0x{hash:08x})"),
-        None if bytes_seen == 0 => "nothing comes from it".to_owned(),
-        None => "what comes from it are no frames of this design".to_owned(),
-    })
 }
