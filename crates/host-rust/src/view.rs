@@ -22,8 +22,8 @@ pub(super) struct BoardView {
     /// The enumeration of its messages.
     pub(super) any: String,
     pub(super) name: String,
-    /// The schema's text as literals, one a line.
-    pub(super) text: Vec<String>,
+    /// The schema's text as an expression, a literal a line.
+    pub(super) text: String,
     pub(super) hash: String,
     pub(super) checksum: &'static str,
     pub(super) has_stamp: bool,
@@ -102,7 +102,7 @@ impl BoardView {
         Self {
             any: names.take(&format!("{ident}Message")),
             name: literal(&plan.name),
-            text: plan.schema_text.split_inclusive('\n').map(literal).collect(),
+            text: joined(&plan.schema_text),
             hash: format!("0x{:08x}", plan.hash),
             checksum: match plan.checksum {
                 Checksum::None => "None",
@@ -161,6 +161,15 @@ impl MessageView {
             id: plan.id,
             table_type: plan.value.to_string(),
         }
+    }
+}
+
+/// A text of several lines as an expression.
+fn joined(text: &str) -> String {
+    let lines: Vec<String> = text.split_inclusive('\n').map(literal).collect();
+    match &lines[..] {
+        [line] => line.clone(),
+        lines => format!("concat!(\n        {},\n    )", lines.join(",\n        ")),
     }
 }
 
