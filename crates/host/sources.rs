@@ -8,9 +8,4 @@ macro_rules! files {
 }
 
 /// The files below `src` that are compiled without the feature `schema`: path and text.
-pub const SOURCES: &[(&str, &str)] = files![
-    "difference.rs",
-    "lib.rs",
-    "port.rs",
-    "scale.rs",
-];
+pub const SOURCES: &[(&str, &str)] = files!["difference.rs", "lib.rs", "port.rs", "scale.rs",];

@@ -96,7 +96,13 @@ impl Host for Rust {
     fn compile(&self) -> Compile {
         Compile {
             program: "cargo",
-            arguments: &["check", "--quiet", "--offline", "--no-default-features", "--manifest-path"],
+            arguments: &[
+                "check",
+                "--quiet",
+                "--offline",
+                "--no-default-features",
+                "--manifest-path",
+            ],
             extension: "toml",
             standard: "",
             tree: None,

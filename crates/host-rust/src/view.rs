@@ -88,7 +88,8 @@ impl BoardView {
         let messages: Vec<MessageView> =
             plan.messages().map(|message| MessageView::new(message, names)).collect();
         let items = plan.devices.iter().filter_map(|device| {
-            let is_it = |one: &&MessagePlan| (one.id, one.direction) == (device.id, device.direction);
+            let is_it =
+                |one: &&MessagePlan| (one.id, one.direction) == (device.id, device.direction);
             let found = plan.messages().find(is_it)?;
             Some(format!(
                 "Item {{ id: {}, name: {}, is_sensor: {}, bytes: {}, is_bool: {} }}",
