@@ -37,7 +37,15 @@ def rust(folder):
     return folder / "target/release/examples/time"
 
 
-HOSTS = {"rust": rust}
+def c(folder):
+    host = folder / "out/host/c"
+    board = host / "fig2_STM32F4DiscoveryBoard.c"
+    sources = [ROOT / "tests/hosts/time.c", host / "sensedsl.c", board]
+    subprocess.run(["gcc", "-std=c99", "-O2", f"-I{host}", *sources, "-o", folder / "c"], check=True)
+    return folder / "c"
+
+
+HOSTS = {"rust": rust, "c": c}
 
 
 def main():

@@ -21,6 +21,7 @@ fn is_runtime(path: &str) -> bool {
         "/sense-rt/src/",
         "/sensedsl-host/",
         "/sensedsl-wire/",
+        "/host/c/sensedsl.",
     ];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }

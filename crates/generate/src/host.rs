@@ -1,5 +1,6 @@
 //! The host applications that can be generated: each is a line of [`HOSTS`].
 
+use sensedsl_host_c::C;
 use sensedsl_host_cpp as cpp;
 use sensedsl_host_python::Python;
 use sensedsl_host_rust::Rust;
@@ -13,6 +14,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::Plain,
     &Python,
     &Rust,
+    &C,
 ];
 
 /// The host with this name.

@@ -8,6 +8,7 @@
 //! (prefix of an installed OpenDaVINCI 4) and `OPENDAVINCI2014` (`libopendavinci/include`, and for
 //! running, `lib/libopendavinci.a` and `bin/supercomponent`).
 
+mod c;
 mod compile;
 pub(crate) mod designs;
 mod files;

@@ -95,7 +95,7 @@ fn clippy_has_nothing_to_say() {
     }
 }
 
-const ROBOT: &str = "board Rover on NUCLEO_F446RE {
+pub(super) const ROBOT: &str = "board Rover on NUCLEO_F446RE {
     sensor Light returns uint16 { id = 17; type = analog; scale = 0.5; offset = -10; quantity = cm; max = 900; }
     sensor loop returns int32 { id = 18; type = encoder; }
     actuator Servo accepts uint16 { id = 19; type = dac; scale = 0.1; quantity = deg; min = 0; max = 180; failsafe = 0; }
@@ -165,7 +165,7 @@ fn robot() -> (Schema, PathBuf) {
 }
 
 /// Runs the program while the test plays the board. Returns what it has commanded, its status, and all that it printed.
-fn played(program: &Path, schema: &Schema, hello: &[u8]) -> (Vec<Event>, i32, String) {
+pub(super) fn played(program: &Path, schema: &Schema, hello: &[u8]) -> (Vec<Event>, i32, String) {
     let mut line = Line::new();
     let mut child = Command::new(program)
         .arg(&line.device)

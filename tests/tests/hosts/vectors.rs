@@ -33,11 +33,11 @@ impl Exchange {
         &self.expected
     }
 
-    /// Those with other commands than one that a program does not have.
+    /// Those with other commands than one that a program does not have, in its first words.
     pub(super) fn without(&self, command: &str) -> Self {
         let mut kept = Self::default();
         for (asked, expected) in self.asked.lines().zip(self.expected.split_inclusive("end\n")) {
-            if asked.split(' ').next() != Some(command) {
+            if !format!("{asked} ").starts_with(&format!("{command} ")) {
                 kept.asked.push_str(&format!("{asked}\n"));
                 kept.expected.push_str(expected);
                 kept.cases += 1;
