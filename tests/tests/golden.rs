@@ -22,6 +22,7 @@ fn is_runtime(path: &str) -> bool {
         "/sensedsl-host/",
         "/sensedsl-wire/",
         "/host/c/sensedsl.",
+        "/host/matlab/read_record.m",
     ];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }

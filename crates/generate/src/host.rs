@@ -2,6 +2,7 @@
 
 use sensedsl_host_c::C;
 use sensedsl_host_cpp as cpp;
+use sensedsl_host_matlab::Matlab;
 use sensedsl_host_python::Python;
 use sensedsl_host_rust::Rust;
 use sensedsl_job::host::Host;
@@ -15,6 +16,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &Python,
     &Rust,
     &C,
+    &Matlab,
 ];
 
 /// The host with this name.

@@ -14,6 +14,7 @@ pub(crate) mod designs;
 mod files;
 mod health;
 mod link;
+mod matlab;
 mod middleware;
 mod page;
 mod python;
