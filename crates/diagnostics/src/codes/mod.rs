@@ -149,6 +149,8 @@ codes! {
     e0556_not_a_schema,
     e0557_no_board,
     e0558_other_firmware,
+    e0565_not_a_record,
+    e0566_no_new_record,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,
