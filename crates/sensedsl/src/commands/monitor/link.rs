@@ -20,6 +20,9 @@ use crate::cli::MonitorArgs;
 /// The time after which a device that is back and cannot be opened is told.
 const TOLD_AFTER: Duration = Duration::from_secs(2);
 
+/// How often health is asked for that is only shown: a board of many devices has a long answer.
+const SHOWN_HEALTH_EVERY: Duration = Duration::from_secs(2);
+
 /// What happened on a link.
 pub(super) enum Happening {
     Received(Vec<u8>),
@@ -70,6 +73,7 @@ pub(super) struct Link<'a> {
     worries: Vec<Option<HealthStatus>>,
     trouble: Option<String>,
     is_met: bool,
+    health_every: Option<Duration>,
 }
 
 impl<'a> Link<'a> {
@@ -101,6 +105,7 @@ impl<'a> Link<'a> {
             worries: vec![None; count],
             trouble: None,
             is_met: false,
+            health_every: args.health.map(Duration::from_secs_f64),
         };
         link.ask_for_health();
         link
@@ -132,9 +137,15 @@ impl<'a> Link<'a> {
         self.happened.push(Happening::Say(text));
     }
 
+    /// Asks for health because it is shown, although the arguments do not.
+    pub(super) fn show_health(&mut self) {
+        self.health_every = Some(SHOWN_HEALTH_EVERY);
+        self.ask_for_health();
+    }
+
     fn ask_for_health(&mut self) {
-        if let Some(seconds) = self.args.health {
-            self.session.health_every(Duration::from_secs_f64(seconds));
+        if let Some(every) = self.health_every {
+            self.session.health_every(every);
         }
     }
 

@@ -17,8 +17,8 @@ use super::link::{Happening, Link};
 use super::replay::Replay;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
-use crate::cli::MonitorArgs;
-use crate::commands::deadline::interruption;
+use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::commands::deadline::ending;
 use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -99,7 +99,7 @@ impl<'a> Watch<'a> {
         if let Some(replay) = self.replay.take() {
             replay.play(self.args.speed, self.to_loop.clone());
         }
-        let stop = interruption()?;
+        let stop = ending(self.face.has_terminal())?;
         self.listen();
         let result = self.turns(&stop);
         // The terminal is given back whatever happened.
@@ -196,10 +196,10 @@ impl<'a> Watch<'a> {
 
     fn past_over(&mut self, end: Result<Ending, String>) -> Result<()> {
         match end {
-            Ok(Ending::Whole) => self.status = Some(Status::Done),
+            Ok(Ending::Whole) => self.over()?,
             Ok(Ending::Cut) => {
-                self.status = Some(Status::Done);
                 self.face.say("the record was cut off: this is all up to its last whole chunk")?;
+                self.over()?;
             }
             Err(why) => {
                 let at = self.args.record_file().unwrap_or(Path::new(""));
@@ -250,7 +250,7 @@ impl<'a> Watch<'a> {
                     continue;
                 }
                 Happening::Ended { is_lost } => {
-                    self.ended(*is_lost);
+                    self.ended(*is_lost)?;
                     continue;
                 }
             };
@@ -272,12 +272,22 @@ impl<'a> Watch<'a> {
         Ok(())
     }
 
-    fn ended(&mut self, is_lost: bool) {
+    fn ended(&mut self, is_lost: bool) -> Result<()> {
         if is_lost {
             self.status = Some(Status::Wrong);
         } else if self.links.iter().all(|link| link.is_over) {
-            self.status = Some(Status::Done);
+            self.over()?;
         }
+        Ok(())
+    }
+
+    /// Nothing more comes: what is on a screen stays until people have seen it.
+    fn over(&mut self) -> Result<()> {
+        if self.face.has_terminal() {
+            return self.face.say("that is the end of the recording; q ends");
+        }
+        self.status = Some(Status::Done);
+        Ok(())
     }
 
     fn grant(&mut self, wishes: Vec<Wish>) -> Result<()> {
@@ -355,7 +365,8 @@ impl<'a> Watch<'a> {
         let is_taken = self.args.device.as_deref() == Some("-");
         let all = self.links.iter().flat_map(|link| &link.board.devices);
         let has_actuators = all.into_iter().any(|one| one.direction == Direction::Actuator);
-        if is_taken || !has_actuators || self.is_screen() {
+        let is_table = self.args.format == Some(MonitorFormat::Table);
+        if is_taken || !has_actuators || is_table || self.face.has_terminal() {
             return;
         }
         let to_loop = self.to_loop.clone();
@@ -367,10 +378,6 @@ impl<'a> Watch<'a> {
                 }
             }
         });
-    }
-
-    fn is_screen(&self) -> bool {
-        super::format(self.args, self.terminal) == crate::cli::MonitorFormat::Table
     }
 
     /// Closes the outputs and prints the counts.

@@ -11,7 +11,7 @@ use ratatui_core::terminal::Terminal;
 use ratatui_crossterm::CrosstermBackend;
 use ratatui_crossterm::crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use ratatui_crossterm::crossterm::terminal::{
-    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use ratatui_crossterm::crossterm::{cursor, execute};
 
@@ -45,7 +45,14 @@ impl Guard {
             return Ok(());
         }
         take()?;
-        self.terminal.clear()
+        self.renew()
+    }
+
+    /// Draws everything anew the next time: what is on the terminal may be anything.
+    pub(super) fn renew(&mut self) -> io::Result<()> {
+        // `Terminal::clear` asks the terminal where its cursor is, and the thread that reads keys would get the answer.
+        self.terminal = Terminal::new(CrosstermBackend::new(stdout()))?;
+        execute!(stdout(), Clear(ClearType::All))
     }
 }
 
@@ -56,8 +63,8 @@ impl Drop for Guard {
 }
 
 fn take() -> io::Result<()> {
-    IS_OPEN.store(true, Ordering::SeqCst);
     enable_raw_mode()?;
+    IS_OPEN.store(true, Ordering::SeqCst);
     execute!(stdout(), EnterAlternateScreen, EnableBracketedPaste, cursor::Hide)
 }
 

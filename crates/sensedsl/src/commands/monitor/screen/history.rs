@@ -100,7 +100,7 @@ impl History {
         }
     }
 
-    /// The last value, and when it came.
+    #[cfg(test)]
     pub(super) fn last(&self) -> Option<(u64, f64)> {
         self.values.back().copied()
     }
@@ -122,7 +122,12 @@ impl History {
     }
 
     /// The values of each column, from a time on; none where no value came.
-    pub(super) fn columns(&self, from_us: u64, column_us: u64, count: usize) -> Vec<Option<Bucket>> {
+    pub(super) fn columns(
+        &self,
+        from_us: u64,
+        column_us: u64,
+        count: usize,
+    ) -> Vec<Option<Bucket>> {
         let column_us = column_us.max(1);
         let to_us = from_us.saturating_add(column_us.saturating_mul(count as u64));
         let mut columns: Vec<Option<Bucket>> = vec![None; count];
@@ -237,7 +242,8 @@ mod tests {
             let capacity = [16, 64, 256, 1024][(drawn(&mut seed) % 4) as usize];
             let (history, all) = random(&mut seed, capacity);
             let now_us = all.last().map_or(0, |(at_us, _)| *at_us);
-            let span_us = [1_000_000, 10_000_000, 60_000_000, SPAN_US][(drawn(&mut seed) % 4) as usize];
+            let span_us =
+                [1_000_000, 10_000_000, 60_000_000, SPAN_US][(drawn(&mut seed) % 4) as usize];
             let back_us = drawn(&mut seed) % (SPAN_US - span_us + 1);
             let Some(from_us) = now_us.checked_sub(back_us + span_us) else { continue };
             let column_us = span_us / 100;
@@ -251,7 +257,9 @@ mod tests {
                     let (least, most) = envelope(&all, begin_us, until_us).unwrap();
                     assert!(found.least >= least && found.most <= most, "{index}: {found:?}");
                 }
-                let Some((least, most)) = envelope(&all, begin_us, begin_us + column_us) else { continue };
+                let Some((least, most)) = envelope(&all, begin_us, begin_us + column_us) else {
+                    continue;
+                };
                 let around = (index.saturating_sub((slack_us / column_us) as usize + 2)..=index)
                     .filter_map(|index| columns[index]);
                 let around = around.reduce(|mut one, other| {
@@ -270,7 +278,8 @@ mod tests {
     #[test]
     fn recent_values_are_exact() {
         let mut history = History::new(1024);
-        let all: Vec<(u64, f64)> = (0..5_000_u64).map(|n| (n * 1_000, (n * n % 977) as f64)).collect();
+        let all: Vec<(u64, f64)> =
+            (0..5_000_u64).map(|n| (n * 1_000, (n * n % 977) as f64)).collect();
         all.iter().for_each(|(at_us, value)| history.add(*at_us, *value));
         let columns = history.columns(4_500_000, 5_000, 100);
         for (index, column) in columns.iter().enumerate() {

@@ -80,15 +80,14 @@ fn named(key: KeyEvent) -> Option<Key> {
     NAMED.iter().find(|(code, _)| *code == key.code).map(|(_, name)| Key::Named(name))
 }
 
-/// What the keys do, in groups.
+/// What the keys do, in groups: no more than 16 characters of keys, and 22 of what they do.
 pub(super) const HELP: [(&str, &[(&str, &str)]); 4] = [
     (
         "Devices",
         &[
-            ("↑ ↓ j k PgUp PgDn", "choose a device"),
-            ("/", "only those with a text in their name"),
-            ("Space", "plot the device, or do not"),
-            ("Enter", "plots over the whole window"),
+            ("↑ ↓ PgUp PgDn", "choose; also j and k"),
+            ("/", "only names with a text"),
+            ("Space", "plot it, or not"),
             ("x", "plot nothing"),
             ("n", "all notes"),
         ],
@@ -96,25 +95,28 @@ pub(super) const HELP: [(&str, &[(&str, &str)]); 4] = [
     (
         "Plots",
         &[
+            ("Enter", "plots alone, or not"),
             ("+ -", "less time, more time"),
-            ("← →", "scroll; with Shift farther"),
-            ("Home End", "the oldest, and what comes now"),
-            ("f p", "hold the picture"),
-            ("c", "cursor: values at a time"),
-            ("v", "axis: by values, by limits, held"),
+            ("> <", "values larger, smaller"),
+            ("v", "axis: seen/limits/held"),
+            ("f", "hold, or go on"),
+            ("← →", "scroll; far with Shift"),
+            ("Home End", "oldest, newest"),
+            ("c", "cursor: values there"),
         ],
     ),
     (
         "Actuators",
         &[
             ("s", "set the chosen one"),
-            (": or a capital", "write a name and a value"),
-            ("1 to 9", "write a value"),
-            ("[ ] { }", "less, more; in large steps"),
-            ("0", "zero"),
+            (": or a capital", "write NAME VALUE"),
+            ("1 to 9", "write its value"),
+            ("[ ]", "a step less, more"),
+            ("{ }", "ten steps less, more"),
+            ("0", "to zero"),
         ],
     ),
-    ("", &[("?", "this page"), ("Esc", "back"), ("q Ctrl-C", "the end")]),
+    ("Else", &[("?", "this page"), ("Esc", "back"), ("q Ctrl-C", "end"), ("Ctrl-Z", "pause")]),
 ];
 
 #[cfg(test)]
@@ -126,7 +128,10 @@ mod tests {
         let key = |code, modifiers| read(Event::Key(KeyEvent::new(code, modifiers)));
         let named = |name| Some(Pressed::Key(Key::Named(name)));
         assert_eq!(key(KeyCode::Char('q'), KeyModifiers::NONE), Some(Pressed::Key(Key::Char('q'))));
-        assert_eq!(key(KeyCode::Char('S'), KeyModifiers::SHIFT), Some(Pressed::Key(Key::Char('S'))));
+        assert_eq!(
+            key(KeyCode::Char('S'), KeyModifiers::SHIFT),
+            Some(Pressed::Key(Key::Char('S')))
+        );
         assert_eq!(key(KeyCode::Char('c'), KeyModifiers::CONTROL), named("ctrl-c"));
         assert_eq!(key(KeyCode::Left, KeyModifiers::NONE), named("left"));
         assert_eq!(key(KeyCode::Left, KeyModifiers::SHIFT), named("far-left"));

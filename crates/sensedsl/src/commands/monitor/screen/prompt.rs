@@ -257,7 +257,9 @@ fn found<'b>(boards: &[&'b Board], name: &str) -> Option<(&'b Board, &'b Device)
     };
     let boards = boards.iter().filter(|board| of.is_none_or(|of| board.name == of));
     let mut all = boards.flat_map(|board| {
-        let fits = |one: &&Device| one.direction == Direction::Actuator && one.name.eq_ignore_ascii_case(name);
+        let fits = |one: &&Device| {
+            one.direction == Direction::Actuator && one.name.eq_ignore_ascii_case(name)
+        };
         board.devices.iter().filter(fits).map(|device| (*board, device))
     });
     let exact = all.clone().find(|(_, device)| device.name == name);
@@ -294,7 +296,8 @@ pub(super) fn range(device: &Device) -> String {
             None => format!("a number ({})", scalar.name()),
         },
     };
-    let count = device.value.length.map_or(String::new(), |length| format!("{length} values, each "));
+    let count =
+        device.value.length.map_or(String::new(), |length| format!("{length} values, each "));
     let raw = if device.scale.is_plain() { "" } else { ", or `raw` and a code" };
     format!("{}: {count}{what}{raw}", device.name)
 }
@@ -321,11 +324,13 @@ fn following(device: &Device, values: &[&str]) -> Vec<String> {
 /// The unit itself, and others of its base.
 fn units(own: &str) -> Vec<String> {
     let mut all = vec![own.to_owned()];
-    let bases = BASES.iter().filter(|base| {
-        PREFIXES.iter().any(|prefix| own.strip_prefix(prefix) == Some(**base))
-    });
+    let bases = BASES
+        .iter()
+        .filter(|base| PREFIXES.iter().any(|prefix| own.strip_prefix(prefix) == Some(**base)));
     for base in bases {
-        all.extend(PREFIXES.iter().map(|prefix| format!("{prefix}{base}")).filter(|unit| unit != own));
+        all.extend(
+            PREFIXES.iter().map(|prefix| format!("{prefix}{base}")).filter(|unit| unit != own),
+        );
     }
     all
 }

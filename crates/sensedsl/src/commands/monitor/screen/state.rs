@@ -13,6 +13,7 @@ use super::keys::{Key, Pressed};
 use super::notes::Notes;
 use super::prompt::{Check, Prompt};
 use super::slider::{Slide, slid};
+use super::table::Column;
 use super::traces::Traces;
 use super::view::View;
 
@@ -62,11 +63,30 @@ pub(super) struct State<'a> {
     /// The axis of each unit, as it was drawn last.
     pub(super) ranges: BTreeMap<String, (f64, f64)>,
     /// The widest cells of the table so far, so that it does not tremble.
-    pub(super) widths: BTreeMap<&'static str, usize>,
+    pub(super) widths: BTreeMap<Column, usize>,
     /// What the last key came to, where that is not seen otherwise.
     pub(super) told: Option<String>,
-    /// The last value of each item.
+    /// The moment that is shown.
+    pub(super) now: Duration,
+    /// The first line of the help that is seen.
+    pub(super) help_top: usize,
+    /// How each board is.
+    conditions: Vec<Condition>,
+    /// The last value of each actuator.
     last: Vec<Option<Vec<Scalar>>>,
+    /// The least and the greatest number of each item since the start.
+    extremes: Vec<Option<(f64, f64)>>,
+}
+
+/// How a board is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Condition {
+    /// It has not said who it is.
+    Asking,
+    /// It is there.
+    Online,
+    /// It is not, and why.
+    Offline(String),
 }
 
 impl<'a> State<'a> {
@@ -75,12 +95,14 @@ impl<'a> State<'a> {
         for (place, board) in boards.iter().enumerate() {
             for (index, device) in board.devices.iter().enumerate() {
                 let own = &device.name;
-                let name = if boards.len() > 1 { format!("{}/{own}", board.name) } else { own.clone() };
+                let name =
+                    if boards.len() > 1 { format!("{}/{own}", board.name) } else { own.clone() };
                 items.push(Item { board: place, index, device, name });
             }
         }
         Self {
             traces: Traces::new(&boards),
+            conditions: vec![Condition::Asking; boards.len()],
             boards,
             shown: (0..items.len()).collect(),
             filter: String::new(),
@@ -96,7 +118,10 @@ impl<'a> State<'a> {
             ranges: BTreeMap::new(),
             widths: BTreeMap::new(),
             told: None,
+            now: Duration::ZERO,
+            help_top: 0,
             last: vec![None; items.len()],
+            extremes: vec![None; items.len()],
             items,
         }
     }
@@ -105,12 +130,51 @@ impl<'a> State<'a> {
     pub(super) fn take(&mut self, board: usize, index: usize, at: Duration, value: &[Scalar]) {
         let before: usize = self.boards.iter().take(board).map(|board| board.devices.len()).sum();
         let Some(item) = self.items.get(before + index) else { return };
+        if let Some(extremes) = self.extremes.get_mut(before + index) {
+            for raw in value {
+                let shown = item.device.shown(*raw);
+                let (least, most) = extremes.unwrap_or((shown, shown));
+                // What is no number is neither less nor more.
+                *extremes = Some((least.min(shown), most.max(shown)));
+            }
+        }
         self.traces.add(board, index, item.device, at, value);
         if item.device.direction == Direction::Actuator
             && let Some(last) = self.last.get_mut(before + index)
         {
             *last = Some(value.to_vec());
         }
+    }
+
+    /// Takes how a board is by now.
+    pub(super) fn change(&mut self, board: usize, condition: Condition) {
+        if let Some(place) = self.conditions.get_mut(board) {
+            *place = condition;
+        }
+    }
+
+    /// How a board is.
+    pub(super) fn condition(&self, board: usize) -> &Condition {
+        self.conditions.get(board).unwrap_or(&Condition::Asking)
+    }
+
+    /// Whether values of a board are those of now.
+    pub(super) fn is_there(&self, board: usize) -> bool {
+        *self.condition(board) == Condition::Online
+    }
+
+    /// The least and the greatest number of an item since the start.
+    pub(super) fn extremes(&self, item: usize) -> Option<(f64, f64)> {
+        self.extremes.get(item).copied().flatten()
+    }
+
+    /// Moves the rows that are seen, of which there are so many at once, to the chosen one.
+    pub(super) fn scroll(&mut self, page: usize) {
+        self.page = page.max(1);
+        self.chosen = self.chosen.min(self.shown.len().saturating_sub(1));
+        let last = self.shown.len().saturating_sub(self.page);
+        let first = (self.chosen + 1).saturating_sub(self.page);
+        self.top = self.top.clamp(first, self.chosen.max(first)).min(last);
     }
 
     /// The item that is chosen; none if none is shown.
@@ -134,10 +198,7 @@ impl<'a> State<'a> {
                 Mode::Prompt => self.in_prompt(*key),
                 Mode::Filter => self.in_filter(*key),
                 Mode::Notes => self.in_notes(*key),
-                Mode::Help => {
-                    self.mode = Mode::Table;
-                    (*key == Key::Char('q')).then_some(Ask::Quit)
-                }
+                Mode::Help => self.in_help(*key),
             },
             Pressed::Text(text) => {
                 if self.mode == Mode::Filter {
@@ -183,6 +244,8 @@ impl<'a> State<'a> {
             'f' | 'p' => self.view.freeze(now),
             'c' if !self.plotted.is_empty() => self.view.toggle_cursor(now),
             'v' => self.view.next_axis(),
+            '>' => self.view.magnify(true),
+            '<' => self.view.magnify(false),
             'n' => self.mode = Mode::Notes,
             '?' | 'h' => self.mode = Mode::Help,
             '/' => self.mode = Mode::Filter,
@@ -286,6 +349,18 @@ impl<'a> State<'a> {
         None
     }
 
+    fn in_help(&mut self, key: Key) -> Option<Ask> {
+        match key {
+            Key::Char('j' | ' ') | Key::Named("down" | "page-down") => self.help_top += 1,
+            Key::Char('k') | Key::Named("up" | "page-up") => {
+                self.help_top = self.help_top.saturating_sub(1);
+            }
+            Key::Char('q') => return Some(Ask::Quit),
+            Key::Char(_) | Key::Named(_) => (self.mode, self.help_top) = (Mode::Table, 0),
+        }
+        None
+    }
+
     fn in_notes(&mut self, key: Key) -> Option<Ask> {
         let page = isize::try_from(self.page).unwrap_or(1).max(1);
         match key {
@@ -319,7 +394,10 @@ impl<'a> State<'a> {
                 self.write(&line);
             }
             None if text.is_empty() => self.write(""),
-            None => self.told = Some("choose an actuator to set it, or press : and write its name".into()),
+            None => {
+                self.told =
+                    Some("choose an actuator to set it, or press : and write its name".into())
+            }
         }
     }
 

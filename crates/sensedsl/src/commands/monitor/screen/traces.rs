@@ -46,8 +46,17 @@ impl Traces {
     }
 
     /// Takes a value of a device.
-    pub(super) fn add(&mut self, board: usize, index: usize, device: &Device, at: Duration, value: &[Scalar]) {
-        let Some(lines) = self.of.get_mut(board).and_then(|board| board.get_mut(index)) else { return };
+    pub(super) fn add(
+        &mut self,
+        board: usize,
+        index: usize,
+        device: &Device,
+        at: Duration,
+        value: &[Scalar],
+    ) {
+        let Some(lines) = self.of.get_mut(board).and_then(|board| board.get_mut(index)) else {
+            return;
+        };
         let at_us = micros(at);
         for (history, raw) in lines.iter_mut().zip(value) {
             history.add(at_us, device.shown(*raw));

@@ -8,6 +8,8 @@ use super::history::SPAN_US;
 
 /// What can be seen at once, in seconds.
 const SPANS_S: [u64; 10] = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
+/// How often axes are halved at most.
+const MAGNIFIED_MAX: u8 = 16;
 /// The usual one, ten seconds.
 const USUAL: usize = 3;
 /// One press of a key scrolls by a quarter of what is seen; the cursor goes by a hundredth, or by a tenth.
@@ -34,11 +36,13 @@ pub(super) struct View {
     frozen: Option<Duration>,
     pub(super) cursor: Option<Duration>,
     pub(super) axis: Axis,
+    /// How often the values' axes were halved.
+    pub(super) magnified: u8,
 }
 
 impl View {
     pub(super) fn new() -> Self {
-        Self { zoom: USUAL, frozen: None, cursor: None, axis: Axis::Auto }
+        Self { zoom: USUAL, frozen: None, cursor: None, axis: Axis::Auto, magnified: 0 }
     }
 
     pub(super) fn span(&self) -> Duration {
@@ -56,7 +60,11 @@ impl View {
     /// Less time with more detail, or more time.
     pub(super) fn zoom(&mut self, is_in: bool) {
         let before = self.span();
-        self.zoom = if is_in { self.zoom.saturating_sub(1) } else { (self.zoom + 1).min(SPANS_S.len() - 1) };
+        self.zoom = if is_in {
+            self.zoom.saturating_sub(1)
+        } else {
+            (self.zoom + 1).min(SPANS_S.len() - 1)
+        };
         // What the cursor is on stays where it is.
         if let (Some(cursor), Some(frozen)) = (self.cursor, self.frozen) {
             let behind = frozen.saturating_sub(cursor).as_secs_f64() / before.as_secs_f64();
@@ -121,7 +129,14 @@ impl View {
         }
     }
 
+    /// A part of the values with more detail, or more of them.
+    pub(super) fn magnify(&mut self, is_in: bool) {
+        let by = if is_in { self.magnified + 1 } else { self.magnified.saturating_sub(1) };
+        self.magnified = by.min(MAGNIFIED_MAX);
+    }
+
     pub(super) fn next_axis(&mut self) {
+        self.magnified = 0;
         self.axis = match self.axis {
             Axis::Auto => Axis::Limits,
             Axis::Limits => Axis::Held,
