@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use ratatui_core::buffer::Buffer;
 use ratatui_core::layout::{Position, Rect};
-use ratatui_core::style::Modifier;
 use sensedsl_diagnostics::visible;
 use sensedsl_wire::Direction;
 
@@ -119,29 +118,36 @@ fn heads(
             Condition::Online => ("online".to_owned(), Tone::Good),
             Condition::Offline(why) => (format!("OFFLINE: {}", visible(why)), Tone::Bad),
         };
-        let x = put(buffer, area, (x, row), &text, look.of(tone)).saturating_add(2);
-        let _ = put(buffer, area, (x, row), &facts(link, now), look.of(Tone::Plain));
+        let mut x = put(buffer, area, (x, row), &text, look.of(tone));
+        for (fact, tone) in facts(link, now) {
+            x = put(buffer, area, (x.saturating_add(2), row), &fact, look.of(tone));
+        }
     }
 }
 
 /// What is counted of a board; what went wrong comes first, because the end may be cut off.
-fn facts(link: &Link<'_>, now: Duration) -> String {
+fn facts(link: &Link<'_>, now: Duration) -> Vec<(String, Tone)> {
     let counts = link.counts();
-    let mut facts = vec![moment(now), format!("{} frames", counts.frames)];
-    if counts.dropped_bytes > 0 {
-        facts.push(format!("{} bytes dropped", counts.dropped_bytes));
-    }
-    if counts.lost > 0 {
-        facts.push(format!("{} reports lost", counts.lost));
-    }
-    if let Some(health) = &link.health {
-        if health.reports_refused > 0 {
-            facts.push(format!("{} refused", health.reports_refused));
+    let health = link.health.as_ref();
+    let refused = health.map_or(0, |health| u64::from(health.reports_refused));
+    let wrong = [
+        (counts.dropped_bytes, "bytes dropped"),
+        (counts.lost, "reports lost"),
+        (refused, "reports refused"),
+    ];
+    let mut facts =
+        vec![(moment(now), Tone::Plain), (format!("{} frames", counts.frames), Tone::Plain)];
+    let some = wrong.iter().filter(|(count, _)| *count > 0);
+    facts.extend(some.map(|(count, what)| (format!("{count} {what}"), Tone::Warning)));
+    if let Some(health) = health {
+        let up = moment(Duration::from_millis(health.uptime_ms.into()));
+        facts.push((format!("up {up}"), Tone::Plain));
+        facts.push((format!("{} reports sent", health.reports_sent), Tone::Plain));
+        if health.load_percent <= 100 {
+            facts.push((format!("load {} %", health.load_percent), Tone::Plain));
         }
-        facts.push(format!("board up {}", moment(Duration::from_millis(health.uptime_ms.into()))));
-        facts.push(format!("{} reports sent", health.reports_sent));
     }
-    facts.join("  ")
+    facts
 }
 
 /// The latest notes, or in their own page those that are scrolled to.
@@ -298,6 +304,5 @@ fn help(buffer: &mut Buffer, area: Rect, state: &mut State<'_>, look: Look) {
     }
     let more = if longest > room { "↑ ↓ scroll  " } else { "" };
     let text = format!("{more}any other key: back");
-    let style = look.of(Tone::Faint).add_modifier(Modifier::empty());
-    let _ = put(buffer, area, (area.x, area.bottom() - 1), &text, style);
+    let _ = put(buffer, area, (area.x, area.bottom() - 1), &text, look.of(Tone::Faint));
 }

@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use ratatui_crossterm::crossterm::event;
-use sensedsl_host::{Board, Moment, News, What};
+use sensedsl_host::{Board, Moment, News};
 
 use super::face::{Ask, Face};
 use super::link::Link;
@@ -35,7 +35,7 @@ use super::show::tables;
 use crate::terminal::Terminal;
 use guard::Guard;
 use keys::{Key, Pressed};
-use state::{Condition, State};
+use state::State;
 use style::Look;
 
 /// The time between two pictures: after a key, while plots go on, and otherwise.
@@ -54,8 +54,6 @@ pub(super) struct Screen<'a> {
     look: Look,
     drawn: Option<Instant>,
     is_pressed: bool,
-    /// The time of the run, as it was known last.
-    now: Duration,
 }
 
 impl<'a> Screen<'a> {
@@ -73,7 +71,6 @@ impl<'a> Screen<'a> {
             look: Look { has_colours: terminal.colour() },
             drawn: None,
             is_pressed: false,
-            now: Duration::ZERO,
         })
     }
 
@@ -98,7 +95,7 @@ impl<'a> Screen<'a> {
                         guard.renew()?;
                     }
                 }
-                pressed => asks.extend(self.state.press(&pressed, self.now)),
+                pressed => asks.extend(self.state.press(&pressed)),
             }
         }
     }
@@ -130,31 +127,17 @@ impl<'a> Screen<'a> {
 
 impl Face for Screen<'_> {
     fn take(&mut self, news: &News<'_>, _: &[Link<'_>]) -> Result<()> {
-        let (board, at) = (news.board, news.at.run);
-        self.now = self.now.max(at);
-        match news.what {
-            What::Online => self.state.change(board, Condition::Online),
-            What::Offline(why) => self.state.change(board, Condition::Offline(why.to_owned())),
-            What::Report(report) => {
-                // A recording may have no hello.
-                self.state.change(board, Condition::Online);
-                for (device, value) in &report.values {
-                    self.state.take(board, *device, at, value);
-                }
-            }
-            What::Command { device, value } => self.state.take(board, device, at, value),
-            What::Received(_) | What::Sent(_) | What::Health(_) => {}
-        }
+        self.state.hear(news);
         Ok(())
     }
 
     fn say(&mut self, text: &str) -> Result<()> {
-        self.state.notes.say(self.now, text);
+        self.state.notes.say(self.state.now, text);
         Ok(())
     }
 
     fn look(&mut self, now: Moment, links: &[Link<'_>]) -> Result<Vec<Ask>> {
-        self.now = now.run;
+        self.state.now = now.run;
         let asks = self.take_keys()?;
         if !self.is_due() {
             return Ok(asks);

@@ -192,7 +192,13 @@ impl Prompt {
         let Some(name) = words.next() else {
             let beginning = word.to_lowercase();
             let names = names(boards).into_iter();
-            let begins = |name: &String| name.to_lowercase().starts_with(&beginning);
+            // The board may be left out.
+            let begins = |name: &String| {
+                let name = name.to_lowercase();
+                let own = name.split_once('/').map_or("", |(_, own)| own);
+                name.starts_with(&beginning)
+                    || (!beginning.is_empty() && own.starts_with(&beginning))
+            };
             return (start, names.filter(begins).collect());
         };
         let Some((_, device)) = found(boards, name) else { return (start, Vec::new()) };

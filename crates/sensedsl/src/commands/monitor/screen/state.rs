@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use sensedsl_host::{Board, Device};
+use sensedsl_host::{Board, Device, News, What};
 use sensedsl_wire::{Direction, Scalar};
 
 use super::super::face::Ask;
@@ -126,8 +126,27 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Takes what happened.
+    pub(super) fn hear(&mut self, news: &News<'_>) {
+        let (board, at) = (news.board, news.at.run);
+        self.now = self.now.max(at);
+        match news.what {
+            What::Online => self.change(board, Condition::Online),
+            What::Offline(why) => self.change(board, Condition::Offline(why.to_owned())),
+            What::Report(report) => {
+                // A recording may have no hello.
+                self.change(board, Condition::Online);
+                for (device, value) in &report.values {
+                    self.take(board, *device, at, value);
+                }
+            }
+            What::Command { device, value } => self.take(board, device, at, value),
+            What::Received(_) | What::Sent(_) | What::Health(_) => {}
+        }
+    }
+
     /// Takes a value of a device.
-    pub(super) fn take(&mut self, board: usize, index: usize, at: Duration, value: &[Scalar]) {
+    fn take(&mut self, board: usize, index: usize, at: Duration, value: &[Scalar]) {
         let before: usize = self.boards.iter().take(board).map(|board| board.devices.len()).sum();
         let Some(item) = self.items.get(before + index) else { return };
         if let Some(extremes) = self.extremes.get_mut(before + index) {
@@ -146,8 +165,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Takes how a board is by now.
-    pub(super) fn change(&mut self, board: usize, condition: Condition) {
+    fn change(&mut self, board: usize, condition: Condition) {
         if let Some(place) = self.conditions.get_mut(board) {
             *place = condition;
         }
@@ -189,8 +207,9 @@ impl<'a> State<'a> {
     }
 
     /// Takes what came of the terminal.
-    pub(super) fn press(&mut self, pressed: &Pressed, now: Duration) -> Option<Ask> {
+    pub(super) fn press(&mut self, pressed: &Pressed) -> Option<Ask> {
         self.told = None;
+        let now = self.now;
         match pressed {
             Pressed::Key(Key::Named("ctrl-c")) => Some(Ask::Quit),
             Pressed::Key(key) => match self.mode {

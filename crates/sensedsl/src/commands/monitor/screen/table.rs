@@ -143,7 +143,9 @@ fn head(
         let mut text = column.head().to_owned();
         if *column == Column::Device && (state.top > 0 || state.shown.len() > state.page) {
             let end = (state.top + state.page).min(state.shown.len());
-            text = format!("{text} {}-{end}/{}", state.top + 1, state.shown.len());
+            let seen = format!("{}-{end}/{}", state.top + 1, state.shown.len());
+            let both = format!("{text} {seen}");
+            text = if width(&both) <= *wide { both } else { seen };
         }
         if *column == Column::Trend && *wide > 14 {
             text = format!("{text} of {wide} s");
@@ -285,6 +287,8 @@ fn condition(item: &Item<'_>, link: &Link<'_>, is_there: bool, now: Duration) ->
     }
     match health.map(|one| one.status) {
         Some(Status::Good) => ("good".to_owned(), Tone::Good),
+        // What nobody has set is not worth a word.
+        Some(Status::NeverRead) if !is_sensor => (String::new(), Tone::Plain),
         Some(other) => (status(other).to_owned(), Tone::Faint),
         None => (String::new(), Tone::Plain),
     }
