@@ -195,6 +195,9 @@ fn watch(
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
     let begin = replay.as_ref().map(|replay| replay.begin);
     let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
+    if links.len() > 1 {
+        links.iter_mut().for_each(Link::name_board);
+    }
     let face = face(args, terminal, &links);
     if face.has_terminal() && args.health.is_none() {
         links.iter_mut().for_each(Link::show_health);

@@ -106,8 +106,8 @@ fn heads(
     let fit = usize::from(area.height);
     for (row, (index, link)) in (area.y..area.bottom()).zip(links.iter().enumerate()) {
         if index + 1 == fit && links.len() > fit {
-            let text = format!("and {} more boards", links.len() - index);
-            let _ = put(buffer, area, (area.x, row), &text, look.of(Tone::Faint));
+            let (text, tone) = rest(state, links, index);
+            let _ = put(buffer, area, (area.x, row), &text, look.of(tone));
             return;
         }
         let name = visible(&link.board.name);
@@ -122,6 +122,22 @@ fn heads(
         for (fact, tone) in facts(link, now) {
             x = put(buffer, area, (x.saturating_add(2), row), &fact, look.of(tone));
         }
+    }
+}
+
+/// How the boards are that have no line of their own.
+fn rest(state: &State<'_>, links: &[Link<'_>], first: usize) -> (String, Tone) {
+    let away: Vec<String> = (first..links.len())
+        .filter(|board| matches!(state.condition(*board), Condition::Offline(_)))
+        .filter_map(|board| links.get(board))
+        .map(|link| visible(&link.board.name).into_owned())
+        .collect();
+    let count = links.len() - first;
+    let all = if first == 0 { format!("{count} boards") } else { format!("{count} more boards") };
+    if away.is_empty() {
+        (all, Tone::Faint)
+    } else {
+        (format!("{all}, OFFLINE: {}", away.join(" ")), Tone::Bad)
     }
 }
 

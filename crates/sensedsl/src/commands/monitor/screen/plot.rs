@@ -59,7 +59,9 @@ impl Times {
         let span_us = micros(state.view.span());
         let column_us = (span_us / count.max(1) as u64).max(1);
         let last = i64::try_from(micros(state.view.end(now)) / column_us).unwrap_or(i64::MAX);
-        Self { first: last + 1 - i64::try_from(count).unwrap_or(0), column_us, count }
+        // The column of now is not over: in a picture that is held it would go on.
+        let end = last + i64::from(!state.view.is_frozen());
+        Self { first: end - i64::try_from(count).unwrap_or(0), column_us, count }
     }
 
     /// When a column begins.
@@ -159,7 +161,7 @@ fn draw_frame(
         frame.lines.iter().flat_map(|place| lines(state, *place, times)).collect();
     let range = range(state, frame, &lines);
     let _ = state.ranges.insert(frame.unit.clone(), range);
-    let range = magnified(state, frame, &lines, range);
+    let range = magnified(state, &lines, range);
     for line in &lines {
         draw_line(&mut canvas, line, times, range, down);
     }
@@ -220,12 +222,7 @@ fn outwards(least: f64, most: f64) -> (f64, f64) {
 }
 
 /// A part of the range, around the value at the cursor, or the last one.
-fn magnified(
-    state: &State<'_>,
-    frame: &Frame,
-    lines: &[Line],
-    (least, most): (f64, f64),
-) -> (f64, f64) {
+fn magnified(state: &State<'_>, lines: &[Line], (least, most): (f64, f64)) -> (f64, f64) {
     if state.view.magnified == 0 {
         return (least, most);
     }
@@ -239,7 +236,6 @@ fn magnified(
             history.at(micros(state.view.cursor.unwrap_or(state.view.end(state.now))))
         });
     let middle = at.map_or((least + most) / 2.0, |at| at.last);
-    debug_assert!(!frame.lines.is_empty(), "a frame has what is plotted");
     let half = (most - least) / 2.0 / f64::from(2_u32.pow(state.view.magnified.into()));
     (middle - half, middle + half)
 }
