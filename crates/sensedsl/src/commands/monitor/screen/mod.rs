@@ -9,6 +9,8 @@ mod guard;
 mod history;
 mod keys;
 mod notes;
+#[cfg(test)]
+mod picture;
 mod plot;
 mod prompt;
 mod slider;

@@ -19,6 +19,7 @@ use sensedsl_wire::{
 
 use super::draw::draw;
 use super::keys::{Key, Pressed};
+use super::picture::svg;
 use super::state::State;
 use super::style::Look;
 use crate::cli::{Cli, Command, MonitorArgs};
@@ -191,12 +192,15 @@ impl<'a> Bench<'a> {
                 (one.id, all.collect())
             })
             .collect();
-        let stamp = Stamp {
-            time_us: (self.now_ms * 1_000) as u32,
-            counter: (self.now_ms / REPORT_MS) as u8,
-        };
+        // A clock that trembles, and a link that takes a while.
+        let time_us = self.now_ms * 1_000 + self.now_ms * 31 % 400;
+        let counter = (self.now_ms / REPORT_MS) as u8;
+        let stamp = Stamp { time_us: time_us as u32, counter };
+        let delay_ms = self.now_ms / REPORT_MS * 7 % 5 + 1;
         let frame = encode_stamped_report(&described.schema, stamp, &values).unwrap();
+        self.now_ms += delay_ms;
         self.feed(board, frame);
+        self.now_ms -= delay_ms;
     }
 
     /// Has a board tell its health; some of its devices are not well.
@@ -526,4 +530,28 @@ fn colours_are_those_of_the_terminal_or_none() {
     let without = bench.draw(120, 40);
     assert!(colours(&without).is_empty());
     assert!(without.content.iter().any(|cell| cell.modifier.contains(Modifier::REVERSED)));
+}
+
+/// The pictures of the documentation.
+#[test]
+fn pictures_are_of_this_screen() {
+    let (args, boards) = (arguments(), [rover("Rover")]);
+    let mut bench = Bench::new(&args, &boards);
+    bench.run(34_000, &[]);
+    bench.health(0, &[(1, Status::Good, Causes { timed_out: 2, ..Causes::default() })]);
+    let _ = bench.press(" «down» ");
+    bench.replay(
+        0,
+        Past::Value { device: 4, stamp: None, latency: None, value: vec![Scalar::Unsigned(455)] },
+    );
+    bench.state.notes.say(bench.moment().run, "sent: Servo = 455 (45.5 deg)");
+    bench.run(2_500, &[]);
+    let picture = svg(&bench.draw(110, 30), "A table and plots in a terminal");
+    blessed("../../docs/pictures/monitor-screen.svg", &picture);
+    let _ = bench.press("«enter»fc«left»");
+    bench.run(4_000, &[]);
+    let _ = bench.press(":Servo 181");
+    let picture =
+        svg(&bench.draw(110, 30), "A plot that is held, its cursor, and a command that is refused");
+    blessed("../../docs/pictures/monitor-held.svg", &picture);
 }
