@@ -37,13 +37,10 @@ use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
 use screen::Screen;
-use show::Printer;
+use show::{Printer, format};
 use source::Source;
 use subject::Subject;
 use watch::Watch;
-
-/// The rate of a link of which nobody says one.
-const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     if let Some(path) = args.record_file() {
@@ -54,6 +51,9 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
         return subject::simulated(args, file, terminal, |subject, found| {
             watch(args, terminal, subject, found, None)
         });
+    }
+    if args.world.is_some() {
+        bail!("`--world` is for a simulated board: `sensedsl monitor simulate FILE --world …`");
     }
     let subject = subject::read(args, file, terminal)?;
     let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
@@ -146,8 +146,7 @@ fn named<'s>(
 
 /// What people see: a screen where they see it as it is written, otherwise printed values.
 fn face<'a>(args: &MonitorArgs, terminal: &'a Terminal, links: &[Link<'a>]) -> Box<dyn Face + 'a> {
-    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
-    let mut format = args.format.unwrap_or(usual);
+    let mut format = format(args, terminal);
     if format == MonitorFormat::Table && terminal.is_watched() {
         let boards = links.iter().map(|link| link.board).collect();
         match terminal.has_pages().then(|| Screen::open(terminal, boards)) {
@@ -193,8 +192,6 @@ fn watch(
 ) -> Result<Status> {
     let mut links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
-    let begin = replay.as_ref().map(|replay| replay.begin);
-    let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
     if links.len() > 1 {
         links.iter_mut().for_each(Link::name_board);
     }
@@ -202,5 +199,5 @@ fn watch(
     if face.has_terminal() && args.health.is_none() {
         links.iter_mut().for_each(Link::show_health);
     }
-    Watch::new(args, terminal, subject, links, face, outputs, replay).run()
+    Watch::new(args, terminal, subject, links, face, replay).run()
 }

@@ -17,6 +17,12 @@ use crate::terminal::Terminal;
 /// The most characters of a value in the table; arrays can be longer.
 const VALUE_CHARS: usize = 40;
 
+/// How values are shown.
+pub(super) fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
+    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
+    args.format.unwrap_or(usual)
+}
+
 /// Prints values as they come.
 pub(super) struct Printer<'a> {
     terminal: &'a Terminal,
