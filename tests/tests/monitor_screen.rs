@@ -34,6 +34,7 @@ struct Window {
     /// What the program has sent to the board, apart from questions.
     sent: Vec<Event>,
     is_playing: bool,
+    is_met: bool,
 }
 
 impl Window {
@@ -69,6 +70,7 @@ impl Window {
             decoder: Decoder::new(schema, Direction::Actuator),
             sent: Vec::new(),
             is_playing: true,
+            is_met: false,
         }
     }
 
@@ -85,7 +87,9 @@ impl Window {
             Event::HealthRequest => {}
             other => sent.push(other),
         });
-        if is_asked {
+        self.is_met |= is_asked;
+        // The shell of a board that does not report is asked without a question of ours.
+        if is_asked || (self.is_met && !self.is_playing) {
             self.line.say(hello);
         }
         if self.is_playing {
@@ -216,8 +220,10 @@ fn keys_set_an_actuator_and_end_it() {
     window.wait_for_text("sent: Servo = 455 (45.5 deg)");
     window.press("?");
     window.wait_for_text("less time, more time");
-    window.press("\u{1b}OA");
-    window.press("k k");
+    window.press("\u{1b}");
+    window.wait_for_text("Device Value");
+    window.press("\u{1b}OAk ");
+    window.wait_for_text("a Light 410.5");
     // Another size: everything is drawn again.
     size(&window.inner, 20, 5);
     window.signal(Signal::WINCH);

@@ -162,7 +162,10 @@ impl Face for Screen<'_> {
         for line in self.state.notes.left() {
             self.terminal.aside(&line)?;
         }
-        Ok(self.terminal.result(&tables(links, now.run))?)
+        // Of a board that never reported there is nothing to show.
+        let has_values = links.iter().flat_map(|link| &link.latest).any(Option::is_some);
+        let text = if has_values { tables(links, now.run) } else { String::new() };
+        Ok(self.terminal.result(&text)?)
     }
 
     fn has_terminal(&self) -> bool {
