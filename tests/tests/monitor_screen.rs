@@ -111,11 +111,18 @@ impl Window {
         }
     }
 
-    /// Waits until a text has been drawn; everything is drawn anew now and then, because only what changes is.
+    /// Forgets what was drawn, and has everything drawn anew: otherwise only what changes is.
+    fn renew(&mut self) {
+        self.seen = if self.seen.contains(TAKE) { TAKE.to_owned() } else { String::new() };
+        self.press("\u{c}");
+    }
+
+    /// Waits until a text is drawn.
     fn wait_for_text(&mut self, text: &str) {
         let start = Instant::now();
         let hello = encode_hello(&self.schema);
         let mut turns = 0;
+        self.renew();
         while !words(&self.seen).contains(text) {
             assert!(
                 start.elapsed() < Duration::from_secs(20),
@@ -125,8 +132,7 @@ impl Window {
             self.turn(&hello);
             turns += 1;
             if turns % 20 == 0 {
-                self.seen = self.seen.rsplit_once(TAKE).map_or(String::new(), |_| TAKE.to_owned());
-                self.press("\u{c}");
+                self.renew();
             }
         }
     }

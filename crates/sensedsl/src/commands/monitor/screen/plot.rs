@@ -274,21 +274,36 @@ fn draw_line(
     }
 }
 
-/// The labels of the values.
+/// The labels of the values: round numbers, or in a low frame its ends.
 fn axis(buffer: &mut Buffer, area: Rect, (least, most): (f64, f64), look: Look) {
-    let steps: u16 = if area.height >= 9 { 4 } else { 2 };
-    for step in 0..=steps {
-        let row = area.y + (u32::from(area.height - 1) * u32::from(step) / u32::from(steps)) as u16;
-        let share = f64::from(row - area.y) / f64::from((area.height - 1).max(1));
-        let value = most - (most - least) * share;
-        let apart = round((most - least) / f64::from(steps * 10).max(1.0));
-        let text = cut(&label(value, apart), usize::from(area.width).saturating_sub(1));
-        let x = area.right().saturating_sub(1 + u16::try_from(width(&text)).unwrap_or(0));
-        let _ = put(buffer, area, (x, row), &text, look.of(Tone::Faint));
-    }
     for row in area.y..area.bottom() {
         let _ = put(buffer, area, (area.right() - 1, row), "│", look.of(Tone::Faint));
     }
+    let rows = f64::from((area.height - 1).max(1));
+    let count = (area.height / 3).clamp(1, 5);
+    let step = step_of((most - least) / f64::from(count));
+    let (first, last) = ((least / step - 1e-6).ceil(), (most / step + 1e-6).floor());
+    let is_low = area.height < 5 || last <= first;
+    let places = (0..=count).map(|place| (first + f64::from(place)) * step);
+    let values: Vec<f64> = if is_low {
+        vec![most, least]
+    } else {
+        places.filter(|value| *value <= last * step + step / 2.0).collect()
+    };
+    let apart = if is_low { round((most - least) / 20.0) } else { step };
+    for value in values {
+        let row = ((most - value) / (most - least) * rows).round().clamp(0.0, rows) as u16;
+        let text = cut(&label(value, apart), usize::from(area.width).saturating_sub(1));
+        let x = area.right().saturating_sub(1 + u16::try_from(width(&text)).unwrap_or(0));
+        let _ = put(buffer, area, (x, area.y + row), &text, look.of(Tone::Faint));
+    }
+}
+
+/// The least of 1, 2 and 5, and ten times or a tenth of these, that is no less than a number.
+fn step_of(number: f64) -> f64 {
+    let size = 10_f64.powf(number.log10().floor());
+    let fits = |many: &&f64| **many * size >= number * 0.999;
+    [1.0, 2.0, 5.0].iter().find(fits).map_or(10.0 * size, |many| many * size)
 }
 
 /// The devices of a frame with their values: at the cursor, at the end of a picture that is held, or now.
@@ -351,14 +366,6 @@ fn time_axis(buffer: &mut Buffer, area: Rect, state: &State<'_>, now: Duration, 
         (false, false) => format!("-{}", moment(back).replace(".0 s", " s")),
         (true, _) => end.checked_sub(back).map_or_else(String::new, moment),
     };
-    let steps: u32 = if area.width >= 60 { 4 } else { 2 };
-    for step in 0..=steps {
-        let label = text(span * (steps - step) / steps);
-        let wide = u16::try_from(width(&label)).unwrap_or(0);
-        let centre = (u32::from(area.width) * step / steps) as u16;
-        let x = area.x + centre.saturating_sub(wide / 2).min(area.width.saturating_sub(wide));
-        let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
-    }
     let axis = match state.view.axis {
         Axis::Auto => "",
         Axis::Limits => " axis by limits ",
@@ -370,6 +377,15 @@ fn time_axis(buffer: &mut Buffer, area: Rect, state: &State<'_>, now: Duration, 
         String::new()
     };
     let told = format!("{held}{axis}");
+    let steps: u32 = if area.width >= 60 { 4 } else { 2 };
+    // What is told stands where the second label would.
+    for step in (0..=steps).filter(|step| *step != 1 || told.is_empty()) {
+        let label = text(span * (steps - step) / steps);
+        let wide = u16::try_from(width(&label)).unwrap_or(0);
+        let centre = (u32::from(area.width) * step / steps) as u16;
+        let x = area.x + centre.saturating_sub(wide / 2).min(area.width.saturating_sub(wide));
+        let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
+    }
     let place = area.x + area.width / 8;
     let style = look.of(Tone::Warning).add_modifier(Modifier::REVERSED);
     let _ = put(buffer, area, (place, area.y), told.trim_end(), style);
@@ -378,6 +394,11 @@ fn time_axis(buffer: &mut Buffer, area: Rect, state: &State<'_>, now: Duration, 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_are_round() {
+        assert_eq!([0.3, 1.0, 1.2, 4.0, 70.0].map(step_of), [0.5, 1.0, 2.0, 5.0, 100.0]);
+    }
 
     #[test]
     fn axes_have_round_ends() {

@@ -345,7 +345,16 @@ fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, now: Duration) -> Stri
     let columns = history.columns(from_us, TREND_US, count);
     let middle =
         |at: usize| columns.get(at).copied().flatten().map(|one| (one.least + one.most) / 2.0);
-    let all: Vec<Option<f64>> = (0..count).map(middle).collect();
+    // An actuator keeps what it was set to.
+    let is_held = item.device.direction == Direction::Actuator;
+    let mut last = history.at(from_us).map(|one| one.last).filter(|_| is_held);
+    let all: Vec<Option<f64>> = (0..count)
+        .map(|at| {
+            let value = middle(at).or(last);
+            last = value.filter(|_| is_held);
+            value
+        })
+        .collect();
     let least = all.iter().flatten().copied().fold(f64::INFINITY, f64::min);
     let most = all.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
     let level = |value: f64| {

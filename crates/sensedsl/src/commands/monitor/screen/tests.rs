@@ -180,7 +180,9 @@ impl<'a> Bench<'a> {
 
     fn report(&mut self, board: usize) {
         let described = self.links[board].board;
-        let seconds = self.now_ms as f64 / 1e3;
+        // The link takes a while.
+        let made_ms = self.now_ms - self.now_ms / REPORT_MS * 7 % 5 - 1;
+        let seconds = made_ms as f64 / 1e3;
         let sensors = described.devices.iter().filter(|one| one.direction == Direction::Sensor);
         let values: Vec<(u8, Vec<Scalar>)> = sensors
             .enumerate()
@@ -192,15 +194,12 @@ impl<'a> Bench<'a> {
                 (one.id, all.collect())
             })
             .collect();
-        // A clock that trembles, and a link that takes a while.
-        let time_us = self.now_ms * 1_000 + self.now_ms * 31 % 400;
+        // A clock that trembles.
+        let time_us = made_ms * 1_000 + self.now_ms * 31 % 400;
         let counter = (self.now_ms / REPORT_MS) as u8;
         let stamp = Stamp { time_us: time_us as u32, counter };
-        let delay_ms = self.now_ms / REPORT_MS * 7 % 5 + 1;
         let frame = encode_stamped_report(&described.schema, stamp, &values).unwrap();
-        self.now_ms += delay_ms;
         self.feed(board, frame);
-        self.now_ms -= delay_ms;
     }
 
     /// Has a board tell its health; some of its devices are not well.
@@ -396,8 +395,7 @@ fn a_held_plot_stays_as_it_is() {
     // The cursor tells the value that was there.
     let _ = bench.press("c");
     let at = bench.state.view.cursor.unwrap();
-    // The report of that very moment was still on its way.
-    let made = at.as_secs_f64() - REPORT_MS as f64 / 1e3;
+    let made = at.as_secs_f64() - (at.as_millis() as u64 / REPORT_MS * 7 % 5 + 1) as f64 / 1e3;
     let expected = 0.5 + 0.5 * (TAU * made / 4.0).sin();
     let expected =
         format!("a Distance {:.1}", f64::from((300.0 + 2_700.0 * expected) as u16) / 10.0);
@@ -409,16 +407,19 @@ fn a_held_plot_stays_as_it_is() {
     assert!(bench.state.view.is_frozen() && now(&mut bench).contains("held, 10.0 s ago"));
     let _ = bench.press("«end»");
     assert!(!bench.state.view.is_frozen());
-    let labels = |bench: &mut Bench<'_>| -> Vec<f64> {
+    // How much a row of the axis is.
+    let row = |bench: &mut Bench<'_>| -> f64 {
         let text = bench.text(80, 24);
-        let all = text.lines().filter_map(|line| line.split_once('│')?.0.trim().parse().ok());
-        all.collect()
+        let all = text.lines().enumerate().filter_map(|(row, line)| {
+            Some((row as f64, line.split_once('│')?.0.trim().parse::<f64>().ok()?))
+        });
+        let all: Vec<(f64, f64)> = all.collect();
+        (all[0].1 - all[all.len() - 1].1) / (all[all.len() - 1].0 - all[0].0)
     };
-    let whole = labels(&mut bench);
+    let whole = row(&mut bench);
     let _ = bench.press(">");
-    let part = labels(&mut bench);
-    let size = |all: &[f64]| all[0] - all[all.len() - 1];
-    assert!((size(&whole) / size(&part) - 2.0).abs() < 0.05, "{whole:?} {part:?}");
+    let part = row(&mut bench);
+    assert!((whole / part - 2.0).abs() < 0.2, "{whole} {part}");
     let _ = bench.press("v");
     assert_eq!(bench.state.view.magnified, 0);
 }
