@@ -280,7 +280,7 @@ fn axis(buffer: &mut Buffer, area: Rect, (least, most): (f64, f64), look: Look) 
         let _ = put(buffer, area, (area.right() - 1, row), "│", look.of(Tone::Faint));
     }
     let rows = f64::from((area.height - 1).max(1));
-    let count = (area.height / 3).clamp(1, 5);
+    let count = (area.height / 2).clamp(1, 5);
     let step = step_of((most - least) / f64::from(count));
     let (first, last) = ((least / step - 1e-6).ceil(), (most / step + 1e-6).floor());
     let is_low = area.height < 5 || last <= first;
