@@ -114,6 +114,7 @@ fn heads(
         let x = put(buffer, area, (area.x, row), &name, look.of(Tone::Head));
         let x = x.max(area.x.saturating_add(u16::try_from(wide).unwrap_or(0))).saturating_add(1);
         let (text, tone) = match state.condition(index) {
+            _ if link.is_over => ("over".to_owned(), Tone::Faint),
             Condition::Asking => ("asking who it is".to_owned(), Tone::Warning),
             Condition::Online => ("online".to_owned(), Tone::Good),
             Condition::Offline(why) => (format!("OFFLINE: {}", visible(why)), Tone::Bad),

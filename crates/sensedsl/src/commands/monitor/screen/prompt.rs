@@ -340,3 +340,107 @@ fn units(own: &str) -> Vec<String> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sensedsl_host::Scale;
+    use sensedsl_wire::{Schema, ValueType};
+
+    fn board() -> Board {
+        let device = |id, name: &str, scalar, length| Device {
+            name: name.to_owned(),
+            id,
+            direction: Direction::Actuator,
+            value: ValueType { scalar, length },
+            kind: String::new(),
+            quantity: (scalar != ScalarType::Bool).then(|| "us".to_owned()),
+            scale: Scale::default(),
+            min: None,
+            max: Some(3_000.0),
+            cycle_ms: None,
+        };
+        let devices = vec![
+            device(1, "Winch", ScalarType::Uint16, None),
+            device(2, "Window", ScalarType::Bool, None),
+            device(3, "Pair", ScalarType::Uint16, Some(2)),
+        ];
+        let items = devices.iter().map(|one| sensedsl_wire::Item {
+            id: one.id,
+            name: one.name.clone(),
+            direction: one.direction,
+            value: one.value,
+        });
+        let schema = Schema { items: items.collect(), ..Schema::default() };
+        Board { name: "Crane".into(), schema, baud: None, silence_ms: None, devices }
+    }
+
+    /// Presses letters, and keys in angle brackets.
+    fn press(prompt: &mut Prompt, boards: &[&Board], keys: &[&'static str]) -> String {
+        for key in keys {
+            match key.strip_prefix('<').and_then(|key| key.strip_suffix('>')) {
+                Some(named) => prompt.press(Key::Named(named), boards),
+                None => key.chars().for_each(|letter| prompt.press(Key::Char(letter), boards)),
+            }
+        }
+        prompt.text()
+    }
+
+    #[test]
+    fn words_are_completed() {
+        let board = board();
+        let mut prompt = Prompt::default();
+        let mut line = |keys: &[&'static str]| {
+            prompt.begin("");
+            press(&mut prompt, &[&board], keys)
+        };
+        assert_eq!(line(&["w", "<tab>"]), "Win");
+        assert_eq!(line(&["w", "<tab>", "<tab>"]), "Winch");
+        assert_eq!(line(&["w", "<tab>", "<tab>", "<tab>"]), "Window");
+        assert_eq!(line(&["w", "<tab>", "<back-tab>"]), "Window");
+        assert_eq!(line(&["p", "<tab>", "7 8 ", "<tab>"]), "Pair 7 8 us");
+        assert_eq!(line(&["Winch 2 ", "m", "<tab>"]), "Winch 2 ms ");
+        assert_eq!(line(&["Window ", "f", "<tab>"]), "Window false ");
+        assert_eq!(line(&["zz", "<tab>"]), "zz");
+    }
+
+    #[test]
+    fn lines_are_changed_and_come_back() {
+        let board = board();
+        let mut prompt = Prompt::default();
+        for line in ["Winch 1", "Winch 2", "Winch 2"] {
+            prompt.begin(line);
+            prompt.finish();
+        }
+        let mut line = |keys: &[&'static str]| press(&mut prompt, &[&board], keys);
+        assert_eq!(line(&["Wi", "<up>"]), "Winch 2");
+        assert_eq!(line(&["<up>", "<up>"]), "Winch 1");
+        assert_eq!(line(&["<down>", "<down>"]), "Wi");
+        assert_eq!(line(&["nch 77", "<left>", "<backspace>", "<home>", "<delete>"]), "inch 7");
+        assert_eq!(line(&["<end>", "<ctrl-w>", "<ctrl-w>"]), "");
+        prompt.paste("  Winch \u{1b}[2J5\nWinch 6");
+        assert!(!prompt.text().contains(char::is_control) && prompt.text().starts_with("Winch "));
+        prompt.begin("");
+        prompt.paste(&"x".repeat(9_000));
+        assert_eq!(prompt.text().len(), LINE_MAX);
+    }
+
+    #[test]
+    fn it_says_what_a_line_would_do() {
+        let board = board();
+        let mut prompt = Prompt::default();
+        let mut check = |line: &str| {
+            prompt.begin(line);
+            match prompt.check(&[&board]) {
+                Check::Sends { name, text, told } => format!("{name}|{text}|{told}"),
+                Check::Wrong(text) | Check::Hint(text) => text,
+            }
+        };
+        assert_eq!(check("Winch=1.5 ms"), "Crane/Winch|1.5 ms|Enter sends 1500 (1500 us)");
+        assert_eq!(check("winch"), "Winch: 3000 us or less");
+        assert_eq!(check("Winch 4000"), "4000 us is above the maximum of 3000");
+        assert_eq!(check("Pair 1"), "1 of 2 values; Pair: 2 values, each 3000 us or less");
+        assert_eq!(check("Wintch 1"), "the board has no actuator `Wintch`, did you mean `Winch`?");
+        assert_eq!(check(""), "an actuator and its value; Tab completes");
+    }
+}

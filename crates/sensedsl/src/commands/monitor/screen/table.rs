@@ -261,7 +261,7 @@ fn times(cells: &mut BTreeMap<Column, Cell>, stats: &DeviceStats, now: Duration)
 /// What is wrong with a device: what counts now comes first.
 fn condition(item: &Item<'_>, link: &Link<'_>, is_there: bool, now: Duration) -> Cell {
     let is_sensor = item.device.direction == Direction::Sensor;
-    if is_there && is_sensor && link.session.is_overdue(item.index, now) {
+    if is_there && is_sensor && !link.is_over && link.session.is_overdue(item.index, now) {
         return ("overdue".to_owned(), Tone::Bad);
     }
     let health = link
