@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use anyhow::Result;
-use sensedsl_host::{Board, Device, Moment, News, What};
+use sensedsl_host::{Board, Device, DeviceStats, Moment, News, What};
 use sensedsl_record::text::{CSV_HEAD, object, rows};
 use sensedsl_wire::{Direction, Scalar, Stamp};
 
@@ -141,7 +141,7 @@ fn board_table(link: &Link<'_>, now: Duration) -> String {
 }
 
 fn cells(link: &Link<'_>, index: usize, device: &Device, now: Duration) -> [String; 5] {
-    let count = link.stats.get(index).map_or(0, |stats| stats.count()).to_string();
+    let count = link.stats.get(index).map_or(0, DeviceStats::count).to_string();
     let Some((at, value)) = link.latest.get(index).and_then(Option::as_ref) else {
         let none = match device.direction {
             Direction::Sensor => "-",

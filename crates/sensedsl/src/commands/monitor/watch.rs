@@ -404,7 +404,7 @@ impl<'a> Watch<'a> {
             for wish in output.close(now) {
                 match wish {
                     Wish::Trouble { what, help } => {
-                        self.terminal.aside(&format!("{what}; {help}"))?
+                        self.terminal.aside(&format!("{what}; {help}"))?;
                     }
                     Wish::Note(text) => self.terminal.aside(&text)?,
                     Wish::Set { .. } => {}

@@ -70,10 +70,7 @@ pub(super) fn draw(
 
 fn rows(state: &State<'_>, all: Rect) -> Rows {
     let height = all.height;
-    let foot = match state.mode {
-        Mode::Prompt if height >= 4 => 2,
-        _ => 1,
-    };
+    let foot = if state.mode == Mode::Prompt && height >= 4 { 2 } else { 1 };
     let boards = u16::try_from(state.boards.len()).unwrap_or(u16::MAX);
     let heads = if height >= 4 { boards.min((height / 5).max(1)) } else { 0 };
     let rest = height.saturating_sub(foot + heads);

@@ -90,14 +90,16 @@ impl<'a> Screen<'a> {
                 }
             };
             self.is_pressed = true;
-            match pressed {
+            match &pressed {
                 Pressed::Key(Key::Named("ctrl-z")) => self.pause()?,
                 Pressed::Key(Key::Named("ctrl-l")) => {
                     if let Some(guard) = &mut self.guard {
                         guard.renew()?;
                     }
                 }
-                pressed => asks.extend(self.state.press(&pressed)),
+                Pressed::Key(_) | Pressed::Text(_) | Pressed::Resized => {
+                    asks.extend(self.state.press(&pressed));
+                }
             }
         }
     }

@@ -18,16 +18,18 @@ const DOTS: [(u8, u8); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0,
 /// The look of some cells: colour, background, whether bold, whether faint.
 type Ink = (&'static str, Option<&'static str>, bool, bool);
 
+/// What a terminal makes of its colours.
+const COLOURS: [(Color, &str); 6] = [
+    (Color::Red, "#f47067"),
+    (Color::Green, "#6bc46d"),
+    (Color::Yellow, "#daaa3f"),
+    (Color::Blue, "#6cb6ff"),
+    (Color::Magenta, "#dcbdfb"),
+    (Color::Cyan, "#56d4dd"),
+];
+
 fn colour(colour: Color) -> &'static str {
-    match colour {
-        Color::Red => "#f47067",
-        Color::Green => "#6bc46d",
-        Color::Yellow => "#daaa3f",
-        Color::Blue => "#6cb6ff",
-        Color::Magenta => "#dcbdfb",
-        Color::Cyan => "#56d4dd",
-        _ => INK,
-    }
+    COLOURS.iter().find(|(one, _)| *one == colour).map_or(INK, |(_, value)| value)
 }
 
 fn ink(cell: &Cell) -> Ink {

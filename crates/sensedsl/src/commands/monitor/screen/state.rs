@@ -415,13 +415,13 @@ impl<'a> State<'a> {
             None if text.is_empty() => self.write(""),
             None => {
                 self.told =
-                    Some("choose an actuator to set it, or press : and write its name".into())
+                    Some("choose an actuator to set it, or press : and write its name".into());
             }
         }
     }
 
     fn slide(&mut self, letter: char) -> Option<Ask> {
-        let Some(slide) = Slide::of(letter) else { return None };
+        let slide = Slide::of(letter)?;
         let Some((index, item)) = self.actuator() else {
             self.told = Some("choose an actuator: brackets and 0 set it".to_owned());
             return None;

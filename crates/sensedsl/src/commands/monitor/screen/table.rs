@@ -187,9 +187,10 @@ fn draw_row(
     }
     let mut x = MARKS;
     for (column, wide) in columns {
-        let (text, tone) = match column {
-            Column::Trend => (trend(state, item, *wide, state.now), Tone::Plain),
-            _ => cells.get(column).cloned().unwrap_or((String::new(), Tone::Plain)),
+        let (text, tone) = if *column == Column::Trend {
+            (trend(state, item, *wide, state.now), Tone::Plain)
+        } else {
+            cells.get(column).cloned().unwrap_or((String::new(), Tone::Plain))
         };
         cell(buffer, area, (x, *column, *wide), &text, look.of(tone));
         x += wide + 1;
@@ -315,11 +316,9 @@ fn fit(widths: &BTreeMap<Column, usize>, window: usize) -> Vec<(Column, usize)> 
     for column in ORDER {
         let Some(wide) = widths.get(&column) else { continue };
         // Of the first two something is seen in any window.
-        let wide = match column {
-            Column::Device => (*wide).min(left / 2),
-            Column::Value => (*wide).min(left),
-            _ => *wide,
-        };
+        let most = if column == Column::Device { left / 2 } else { left };
+        let is_first = column <= Column::Value;
+        let wide = if is_first { (*wide).min(most) } else { *wide };
         if wide > 0 && wide <= left {
             columns.push((column, wide));
             left = left.saturating_sub(wide + 1);

@@ -161,7 +161,10 @@ impl<'a> Bench<'a> {
                     self.state.notes.say(at.run, text);
                     continue;
                 }
-                _ => continue,
+                Happening::Received(bytes) => What::Received(bytes),
+                Happening::Sent(bytes) => What::Sent(bytes),
+                Happening::Health(health) => What::Health(health),
+                Happening::Other(..) | Happening::Opened | Happening::Ended { .. } => continue,
             };
             self.state.hear(&News { board, at, what });
         }
@@ -290,10 +293,13 @@ impl<'a> Bench<'a> {
 }
 
 fn raw(device: &Device, share: f64) -> Scalar {
-    match device.value.scalar {
-        ScalarType::Bool => Scalar::Bool(share > 0.5),
-        ScalarType::Uint16 => Scalar::Unsigned((300.0 + 2_700.0 * share) as u64),
-        _ => Scalar::Signed((2_000.0 * share) as i64 - 200),
+    let scalar = device.value.scalar;
+    if scalar == ScalarType::Bool {
+        Scalar::Bool(share > 0.5)
+    } else if scalar == ScalarType::Uint16 {
+        Scalar::Unsigned((300.0 + 2_700.0 * share) as u64)
+    } else {
+        Scalar::Signed((2_000.0 * share) as i64 - 200)
     }
 }
 
