@@ -9,12 +9,10 @@ use super::record::Recording;
 use super::subject::Subject;
 use crate::cli::MonitorArgs;
 use crate::files::Refused;
-use crate::terminal::Terminal;
 
 /// All outputs of a run.
 pub(super) fn outputs(
     args: &MonitorArgs,
-    terminal: &Terminal,
     subject: &Subject,
     links: &[Link<'_>],
     begin: Moment,
@@ -31,7 +29,7 @@ pub(super) fn outputs(
     }
     #[cfg(unix)]
     if args.pty {
-        outputs.extend(super::pty::of_boards(&boards, terminal)?);
+        outputs.extend(super::pty::of_boards(&boards)?);
     }
     Ok(outputs)
 }
