@@ -24,12 +24,19 @@ pub(crate) struct MonitorArgs {
     /// The port of one of several boards: --at Left=/dev/ttyACM0 --at Right=/dev/ttyACM1
     #[arg(long, value_name = "NAME=DEVICE", value_parser = assignment, conflicts_with = "device")]
     pub(crate) at: Vec<(String, String)>,
-    /// How to print values; a table where people see it, otherwise lines
+    /// How to show values; a screen where people see it, otherwise lines
     #[arg(long, value_enum)]
     pub(crate) format: Option<MonitorFormat>,
+    /// With `simulate`: what its sensors measure, as for the command of that name: a text (TOML), or
+    /// a recorded run (`.mcap`)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "replay"])]
+    pub(crate) world: Option<PathBuf>,
     /// Write the run down in a new file that monitor, convert, and all programs for MCAP read
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
+    /// Print at the end how many values came, how regularly, how late, and within what limits
+    #[arg(long)]
+    pub(crate) summary: bool,
     /// Play a record again
     #[arg(long, value_name = "RECORD", conflicts_with_all = ["device", "at", "baud", "set"])]
     pub(crate) replay: Option<PathBuf>,
@@ -62,7 +69,7 @@ pub(crate) struct MonitorArgs {
 /// How values are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MonitorFormat {
-    /// The latest value of each device, refreshed in place
+    /// On a terminal a screen with plots and commands; elsewhere the last values, at the end
     Table,
     /// A line a value, for people
     Lines,

@@ -2,8 +2,8 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
-//! prints (`show.rs`), and outputs (`outputs.rs`), such as a
-//! record (`record.rs`), which `replay.rs` plays again. Whether a board is the one that is meant decides `sensedsl_host::Session`.
+//! prints (`show.rs`) or has the whole terminal (`screen`), and outputs (`outputs.rs`), such as a record (`record.rs`),
+//! which `replay.rs` plays again. Whether a board is the one that is meant decides `sensedsl_host::Session`.
 
 mod face;
 mod find;
@@ -13,6 +13,7 @@ mod outputs;
 mod pty;
 mod record;
 mod replay;
+mod screen;
 mod show;
 mod source;
 mod subject;
@@ -35,13 +36,11 @@ use face::Face;
 use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
-use show::Printer;
+use screen::Screen;
+use show::{Printer, format};
 use source::Source;
 use subject::Subject;
 use watch::Watch;
-
-/// The rate of a link of which nobody says one.
-const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     if let Some(path) = args.record_file() {
@@ -52,6 +51,9 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
         return subject::simulated(args, file, terminal, |subject, found| {
             watch(args, terminal, subject, found, None)
         });
+    }
+    if args.world.is_some() {
+        bail!("`--world` is for a simulated board: `sensedsl monitor simulate FILE --world …`");
     }
     let subject = subject::read(args, file, terminal)?;
     let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
@@ -142,10 +144,18 @@ fn named<'s>(
     }
 }
 
-/// How values are shown.
-fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
-    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
-    args.format.unwrap_or(usual)
+/// What people see: a screen where they see it as it is written, otherwise printed values.
+fn face<'a>(args: &MonitorArgs, terminal: &'a Terminal, links: &[Link<'a>]) -> Box<dyn Face + 'a> {
+    let mut format = format(args, terminal);
+    if format == MonitorFormat::Table && terminal.is_watched() {
+        let boards = links.iter().map(|link| link.board).collect();
+        match terminal.has_pages().then(|| Screen::open(terminal, boards)) {
+            Some(Ok(screen)) => return Box::new(screen),
+            // Nobody can press keys: values are seen as they come.
+            Some(Err(_)) | None => format = MonitorFormat::Lines,
+        }
+    }
+    Box::new(Printer::new(args, terminal, format))
 }
 
 /// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
@@ -180,10 +190,14 @@ fn watch(
     found: Found<'_>,
     replay: Option<Replay>,
 ) -> Result<Status> {
-    let links: Vec<Link<'_>> =
+    let mut links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
-    let begin = replay.as_ref().map(|replay| replay.begin);
-    let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
-    let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
-    Watch::new(args, terminal, subject, links, face, outputs, replay).run()
+    if links.len() > 1 {
+        links.iter_mut().for_each(Link::name_board);
+    }
+    let face = face(args, terminal, &links);
+    if face.has_terminal() && args.health.is_none() {
+        links.iter_mut().for_each(Link::show_health);
+    }
+    Watch::new(args, terminal, subject, links, face, replay).run()
 }

@@ -10,15 +10,18 @@ use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
 use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
 use sensedsl_record::Ending;
+use sensedsl_record::summary::Summing;
 use sensedsl_wire::Direction;
 
 use super::face::{Ask, Face};
 use super::link::{Happening, Link};
+use super::outputs::outputs;
 use super::replay::Replay;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
-use crate::cli::MonitorArgs;
-use crate::commands::deadline::interruption;
+use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::commands::convert::text;
+use crate::commands::deadline::ending;
 use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -45,6 +48,7 @@ pub(super) struct Watch<'a> {
     began_unix: Duration,
     looked: Option<Instant>,
     status: Option<Status>,
+    summing: Option<Summing<'a>>,
     replay: Option<Replay>,
     /// Where a record that is played has got to.
     past: Option<Moment>,
@@ -57,7 +61,6 @@ impl<'a> Watch<'a> {
         subject: &'a Subject,
         links: Vec<Link<'a>>,
         face: Box<dyn Face + 'a>,
-        outputs: Vec<Box<dyn Output>>,
         replay: Option<Replay>,
     ) -> Self {
         let (to_loop, heard) = sync_channel(WAITING_MAX);
@@ -67,13 +70,14 @@ impl<'a> Watch<'a> {
             subject,
             links,
             face,
-            outputs,
+            outputs: Vec::new(),
             to_loop,
             heard,
             began: Instant::now(),
             began_unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
             looked: None,
             status: None,
+            summing: None,
             past: replay.as_ref().map(|replay| replay.begin),
             replay,
         }
@@ -84,12 +88,23 @@ impl<'a> Watch<'a> {
         Moment { run, unix: self.began_unix + run }
     }
 
+    /// When it began, to all that are told: values are as old in a record as on the screen.
+    fn begin(&self) -> Moment {
+        let live = Moment { run: Duration::ZERO, unix: self.began_unix };
+        self.replay.as_ref().map_or(live, |replay| replay.begin)
+    }
+
     fn now(&self) -> Moment {
         self.past.unwrap_or_else(|| self.moment(Instant::now()))
     }
 
     /// Watches until it is stopped, all recordings are over, or a board turns out to be another one.
     pub(super) fn run(mut self) -> Result<Status> {
+        let begin = self.begin();
+        if self.args.summary {
+            self.summing = Some(Summing::new(self.links.iter().map(|link| link.board), begin));
+        }
+        self.outputs = outputs(self.args, self.subject, &self.links, begin)?;
         for (name, text) in &self.args.set {
             self.prepare(name, text)?;
         }
@@ -99,7 +114,7 @@ impl<'a> Watch<'a> {
         if let Some(replay) = self.replay.take() {
             replay.play(self.args.speed, self.to_loop.clone());
         }
-        let stop = interruption()?;
+        let stop = ending(self.face.has_terminal())?;
         self.listen();
         let result = self.turns(&stop);
         // The terminal is given back whatever happened.
@@ -196,10 +211,10 @@ impl<'a> Watch<'a> {
 
     fn past_over(&mut self, end: Result<Ending, String>) -> Result<()> {
         match end {
-            Ok(Ending::Whole) => self.status = Some(Status::Done),
+            Ok(Ending::Whole) => self.over()?,
             Ok(Ending::Cut) => {
-                self.status = Some(Status::Done);
                 self.face.say("the record was cut off: this is all up to its last whole chunk")?;
+                self.over()?;
             }
             Err(why) => {
                 let at = self.args.record_file().unwrap_or(Path::new(""));
@@ -250,13 +265,16 @@ impl<'a> Watch<'a> {
                     continue;
                 }
                 Happening::Ended { is_lost } => {
-                    self.ended(*is_lost);
+                    self.ended(*is_lost)?;
                     continue;
                 }
             };
             let news = News { board: index, at, what };
             self.face.take(&news, &self.links)?;
             self.outputs.iter_mut().for_each(|output| output.take(&news));
+            if let Some(summing) = &mut self.summing {
+                summing.take(&news);
+            }
         }
         Ok(())
     }
@@ -272,12 +290,22 @@ impl<'a> Watch<'a> {
         Ok(())
     }
 
-    fn ended(&mut self, is_lost: bool) {
+    fn ended(&mut self, is_lost: bool) -> Result<()> {
         if is_lost {
             self.status = Some(Status::Wrong);
         } else if self.links.iter().all(|link| link.is_over) {
-            self.status = Some(Status::Done);
+            self.over()?;
         }
+        Ok(())
+    }
+
+    /// Nothing more comes: what is on a screen stays until people have seen it.
+    fn over(&mut self) -> Result<()> {
+        if self.face.has_terminal() {
+            return self.face.say("that is the end of the recording; q ends");
+        }
+        self.status = Some(Status::Done);
+        Ok(())
     }
 
     fn grant(&mut self, wishes: Vec<Wish>) -> Result<()> {
@@ -355,7 +383,8 @@ impl<'a> Watch<'a> {
         let is_taken = self.args.device.as_deref() == Some("-");
         let all = self.links.iter().flat_map(|link| &link.board.devices);
         let has_actuators = all.into_iter().any(|one| one.direction == Direction::Actuator);
-        if is_taken || !has_actuators || self.is_screen() {
+        let is_table = self.args.format == Some(MonitorFormat::Table);
+        if is_taken || !has_actuators || is_table || self.face.has_terminal() {
             return;
         }
         let to_loop = self.to_loop.clone();
@@ -369,22 +398,24 @@ impl<'a> Watch<'a> {
         });
     }
 
-    fn is_screen(&self) -> bool {
-        super::format(self.args, self.terminal) == crate::cli::MonitorFormat::Table
-    }
-
     /// Closes the outputs and prints the counts.
     fn finish(&mut self, now: Moment) -> Result<()> {
         for output in &mut self.outputs {
             for wish in output.close(now) {
                 match wish {
                     Wish::Trouble { what, help } => {
-                        self.terminal.aside(&format!("{what}; {help}"))?
+                        self.terminal.aside(&format!("{what}; {help}"))?;
                     }
                     Wish::Note(text) => self.terminal.aside(&text)?,
                     Wish::Set { .. } => {}
                 }
             }
+        }
+        if let Some(summing) = self.summing.take() {
+            for line in text(&summing.done()).lines() {
+                self.terminal.aside(line)?;
+            }
+            return Ok(());
         }
         for link in &self.links {
             let counts = link.counts();

@@ -42,6 +42,9 @@ const ASK_NS: u64 = 500 * MS;
 const SHELL: &[u8] = b"ch> ";
 /// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
+/// How long the loop waits for the other side, in real time.
+#[cfg(unix)]
+const STEP: Duration = Duration::from_millis(1);
 /// The time that the board has to report its health.
 const HEALTH_NS: u64 = 500 * MS;
 
@@ -148,8 +151,11 @@ impl<'a> Session<'a> {
 
     /// The length of the run in virtual time; `None` if it lasts until it is stopped.
     fn end_ns(&self, usual: Option<f64>) -> Option<u64> {
-        let seconds = self.scenery.args.seconds.or(usual)?;
-        Some(Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX))
+        let nanoseconds = |seconds: f64| {
+            Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX)
+        };
+        let asked = self.scenery.args.seconds.map(nanoseconds);
+        asked.or_else(|| self.scenery.lasts_ns.or(Some(nanoseconds(usual?))))
     }
 
     /// Runs for a millisecond. Returns the bytes that the host receives.
@@ -296,9 +302,9 @@ impl<'a> Session<'a> {
         let (began, mut shown) = (Instant::now(), Instant::now());
         while !stop.load(Ordering::Relaxed) && end_ns.is_none_or(|end| self.now_ns < end) {
             let is_connected = match &pty {
-                Some(pty) => pty.wait(Duration::from_millis(2)),
+                Some(pty) => pty.wait(STEP),
                 None => {
-                    std::thread::sleep(Duration::from_millis(2));
+                    std::thread::sleep(STEP);
                     false
                 }
             };
