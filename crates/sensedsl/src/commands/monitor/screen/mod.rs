@@ -40,10 +40,12 @@ use keys::{Key, Pressed};
 use state::State;
 use style::Look;
 
-/// The time between two pictures: after a key, while plots go on, and otherwise.
-const AFTER_KEY: Duration = Duration::from_millis(30);
-const WITH_PLOTS: Duration = Duration::from_millis(50);
+/// The least time between two pictures, and the usual one of a table.
+const PAUSE_MIN: Duration = Duration::from_millis(50);
 const USUAL: Duration = Duration::from_millis(100);
+/// Plots are drawn so often while the time goes by that they show: what moves less than a dot is not seen.
+const STEPS: u32 = 200;
+const WITH_PLOTS_MAX: Duration = Duration::from_millis(500);
 /// How many keys wait for the next look.
 const PRESSED_MAX: usize = 256;
 
@@ -119,8 +121,14 @@ impl<'a> Screen<'a> {
     }
 
     fn is_due(&mut self) -> bool {
-        let plots = if self.state.plotted.is_empty() { USUAL } else { WITH_PLOTS };
-        let pause = if self.is_pressed { AFTER_KEY.max(WITH_PLOTS) } else { plots };
+        let step = self.state.view.span() / STEPS;
+        let pause = match (self.is_pressed, self.state.plotted.is_empty(), self.state.is_large) {
+            (true, ..) => PAUSE_MIN,
+            (false, true, _) => USUAL,
+            // The table beside them goes on as usual.
+            (false, false, false) => step.clamp(PAUSE_MIN, USUAL),
+            (false, false, true) => step.clamp(PAUSE_MIN, WITH_PLOTS_MAX),
+        };
         let is_due = self.drawn.is_none_or(|drawn| drawn.elapsed() >= pause);
         if is_due {
             (self.drawn, self.is_pressed) = (Some(Instant::now()), false);

@@ -237,6 +237,8 @@ fn magnified(state: &State<'_>, lines: &[Line], (least, most): (f64, f64)) -> (f
         });
     let middle = at.map_or((least + most) / 2.0, |at| at.last);
     let half = (most - least) / 2.0 / f64::from(2_u32.pow(state.view.magnified.into()));
+    // It stays where it is as long as the value does not go far.
+    let middle = (middle / half * 2.0).round() * half / 2.0;
     (middle - half, middle + half)
 }
 

@@ -188,7 +188,8 @@ fn draw_row(
     let mut x = MARKS;
     for (column, wide) in columns {
         let (text, tone) = if *column == Column::Trend {
-            (trend(state, item, *wide, state.now), Tone::Plain)
+            let slider = slider(state, place, *wide).map(|text| (text, Tone::Actuator));
+            slider.unwrap_or_else(|| (trend(state, item, *wide, state.now), Tone::Plain))
         } else {
             cells.get(column).cloned().unwrap_or((String::new(), Tone::Plain))
         };
@@ -330,6 +331,23 @@ fn fit(widths: &BTreeMap<Column, usize>, window: usize) -> Vec<(Column, usize)> 
         *wide += more.min(TREND_MAX - TREND_MIN);
     }
     columns
+}
+
+/// Where an actuator's value is between its limits; none without limits, and for several values.
+fn slider(state: &State<'_>, place: usize, wide: usize) -> Option<String> {
+    let device = state.items.get(place).map(|item| item.device)?;
+    let (least, most) = device.min.zip(device.max).filter(|(least, most)| least < most)?;
+    if device.direction != Direction::Actuator || device.value.length.is_some() || wide < 3 {
+        return None;
+    }
+    let inner = wide - 2;
+    let value = state.last(place).and_then(|value| value.first()).map(|raw| device.shown(*raw));
+    let knob = value.map(|value| {
+        let share = ((value - least) / (most - least)).clamp(0.0, 1.0);
+        (share * (inner - 1) as f64).round() as usize
+    });
+    let bar: String = (0..inner).map(|at| if Some(at) == knob { '●' } else { '─' }).collect();
+    Some(format!("├{bar}┤"))
 }
 
 /// A small picture of the last seconds, whose scale is that of its own values.
