@@ -376,16 +376,20 @@ fn time_axis(buffer: &mut Buffer, area: Rect, state: &State<'_>, now: Duration, 
         (true, _) => end.checked_sub(back).map_or_else(String::new, precise),
     };
     let steps: u32 = if area.width >= 60 { 4 } else { 2 };
-    // What is told stands where the second label would.
-    for step in (0..=steps).filter(|step| *step != 1 || told.is_empty()) {
+    let place = area.x + area.width / 8;
+    let beyond = place.saturating_add(u16::try_from(width(&told)).unwrap_or(0));
+    for step in 0..=steps {
         let label = text(span * (steps - step) / steps);
         let wide = u16::try_from(width(&label)).unwrap_or(0);
         let centre = (u32::from(area.width) * step / steps) as u16;
         let x = area.x + centre.saturating_sub(wide / 2).min(area.width.saturating_sub(wide));
-        let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
+        // What is told stands in the place of labels.
+        if told.is_empty() || x + wide < place || x > beyond {
+            let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
+        }
     }
     let style = look.of(Tone::Warning).add_modifier(Modifier::REVERSED);
-    let _ = put(buffer, area, (area.x + area.width / 8, area.y), &told, style);
+    let _ = put(buffer, area, (place, area.y), &told, style);
 }
 
 /// How the plots are not as usual.
