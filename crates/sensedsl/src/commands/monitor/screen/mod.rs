@@ -81,7 +81,8 @@ impl<'a> Screen<'a> {
     /// Takes what was pressed since the last look.
     fn take_keys(&mut self) -> Result<Vec<Ask>> {
         let mut asks = Vec::new();
-        loop {
+        // What is pressed next may depend on what becomes of the first thing that is asked for.
+        while asks.is_empty() {
             let pressed = match self.pressed.try_recv() {
                 Ok(pressed) => pressed,
                 Err(TryRecvError::Empty) => return Ok(asks),
@@ -104,6 +105,7 @@ impl<'a> Screen<'a> {
                 }
             }
         }
+        Ok(asks)
     }
 
     /// Lets the shell have the terminal until the program goes on.

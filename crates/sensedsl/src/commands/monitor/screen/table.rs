@@ -16,7 +16,7 @@ use super::super::link::Link;
 use super::state::{Item, State};
 use super::style::{Look, Tone};
 use super::traces::micros;
-use super::words::{age, cut, number, put, rate, short, width};
+use super::words::{age, cut, number, put, rate, short, short_value, width};
 
 /// The columns before the names: the letter in the plots, and an arrow for actuators.
 const MARKS: usize = 3;
@@ -111,8 +111,10 @@ pub(super) fn draw(
     let page = usize::from(area.height - 1).max(1);
     state.scroll(page);
     let seen: Vec<usize> = state.shown.iter().skip(state.top).take(page).copied().collect();
+    // A long array is no reason to leave out everything else.
+    let room = (usize::from(area.width) * 2 / 7).clamp(Column::Value.bounds().0, VALUE_MAX);
     let rows: Vec<BTreeMap<Column, Cell>> =
-        seen.iter().map(|place| cells(state, *place, links, now)).collect();
+        seen.iter().map(|place| cells(state, *place, links, (now, room))).collect();
     let columns = fit(&widths(state, &rows), usize::from(area.width));
     head(buffer, area, &columns, state, look);
     for (row, (place, cells)) in (area.y + 1..area.bottom()).zip(seen.iter().zip(&rows)) {
@@ -210,7 +212,7 @@ fn cells(
     state: &State<'_>,
     place: usize,
     links: &[Link<'_>],
-    now: Duration,
+    (now, room): (Duration, usize),
 ) -> BTreeMap<Column, Cell> {
     let mut cells = BTreeMap::new();
     let Some(item) = state.items.get(place) else { return cells };
@@ -222,7 +224,7 @@ fn cells(
     let latest = link.latest.get(item.index).and_then(Option::as_ref);
     let value = match latest {
         Some((_, value)) => {
-            let shown = visible(&item.device.brief(value)).into_owned();
+            let shown = visible(&short_value(item.device, value, room)).into_owned();
             (shown, if is_there || !is_sensor { Tone::Plain } else { Tone::Faint })
         }
         None => ((if is_sensor { "-" } else { "not set" }).to_owned(), Tone::Faint),
