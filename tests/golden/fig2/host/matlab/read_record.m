@@ -24,6 +24,10 @@ function [run, link] = read_record(file)
 %
 % Copied, not generated. For MATLAB from R2016b on and Octave from 7 on, without a toolbox.
 
+if nargin < 1
+    help read_record
+    return;
+end
 from = fopen(file, 'r');
 if from < 0
     error('sensedsl:open', '%s cannot be opened', file);
@@ -147,21 +151,21 @@ for place = 1:numel(found.channels)
     count = found.counts(place);
     % Of two whole numbers, so that no nanosecond is lost before the difference.
     t = double(found.times{place}(1:count) - found.begin_ns)' / 1e9;
-    messages = decoded(found.texts{place}(1:count));
+    texts = found.texts{place}(1:count);
     if strcmp(name, 'link/health') || strcmp(name, 'link/events')
-        link.(board).(name(6:end)) = with_times(messages, t);
+        link.(board).(name(6:end)) = with_times(decoded(texts), t);
     elseif ~isempty(channel.type)
         key = field(name);
         while isfield(run, board) && isfield(run.(board), key)
             key = [key, '_']; %#ok<AGROW>
         end
-        run.(board).(key) = device(channel, name, t, messages, found.texts{place}(1:count));
+        run.(board).(key) = device(channel, name, t, texts);
     end
 end
 end
 
 function messages = decoded(texts)
-% All texts are decoded at once, which is much quicker than one by one. Gives a cell for each.
+% A cell for each text.
 if isempty(texts)
     messages = {};
     return;
@@ -189,27 +193,28 @@ for n = 1:numel(names)
 end
 end
 
-function one = device(channel, name, t, messages, texts)
+function one = device(channel, name, t, texts)
 [kind, count] = parts(channel.type);
-one = struct('t', t, 'value', matrix(messages, 'value', count), 'raw', [], 'unit', channel.unit);
+one = struct('t', t, 'value', numbers(texts, 'value', count), 'raw', [], 'unit', channel.unit);
 one.name = name;
 one.type = channel.type;
 one.direction = channel.direction;
-if any(strcmp(kind, {'int64', 'uint64'}))
-    one.raw = whole_numbers(texts, count, kind);
-elseif strcmp(kind, 'bool')
-    one.raw = matrix(messages, 'raw', count) ~= 0;
-    one.value = one.value ~= 0;
-elseif strcmp(kind, 'float32')
-    one.raw = single(matrix(messages, 'raw', count));
-elseif strcmp(kind, 'float64')
-    one.raw = matrix(messages, 'raw', count);
-else
-    one.raw = feval(kind, matrix(messages, 'raw', count));
+switch kind
+    case {'int64', 'uint64'}
+        one.raw = whole_numbers(texts, count, kind);
+    case 'bool'
+        one.raw = numbers(texts, 'raw', count) ~= 0;
+        one.value = one.value ~= 0;
+    case 'float32'
+        one.raw = single(numbers(texts, 'raw', count));
+    case 'float64'
+        one.raw = numbers(texts, 'raw', count);
+    otherwise
+        one.raw = feval(kind, numbers(texts, 'raw', count));
 end
-if ~isempty(messages) && isfield(messages{1}, 'stamp_us')
-    one.stamp_us = uint32(matrix(messages, 'stamp_us', 1));
-    one.counter = uint8(matrix(messages, 'counter', 1));
+if ~isempty(texts) && ~isempty(strfind(texts{1}, '"stamp_us":'))
+    one.stamp_us = uint32(numbers(texts, 'stamp_us', 1));
+    one.counter = uint8(numbers(texts, 'counter', 1));
 end
 end
 
@@ -225,23 +230,26 @@ else
 end
 end
 
-function all = matrix(messages, name, count)
-% A row for each message. What is no number is null in the record, and NaN here.
-all = NaN(numel(messages), count);
-for i = 1:numel(messages)
-    row = messages{i}.(name);
-    if ~isempty(row)
-        all(i, :) = row;
-    end
+function list = cells(texts, name)
+% The text of a field in each message, without brackets: `1,2,3`.
+found = regexp(texts, ['"', name, '":\[?([^\]}"]*)'], 'tokens', 'once');
+list = cellfun(@(one) one{1}, found, 'UniformOutput', false);
 end
+
+function all = numbers(texts, name, count)
+% A row for each message. Not by jsondecode, which is not exact to the last digit in Octave. What is no number is null
+% in the record, and NaN here.
+list = strrep(strrep(strrep(cells(texts, name), 'null', 'NaN'), 'true', '1'), 'false', '0');
+all = sscanf(strrep(strjoin(list, ' '), ',', ' '), '%f');
+all = reshape(all, count, numel(texts))';
 end
 
 function all = whole_numbers(texts, count, kind)
-% 64 bits are more than a double has, and so more than jsondecode gives.
+% 64 bits are more than a double has.
 all = zeros(numel(texts), count, kind);
+list = cells(texts, 'raw');
 for i = 1:numel(texts)
-    raw = regexp(texts{i}, '"raw":\[?([-0-9,]*)', 'tokens', 'once');
-    digits = strsplit(raw{1}, ',');
+    digits = strsplit(list{i}, ',');
     for k = 1:count
         is_negative = digits{k}(1) == '-';
         element = zeros(1, 1, kind);
