@@ -72,7 +72,7 @@ impl<'a> Screen<'a> {
             guard: Some(guard),
             state: State::new(boards),
             pressed: listen(),
-            look: Look { has_colours: terminal.colour() },
+            look: Look { has_colours: terminal.colour(), has_shapes: terminal.has_shapes() },
             drawn: None,
             is_pressed: false,
         })

@@ -30,6 +30,8 @@ const TREND_MIN: usize = 10;
 /// What each column of a trend is of.
 const TREND_US: u64 = 1_000_000;
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// The same where there are no bars.
+const PLAIN_LEVELS: [&str; 8] = ["_", ".", "-", "=", "+", "*", "#", "@"];
 
 /// What a column tells. They stand in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -190,8 +192,8 @@ fn draw_row(
     let mut x = MARKS;
     for (column, wide) in columns {
         let (text, tone) = if *column == Column::Trend {
-            let slider = slider(state, place, *wide).map(|text| (text, Tone::Actuator));
-            slider.unwrap_or_else(|| (trend(state, item, *wide, state.now), Tone::Plain))
+            let slider = slider(state, place, *wide, look).map(|text| (text, Tone::Actuator));
+            slider.unwrap_or_else(|| (trend(state, item, *wide, look), Tone::Plain))
         } else {
             cells.get(column).cloned().unwrap_or((String::new(), Tone::Plain))
         };
@@ -336,7 +338,7 @@ fn fit(widths: &BTreeMap<Column, usize>, window: usize) -> Vec<(Column, usize)> 
 }
 
 /// Where an actuator's value is between its limits; none without limits, and for several values.
-fn slider(state: &State<'_>, place: usize, wide: usize) -> Option<String> {
+fn slider(state: &State<'_>, place: usize, wide: usize, look: Look) -> Option<String> {
     let device = state.items.get(place).map(|item| item.device)?;
     let (least, most) = device.min.zip(device.max).filter(|(least, most)| least < most)?;
     if device.direction != Direction::Actuator || device.value.length.is_some() || wide < 3 {
@@ -348,16 +350,19 @@ fn slider(state: &State<'_>, place: usize, wide: usize) -> Option<String> {
         let share = ((value - least) / (most - least)).clamp(0.0, 1.0);
         (share * (inner - 1) as f64).round() as usize
     });
-    let bar: String = (0..inner).map(|at| if Some(at) == knob { '●' } else { '─' }).collect();
-    Some(format!("├{bar}┤"))
+    let [end, bar, at_value, other_end] =
+        if look.has_shapes { ['├', '─', '●', '┤'] } else { ['|', '-', 'o', '|'] };
+    let bar: String = (0..inner).map(|at| if Some(at) == knob { at_value } else { bar }).collect();
+    Some(format!("{end}{bar}{other_end}"))
 }
 
 /// A small picture of the last seconds, whose scale is that of its own values.
-fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, now: Duration) -> String {
+fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, look: Look) -> String {
     let Some(history) = state.traces.of(item.board, item.index).first() else {
         return String::new();
     };
-    let second = micros(now) / TREND_US;
+    let levels = if look.has_shapes { LEVELS } else { PLAIN_LEVELS };
+    let second = micros(state.now) / TREND_US;
     // The second that is under way has no column.
     let count = usize::try_from(second).unwrap_or(wide).min(wide);
     let from_us = (second - count as u64) * TREND_US;
@@ -378,7 +383,7 @@ fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, now: Duration) -> Stri
     let most = all.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
     let level = |value: f64| {
         let share = if most > least { (value - least) / (most - least) } else { 0.5 };
-        LEVELS.get((share * 7.0).round() as usize).copied().unwrap_or(" ")
+        levels.get((share * 7.0).round() as usize).copied().unwrap_or(" ")
     };
     let padding = " ".repeat(wide - count);
     let drawn: String = all.iter().map(|value| value.map_or(" ", level)).collect();
