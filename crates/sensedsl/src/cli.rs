@@ -5,6 +5,7 @@ mod common;
 mod monitor;
 mod parts;
 mod simulate;
+mod sinks;
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -18,6 +19,7 @@ pub(crate) use common::{On, Reach, TableFormat, seconds};
 pub(crate) use monitor::{MonitorArgs, MonitorFormat};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
+pub(crate) use sinks::SinkArgs;
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///

@@ -132,7 +132,7 @@ impl<'a> Link<'a> {
     }
 
     fn ask_for_health(&mut self) {
-        if let Some(seconds) = self.args.health {
+        if let Some(seconds) = super::sinks::health_s(self.args) {
             self.session.health_every(Duration::from_secs_f64(seconds));
         }
     }

@@ -8,6 +8,7 @@ mod face;
 mod find;
 mod link;
 mod show;
+mod sinks;
 mod source;
 mod subject;
 mod watch;
@@ -18,7 +19,7 @@ use std::path::Path;
 use anyhow::Result;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0557_no_board as no_board;
-use sensedsl_host::{Board, Output};
+use sensedsl_host::Board;
 
 use crate::cli::{MonitorArgs, MonitorFormat};
 use crate::status::Status;
@@ -36,6 +37,9 @@ const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     let (device, file) = places(args);
+    if let Some(to) = &args.sinks.init_config {
+        return sinks::init(args, file.or(device.map(Path::new)), to.as_deref(), terminal);
+    }
     if let (Some("simulate"), Some(file)) = (device, file) {
         return subject::simulated(args, file, terminal, |subject, found| {
             watch(args, terminal, subject, found)
@@ -145,6 +149,7 @@ fn watch(
     let links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
     let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
-    let outputs: Vec<Box<dyn Output>> = Vec::new();
+    let watched: Vec<&Board> = links.iter().map(|link| link.board).collect();
+    let outputs = sinks::begin(&args.sinks, terminal, subject, &watched)?;
     Watch::new(args, terminal, subject, links, face, outputs).run()
 }
