@@ -35,6 +35,7 @@ mod schema;
 mod session;
 mod stats;
 mod value;
+mod words;
 
 pub use clock::{BoardClock, ClockError};
 pub use difference::{answered_schema, differences};
@@ -44,3 +45,4 @@ pub use schema::{Board, Device, SchemaError};
 pub use session::{Counts, Event, Session, State};
 pub use stats::{DeviceStats, Histogram};
 pub use value::{CommandError, Overstep};
+pub use words::{causes, status};

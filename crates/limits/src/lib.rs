@@ -28,6 +28,8 @@ pub const ANSWER_BYTES_MAX: usize = 2 << 20;
 pub const WORLD_BYTES_MAX: usize = 4 << 20;
 /// Tables and lists of a world, including nested ones.
 pub const WORLD_TABLES_MAX: usize = 20_000;
+/// Bytes of one chunk of a record, and of any other part of one.
+pub const RECORD_PART_BYTES_MAX: usize = 64 << 20;
 /// Bytes of an image of firmware for `simulate`.
 pub const IMAGE_BYTES_MAX: usize = 16 << 20;
 /// Bytes of a configuration of `monitor`.
@@ -145,6 +147,7 @@ limits! {
     SOURCE_BYTES_MAX: "bytes of one source of `import`", "E0112";
     SOURCE_TEXT_BYTES_MAX: "bytes of a source of `import` that is text or XML", "E0807";
     ANSWER_BYTES_MAX: "bytes of an answer for `--keep` or `diff`", "E0112";
+    RECORD_PART_BYTES_MAX: "bytes of a chunk of a record", "E0565";
     WORLD_BYTES_MAX: "bytes of a world for `simulate`, and of a file with samples", "E0112";
     WORLD_TABLES_MAX: "tables and lists of a world, those in others included", "E0551";
     IMAGE_BYTES_MAX: "bytes of an image of firmware for `simulate`", "E0112";

@@ -2,6 +2,7 @@
 
 mod build;
 mod common;
+mod convert;
 mod monitor;
 mod parts;
 mod simulate;
@@ -16,7 +17,8 @@ use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
 pub(crate) use common::{On, Reach, TableFormat, seconds};
-pub(crate) use monitor::{MonitorArgs, MonitorFormat};
+pub(crate) use convert::{ConvertArgs, ConvertTo};
+pub(crate) use monitor::{MonitorArgs, MonitorFormat, Speed};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 pub(crate) use sinks::SinkArgs;
@@ -56,6 +58,8 @@ pub(crate) enum Command {
     Simulate(SimulateArgs),
     /// Show what a board measures as it comes, and set its actuators
     Monitor(MonitorArgs),
+    /// Make a table, a summary or a page with plots of a record
+    Convert(ConvertArgs),
     /// Explain a diagnostic, why a device is on its pin, or what the hardware has to do in a second
     Explain(ExplainArgs),
     /// Say what can still be added to a wiring, and what blocks the next device

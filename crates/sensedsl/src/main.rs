@@ -66,6 +66,7 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Flash(args) => commands::flash::run(&args, terminal),
         Command::Simulate(args) => commands::simulate::run(&args, terminal),
         Command::Monitor(args) => commands::monitor::run(&args, terminal),
+        Command::Convert(args) => commands::convert::run(&args, terminal),
         Command::Explain(args) => commands::explain::run(&args, terminal),
         Command::Capacity(args) => commands::capacity::run(&args, terminal),
         Command::Diff(args) => commands::diff::run(&args, terminal),

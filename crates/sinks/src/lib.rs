@@ -50,9 +50,9 @@ use config::Settings;
 /// The outputs of a configuration for the boards that are watched, in their order. `own_name` tells this program from
 /// others that run the same: the number of its process.
 #[must_use]
-pub fn outputs(config: &Config, boards: &[&Board], own_name: &str) -> Vec<Box<dyn Output>> {
+pub fn outputs(config: &Config, boards: &[Board], own_name: &str) -> Vec<Box<dyn Output>> {
     let all = config.sinks.iter().filter_map(|settings| {
-        let plan = Plan::new(boards.iter().copied(), config, settings.number("rate_hz"));
+        let plan = Plan::new(boards, config, settings.number("rate_hz"));
         let plan = Arc::new(plan);
         let sink = sink(settings, &plan, own_name)?;
         Some(Box::new(Relay::start(settings.spec.title, plan, sink)) as Box<dyn Output>)

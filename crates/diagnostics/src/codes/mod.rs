@@ -154,6 +154,8 @@ codes! {
     e0562_sinks_address,
     e0563_sink_not_built,
     e0564_sinks_same_topic,
+    e0565_not_a_record,
+    e0566_no_new_record,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

@@ -1,6 +1,6 @@
 //! The arguments of `monitor`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -9,8 +9,8 @@ use super::sinks::SinkArgs;
 
 #[derive(Debug, Args)]
 pub(crate) struct MonitorArgs {
-    /// The board's serial port; a file with bytes of one, or - for the standard input; `simulate` for
-    /// a board in this program. Without it the board is looked for on all USB ports
+    /// The board's serial port; a record; a file with bytes of a board, or - for the standard input;
+    /// `simulate` for a board in this program. Without it the board is looked for on all USB ports
     #[arg(value_name = "DEVICE")]
     pub(crate) device: Option<String>,
     /// The design
@@ -28,6 +28,19 @@ pub(crate) struct MonitorArgs {
     /// How to print values; a table where people see it, otherwise lines
     #[arg(long, value_enum)]
     pub(crate) format: Option<MonitorFormat>,
+    /// Write the run down in a new file that monitor, convert, and all programs for MCAP read
+    #[arg(long, value_name = "FILE")]
+    pub(crate) record: Option<PathBuf>,
+    /// Play a record again
+    #[arg(long, value_name = "RECORD", conflicts_with_all = ["device", "at", "baud", "set"])]
+    pub(crate) replay: Option<PathBuf>,
+    /// How many times as fast as it was a record is played; `max` is as fast as it can be shown
+    #[arg(long, value_name = "N", value_parser = speed, default_value = "1")]
+    pub(crate) speed: Speed,
+    /// Pass what the board sends on to a pseudo-terminal, for a program that expects the board there
+    #[cfg(unix)]
+    #[arg(long)]
+    pub(crate) pty: bool,
     /// Set an actuator as soon as the board is there, and hold it: --set Servo=20, --set 'Servo=raw 1500'
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
@@ -60,6 +73,33 @@ pub(crate) enum MonitorFormat {
     Ndjson,
     /// A row an element, with a header
     Csv,
+}
+
+impl MonitorArgs {
+    /// The record that is named, as a device or by its option.
+    pub(crate) fn record_file(&self) -> Option<&Path> {
+        let device = self.device.as_deref().map(Path::new);
+        let is_record = |path: &&Path| path.extension().is_some_and(|end| end == "mcap");
+        self.replay.as_deref().or_else(|| device.filter(is_record))
+    }
+}
+
+/// How fast a record is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Speed {
+    /// So many times as fast as it was.
+    Times(f64),
+    /// As fast as it can be shown.
+    Most,
+}
+
+fn speed(text: &str) -> Result<Speed, String> {
+    let times = text.parse().ok().filter(|times: &f64| times.is_finite() && *times > 0.0);
+    match (text, times) {
+        ("max", _) => Ok(Speed::Most),
+        (_, Some(times)) => Ok(Speed::Times(times)),
+        (_, None) => Err("a number above 0, or `max`".into()),
+    }
 }
 
 /// `NAME=VALUE`.

@@ -5,6 +5,7 @@ pub(crate) mod boards;
 pub(crate) mod build;
 pub(crate) mod capacity;
 pub(crate) mod check;
+pub(crate) mod convert;
 mod deadline;
 pub(crate) mod diff;
 pub(crate) mod drivers;

@@ -2,10 +2,12 @@
 //!
 //! `read` reads. `write` writes single files, `tree` whole folders, both in such a way that a run
 //! which is stopped at any moment leaves nothing half done. `ops` has the changes of which writing
-//! a tree consists, `lock` keeps two runs apart, and `state` knows what this machine has written.
+//! a tree consists, `lock` keeps two runs apart, and `state` knows what this machine has written. `growing` is a
+//! file that is written while the program runs.
 
 #[cfg(test)]
 mod fault;
+mod growing;
 pub(crate) mod lock;
 mod open;
 mod ops;
@@ -19,9 +21,11 @@ use std::path::Path;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_model::{FileRequest, FileUse, ReadError};
 
+pub(crate) use growing::Growing;
 pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
 pub(crate) use write::{
-    begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_together, write_whole,
+    begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_streamed, write_together,
+    write_whole,
 };
 
 /// The name under which people see a file.

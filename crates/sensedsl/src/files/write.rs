@@ -44,6 +44,24 @@ pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
     Ok(())
 }
 
+/// Writes a file whose contents are not all there at once. It takes its place when all is written.
+pub(crate) fn write_streamed<T>(
+    path: &Path,
+    fill: impl FnOnce(Box<dyn io::Write + Send>) -> Result<T>,
+) -> Result<T> {
+    let writing = || format!("cannot write {}", path.display());
+    if is_stream(path) {
+        let file = OpenOptions::new().append(true).open(path).with_context(writing)?;
+        return fill(Box::new(io::BufWriter::new(file)));
+    }
+    let mut staged = Staged::new(path, &[]).with_context(writing)?;
+    let file = staged.file.try_clone().with_context(writing)?;
+    let filled = fill(Box::new(io::BufWriter::with_capacity(1 << 16, file)))?;
+    staged.file.sync_all().with_context(writing)?;
+    staged.publish().with_context(writing)?;
+    Ok(filled)
+}
+
 /// Whether the entry at a path is written to rather than replaced: a device, a pipe, an open file.
 pub(crate) fn is_stream(path: &Path) -> bool {
     let open = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc"];

@@ -5,15 +5,16 @@
 use std::time::Duration;
 
 use sensedsl_host::{
-    Board, BoardClock, CommandError, Counts, DeviceStats, Event, Moment, Report, Session, State,
+    Board, BoardClock, CommandError, Counts, Device, DeviceStats, Event, Moment, Report, Session,
+    State, causes, status,
 };
+use sensedsl_record::Past;
 use sensedsl_wire::{
     Direction, Health, Scalar, Stamp, Status as HealthStatus, encode_hello_request,
 };
 
 use super::BAUD;
 use super::source::Source;
-use super::words;
 use crate::cli::MonitorArgs;
 
 /// The time after which a device that is back and cannot be opened is told.
@@ -148,6 +149,33 @@ impl<'a> Link<'a> {
         self.take_events(at.run);
     }
 
+    /// Takes what a record says of the past.
+    pub(super) fn replay(&mut self, what: Past, at: Moment) {
+        match what {
+            Past::Received(bytes) => self.feed(bytes, at),
+            Past::Sent(bytes) => {
+                self.clock.asked(at.run);
+                self.happened.push(Happening::Sent(bytes));
+            }
+            Past::Value { device, value, .. } => {
+                let is_sent = |one: &Device| one.direction == Direction::Actuator;
+                // What sensors reported is among the bytes.
+                if self.board.devices.get(device).is_some_and(is_sent) {
+                    self.set(device, value, at.run);
+                }
+            }
+            Past::Event(event) => {
+                if let Some(why) = event.get("why").and_then(|why| why.as_str()) {
+                    self.interrupt();
+                    self.session = Session::recording(self.board);
+                    self.happened.push(Happening::Offline(why.to_owned()));
+                }
+            }
+            // It is among the bytes as well.
+            Past::Health(_) => {}
+        }
+    }
+
     /// Sends what is due, notices what does not come, and finds a device again.
     pub(super) fn turn(&mut self, now: Duration) {
         if self.is_over {
@@ -259,7 +287,8 @@ impl<'a> Link<'a> {
     }
 
     fn report(&mut self, stamp: Option<Stamp>, values: Vec<(usize, Vec<Scalar>)>, now: Duration) {
-        let is_playing = self.source.is_recording();
+        // Nobody knows when the bytes of a plain recording came.
+        let is_playing = matches!(self.source, Source::Recording(_));
         let latency =
             stamp.filter(|_| !is_playing).map(|stamp| self.clock.stamped(stamp.time_us, now));
         for (index, value) in &values {
@@ -295,9 +324,9 @@ impl<'a> Link<'a> {
             let is_bad = matches!(one.status, HealthStatus::Failed | HealthStatus::Stale);
             let last = std::mem::replace(worry, Some(one.status).filter(|_| is_bad));
             if is_bad && last != Some(one.status) {
-                let causes = words::causes(one.causes.counts());
-                let causes = if causes.is_empty() { causes } else { format!(" ({causes})") };
-                self.say(format!("{}: {}{causes}", self.name(index), words::status(one.status)));
+                let why = causes(one.causes.counts());
+                let why = if why.is_empty() { why } else { format!(" ({why})") };
+                self.say(format!("{}: {}{why}", self.name(index), status(one.status)));
             }
         }
     }
@@ -330,7 +359,9 @@ impl<'a> Link<'a> {
     fn find_again(&mut self, now: Duration) {
         let since = match &self.source {
             Source::Away(away) => away.since,
-            Source::Port(_) | Source::Recording(_) | Source::Simulated(_) => return,
+            Source::Port(_) | Source::Recording(_) | Source::Simulated(_) | Source::Replayed => {
+                return;
+            }
         };
         match self.source.find_again() {
             Ok(Some((path, after))) => {
@@ -405,8 +436,7 @@ impl<'a> Link<'a> {
 
     /// The actuator of that name, if the board has one.
     pub(super) fn has_actuator(&self, name: &str) -> bool {
-        let is_it =
-            |one: &sensedsl_host::Device| one.direction == Direction::Actuator && one.name == name;
+        let is_it = |one: &Device| one.direction == Direction::Actuator && one.name == name;
         self.board.devices.iter().any(is_it)
     }
 }

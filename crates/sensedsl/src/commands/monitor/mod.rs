@@ -2,11 +2,18 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
-//! prints (`show.rs`), and outputs. Whether a board is the one that is meant decides `sensedsl_host::Session`.
+//! prints (`show.rs`), and outputs (`outputs.rs`): a
+//! record (`record.rs`), which `replay.rs` plays again, a pseudo-terminal (`pty.rs`), other programs (`sinks.rs`).
+//! Whether a board is the one that is meant decides `sensedsl_host::Session`.
 
 mod face;
 mod find;
 mod link;
+mod outputs;
+#[cfg(unix)]
+mod pty;
+mod record;
+mod replay;
 mod show;
 mod sinks;
 mod source;
@@ -16,17 +23,20 @@ mod words;
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0557_no_board as no_board;
+use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
 use sensedsl_host::Board;
 
 use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use face::Face;
 use find::{found, is_recording, open, who};
 use link::Link;
+use replay::Replay;
 use show::Printer;
 use source::Source;
 use subject::Subject;
@@ -36,13 +46,16 @@ use watch::Watch;
 const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
+    if let Some(path) = args.record_file() {
+        return replayed(path, args, terminal);
+    }
     let (device, file) = places(args);
     if let Some(to) = &args.sinks.init_config {
         return sinks::init(args, file.or(device.map(Path::new)), to.as_deref(), terminal);
     }
     if let (Some("simulate"), Some(file)) = (device, file) {
         return subject::simulated(args, file, terminal, |subject, found| {
-            watch(args, terminal, subject, found)
+            watch(args, terminal, subject, found, None)
         });
     }
     let subject = subject::read(args, file, terminal)?;
@@ -61,7 +74,7 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
                 return Ok(Status::Misused);
             };
             found.extend(at);
-            watch(args, terminal, &subject, found)
+            watch(args, terminal, &subject, found, None)
         }
         Err(why) => {
             terminal.diagnostics(&[*why], &subject.sources)?;
@@ -140,16 +153,42 @@ fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
     args.format.unwrap_or(usual)
 }
 
+/// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
+fn replayed(path: &Path, args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
+    let mut replay = match Replay::open(path) {
+        Ok(replay) => replay,
+        Err(why) => {
+            bail!(Refused::new(path, |at, shown| not_a_record(at, shown, &why.to_string())))
+        }
+    };
+    let (_, file) = places(args);
+    let subject = match (&args.schema, file) {
+        (None, None) => subject::of_record(&replay),
+        _ => subject::read(args, file, terminal)?,
+    };
+    let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
+    let recorded: Vec<&str> = replay.boards().iter().map(|board| board.name.as_str()).collect();
+    let watched: Vec<&Board> =
+        wanted.iter().copied().filter(|board| recorded.contains(&board.name.as_str())).collect();
+    let (Some(first), true) = (wanted.first(), watched.is_empty()) else {
+        replay.of(&watched);
+        let found = watched.into_iter().map(|board| (board, Source::Replayed)).collect();
+        return watch(args, terminal, &subject, found, Some(replay));
+    };
+    bail!(Refused::new(path, |at, shown| other_boards(at, shown, &first.name, &recorded)))
+}
+
 fn watch(
     args: &MonitorArgs,
     terminal: &Terminal,
     subject: &Subject,
     found: Found<'_>,
+    replay: Option<Replay>,
 ) -> Result<Status> {
     let links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
+    let begin = replay.as_ref().map(|replay| replay.begin);
+    let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
     let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
-    let watched: Vec<&Board> = links.iter().map(|link| link.board).collect();
-    let outputs = sinks::begin(&args.sinks, terminal, subject, &watched)?;
-    Watch::new(args, terminal, subject, links, face, outputs).run()
+    Watch::new(args, terminal, subject, links, face, outputs, replay).run()
 }

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use anyhow::Result;
 use sensedsl_host::{Board, Device, Moment, News, What};
-use sensedsl_wire::{Direction, Scalar, ScalarType, Stamp};
-use serde_json::{Map, Value, json};
+use sensedsl_record::text::{CSV_HEAD, object, rows};
+use sensedsl_wire::{Direction, Scalar, Stamp};
 
 use super::face::{Ask, Face};
 use super::link::Link;
@@ -16,8 +16,6 @@ use crate::terminal::Terminal;
 
 /// The most characters of a value in the table; arrays can be longer.
 const VALUE_CHARS: usize = 40;
-/// The head of the CSV.
-const CSV_HEAD: &str = "time_s,device,element,raw,value,unit\n";
 /// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
 
@@ -192,71 +190,6 @@ fn fitting(text: &str, size: Option<(usize, usize)>) -> Vec<String> {
         "  and {missing} more: make the window higher, or use `--format lines`"
     )));
     lines
-}
-
-/// A raw element in JSON: whole numbers of any size, and what is no number as null.
-fn raw(scalar: Scalar) -> Value {
-    match scalar {
-        Scalar::Bool(flag) => flag.into(),
-        Scalar::Unsigned(number) => number.into(),
-        Scalar::Signed(number) => number.into(),
-        Scalar::Float32(number) => f64::from(number).into(),
-        Scalar::Float64(number) => number.into(),
-    }
-}
-
-/// A shown element in JSON.
-fn shown(device: &Device, scalar: Scalar) -> Value {
-    if device.value.scalar == ScalarType::Bool { raw(scalar) } else { device.shown(scalar).into() }
-}
-
-fn object(
-    board: &Board,
-    device: &Device,
-    now: Duration,
-    value: &[Scalar],
-    stamp: Option<Stamp>,
-) -> Value {
-    let one_or_all = |all: Vec<Value>| match (device.value.length, all.as_slice()) {
-        (None, [one]) => one.clone(),
-        _ => Value::Array(all),
-    };
-    let mut object = Map::new();
-    object.insert("time_s".into(), json!(rounded(now)));
-    object.insert("board".into(), json!(board.name));
-    object.insert("device".into(), json!(device.name));
-    object.insert("raw".into(), one_or_all(value.iter().map(|one| raw(*one)).collect()));
-    object
-        .insert("value".into(), one_or_all(value.iter().map(|one| shown(device, *one)).collect()));
-    object.insert("unit".into(), json!(device.quantity));
-    if let Some(Stamp { time_us, counter }) = stamp {
-        object.insert("stamp_us".into(), json!(time_us));
-        object.insert("counter".into(), json!(counter));
-    }
-    Value::Object(object)
-}
-
-/// Seconds, to the microsecond.
-fn rounded(now: Duration) -> f64 {
-    (now.as_secs_f64() * 1e6).round() / 1e6
-}
-
-fn rows(device: &Device, prefix: &str, now: Duration, value: &[Scalar]) -> String {
-    let unit = device.quantity.as_deref().unwrap_or_default();
-    let quoted = if unit.contains([',', '"']) {
-        format!("\"{}\"", unit.replace('"', "\"\""))
-    } else {
-        unit.to_owned()
-    };
-    let all = value.iter().enumerate().map(|(element, one)| {
-        let shown = shown(device, *one);
-        format!(
-            "{:.6},{prefix}{},{element},{one},{shown},{quoted}\n",
-            now.as_secs_f64(),
-            device.name
-        )
-    });
-    all.collect()
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ pub(super) fn begin(
     args: &SinkArgs,
     terminal: &Terminal,
     subject: &Subject,
-    watched: &[&Board],
+    watched: &[Board],
 ) -> Result<Vec<Box<dyn Output>>> {
     let mut sources = SourceMap::default();
     let (mut config, mut reported) = match &args.config {

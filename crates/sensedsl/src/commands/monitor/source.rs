@@ -7,7 +7,9 @@ use std::io::{self, Read};
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
+use sensedsl_host::Moment;
 use sensedsl_host::port::{self, Identity, OpenError, Port};
+use sensedsl_record::{Ending, Past};
 
 use crate::commands::simulate::Simulated;
 
@@ -27,6 +29,17 @@ pub(super) enum Heard {
         /// What came.
         what: Input,
     },
+    /// Something of a record.
+    Past {
+        /// The place of the link.
+        link: usize,
+        /// When it was.
+        at: Moment,
+        /// What it was.
+        what: Past,
+    },
+    /// The record is over; if it cannot be read to its end, why.
+    PastOver(Result<Ending, String>),
     /// A line that somebody typed.
     Line(String),
 }
@@ -46,6 +59,8 @@ pub(super) enum Source {
     Port(Port),
     /// A device that is gone, and what is known of it.
     Away(Away),
+    /// A part of a record, which is replayed for all its boards at once.
+    Replayed,
     Recording(Option<Box<dyn Read + Send>>),
     Simulated(Box<Simulated>),
 }
@@ -68,7 +83,7 @@ impl Source {
     }
 
     pub(super) fn is_recording(&self) -> bool {
-        matches!(self, Self::Recording(_))
+        matches!(self, Self::Recording(_) | Self::Replayed)
     }
 
     /// Begins to read, for the given link and opening.
@@ -90,7 +105,7 @@ impl Source {
                     let _ = std::thread::spawn(move || hear_recording(reader, &tell));
                 }
             }
-            Self::Away(_) | Self::Simulated(_) => {}
+            Self::Away(_) | Self::Simulated(_) | Self::Replayed => {}
         }
         Ok(())
     }
@@ -103,7 +118,7 @@ impl Source {
                 board.write(bytes);
                 true
             }
-            Self::Recording(_) | Self::Away(_) => true,
+            Self::Recording(_) | Self::Away(_) | Self::Replayed => true,
         }
     }
 

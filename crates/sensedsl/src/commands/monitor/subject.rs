@@ -14,6 +14,7 @@ use sensedsl_report::schema::schema;
 use sensedsl_session::{Answer, Ask, Snapshot, has_errors};
 use sensedsl_wiring::assignment::Assignment;
 
+use super::replay::Replay;
 use super::source::Source;
 use crate::cli::{MonitorArgs, On};
 use crate::commands::input;
@@ -25,6 +26,8 @@ use crate::terminal::Terminal;
 /// The boards that a link may be of.
 pub(super) struct Subject {
     pub(super) boards: Vec<Board>,
+    /// The text that describes them.
+    pub(super) schema_json: String,
     pub(super) sources: SourceMap,
     /// The place for diagnostics about the whole.
     pub(super) at: Span,
@@ -97,11 +100,23 @@ fn of_schema(path: &Path) -> Result<Subject> {
         Ok(boards) => {
             let mut sources = SourceMap::default();
             let at = start(sources.add(crate::files::shown(path), text.as_str()));
-            Ok(Subject { boards, sources, at })
+            Ok(Subject { boards, schema_json: text, sources, at })
         }
         Err(why) => {
             bail!(Refused::new(path, |at, shown| not_a_schema(at, shown, &why.to_string())))
         }
+    }
+}
+
+/// The boards that a record describes.
+pub(super) fn of_record(replay: &Replay) -> Subject {
+    let mut sources = SourceMap::default();
+    let at = start(sources.add(crate::files::shown(&replay.path), ""));
+    Subject {
+        boards: replay.boards().to_vec(),
+        schema_json: replay.schema_json().to_owned(),
+        sources,
+        at,
     }
 }
 
@@ -139,8 +154,9 @@ fn wired<'a>(
 
 /// What is written here is what is read there: `generate` gives the same text to other programs.
 fn subject((design, wiring): (&Design, &Assignment), sources: &SourceMap) -> Result<Subject> {
-    let boards = Board::all_of_json(&schema(design, wiring).to_string())?;
-    Ok(Subject { boards, sources: sources.clone(), at: input::place(design) })
+    let schema_json = schema(design, wiring).to_string();
+    let boards = Board::all_of_json(&schema_json)?;
+    Ok(Subject { boards, schema_json, sources: sources.clone(), at: input::place(design) })
 }
 
 /// Runs boards in this program, and what is to be done with them.

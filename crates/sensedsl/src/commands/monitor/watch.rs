@@ -1,20 +1,25 @@
 //! The loop of `monitor`: bytes of all links in, news out to people and outputs, commands back.
 
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
+use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
+use sensedsl_record::Ending;
 use sensedsl_wire::Direction;
 
 use super::face::{Ask, Face};
 use super::link::{Happening, Link};
+use super::replay::Replay;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
 use crate::cli::MonitorArgs;
 use crate::commands::deadline::interruption;
+use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -40,6 +45,9 @@ pub(super) struct Watch<'a> {
     began_unix: Duration,
     looked: Option<Instant>,
     status: Option<Status>,
+    replay: Option<Replay>,
+    /// Where a record that is played has got to.
+    past: Option<Moment>,
 }
 
 impl<'a> Watch<'a> {
@@ -50,6 +58,7 @@ impl<'a> Watch<'a> {
         links: Vec<Link<'a>>,
         face: Box<dyn Face + 'a>,
         outputs: Vec<Box<dyn Output>>,
+        replay: Option<Replay>,
     ) -> Self {
         let (to_loop, heard) = sync_channel(WAITING_MAX);
         Self {
@@ -65,6 +74,8 @@ impl<'a> Watch<'a> {
             began_unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
             looked: None,
             status: None,
+            past: replay.as_ref().map(|replay| replay.begin),
+            replay,
         }
     }
 
@@ -74,7 +85,7 @@ impl<'a> Watch<'a> {
     }
 
     fn now(&self) -> Moment {
-        self.moment(Instant::now())
+        self.past.unwrap_or_else(|| self.moment(Instant::now()))
     }
 
     /// Watches until it is stopped, all recordings are over, or a board turns out to be another one.
@@ -84,6 +95,9 @@ impl<'a> Watch<'a> {
         }
         for (index, link) in self.links.iter_mut().enumerate() {
             link.source.listen(index, link.opening, &self.to_loop)?;
+        }
+        if let Some(replay) = self.replay.take() {
+            replay.play(self.args.speed, self.to_loop.clone());
         }
         let stop = interruption()?;
         self.listen();
@@ -145,6 +159,14 @@ impl<'a> Watch<'a> {
     fn hear(&mut self, heard: Heard) -> Result<()> {
         let (index, opening, what) = match heard {
             Heard::Line(line) => return self.typed(&line),
+            Heard::Past { link, at, what } => {
+                self.past = Some(at);
+                if let Some(link) = self.links.get_mut(link) {
+                    link.replay(what, at);
+                }
+                return self.tell(link, at);
+            }
+            Heard::PastOver(end) => return self.past_over(end),
             Heard::Of { link, opening, what } => (link, opening, what),
         };
         let mut at = self.now();
@@ -170,6 +192,21 @@ impl<'a> Watch<'a> {
             }
         }
         self.tell(index, at)
+    }
+
+    fn past_over(&mut self, end: Result<Ending, String>) -> Result<()> {
+        match end {
+            Ok(Ending::Whole) => self.status = Some(Status::Done),
+            Ok(Ending::Cut) => {
+                self.status = Some(Status::Done);
+                self.face.say("the record was cut off: this is all up to its last whole chunk")?;
+            }
+            Err(why) => {
+                let at = self.args.record_file().unwrap_or(Path::new(""));
+                bail!(Refused::new(at, |at, shown| not_a_record(at, shown, &why)));
+            }
+        }
+        Ok(())
     }
 
     fn ask_simulated(&mut self) -> Result<()> {

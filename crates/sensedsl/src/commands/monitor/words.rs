@@ -1,7 +1,7 @@
 //! Words for people about a board and its values.
 
-use sensedsl_host::{Board, Device, Overstep};
-use sensedsl_wire::{Health, NEVER_MS, Scalar, Status};
+use sensedsl_host::{Board, Device, Overstep, causes, status};
+use sensedsl_wire::{Health, NEVER_MS, Scalar};
 
 use crate::commands::table::table;
 
@@ -35,29 +35,4 @@ pub(super) fn health(board: &Board, health: &Health) -> String {
         })
         .collect();
     format!("{head}{}", table(["Device", "Status", ">Age", "Failures"], &rows))
-}
-
-pub(super) fn status(status: Status) -> &'static str {
-    match status {
-        Status::NeverRead => "never read",
-        Status::Good => "good",
-        Status::Stale => "stale",
-        Status::Failed => "failed",
-        Status::Invalid => "invalid",
-        Status::Other(_) => "unknown",
-    }
-}
-
-/// How often a device failed, by cause.
-pub(super) fn causes(counts: [u16; 6]) -> String {
-    let words = [
-        "not acknowledged",
-        "bus errors",
-        "arbitration lost",
-        "timed out",
-        "wrong checksums",
-        "invalid",
-    ];
-    let some = counts.iter().zip(words).filter(|(count, _)| **count > 0);
-    some.map(|(count, word)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
 }

@@ -41,6 +41,8 @@ use crate::files::{Disk, read_bytes, read_text, shown};
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
+#[cfg(unix)]
+pub(crate) use pty::Pty;
 pub(crate) use simulated::Simulated;
 use simulation::Simulation;
 

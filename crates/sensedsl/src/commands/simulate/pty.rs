@@ -15,14 +15,14 @@ use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 const WAITING_MAX: usize = 1 << 16;
 
 /// The board's end.
-pub(super) struct Pty {
+pub(crate) struct Pty {
     board: OwnedFd,
     name: String,
     waiting: VecDeque<u8>,
 }
 
 impl Pty {
-    pub(super) fn open() -> Result<Self> {
+    pub(crate) fn open() -> Result<Self> {
         let failed = "the system gives no pseudo-terminal; `--stdout` needs none";
         let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC)
             .context(failed)?;
@@ -39,12 +39,12 @@ impl Pty {
     }
 
     /// The name under which a host application opens it.
-    pub(super) fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// Whether a program has it open; waits a while for something to happen.
-    pub(super) fn wait(&self, pause: Duration) -> bool {
+    pub(crate) fn wait(&self, pause: Duration) -> bool {
         let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
         let most = Timespec { tv_sec: 0, tv_nsec: pause.subsec_nanos().into() };
         match poll(&mut wanted, Some(&most)) {
@@ -58,8 +58,15 @@ impl Pty {
         }
     }
 
+    /// Whether a program has it open.
+    pub(crate) fn is_connected(&self) -> bool {
+        let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
+        let is_asked = poll(&mut wanted, Some(&Timespec { tv_sec: 0, tv_nsec: 0 }));
+        is_asked.is_ok() && wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP))
+    }
+
     /// The bytes that the host has sent.
-    pub(super) fn read(&self) -> Vec<u8> {
+    pub(crate) fn read(&self) -> Vec<u8> {
         let mut bytes = vec![0; 4_096];
         let count = rustix::io::read(&self.board, &mut bytes).unwrap_or(0);
         bytes.truncate(count);
@@ -67,7 +74,7 @@ impl Pty {
     }
 
     /// Sends as much as the host takes; the rest follows later. Without a host, everything is dropped.
-    pub(super) fn write(&mut self, bytes: &[u8], is_connected: bool) {
+    pub(crate) fn write(&mut self, bytes: &[u8], is_connected: bool) {
         if !is_connected || self.waiting.len() + bytes.len() > WAITING_MAX {
             self.waiting.clear();
         }

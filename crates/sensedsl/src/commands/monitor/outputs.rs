@@ -1,0 +1,48 @@
+//! Who is told of a run besides people: what the arguments ask for.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use anyhow::{Result, bail};
+use sensedsl_diagnostics::codes::e0566_no_new_record::not_made;
+use sensedsl_host::{Board, Moment, Output};
+
+use super::link::Link;
+use super::record::Recording;
+use super::subject::Subject;
+use crate::cli::MonitorArgs;
+use crate::files::Refused;
+use crate::terminal::Terminal;
+
+/// All outputs of a run that begins at a moment of the past, or now.
+pub(super) fn outputs(
+    args: &MonitorArgs,
+    terminal: &Terminal,
+    subject: &Subject,
+    links: &[Link<'_>],
+    begin: Option<Moment>,
+) -> Result<Vec<Box<dyn Output>>> {
+    let boards: Vec<Board> = links.iter().map(|link| link.board.clone()).collect();
+    let begin = begin.unwrap_or_else(now);
+    let mut outputs: Vec<Box<dyn Output>> = Vec::new();
+    if let Some(path) = &args.record {
+        match Recording::new(path, &subject.schema_json, &boards, begin) {
+            Ok(recording) => outputs.push(Box::new(recording)),
+            Err(why) => {
+                bail!(Refused::new(path, |at, shown| not_made(at, shown, &why.to_string())))
+            }
+        }
+    }
+    #[cfg(unix)]
+    if args.pty {
+        outputs.extend(super::pty::of_boards(&boards, terminal)?);
+    }
+    outputs.extend(super::sinks::begin(&args.sinks, terminal, subject, &boards)?);
+    Ok(outputs)
+}
+
+fn now() -> Moment {
+    Moment {
+        unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
+        ..Moment::default()
+    }
+}
