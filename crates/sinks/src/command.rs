@@ -50,6 +50,10 @@ pub fn of_json(place: &Place<'_>, value: &Value) -> Result<Command, String> {
     }
     let text = match value {
         Value::Array(all) => {
+            let expected = place.device.value.count();
+            if all.len() != expected {
+                return Err(CommandError::Count { expected, found: all.len() }.to_string());
+            }
             let words: Option<Vec<String>> = all.iter().map(|one| word(place, one)).collect();
             words.ok_or("a list must hold numbers, or `true` and `false`")?.join(" ")
         }
@@ -79,7 +83,9 @@ fn word(place: &Place<'_>, value: &Value) -> Option<String> {
     let number = match value {
         Value::Bool(flag) if place.is_bool() => return Some(flag.to_string()),
         Value::Number(number) => number.as_f64()?,
-        _ => return None,
+        Value::Null | Value::Bool(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => {
+            return None;
+        }
     };
     let shown = number / place.route.factor;
     if place.route.factor == 1.0 {

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use sensedsl_diagnostics::codes::e0567_program_not_reached::not_reached;
 use sensedsl_host::Wish;
 use sensedsl_wire::{Health, Scalar, Stamp};
 
@@ -123,7 +124,7 @@ impl Outbox {
     pub fn broken(&self, what: &str, help: &str) {
         let mut broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner);
         if broken.is_none() {
-            let what = format!("{}: {what}", self.name);
+            let what = not_reached(self.name, what);
             let _ = self.push(Wish::Trouble { what, help: help.to_owned() });
             *broken = Some(help.to_owned());
         }

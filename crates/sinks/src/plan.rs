@@ -158,7 +158,9 @@ impl Place<'_> {
     pub fn json(&self, raw: &[Scalar]) -> Value {
         self.one_or_all(raw.iter().map(|one| match one {
             Scalar::Bool(flag) => Value::Bool(*flag),
-            other => real(self.number(*other)),
+            Scalar::Unsigned(_) | Scalar::Signed(_) | Scalar::Float32(_) | Scalar::Float64(_) => {
+                real(self.number(*one))
+            }
         }))
     }
 

@@ -11,7 +11,7 @@ mod spec;
 use std::collections::BTreeMap;
 
 pub use address::{Address, AddressError, listening, remote};
-pub use reader::read;
+pub use reader::{read, without_sink};
 pub use sample::sample;
 pub use spec::{BOARD_KEYS, DEVICE_KEYS, Key, SINKS, Sort, Spec, find};
 
@@ -49,6 +49,12 @@ impl Settings {
     /// Sets a key.
     pub fn set(&mut self, key: &'static str, value: Setting) {
         self.values.insert(key, value);
+    }
+
+    /// The value of a key.
+    #[must_use]
+    pub fn get(&self, key: &str) -> Option<&Setting> {
+        self.values.get(key)
     }
 
     /// A text; empty if there is none.

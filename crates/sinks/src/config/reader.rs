@@ -53,11 +53,14 @@ pub fn read(file: FileId, text: &str, boards: &[Board]) -> (Config, Vec<Diagnost
     if reader.reported.is_empty() {
         reader.clashes(start);
     }
-    if reader.reported.is_empty() && reader.config.sinks.is_empty() {
-        let all: Vec<String> = SINKS.iter().map(|spec| format!("`[{}]`", spec.name)).collect();
-        reader.reported.push(unreadable::no_sink(start, &all.join(", ")));
-    }
     (reader.config, reader.reported)
+}
+
+/// What is wrong with a configuration that names no program.
+#[must_use]
+pub fn without_sink(file: FileId) -> Diagnostic {
+    let all: Vec<String> = SINKS.iter().map(|spec| format!("`[{}]`", spec.name)).collect();
+    unreadable::no_sink(Span::new(file, 0..0), &all.join(", "))
 }
 
 struct Reader<'a> {
@@ -78,9 +81,9 @@ impl<'a> Reader<'a> {
         for (key, value) in table {
             let (name, at) = (key.get_ref().as_ref(), self.span(key));
             if name == "boards" {
-                self.named(value, "boards", |reader, key, value| reader.board(key, value));
+                self.named(value, "boards", Self::board);
             } else if name == "devices" {
-                self.named(value, "devices", |reader, key, value| reader.device(key, value));
+                self.named(value, "devices", Self::device);
             } else if let Some(spec) = SINKS.iter().find(|spec| spec.name == name) {
                 if !spec.is_built {
                     let why = e0563_sink_not_built::not_built(at, spec.name, spec.name);
@@ -365,7 +368,12 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
     let text = match value {
         DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
         DeValue::Float(number) => number.as_str(),
-        _ => return None,
+        DeValue::Integer(_)
+        | DeValue::String(_)
+        | DeValue::Boolean(_)
+        | DeValue::Datetime(_)
+        | DeValue::Array(_)
+        | DeValue::Table(_) => return None,
     };
     text.replace('_', "").parse().ok().filter(|number: &f64| number.is_finite())
 }

@@ -1,22 +1,21 @@
-//! A complete configuration with comments: boards in, TOML out.
+//! A complete configuration with comments: boards and the sinks that somebody wants in, TOML out.
 //!
-//! Everything but the short way's sinks is commented out, so that the file does nothing that nobody asked for.
+//! All else is commented out, so that the file is taken as it is and does nothing that nobody asked for.
 
 use std::fmt::Write as _;
 
 use sensedsl_host::Board;
 
-use super::{BOARD_KEYS, DEVICE_KEYS, Key, SINKS, Sort};
+use super::{BOARD_KEYS, Config, DEVICE_KEYS, Key, SINKS, Setting, Sort};
 
-/// The most devices that are printed with all keys; more would hide what the file is for.
 const HEAD: &str = "\
 # Who gets the values of these boards: sensedsl monitor --config FILE
 # Remove `#` before the table of a program, and before the keys that differ from what is shown.
 ";
 
-/// A file for the given boards.
+/// A file for the given boards, with the sinks of a configuration.
 #[must_use]
-pub fn sample(boards: &[Board]) -> String {
+pub fn sample(boards: &[Board], wanted: &Config) -> String {
     let mut text = HEAD.to_owned();
     for spec in SINKS {
         let needs = if spec.is_built {
@@ -24,8 +23,20 @@ pub fn sample(boards: &[Board]) -> String {
         } else {
             format!(" (not in this program: it needs the feature `{}`)", spec.name)
         };
-        line(&mut text, &format!("\n# {}: {}{needs}\n# [{}]", spec.title, spec.about, spec.name));
-        keys(&mut text, spec.keys, |_| None);
+        let own = wanted.sinks.iter().find(|settings| settings.spec.name == spec.name);
+        let mark = if own.is_some() { "" } else { "# " };
+        line(
+            &mut text,
+            &format!("\n# {}: {}{needs}\n{mark}[{}]", spec.title, spec.about, spec.name),
+        );
+        for key in spec.keys {
+            let usual_value = usual(key.sort);
+            let value =
+                own.and_then(|own| written(own.get(key.name)?)).filter(|it| *it != usual_value);
+            let mark = if value.is_some() { "" } else { "# " };
+            let value = value.unwrap_or(usual_value);
+            line(&mut text, &format!("{mark}{} = {value}  # {}", key.name, key.about));
+        }
     }
     for board in boards {
         line(
@@ -45,7 +56,8 @@ pub fn sample(boards: &[Board]) -> String {
                 &mut text,
                 &format!("\n# {sort} {} {}{of}\n# [devices.\"{name}\"]", device.name, device.value),
             );
-            let some = if place == 0 { DEVICE_KEYS } else { &DEVICE_KEYS[..0] };
+            // Once is enough: more would hide what the file is for.
+            let some = if place == 0 { DEVICE_KEYS } else { &[] };
             keys(&mut text, some, |key| match key {
                 "topic" => Some(format!("\"{name}\"")),
                 "frame" => Some(format!("\"{}\"", board.name)),
@@ -68,6 +80,20 @@ fn keys(text: &mut String, keys: &[Key], given: impl Fn(&str) -> Option<String>)
 fn line(text: &mut String, line: &str) {
     // A text takes all that is written to it.
     let _ = writeln!(text, "{line}");
+}
+
+/// A value as the file has it; none for what is not set.
+fn written(value: &Setting) -> Option<String> {
+    match value {
+        Setting::Text(text) => Some(quoted(text)),
+        Setting::Texts(all) => {
+            let all: Vec<String> = all.iter().map(|one| quoted(one)).collect();
+            Some(format!("[{}]", all.join(", ")))
+        }
+        Setting::Flag(flag) => Some(flag.to_string()),
+        Setting::Number(number) => Some(number.to_string()),
+        Setting::Unset => None,
+    }
 }
 
 fn quoted(text: &str) -> String {

@@ -8,10 +8,9 @@ mod discovery;
 mod network;
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rumqttc::{Client, LastWill, MqttOptions, QoS};
-use serde_json::Value;
 
 use crate::command;
 use crate::config::{Address, Settings};
@@ -29,6 +28,8 @@ const REQUESTS_MAX: usize = 4_096;
 const KEEP_ALIVE: Duration = Duration::from_secs(10);
 /// The most bytes of a packet: a longer one ends the connection.
 const PACKET_BYTES_MAX: usize = 1 << 20;
+/// How long a run that is over waits for a connection that was never there.
+const CONNECTS_WITHIN: Duration = Duration::from_millis(500);
 /// How long the goodbye may take.
 const BYE_WITHIN: Duration = Duration::from_millis(800);
 
@@ -122,6 +123,7 @@ impl Sink for Mqtt {
             outbox,
             picture: Picture::new(&self.plan),
             is_connected: false,
+            is_lost: false,
             refusals: Refusals::default(),
         };
         loop {
@@ -133,9 +135,13 @@ impl Sink for Mqtt {
                 Next::Nothing => {}
                 Next::Over => break,
             }
-            for said in network.heard() {
-                link.hear(said);
-            }
+            network.heard().for_each(|said| link.hear(said));
+        }
+        // A run that is shorter than a connection takes is told as well.
+        let over = Instant::now();
+        while !link.is_connected && !link.is_lost && over.elapsed() < CONNECTS_WITHIN {
+            std::thread::sleep(WAIT);
+            network.heard().for_each(|said| link.hear(said));
         }
         link.end();
         network.end(BYE_WITHIN);
@@ -148,6 +154,7 @@ struct Link<'a> {
     outbox: &'a Outbox,
     picture: Picture,
     is_connected: bool,
+    is_lost: bool,
     refusals: Refusals,
 }
 
@@ -184,10 +191,8 @@ impl Link<'_> {
             let payload = if self.mqtt.is_json {
                 json::value(&place, values, raw).to_string()
             } else {
-                match place.json(raw) {
-                    Value::Null => "nan".to_owned(),
-                    value => value.to_string(),
-                }
+                let value = place.json(raw);
+                if value.is_null() { "nan".to_owned() } else { value.to_string() }
             };
             self.send(self.mqtt.topics.state(&place), QoS::AtMostOnce, payload);
         }
@@ -197,7 +202,7 @@ impl Link<'_> {
         match said {
             Said::Connected => self.connected(),
             Said::Lost(why, help) => {
-                self.is_connected = false;
+                (self.is_connected, self.is_lost) = (false, true);
                 self.outbox.broken(&format!("{}: {why}", self.mqtt.broker), help);
             }
             Said::Message { topic, payload, is_retained } => {
@@ -211,7 +216,7 @@ impl Link<'_> {
     /// Tells the broker all that is known.
     fn connected(&mut self) {
         let mqtt = self.mqtt;
-        self.is_connected = true;
+        (self.is_connected, self.is_lost) = (true, false);
         self.outbox.works();
         for place in mqtt.plan.places() {
             if mqtt.takes_commands && place.is_actuator() {

@@ -99,6 +99,8 @@ fn words(error: &ConnectionError) -> (String, &'static str) {
         ConnectionError::MqttState(rumqttc::StateError::ConnectionAborted) => {
             ("the broker ended the connection".to_owned(), AGAIN)
         }
-        other => (other.to_string(), AGAIN),
+        other @ (ConnectionError::MqttState(_)
+        | ConnectionError::NotConnAck(_)
+        | ConnectionError::RequestsDone) => (other.to_string(), AGAIN),
     }
 }

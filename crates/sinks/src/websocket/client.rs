@@ -69,7 +69,7 @@ fn greet(stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStream>, 
             return Ok(response);
         }
         let why = "pages of this origin may not connect: name it in `origins`\n";
-        let mut refused = ErrorResponse::new(Some(why.to_owned().into()));
+        let mut refused = ErrorResponse::new(Some(why.to_owned()));
         *refused.status_mut() = tungstenite::http::StatusCode::FORBIDDEN;
         Err(refused)
     };

@@ -413,6 +413,9 @@ impl<'a> Link<'a> {
         let shown =
             self.board.devices.get(index).map_or_else(String::new, |device| device.text(&value));
         let said = format!("{} = {shown}", self.name(index));
+        if self.source.is_recording() {
+            return self.say(format!("not sent: {said}: a recording takes no commands"));
+        }
         if self.session.state() != State::Matched {
             if self.is_met || self.is_late {
                 return self.say(format!("not sent: {said}: the board is not there"));

@@ -34,15 +34,28 @@ pub(super) fn begin(
     watched: &[Board],
 ) -> Result<Vec<Box<dyn Output>>> {
     let mut sources = SourceMap::default();
-    let (mut config, mut reported) = match &args.config {
-        None => (Config::default(), Vec::new()),
-        Some(path) => {
-            let text = read_text(path, FileUse::Config)?;
-            let file = sources.add(shown(path), text.as_str());
-            config::read(file, &text, &subject.boards)
-        }
-    };
+    let (mut config, mut reported, mut file) = (Config::default(), Vec::new(), None);
+    if let Some(path) = &args.config {
+        let text = read_text(path, FileUse::Config)?;
+        let read = sources.add(shown(path), text.as_str());
+        (config, reported) = config::read(read, &text, &subject.boards);
+        file = Some(read);
+    }
     let at = Span::new(sources.add("monitor", ""), 0..0);
+    reported.extend(add_all(&mut config, args, at));
+    if let (Some(file), true, true) = (file, reported.is_empty(), config.sinks.is_empty()) {
+        reported.push(config::without_sink(file));
+    }
+    terminal.diagnostics(&reported, &sources)?;
+    if has_errors(&reported) {
+        bail!(Reported(Status::Misused));
+    }
+    Ok(outputs(&config, watched, &std::process::id().to_string()))
+}
+
+/// Adds the sinks of all short forms; what is wrong with them is returned.
+fn add_all(config: &mut Config, args: &SinkArgs, at: Span) -> Vec<Diagnostic> {
+    let mut reported = Vec::new();
     let mqtt = args.mqtt.as_ref().map(|broker| Some(broker.clone()));
     for (given, name, key) in [
         (&mqtt, "mqtt", "broker"),
@@ -50,16 +63,12 @@ pub(super) fn begin(
         (&args.plotjuggler, "plotjuggler", "to"),
     ] {
         if let Some(address) = given
-            && let Err(why) = add(&mut config, at, (name, key), address.as_deref())
+            && let Err(why) = add(config, at, (name, key), address.as_deref())
         {
             reported.push(*why);
         }
     }
-    terminal.diagnostics(&reported, &sources)?;
-    if has_errors(&reported) {
-        bail!(Reported(Status::Misused));
-    }
-    Ok(outputs(&config, watched, &std::process::id().to_string()))
+    reported
 }
 
 /// Adds the sink of a short form.
@@ -105,7 +114,20 @@ pub(super) fn init(
     terminal: &Terminal,
 ) -> Result<Status> {
     let subject = subject::read(args, file, terminal)?;
-    let text = config::sample(&subject.boards);
+    let (mut sources, mut wanted) = (SourceMap::default(), Config::default());
+    let at = Span::new(sources.add("monitor", ""), 0..0);
+    let reported = add_all(&mut wanted, &args.sinks, at);
+    if has_errors(&reported) {
+        terminal.diagnostics(&reported, &sources)?;
+        return Ok(Status::Misused);
+    }
+    // A file for nobody would be refused, and this one reaches no other machine.
+    if wanted.sinks.is_empty()
+        && let Some(spec) = config::find("websocket")
+    {
+        wanted.add(spec, "listen", None);
+    }
+    let text = config::sample(&subject.boards, &wanted);
     let Some(path) = to else {
         terminal.result(&text)?;
         return Ok(Status::Done);
