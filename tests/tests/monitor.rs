@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::hosts::terminal::Line;
 
-const ROBOT: &str = "board Rover on NUCLEO_F446RE {
+pub(crate) const ROBOT: &str = "board Rover on NUCLEO_F446RE {
     sensor Light returns uint16 { id = 17; type = analog; scale = 0.5; offset = -10; quantity = cm; max = 900; }
     sensor Turns returns int32 { id = 18; type = encoder; }
     actuator Servo accepts uint16 { id = 19; type = dac; scale = 0.1; quantity = deg; min = 0; max = 180; failsafe = 0; }
@@ -22,7 +22,7 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 }";
 
 /// A folder with the robot, its generated schema, and the link that it gives.
-fn robot(name: &str) -> (TempDir, Schema) {
+pub(crate) fn robot(name: &str) -> (TempDir, Schema) {
     let scratch = TempDir::new(name);
     let file = scratch.write("robot.sense", ROBOT);
     let out = scratch.join("out");
@@ -37,7 +37,7 @@ fn robot(name: &str) -> (TempDir, Schema) {
 }
 
 /// The lines of a run's output in JSON.
-fn objects(text: &str) -> Vec<Value> {
+pub(crate) fn objects(text: &str) -> Vec<Value> {
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 

@@ -97,10 +97,11 @@ fn a_rate_thins_values_out_and_the_last_one_still_comes() {
     }
     let _ = relay.close(at(1_200));
     let found = values(&told);
-    assert!((10..=12).contains(&found.len()), "{found:?}");
+    assert!((10..=13).contains(&found.len()), "{found:?}");
     assert_eq!(found.last().unwrap().1, 999);
-    let gaps = found.windows(2).map(|pair| pair[1].1 - pair[0].1);
-    assert!(gaps.into_iter().all(|gap| (90..=110).contains(&gap)), "{found:?}");
+    // The last one had no values behind it: it came as soon as the rate let it.
+    let mut gaps = found[..found.len() - 1].windows(2).map(|pair| pair[1].1 - pair[0].1);
+    assert!(gaps.all(|gap| (90..=110).contains(&gap)), "{found:?}");
 }
 
 #[test]
