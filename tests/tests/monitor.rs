@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::hosts::terminal::Line;
 
-pub(crate) const ROBOT: &str = "board Rover on NUCLEO_F446RE {
+const ROBOT: &str = "board Rover on NUCLEO_F446RE {
     sensor Light returns uint16 { id = 17; type = analog; scale = 0.5; offset = -10; quantity = cm; max = 900; }
     sensor Turns returns int32 { id = 18; type = encoder; }
     actuator Servo accepts uint16 { id = 19; type = dac; scale = 0.1; quantity = deg; min = 0; max = 180; failsafe = 0; }
@@ -22,9 +22,14 @@ pub(crate) const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 }";
 
 /// A folder with the robot, its generated schema, and the link that it gives.
-pub(crate) fn robot(name: &str) -> (TempDir, Schema) {
+fn robot(name: &str) -> (TempDir, Schema) {
+    robot_of(name, ROBOT)
+}
+
+/// The same with a design of one's own.
+pub(crate) fn robot_of(name: &str, design: &str) -> (TempDir, Schema) {
     let scratch = TempDir::new(name);
-    let file = scratch.write("robot.sense", ROBOT);
+    let file = scratch.write("robot.sense", design);
     let out = scratch.join("out");
     let _ = sensedsl(["generate", "--quiet", "--without", "firmware", "-o"])
         .arg(&out)
@@ -37,7 +42,7 @@ pub(crate) fn robot(name: &str) -> (TempDir, Schema) {
 }
 
 /// The lines of a run's output in JSON.
-pub(crate) fn objects(text: &str) -> Vec<Value> {
+fn objects(text: &str) -> Vec<Value> {
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 

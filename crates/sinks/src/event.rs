@@ -158,23 +158,29 @@ impl Outbox {
 #[derive(Debug, Default)]
 pub struct Refusals {
     told: Option<Instant>,
+    waiting: Option<String>,
     skipped: u64,
 }
 
 impl Refusals {
-    /// Tells of one, or counts it.
-    pub fn tell(&mut self, outbox: &Outbox, text: &str) {
+    /// Tells of one, now or as soon as it may.
+    pub fn tell(&mut self, outbox: &Outbox, text: String) {
+        self.skipped += u64::from(self.waiting.replace(text).is_some());
+        self.look(outbox);
+    }
+
+    /// Tells what had to wait.
+    pub fn look(&mut self, outbox: &Outbox) {
         if self.told.is_some_and(|told| told.elapsed() < TELL_EVERY) {
-            self.skipped += 1;
             return;
         }
-        let more = if self.skipped > 0 {
-            format!(" ({} more before)", self.skipped)
-        } else {
-            String::new()
+        let Some(text) = self.waiting.take() else { return };
+        let more = match self.skipped {
+            0 => String::new(),
+            skipped => format!(" ({skipped} more before)"),
         };
         outbox.note(&format!("{text}{more}"));
-        *self = Self { told: Some(Instant::now()), skipped: 0 };
+        *self = Self { told: Some(Instant::now()), ..Self::default() };
     }
 }
 

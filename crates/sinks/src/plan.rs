@@ -11,6 +11,9 @@ use serde_json::{Map, Number, Value};
 use crate::config::Config;
 use crate::event::Values;
 
+/// From this rate on all values pass: several that come at once are not too many for it.
+const ALL_HZ: f64 = 100_000.0;
+
 /// How one device goes out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
@@ -78,6 +81,7 @@ impl Plan {
                 let own = config.devices.get(&key).cloned().unwrap_or_default();
                 let rates = [own.rate_hz, of_board.rate_hz, rate_hz];
                 let rate_hz = rates.into_iter().flatten().reduce(f64::min);
+                let rate_hz = rate_hz.filter(|rate_hz| *rate_hz < ALL_HZ);
                 Route {
                     topic: own.topic.unwrap_or_else(|| format!("{topic}/{}", device.name)),
                     frame: own.frame.unwrap_or_else(|| frame.clone()),

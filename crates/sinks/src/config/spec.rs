@@ -53,8 +53,11 @@ const fn key(name: &'static str, sort: Sort, about: &'static str) -> Key {
     Key { name, sort, about }
 }
 
-const RATE: Key =
-    key("rate_hz", Sort::Positive(None), "at most so many values a second of each device");
+const RATE: Key = key(
+    "rate_hz",
+    Sort::Positive(None),
+    "at most so many values a second of each device; 1e6 lets all pass",
+);
 const COMMANDS: Key =
     key("commands", Sort::Flag(true), "whether other programs may set actuators this way");
 

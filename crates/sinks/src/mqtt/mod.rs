@@ -11,13 +11,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rumqttc::{Client, LastWill, MqttOptions, QoS};
+use sensedsl_wire::Health;
 
 use crate::command;
 use crate::config::{Address, Settings};
 use crate::event::{Event, Inbox, Next, Outbox, Refusals, Sink, Values};
 use crate::json;
 use crate::picture::Picture;
-use crate::plan::{Place, Plan};
+use crate::plan::{BoardPlan, Place, Plan};
 use network::{Network, Said};
 
 /// How long the sink waits for an event before it looks at the network.
@@ -136,6 +137,7 @@ impl Sink for Mqtt {
                 Next::Over => break,
             }
             network.heard().for_each(|said| link.hear(said));
+            link.refusals.look(outbox);
         }
         // A run that is shorter than a connection takes is told as well.
         let over = Instant::now();
@@ -179,11 +181,15 @@ impl Link<'_> {
             }
             Event::Health { board, health, .. } => {
                 if let Some(on) = plan.board(*board) {
-                    let told = json::health(on, health).to_string();
-                    self.send(topics.board_health(&on.topic), QoS::AtMostOnce, told);
+                    self.health(on, health);
                 }
             }
         }
+    }
+
+    fn health(&self, on: &BoardPlan, health: &Health) {
+        let topic = self.mqtt.topics.board_health(&on.topic);
+        self.send(topic, QoS::AtMostOnce, json::health(on, health).to_string());
     }
 
     fn values(&self, values: &Values) {
@@ -207,7 +213,7 @@ impl Link<'_> {
             }
             Said::Message { topic, payload, is_retained } => {
                 if let Err(why) = self.command(&topic, &payload, is_retained) {
-                    self.refusals.tell(self.outbox, &format!("not set by {topic}: {why}"));
+                    self.refusals.tell(self.outbox, format!("not set by {topic}: {why}"));
                 }
             }
         }
@@ -230,6 +236,9 @@ impl Link<'_> {
         for (board, state) in self.picture.boards.iter().enumerate() {
             let away = if state.is_online { None } else { Some(String::new()) };
             self.publish(&Event::Presence { board, away });
+            if let (Some(on), Some(told)) = (mqtt.plan.board(board), &state.health) {
+                self.health(on, told);
+            }
         }
         self.picture.values().for_each(|values| self.values(values));
     }

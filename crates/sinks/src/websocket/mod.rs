@@ -240,9 +240,12 @@ impl Hub<'_> {
     fn hello(&self) -> Value {
         let mut schema = json::schema(self.plan);
         if let Value::Array(boards) = &mut schema {
-            for (board, state) in boards.iter_mut().zip(&self.picture.boards) {
+            let plans = self.plan.boards.iter().zip(&self.picture.boards);
+            for (board, (on, state)) in boards.iter_mut().zip(plans) {
                 if let Value::Object(board) = board {
                     board.insert("online".into(), state.is_online.into());
+                    let health = state.health.as_ref().map(|told| json::health(on, told));
+                    board.insert("health".into(), health.unwrap_or_default());
                 }
             }
         }
