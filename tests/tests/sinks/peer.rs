@@ -27,10 +27,15 @@ pub(crate) enum Message {
 impl WebSocket {
     /// Connects; the status line if the server does not want it. `more` are lines of the head.
     pub(crate) fn connect(port: u16, more: &str) -> Result<Self, String> {
+        Self::connect_to(port, "/", more)
+    }
+
+    /// The same with a path.
+    pub(crate) fn connect_to(port: u16, path: &str, more: &str) -> Result<Self, String> {
         let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(5))).unwrap();
         let head = format!(
-            "GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+            "GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
              Sec-WebSocket-Key: {NONCE}\r\nSec-WebSocket-Version: 13\r\n{more}\r\n"
         );
         stream.write_all(head.as_bytes()).unwrap();

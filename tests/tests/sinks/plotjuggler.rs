@@ -69,6 +69,42 @@ fn all_values_go_out_with_their_times() {
     assert_eq!(values, printed);
 }
 
+/// The layout in the examples shows curves that its example has: elements of arrays are curves of their own.
+#[test]
+fn the_layout_names_curves_that_come() {
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let to = format!("--plotjuggler={}", socket.local_addr().unwrap());
+    let file = "examples/line_follower.sense";
+    let arguments =
+        ["simulate", file, "--seconds", "1", "--set", "Left=1", "--set", "Right=1", &to];
+    let mut run = Running::monitor(arguments);
+    let err = std::sync::Arc::clone(&run.err);
+    let found =
+        datagrams(&socket, || err.lock().unwrap().iter().any(|line| line.contains("frames")));
+    assert_eq!(run.ends(), 0, "{}", run.said());
+    let mut names = std::collections::BTreeSet::new();
+    for datagram in &found {
+        let mut values = Vec::new();
+        series("", datagram, &mut values);
+        for (name, value) in values {
+            match value.as_array() {
+                Some(all) => {
+                    names.extend((0..all.len()).map(|element| format!("/{name}[{element}]")))
+                }
+                None => drop(names.insert(format!("/{name}"))),
+            }
+        }
+    }
+    assert!(names.remove("/timestamp"));
+    let layout = sensedsl_tests::text("examples/sinks/line_follower.plotjuggler.xml");
+    let curves = layout.lines().filter_map(|line| line.split_once("name=\"/")?.1.split_once('"'));
+    let curves: Vec<String> = curves.map(|(name, _)| format!("/{name}")).collect();
+    let (curves, names): (Vec<_>, Vec<_>) = (curves, names.into_iter().collect());
+    let sorted: Vec<_> =
+        curves.iter().cloned().collect::<std::collections::BTreeSet<_>>().into_iter().collect();
+    assert_eq!(sorted, names);
+}
+
 #[test]
 fn a_rate_a_name_and_a_unit_of_ones_own() {
     let (scratch, _) = robot("sinks-plotjuggler-rate");

@@ -1,12 +1,16 @@
 //! WebSocket: clients after the RFC, some of which behave badly.
 
+use std::io::{Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
+use std::process::Command;
 use std::time::Duration;
+
+use sensedsl_tests::{TempDir, has};
 
 use serde_json::{Value, json};
 
 use super::peer::{Message, WebSocket};
-use super::{Running, free_port, robot, shown, text};
+use super::{Running, free_port, robot, shown, text, until};
 
 fn started(file: &std::path::Path, port: u16, more: &[&str]) -> Running {
     let serve = format!("--websocket=127.0.0.1:{port}");
@@ -136,6 +140,92 @@ fn strangers_and_bad_clients_disturb_nobody() {
     let _: Value = good.wait(|text| text["values"].is_object());
     run.type_in("Servo 5");
     let _ = good.wait(|text| text["command"]["values"]["Rover/Servo"] == 5.0);
+}
+
+/// A browser without a screen, which is asked over its debugging port.
+struct Browser {
+    _run: Running,
+    page: WebSocket,
+    asked: u32,
+}
+
+impl Browser {
+    fn open(scratch: &TempDir, url: &str) -> Self {
+        let profile = format!("--user-data-dir={}", text(&scratch.join("profile")));
+        let arguments = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"];
+        let run = Running::start(Command::new("chromium").args(arguments).args([
+            &profile,
+            "--remote-debugging-port=0",
+            url,
+        ]));
+        run.says("DevTools listening on ws://127.0.0.1:");
+        let said = run.said();
+        let rest = said.split_once("DevTools listening on ws://127.0.0.1:").unwrap().1;
+        let port = rest.split_once('/').unwrap().0.parse().unwrap();
+        let pages = get(port, "/json/list");
+        let pages: Value = serde_json::from_str(pages.split_once("\r\n\r\n").unwrap().1).unwrap();
+        let page = pages.as_array().unwrap().iter().find(|page| page["type"] == "page").unwrap();
+        let path = format!("/devtools/page/{}", page["id"].as_str().unwrap());
+        Self { _run: run, page: WebSocket::connect_to(port, &path, "").unwrap(), asked: 0 }
+    }
+
+    /// What an expression is on the page.
+    fn evaluate(&mut self, expression: &str) -> Value {
+        self.asked += 1;
+        let (id, params) = (self.asked, json!({ "expression": expression, "returnByValue": true }));
+        let call = json!({ "id": id, "method": "Runtime.evaluate", "params": params });
+        self.page.text(&call.to_string());
+        self.page.wait(|text| text["id"] == id)["result"]["result"]["value"].clone()
+    }
+}
+
+fn get(port: u16, path: &str) -> String {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    let head =
+        format!("GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n");
+    stream.write_all(head.as_bytes()).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(2))).unwrap();
+    let mut bytes = Vec::new();
+    // A server may keep the connection: what it has said by then is all.
+    let _ = stream.read_to_end(&mut bytes);
+    String::from_utf8(bytes).unwrap()
+}
+
+/// A browser shows the page of the address itself, with the values, and sets an actuator.
+#[test]
+fn a_browser_shows_the_values() {
+    if !has("chromium") {
+        return;
+    }
+    let (scratch, _) = robot("sinks-websocket-page");
+    let port = free_port();
+    let run = started(&scratch.join("robot.sense"), port, &[]);
+    let mut browser = Browser::open(&scratch, &format!("http://127.0.0.1:{port}/"));
+    let mut rows = Value::Null;
+    until(
+        || {
+            let all = "[...document.querySelectorAll('tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))";
+            rows = browser.evaluate(all);
+            rows[0][1].as_str().is_some_and(|value| !value.is_empty())
+        },
+        || "the page has no values".to_owned(),
+    );
+    assert_eq!(browser.evaluate("document.getElementById('state').textContent"), "Rover is there");
+    assert_eq!((&rows[0][0], &rows[0][2]), (&json!("Rover/Light"), &json!("cm")));
+    let value: f64 = rows[0][1].as_str().unwrap().parse().unwrap();
+    let is_it = |(name, shown): &(String, Value)| name == "Light" && shown.as_f64() == Some(value);
+    assert!(shown(&run.printed()).iter().any(is_it), "{rows}");
+    let points = browser.evaluate("document.querySelector('polyline').getAttribute('points')");
+    assert!(points.as_str().unwrap().contains(','), "{points}");
+    let set = "document.querySelector('input').value = '45 deg'; document.querySelector('form').requestSubmit()";
+    let _ = browser.evaluate(set);
+    run.says("sent: Servo = 450 (45 deg)");
+    let said = "document.getElementById('said').textContent";
+    until(|| browser.evaluate(said) == "Rover/Servo = 45", || "no answer".to_owned());
+    let _ = browser.evaluate(&set.replace("45 deg", "181"));
+    let expected = "Rover/Servo: 181 deg is above the maximum of 180";
+    until(|| browser.evaluate(said) == expected, || "no refusal".to_owned());
+    assert!(get(port, "/other").starts_with("HTTP/1.1 404 "));
 }
 
 #[test]

@@ -6,12 +6,12 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0563",
     title: "this program cannot pass values on that way",
-    explanation: r#"`monitor` passes values on to MQTT, WebSocket and PlotJuggler. What takes long to compile is left out unless it is asked
-for by a feature: Prometheus, OD4, ROS 2, Zenoh, Foxglove.
+    explanation: r#"`monitor` passes values on in ways that are features of this program, so that nobody has to compile what he does not
+use. This one was built without the one that is asked for.
 
 Way out: install `sensedsl` with the feature:
 
-    cargo install --path crates/sensedsl --features ros2
+    cargo install --path crates/sensedsl --features mqtt
 
 Features are listed with commas between them."#,
 });

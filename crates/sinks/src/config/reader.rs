@@ -57,7 +57,6 @@ pub fn read(file: FileId, text: &str, boards: &[Board]) -> (Config, Vec<Diagnost
 }
 
 /// What is wrong with a configuration that names no program.
-#[must_use]
 pub fn without_sink(file: FileId) -> Diagnostic {
     let all: Vec<String> = SINKS.iter().map(|spec| format!("`[{}]`", spec.name)).collect();
     unreadable::no_sink(Span::new(file, 0..0), &all.join(", "))

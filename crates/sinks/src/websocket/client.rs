@@ -12,6 +12,7 @@ use tungstenite::handshake::server::{ErrorResponse, Request as Head, Response};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, Utf8Bytes, WebSocket, accept_hdr_with_config};
 
+use super::head::{Wanted, answer, wanted};
 use super::origin::is_allowed;
 use super::{CLIENT_QUEUE_MAX, Request};
 
@@ -51,11 +52,16 @@ pub(super) fn start(
     });
 }
 
-fn greet(stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStream>, Error> {
+fn greet(mut stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStream>, Error> {
     stream.set_nonblocking(false)?;
     stream.set_nodelay(true)?;
     stream.set_read_timeout(Some(GREETS_WITHIN))?;
     stream.set_write_timeout(Some(GREETS_WITHIN))?;
+    let wanted = wanted(&stream, GREETS_WITHIN)?;
+    if wanted != Wanted::Socket {
+        answer(&mut stream, wanted)?;
+        return Err(Error::ConnectionClosed);
+    }
     let config = WebSocketConfig::default()
         .read_buffer_size(8 << 10)
         .write_buffer_size(0)
@@ -64,8 +70,8 @@ fn greet(stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStream>, 
         .max_frame_size(Some(MESSAGE_BYTES_MAX));
     #[expect(clippy::result_large_err, reason = "the type of an answer is the crate's")]
     let judge = |head: &Head, response: Response| {
-        let origin = head.headers().get("origin").map(|one| one.to_str().unwrap_or("unreadable"));
-        if is_allowed(origin, origins) {
+        let field = |name| head.headers().get(name).map(|one| one.to_str().unwrap_or("unreadable"));
+        if is_allowed(field("origin"), field("host"), origins) {
             return Ok(response);
         }
         let why = "pages of this origin may not connect: name it in `origins`\n";

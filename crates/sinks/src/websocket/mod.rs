@@ -1,10 +1,11 @@
 //! WebSocket: what happens in, text messages in JSON for pages and scripts out, and their commands back.
 //!
 //! The sink's thread is the hub: it makes each message once and puts it into the queue of each client. `client.rs` has
-//! the thread of one client. A client that does not read what it gets is let go, so that it slows nobody down.
+//! the thread of one client, `head.rs` a page for browsers. A client that does not read what it gets is let go, so that it slows nobody down.
 //! The protocol is written down in `docs/sinks/websocket.md`.
 
 mod client;
+mod head;
 mod origin;
 
 use std::net::{SocketAddr, TcpListener};
@@ -102,7 +103,7 @@ impl WebSocketServer {
             Ok(listener) => {
                 outbox.works();
                 let at = listener.local_addr().unwrap_or(self.listen);
-                outbox.note(&format!("ws://{at}"));
+                outbox.note(&format!("ws://{at}, with a page at http://{at}"));
                 if !at.ip().is_loopback() {
                     let who = "everybody who reaches this address sees the values";
                     let may = if self.takes_commands { " and may set actuators" } else { "" };
