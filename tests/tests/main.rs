@@ -37,6 +37,7 @@ mod parts;
 mod pictures;
 mod prolog;
 mod proof;
+mod records;
 mod robots;
 mod scripts;
 mod sheet;

@@ -84,7 +84,7 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
         .map(|(on, board)| {
             let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
             let shown = devices.iter().filter_map(|index| design.device(*index));
-            let paced = shown.clone().filter(|device| device.kind.name().spec().has_cycle);
+            let paced = shown.clone().filter(|device| device.kind.name().spec().comes_each_cycle());
             HostBoard {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),

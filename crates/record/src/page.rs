@@ -2,8 +2,10 @@
 
 use askama::Template;
 use sensedsl_files::print;
+use sensedsl_wire::ScalarType;
 
 use crate::read::Ending;
+use crate::series::Series;
 use crate::summary::{BoardSummary, DeviceSummary, HEADS, Summary};
 
 /// The size of a plot, and the room for its numbers.
@@ -71,6 +73,7 @@ pub fn html(summary: &Summary, title: &str) -> String {
 impl BoardView {
     fn new(board: &BoardSummary, summary: &Summary) -> Self {
         let rows = board.devices.iter().flat_map(|device| device.rows(summary.lasted)).collect();
+        let breaks: Vec<f64> = board.absences.iter().map(|(from, ..)| from.as_secs_f64()).collect();
         let seen = board.devices.iter().filter(|device| device.stats.count() > 0);
         Self {
             name: board.name.clone(),
@@ -78,13 +81,15 @@ impl BoardView {
             notes: board.notes(),
             heads: HEADS,
             rows,
-            plots: seen.map(|device| Plot::new(device, summary.lasted.as_secs_f64())).collect(),
+            plots: seen
+                .map(|device| Plot::new(device, summary.lasted.as_secs_f64(), &breaks))
+                .collect(),
         }
     }
 }
 
 impl Plot {
-    fn new(device: &DeviceSummary, lasted_s: f64) -> Self {
+    fn new(device: &DeviceSummary, lasted_s: f64, breaks_s: &[f64]) -> Self {
         let all = device.elements.iter().map(|series| series.numbers());
         let ends = all.filter_map(|[least, _, most]| least.zip(most));
         let (least, most) =
@@ -92,11 +97,12 @@ impl Plot {
         // A line that never moves is in the middle.
         let margin = if most > least { 0.0 } else { least.abs().max(1.0) / 2.0 };
         let (low, high) = (least - margin, most + margin);
+        let is_stepped = device.device.value.scalar == ScalarType::Bool;
         let is_array = device.device.value.length.is_some();
         let lines = device.elements.iter().enumerate().map(|(element, series)| Line {
             element: if is_array { element.to_string() } else { String::new() },
             class: element % 8,
-            path: path(series.spans(), series.span().as_secs_f64(), lasted_s, (low, high)),
+            path: path(series, lasted_s, (low, high), is_stepped, breaks_s),
         });
         let outside = device.overstepped;
         Self {
@@ -115,21 +121,31 @@ impl Plot {
     }
 }
 
-/// A stroke from the least to the greatest of each span, joined where they follow each other.
+/// A stroke from the least to the greatest of each span, joined but where the board was away.
 fn path(
-    spans: &[Option<(f64, f64)>],
-    span_s: f64,
+    series: &Series,
     lasted_s: f64,
     (low, high): (f64, f64),
+    is_stepped: bool,
+    breaks_s: &[f64],
 ) -> String {
+    let span_s = series.span().as_secs_f64();
     let y = |number: f64| TOP + (HEIGHT - TOP - BOTTOM) * (high - number) / (high - low);
     let (mut path, mut last) = (String::new(), None::<f64>);
-    for (place, span) in spans.iter().enumerate() {
+    let mut breaks_s = breaks_s.iter().peekable();
+    for (place, span) in series.spans().iter().enumerate() {
         let Some((least, most)) = span else { continue };
-        let x = x(place as f64 * span_s, lasted_s);
+        let at_s = place as f64 * span_s;
+        while breaks_s.next_if(|away_s| **away_s <= at_s).is_some() {
+            last = None;
+        }
+        let x = x(at_s, lasted_s);
         // It goes first to the end that is nearer to where the line is.
         let is_up = last.is_some_and(|last| (last - least).abs() > (last - most).abs());
         let (first, second) = if is_up { (*most, *least) } else { (*least, *most) };
+        if is_stepped && last.is_some() {
+            path.push_str(&format!("H{x:.1}"));
+        }
         let letter = if last.is_none() { 'M' } else { 'L' };
         path.push_str(&format!("{letter}{x:.1} {:.1}", y(first)));
         if most > least {
@@ -138,7 +154,7 @@ fn path(
         last = Some(second);
     }
     // One point alone is drawn as a short line.
-    if path.contains('M') && !path.contains(['L', 'V']) { format!("{path}h2") } else { path }
+    if path.contains('M') && !path.contains(['L', 'V', 'H']) { format!("{path}h2") } else { path }
 }
 
 fn x(at_s: f64, lasted_s: f64) -> f64 {

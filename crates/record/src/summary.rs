@@ -5,7 +5,8 @@ use std::io::Read;
 use std::time::Duration;
 
 use sensedsl_host::{
-    Board, BoardClock, ClockError, Counts, Device, DeviceStats, Event, Overstep, Session,
+    Board, BoardClock, ClockError, Counts, Device, DeviceStats, Event, Moment, News, Overstep,
+    Session, What,
 };
 use sensedsl_wire::{Direction, Health, Scalar, Stamp};
 
@@ -83,6 +84,36 @@ pub fn summary<R: Read>(mut reader: RecordReader<R>, part: &Part) -> Result<Summ
     Ok(Summary { ending: reader.ending().unwrap_or(Ending::Whole), began, lasted, boards })
 }
 
+/// Sums up a run while it lasts.
+pub struct Summing<'b> {
+    began: Moment,
+    lasted: Duration,
+    tallies: Vec<Tally<'b>>,
+}
+
+impl<'b> Summing<'b> {
+    /// Begins with the boards that are watched, in their order.
+    pub fn new(boards: impl IntoIterator<Item = &'b Board>, began: Moment) -> Self {
+        let tallies = boards.into_iter().map(Tally::new).collect();
+        Self { began, lasted: Duration::ZERO, tallies }
+    }
+
+    /// Takes what happened.
+    pub fn take(&mut self, news: &News<'_>) {
+        self.lasted = self.lasted.max(news.at.run);
+        if let Some(tally) = self.tallies.get_mut(news.board) {
+            tally.hear(news);
+        }
+    }
+
+    /// What it came to.
+    #[must_use]
+    pub fn done(self) -> Summary {
+        let boards = self.tallies.into_iter().map(Tally::done).collect();
+        Summary { ending: Ending::Whole, began: self.began.unix, lasted: self.lasted, boards }
+    }
+}
+
 /// A board that is being counted.
 struct Tally<'b> {
     board: &'b Board,
@@ -123,18 +154,39 @@ impl<'b> Tally<'b> {
                 self.value((*device, value), *stamp, *latency, now);
             }
             Past::Event(event) => match event.get("why").and_then(|why| why.as_str()) {
-                Some(why) => {
-                    self.interrupt();
-                    self.done.absences.push((now, None, why.to_owned()));
-                }
-                None => {
-                    if let Some((_, until @ None, _)) = self.done.absences.last_mut() {
-                        *until = Some(now);
-                    }
-                }
+                Some(why) => self.away(why, now),
+                None => self.back(now),
             },
             // What it says is among the bytes, too.
             Past::Health(_) => {}
+        }
+    }
+
+    fn hear(&mut self, news: &News<'_>) {
+        let now = news.at.run;
+        match news.what {
+            What::Received(bytes) => self.received(bytes, now),
+            What::Sent(_) => self.clock.asked(now),
+            What::Report(report) => {
+                for (device, value) in &report.values {
+                    self.value((*device, value), report.stamp, report.latency, now);
+                }
+            }
+            What::Command { device, value } => self.value((device, value), None, None, now),
+            What::Offline(why) => self.away(why, now),
+            What::Online => self.back(now),
+            What::Health(_) => {}
+        }
+    }
+
+    fn away(&mut self, why: &str, now: Duration) {
+        self.interrupt();
+        self.done.absences.push((now, None, why.to_owned()));
+    }
+
+    fn back(&mut self, now: Duration) {
+        if let Some((_, until @ None, _)) = self.done.absences.last_mut() {
+            *until = Some(now);
         }
     }
 
@@ -234,7 +286,9 @@ impl BoardSummary {
         if let Some(health) = &self.health {
             let (sent, refused) = (health.reports_sent, health.reports_refused);
             notes.push(format!(
-                "the board says it sent {sent} reports, and its link refused {refused}"
+                "{:.2} s after it had started, the board had sent {sent} reports and its link had refused \
+                 {refused}",
+                f64::from(health.uptime_ms) / 1e3
             ));
         }
         notes

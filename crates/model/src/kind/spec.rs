@@ -49,6 +49,14 @@ pub struct KindSpec {
     pub letter: char,
 }
 
+impl KindSpec {
+    /// Whether a host can count on a sensor's value each cycle. What counts on its own is told when it has changed.
+    #[must_use]
+    pub fn comes_each_cycle(&self) -> bool {
+        self.has_cycle && !self.triggers_itself
+    }
+}
+
 /// The pins that can be a kind's wires, besides those for which any pin will do.
 #[derive(Clone, Copy, Debug)]
 pub enum Serves {

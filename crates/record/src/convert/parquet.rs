@@ -58,7 +58,7 @@ fn schema() -> Result<Type, ParquetError> {
     let columns = [
         column("time", Physical::INT64, time(), false)?,
         column("sampled", Physical::INT64, time(), false)?,
-        column("run_s", Physical::DOUBLE, None, false)?,
+        column("time_s", Physical::DOUBLE, None, false)?,
         column("board", Physical::BYTE_ARRAY, text(), false)?,
         column("device", Physical::BYTE_ARRAY, text(), false)?,
         column("element", Physical::INT32, None, false)?,

@@ -28,9 +28,16 @@ pub(crate) struct MonitorArgs {
     /// How to print values; a table where people see it, otherwise lines
     #[arg(long, value_enum)]
     pub(crate) format: Option<MonitorFormat>,
+    /// With `simulate`: what its sensors measure, as for the command of that name: a text (TOML), or
+    /// a recorded run (`.mcap`)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "replay"])]
+    pub(crate) world: Option<PathBuf>,
     /// Write the run down in a new file that monitor, convert, and all programs for MCAP read
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
+    /// Print at the end how many values came, how regularly, how late, and within what limits
+    #[arg(long)]
+    pub(crate) summary: bool,
     /// Play a record again
     #[arg(long, value_name = "RECORD", conflicts_with_all = ["device", "at", "baud", "set"])]
     pub(crate) replay: Option<PathBuf>,

@@ -10,8 +10,8 @@ use super::common::{Reach, seconds};
 pub(crate) struct SimulateArgs {
     /// The file; - is the standard input
     pub(crate) file: PathBuf,
-    /// What the sensors measure, and what breaks (TOML); without it all of them move within their
-    /// ranges
+    /// What the sensors measure, and what breaks (TOML), or a recorded run (`.mcap`); without it all
+    /// of them move within their ranges
     #[arg(long, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
     /// What a sensor measures, in the unit that is shown: --set Front=20, --set 'Front=0.2 m'; wins
@@ -33,7 +33,8 @@ pub(crate) struct SimulateArgs {
     /// Print what the board reports, and make no pseudo-terminal
     #[arg(long, conflicts_with = "judge")]
     pub(crate) stdout: bool,
-    /// Stop after that time; 10 with --judge, and where --stdout is not a terminal
+    /// Stop after that time; 10 with --judge, and where --stdout is not a terminal, or as long as a
+    /// recorded run
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) seconds: Option<f64>,
     /// What chance begins with; the same seed gives the same bytes

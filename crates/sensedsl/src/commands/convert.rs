@@ -26,7 +26,7 @@ pub(crate) fn run(args: &ConvertArgs, terminal: &Terminal) -> Result<Status> {
         && !is_stream(output)
         && !args.force
     {
-        in_the_way::say(output, "--force", terminal)?;
+        in_the_way::say(output, "convert", terminal)?;
         return Ok(Status::Misused);
     }
     let ending = match (form, args.summary) {

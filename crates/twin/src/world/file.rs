@@ -300,12 +300,12 @@ fn turns(device: &Device, signal: &mut Signal) {
     }
 }
 
-fn is_turning(device: &Device) -> bool {
+pub(super) fn is_turning(device: &Device) -> bool {
     device.kind.encoder().is_some() || is_counter(&device.kind, device)
 }
 
 /// The reason why a device cannot follow a signal.
-fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
+pub(super) fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
     if let Some(reported) = too_fast(device, signal, span) {
         return Some(reported);

@@ -8,6 +8,7 @@ mod command;
 mod entry;
 mod fault;
 mod file;
+mod recorded;
 mod samples;
 mod signal;
 mod usual;
@@ -20,6 +21,7 @@ use crate::commands::Command;
 
 pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
+pub use recorded::{Again, Point, Recorded, recorded};
 pub use signal::{Shape, Signal, Visit};
 pub use usual::usual;
 
@@ -34,4 +36,6 @@ pub struct World {
     pub faults: Vec<Fault>,
     /// The host's commands, in the order of the text.
     pub commands: Vec<Command>,
+    /// The length of the run that it is a record of.
+    pub lasts_ns: Option<u64>,
 }

@@ -10,8 +10,7 @@ use sensedsl_host::Board;
 use sensedsl_host::port::{OpenError, Port, usb_ports};
 use sensedsl_wire::{Decoder, Direction, Event as Received, encode_hello_request};
 
-use super::BAUD;
-use super::source::Source;
+use super::source::{BAUD, Source};
 use super::subject::Subject;
 use crate::cli::MonitorArgs;
 use crate::files::shown;

@@ -13,8 +13,7 @@ use sensedsl_wire::{
     Direction, Health, Scalar, Stamp, Status as HealthStatus, encode_hello_request,
 };
 
-use super::BAUD;
-use super::source::Source;
+use super::source::{BAUD, Source};
 use crate::cli::MonitorArgs;
 
 /// The time after which a device that is back and cannot be opened is told.

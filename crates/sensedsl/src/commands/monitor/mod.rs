@@ -2,9 +2,14 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
+<<<<<<< HEAD
 //! prints (`show.rs`), and outputs (`outputs.rs`): a
 //! record (`record.rs`), which `replay.rs` plays again, a pseudo-terminal (`pty.rs`), other programs (`sinks.rs`).
 //! Whether a board is the one that is meant decides `sensedsl_host::Session`.
+=======
+//! prints (`show.rs`), and outputs (`outputs.rs`), such as a record (`record.rs`), which `replay.rs` plays again. Whether
+//! a board is the one that is meant decides `sensedsl_host::Session`.
+>>>>>>> main
 
 mod face;
 mod find;
@@ -29,7 +34,7 @@ use sensedsl_diagnostics::codes::e0557_no_board as no_board;
 use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
 use sensedsl_host::Board;
 
-use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::cli::MonitorArgs;
 use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -37,13 +42,10 @@ use face::Face;
 use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
-use show::Printer;
+use show::{Printer, format};
 use source::Source;
 use subject::Subject;
 use watch::Watch;
-
-/// The rate of a link of which nobody says one.
-const BAUD: u32 = 115_200;
 
 pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     if let Some(path) = args.record_file() {
@@ -57,6 +59,9 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
         return subject::simulated(args, file, terminal, |subject, found| {
             watch(args, terminal, subject, found, None)
         });
+    }
+    if args.world.is_some() {
+        bail!("`--world` is for a simulated board: `sensedsl monitor simulate FILE --world …`");
     }
     let subject = subject::read(args, file, terminal)?;
     let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
@@ -147,12 +152,6 @@ fn named<'s>(
     }
 }
 
-/// How values are shown.
-fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
-    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
-    args.format.unwrap_or(usual)
-}
-
 /// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
 fn replayed(path: &Path, args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     let mut replay = match Replay::open(path) {
@@ -187,8 +186,6 @@ fn watch(
 ) -> Result<Status> {
     let links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
-    let begin = replay.as_ref().map(|replay| replay.begin);
-    let outputs = outputs::outputs(args, terminal, subject, &links, begin)?;
     let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
-    Watch::new(args, terminal, subject, links, face, outputs, replay).run()
+    Watch::new(args, terminal, subject, links, face, replay).run()
 }

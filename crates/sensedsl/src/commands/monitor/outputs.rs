@@ -1,7 +1,5 @@
 //! Who is told of a run besides people: what the arguments ask for.
 
-use std::time::{SystemTime, UNIX_EPOCH};
-
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0566_no_new_record::not_made;
 use sensedsl_host::{Board, Moment, Output};
@@ -13,16 +11,15 @@ use crate::cli::MonitorArgs;
 use crate::files::Refused;
 use crate::terminal::Terminal;
 
-/// All outputs of a run that begins at a moment of the past, or now.
+/// All outputs of a run.
 pub(super) fn outputs(
     args: &MonitorArgs,
     terminal: &Terminal,
     subject: &Subject,
     links: &[Link<'_>],
-    begin: Option<Moment>,
+    begin: Moment,
 ) -> Result<Vec<Box<dyn Output>>> {
     let boards: Vec<Board> = links.iter().map(|link| link.board.clone()).collect();
-    let begin = begin.unwrap_or_else(now);
     let mut outputs: Vec<Box<dyn Output>> = Vec::new();
     if let Some(path) = &args.record {
         match Recording::new(path, &subject.schema_json, &boards, begin) {
@@ -38,11 +35,4 @@ pub(super) fn outputs(
     }
     outputs.extend(super::sinks::begin(&args.sinks, terminal, subject, &boards)?);
     Ok(outputs)
-}
-
-fn now() -> Moment {
-    Moment {
-        unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
-        ..Moment::default()
-    }
 }

@@ -19,6 +19,12 @@ const VALUE_CHARS: usize = 40;
 /// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
 
+/// How values are shown.
+pub(super) fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
+    let usual = if terminal.is_watched() { MonitorFormat::Table } else { MonitorFormat::Lines };
+    args.format.unwrap_or(usual)
+}
+
 /// Prints values as they come.
 pub(super) struct Printer<'a> {
     terminal: &'a Terminal,

@@ -13,6 +13,9 @@ use sensedsl_record::{Ending, Past};
 
 use crate::commands::simulate::Simulated;
 
+/// The rate of a link of which nobody says one, in bits a second.
+pub(super) const BAUD: u32 = 115_200;
+
 /// How often a device that is gone is looked for.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// How long a thread waits for bytes before it sees whether it is still wanted.

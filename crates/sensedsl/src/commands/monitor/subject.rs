@@ -16,7 +16,7 @@ use sensedsl_wiring::assignment::Assignment;
 
 use super::replay::Replay;
 use super::source::Source;
-use crate::cli::{MonitorArgs, On};
+use crate::cli::{MonitorArgs, On, SimulateArgs};
 use crate::commands::input;
 use crate::commands::simulate::Simulated;
 use crate::files::{Refused, read_text};
@@ -173,10 +173,15 @@ pub(super) fn simulated(
     let subject = subject((design, wiring), snapshot.sources())?;
     let Some(wanted) = subject.wanted(args, terminal)? else { return Ok(Status::Misused) };
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
+    let simulation = SimulateArgs {
+        world: args.world.clone(),
+        reach: args.reach.clone(),
+        ..SimulateArgs::default()
+    };
     let mut found = Vec::new();
     for board in wanted {
         let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else { continue };
-        let Some(simulated) = Simulated::new(job, &args.reach, terminal)? else {
+        let Some(simulated) = Simulated::new(job, &simulation, terminal)? else {
             return Ok(Status::Wrong);
         };
         found.push((board, Source::Simulated(Box::new(simulated))));

@@ -10,14 +10,18 @@ use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
 use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
 use sensedsl_record::Ending;
+use sensedsl_record::summary::Summing;
 use sensedsl_wire::Direction;
 
 use super::face::{Ask, Face};
 use super::link::{Happening, Link};
+use super::outputs::outputs;
 use super::replay::Replay;
+use super::show::format;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
-use crate::cli::MonitorArgs;
+use crate::cli::{MonitorArgs, MonitorFormat};
+use crate::commands::convert::text;
 use crate::commands::deadline::interruption;
 use crate::files::Refused;
 use crate::status::Status;
@@ -45,6 +49,7 @@ pub(super) struct Watch<'a> {
     began_unix: Duration,
     looked: Option<Instant>,
     status: Option<Status>,
+    summing: Option<Summing<'a>>,
     replay: Option<Replay>,
     /// Where a record that is played has got to.
     past: Option<Moment>,
@@ -57,7 +62,6 @@ impl<'a> Watch<'a> {
         subject: &'a Subject,
         links: Vec<Link<'a>>,
         face: Box<dyn Face + 'a>,
-        outputs: Vec<Box<dyn Output>>,
         replay: Option<Replay>,
     ) -> Self {
         let (to_loop, heard) = sync_channel(WAITING_MAX);
@@ -67,13 +71,14 @@ impl<'a> Watch<'a> {
             subject,
             links,
             face,
-            outputs,
+            outputs: Vec::new(),
             to_loop,
             heard,
             began: Instant::now(),
             began_unix: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default(),
             looked: None,
             status: None,
+            summing: None,
             past: replay.as_ref().map(|replay| replay.begin),
             replay,
         }
@@ -84,12 +89,23 @@ impl<'a> Watch<'a> {
         Moment { run, unix: self.began_unix + run }
     }
 
+    /// When it began, to all that are told: values are as old in a record as on the screen.
+    fn begin(&self) -> Moment {
+        let live = Moment { run: Duration::ZERO, unix: self.began_unix };
+        self.replay.as_ref().map_or(live, |replay| replay.begin)
+    }
+
     fn now(&self) -> Moment {
         self.past.unwrap_or_else(|| self.moment(Instant::now()))
     }
 
     /// Watches until it is stopped, all recordings are over, or a board turns out to be another one.
     pub(super) fn run(mut self) -> Result<Status> {
+        let begin = self.begin();
+        if self.args.summary {
+            self.summing = Some(Summing::new(self.links.iter().map(|link| link.board), begin));
+        }
+        self.outputs = outputs(self.args, self.terminal, self.subject, &self.links, begin)?;
         for (name, text) in &self.args.set {
             self.prepare(name, text)?;
         }
@@ -257,6 +273,9 @@ impl<'a> Watch<'a> {
             let news = News { board: index, at, what };
             self.face.take(&news, &self.links)?;
             self.outputs.iter_mut().for_each(|output| output.take(&news));
+            if let Some(summing) = &mut self.summing {
+                summing.take(&news);
+            }
         }
         Ok(())
     }
@@ -370,7 +389,7 @@ impl<'a> Watch<'a> {
     }
 
     fn is_screen(&self) -> bool {
-        super::format(self.args, self.terminal) == crate::cli::MonitorFormat::Table
+        format(self.args, self.terminal) == MonitorFormat::Table
     }
 
     /// Closes the outputs and prints the counts.
@@ -385,6 +404,12 @@ impl<'a> Watch<'a> {
                     Wish::Set { .. } => {}
                 }
             }
+        }
+        if let Some(summing) = self.summing.take() {
+            for line in text(&summing.done()).lines() {
+                self.terminal.aside(line)?;
+            }
+            return Ok(());
         }
         for link in &self.links {
             let counts = link.counts();

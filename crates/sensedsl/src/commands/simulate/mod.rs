@@ -15,8 +15,9 @@ mod simulated;
 mod simulation;
 #[cfg(unix)]
 mod slcan;
+mod world;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0519_which_board;
@@ -33,11 +34,10 @@ use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
-use sensedsl_twin::world::{self, Scene, World};
 
 use super::input;
 use crate::cli::{On, SimulateArgs};
-use crate::files::{Disk, read_bytes, read_text, shown};
+use crate::files::read_bytes;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
@@ -45,6 +45,7 @@ use board::Board;
 pub(crate) use pty::Pty;
 pub(crate) use simulated::Simulated;
 use simulation::Simulation;
+use world::world;
 
 /// The seed of the random numbers if none is given.
 const SEED: u64 = 1;
@@ -95,8 +96,9 @@ fn simulate(
     job: &BoardJob<'_>,
     sources: &SourceMap,
 ) -> Result<Status> {
-    let scenery = Simulation { args, terminal, job, at: input::place(job.design), sources };
     let Some(world) = world(args, terminal, job)? else { return Ok(Status::Wrong) };
+    let (at, lasts_ns) = (input::place(job.design), world.lasts_ns);
+    let scenery = Simulation { args, terminal, job, at, sources, lasts_ns };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
     let peer = args.can.then(|| bench.open_can(job));
@@ -161,57 +163,4 @@ fn machine(
     _: &[u8],
 ) -> Result<Box<dyn Board>, Box<Diagnostic>> {
     Err(e0547_no_machine::no_machine(scenery.at).into())
-}
-
-/// Reads the world, and the values set on the command line; `None` if they have errors, which have been reported.
-pub(super) fn world(
-    args: &SimulateArgs,
-    terminal: &Terminal,
-    job: &BoardJob<'_>,
-) -> Result<Option<World>> {
-    let mut sources = SourceMap::default();
-    let (name, text) = match &args.world {
-        Some(path) => (shown(path), read_text(path, FileUse::World)?),
-        None => ("--world".to_owned(), String::new()),
-    };
-    let path = args.world.as_deref().unwrap_or(Path::new(""));
-    let disk = Disk::of(path, &args.reach.allow_outside);
-    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let samples = |name: &str| -> Result<String, String> {
-        let path: PathBuf = folder.join(name);
-        let bytes = disk.bytes(&path, FileUse::World).map_err(|unread| unread.why())?;
-        String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
-    };
-    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
-    let scene = Scene {
-        design: job.design,
-        devices: &devices,
-        transport: job.board.link.transport,
-        seed: args.seed,
-        samples: &samples,
-    };
-    let file = sources.add(name, text.as_str());
-    let (mut world, mut reported) = world::read(file, &text, &scene);
-    for one in &args.set {
-        let text = format!("[devices]\n{}\n", line(one));
-        let file = sources.add("--set", text.as_str());
-        let (own, why) = world::read(file, &text, &scene);
-        world.signals.extend(own.signals);
-        reported.extend(why);
-    }
-    terminal.diagnostics(&reported, &sources)?;
-    Ok((!has_errors(&reported)).then_some(world))
-}
-
-/// The line of a world for `NAME=VALUE`. A value that is neither a number nor a list or table becomes a string:
-/// `20 cm`.
-fn line(set: &str) -> String {
-    let Some((name, value)) = set.split_once('=') else { return set.to_owned() };
-    let (name, value) = (name.trim(), value.trim());
-    let is_plain =
-        value.parse::<f64>().is_ok_and(f64::is_finite) || matches!(value, "true" | "false");
-    if is_plain || value.starts_with(['[', '{', '"', '\'']) {
-        return format!("{name} = {value}");
-    }
-    format!("{name} = \"{}\"", value.replace('\\', "\\\\").replace('"', "\\\""))
 }

@@ -148,8 +148,11 @@ impl<'a> Session<'a> {
 
     /// The length of the run in virtual time; `None` if it lasts until it is stopped.
     fn end_ns(&self, usual: Option<f64>) -> Option<u64> {
-        let seconds = self.scenery.args.seconds.or(usual)?;
-        Some(Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX))
+        let nanoseconds = |seconds: f64| {
+            Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX)
+        };
+        let asked = self.scenery.args.seconds.map(nanoseconds);
+        asked.or_else(|| self.scenery.lasts_ns.or(Some(nanoseconds(usual?))))
     }
 
     /// Runs for a millisecond. Returns the bytes that the host receives.

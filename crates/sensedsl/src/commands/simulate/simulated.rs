@@ -6,10 +6,11 @@ use anyhow::Result;
 use sensedsl_job::BoardJob;
 use sensedsl_twin::bench::Bench;
 
+use super::SEED;
 use super::board::{self, Board};
 use super::run::MS;
-use super::{SEED, world};
-use crate::cli::{Reach, SimulateArgs};
+use super::world::world;
+use crate::cli::SimulateArgs;
 use crate::terminal::Terminal;
 
 /// The board, and how far it has run.
@@ -20,14 +21,13 @@ pub(crate) struct Simulated {
 }
 
 impl Simulated {
-    /// A board whose sensors move within their ranges; none if that has an error, which was told.
+    /// A board whose sensors measure a world, or move within their ranges; none if that has an error, which was told.
     pub(crate) fn new(
         job: &BoardJob<'_>,
-        reach: &Reach,
+        args: &SimulateArgs,
         terminal: &Terminal,
     ) -> Result<Option<Self>> {
-        let args = SimulateArgs { reach: reach.clone(), ..SimulateArgs::default() };
-        let Some(world) = world(&args, terminal, job)? else { return Ok(None) };
+        let Some(world) = world(args, terminal, job)? else { return Ok(None) };
         let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
         let mut board = board::soft(job, bench);
         board.link_open(true);

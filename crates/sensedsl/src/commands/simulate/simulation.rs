@@ -15,6 +15,8 @@ pub(super) struct Simulation<'a> {
     /// The place for diagnostics that concern the whole, and its text.
     pub(super) at: Span,
     pub(super) sources: &'a SourceMap,
+    /// The length of the recorded run that is its world.
+    pub(super) lasts_ns: Option<u64>,
 }
 
 impl Simulation<'_> {
