@@ -2,9 +2,9 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
-//! prints (`show.rs`), and outputs (`outputs.rs`): a
-//! record (`record.rs`), which `replay.rs` plays again, a pseudo-terminal (`pty.rs`), other programs (`sinks.rs`).
-//! Whether a board is the one that is meant decides `sensedsl_host::Session`.
+//! prints (`show.rs`), and outputs (`outputs.rs`): a record (`record.rs`), which `replay.rs` plays again, a
+//! pseudo-terminal (`pty.rs`), other programs (`sinks.rs`). Whether a board is the one that is meant decides
+//! `sensedsl_host::Session`.
 
 mod face;
 mod find;
