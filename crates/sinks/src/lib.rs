@@ -27,10 +27,14 @@ mod event;
 mod json;
 #[cfg(feature = "mqtt")]
 mod mqtt;
+#[cfg(feature = "od4")]
+mod od4;
 mod picture;
 mod plan;
 #[cfg(feature = "plotjuggler")]
 mod plotjuggler;
+#[cfg(feature = "prometheus")]
+mod prometheus;
 mod relay;
 #[cfg(feature = "websocket")]
 mod websocket;
@@ -71,6 +75,10 @@ fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn
         "websocket" => boxed(websocket::WebSocketServer::new(settings, plan)),
         #[cfg(feature = "mqtt")]
         "mqtt" => boxed(mqtt::Mqtt::new(settings, plan, own_name)),
+        #[cfg(feature = "prometheus")]
+        "prometheus" => boxed(prometheus::Prometheus::new(settings, plan)),
+        #[cfg(feature = "od4")]
+        "od4" => boxed(od4::Od4::new(settings, plan)),
         _ => None,
     }
 }

@@ -54,12 +54,11 @@ fn light(relay: &mut Relay, run_ms: u64, code: u64) {
 
 /// The time and the code of each value.
 fn values(told: &Receiver<Event>) -> Vec<(u128, u64)> {
-    let of = |event| match event {
-        Event::Values(values) => match values.values[0].1[0] {
-            Scalar::Unsigned(code) => Some((values.taken.as_millis() - 1_000_000, code)),
-            _ => None,
-        },
-        _ => None,
+    let of = |event| {
+        let Event::Values(values) = event else { return None };
+        let (_, raw) = values.values.first()?;
+        let Scalar::Unsigned(code) = *raw.first()? else { return None };
+        Some((values.taken.as_millis() - 1_000_000, code))
     };
     told.try_iter().filter_map(of).collect()
 }

@@ -3,8 +3,10 @@
 
 mod configuration;
 mod mqtt;
+mod od4;
 mod peer;
 mod plotjuggler;
+mod prometheus;
 mod websocket;
 
 use std::io::{BufRead as _, BufReader, Read, Write as _};

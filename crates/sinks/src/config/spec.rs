@@ -119,6 +119,33 @@ pub const SINKS: &[Spec] = &[
             key("rate_hz", Sort::Positive(Some(10.0)), RATE.about),
         ],
     },
+    Spec {
+        name: "prometheus",
+        title: "Prometheus",
+        is_built: cfg!(feature = "prometheus"),
+        about: "the latest values and counts at http://ADDRESS/metrics",
+        keys: &[key(
+            "listen",
+            Sort::Listen("127.0.0.1:9101"),
+            "the address that Prometheus scrapes",
+        )],
+    },
+    Spec {
+        name: "od4",
+        title: "OD4",
+        is_built: cfg!(feature = "od4"),
+        about: "OD4 messages as libcluon and the generated libcluon host send them",
+        keys: &[
+            key("cid", Sort::Whole(111, 1, 254), "the OD4 session"),
+            key(
+                "interface",
+                Sort::Listen("0.0.0.0:12175"),
+                "the interface and the port; 0.0.0.0 leaves the interface to the system",
+            ),
+            COMMANDS,
+            RATE,
+        ],
+    },
 ];
 
 /// Keys of `[boards.NAME]`.
