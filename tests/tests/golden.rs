@@ -10,8 +10,20 @@ use sensedsl_tests::{TempDir, assert_tree, sensedsl, tree};
 
 /// Whether a file is the same for all designs.
 fn is_runtime(path: &str) -> bool {
-    let folders =
-        ["/uproxy/", "/include/sensedsl/", "/_sensedsl/", "/sense-embassy/src/", "/sense-rt/src/"];
+    let folders = [
+        "/uproxy/",
+        "/include/sensedsl/",
+        "/include/sensedsl.",
+        "/src/sensedsl/",
+        "/src/sensedsl.",
+        "/_sensedsl/",
+        "/sense-embassy/src/",
+        "/sense-rt/src/",
+        "/sensedsl-host/",
+        "/sensedsl-wire/",
+        "/host/c/sensedsl.",
+        "/host/matlab/read_record.m",
+    ];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }
 

@@ -22,7 +22,7 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 }";
 
 /// A folder with the robot, its generated schema, and the link that it gives.
-fn robot(name: &str) -> (TempDir, Schema) {
+pub(crate) fn robot(name: &str) -> (TempDir, Schema) {
     robot_of(name, ROBOT)
 }
 

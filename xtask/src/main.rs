@@ -5,7 +5,7 @@
 //! of them `simulate --judge` notices. `firmware` builds the firmware of every board and kind. `parts` writes the table
 //! of known parts, or compares it; `mcus` writes the facts that the emulated machine needs about each MCU, `packages`
 //! the table of Embassy's lock files. `profiles` compares the target profiles with a tree of ChibiOS, and writes those
-//! for Embassy. `web` builds the WebAssembly module.
+//! for Embassy. `soak` has a monitor watch a busy board for a long time. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod embassy;
@@ -16,6 +16,7 @@ mod mutants;
 mod packages;
 mod parts;
 mod profiles;
+mod soak;
 mod typecheck;
 mod web;
 
@@ -49,10 +50,11 @@ fn run() -> Result<()> {
             Some((target, rest)) if target == "embassy" => embassy::run(rest),
             _ => profiles::run(rest),
         },
+        Some((task, rest)) if task == "soak" => soak::run(rest),
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
+            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], soak [--seconds N] [--limits], typecheck"
         ),
     }
 }

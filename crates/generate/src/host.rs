@@ -1,7 +1,10 @@
 //! The host applications that can be generated: each is a line of [`HOSTS`].
 
+use sensedsl_host_c::C;
 use sensedsl_host_cpp as cpp;
+use sensedsl_host_matlab::Matlab;
 use sensedsl_host_python::Python;
+use sensedsl_host_rust::Rust;
 use sensedsl_job::host::Host;
 
 /// All hosts, in the order in which they are documented.
@@ -11,6 +14,9 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::Libcluon,
     &cpp::Plain,
     &Python,
+    &Rust,
+    &C,
+    &Matlab,
 ];
 
 /// The host with this name.

@@ -25,24 +25,42 @@
 //! assert_eq!(boards[0].devices[*device].text(value), "500 (50)");
 //! ```
 
+#[cfg(feature = "schema")]
 mod clock;
 mod difference;
+#[cfg(feature = "schema")]
 mod news;
 #[cfg(feature = "serial")]
 pub mod port;
 mod scale;
+#[cfg(feature = "schema")]
 mod schema;
+#[cfg(feature = "schema")]
 mod session;
+#[cfg(feature = "schema")]
 mod stats;
+#[cfg(feature = "schema")]
 mod value;
+#[cfg(feature = "schema")]
 mod words;
 
+#[cfg(feature = "sources")]
+#[path = "../sources.rs"]
+pub mod sources;
+
+#[cfg(feature = "schema")]
 pub use clock::{BoardClock, ClockError};
 pub use difference::{answered_schema, differences};
+#[cfg(feature = "schema")]
 pub use news::{Moment, News, Output, Report, What, Wish};
 pub use scale::{Scale, halved};
+#[cfg(feature = "schema")]
 pub use schema::{Board, Device, SchemaError};
+#[cfg(feature = "schema")]
 pub use session::{Counts, Event, Session, State};
+#[cfg(feature = "schema")]
 pub use stats::{DeviceStats, Histogram};
+#[cfg(feature = "schema")]
 pub use value::{CommandError, Overstep};
+#[cfg(feature = "schema")]
 pub use words::{causes, status};

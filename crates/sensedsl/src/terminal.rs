@@ -52,16 +52,9 @@ impl Terminal {
         !self.quiet && io::stdout().is_terminal()
     }
 
-    /// The columns and rows of the terminal that people see the result on, if the system says.
-    pub(crate) fn size(&self) -> Option<(usize, usize)> {
-        #[cfg(unix)]
-        if let Ok(size) = rustix::termios::tcgetwinsize(io::stdout())
-            && size.ws_col > 0
-            && size.ws_row > 0
-        {
-            return Some((size.ws_col.into(), size.ws_row.into()));
-        }
-        None
+    /// Whether the terminal has pages to draw on, as far as it says.
+    pub(crate) fn has_pages(&self) -> bool {
+        std::env::var_os("TERM").is_none_or(|name| name != "dumb")
     }
 
     /// Prints a line before the whole result is known.

@@ -37,6 +37,10 @@ mod health;
 mod scalar;
 mod schema;
 
+#[cfg(feature = "sources")]
+#[path = "../sources.rs"]
+pub mod sources;
+
 pub use checksum::{crc16_ccitt_false, crc32_iso_hdlc};
 pub use decode::Decoder;
 pub use encode::{

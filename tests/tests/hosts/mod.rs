@@ -8,14 +8,17 @@
 //! (prefix of an installed OpenDaVINCI 4) and `OPENDAVINCI2014` (`libopendavinci/include`, and for
 //! running, `lib/libopendavinci.a` and `bin/supercomponent`).
 
+mod c;
 mod compile;
 pub(crate) mod designs;
 mod files;
 mod health;
 mod link;
+mod matlab;
 mod middleware;
 mod page;
 mod python;
+mod rust;
 mod shown;
 pub(crate) mod terminal;
 pub(crate) mod tools;

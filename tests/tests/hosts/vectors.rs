@@ -33,6 +33,19 @@ impl Exchange {
         &self.expected
     }
 
+    /// Those with other commands than one that a program does not have, in its first words.
+    pub(super) fn without(&self, command: &str) -> Self {
+        let mut kept = Self::default();
+        for (asked, expected) in self.asked.lines().zip(self.expected.split_inclusive("end\n")) {
+            if !format!("{asked} ").starts_with(&format!("{command} ")) {
+                kept.asked.push_str(&format!("{asked}\n"));
+                kept.expected.push_str(expected);
+                kept.cases += 1;
+            }
+        }
+        kept
+    }
+
     fn ask(&mut self, command: &str, answer: &str) {
         self.asked.push_str(&format!("{command}\n"));
         self.expected.push_str(&format!("{answer}end\n"));
@@ -125,19 +138,25 @@ fn answer(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) -
     answered(&mut Command::new(&program), exchange.asked.as_str())
 }
 
-/// The answer with each float32 value in a common form, because the languages print them
+/// The answer with each real value in a common form, because the languages print them
 /// differently.
 pub(super) fn with_reals_alike(schema: &Schema, answer: &str) -> String {
-    let is_real = |id: &str| {
+    let bytes = |id: &str| {
         let mut items = schema.items.iter().filter(|item| item.id.to_string() == id);
-        items.any(|item| item.value.scalar == ScalarType::Float32)
+        items.find_map(|item| match item.value.scalar {
+            ScalarType::Float32 => Some(4),
+            ScalarType::Float64 => Some(8),
+            _ => None,
+        })
     };
-    let alike = |word: &str| match word.split_once('=') {
-        Some((id, list)) if is_real(id) => {
-            let values = list.split(',').map(|one| one.trim_end().parse::<f32>().unwrap());
-            format!("{id}={:?}{}", values.collect::<Vec<_>>(), &list[list.trim_end().len()..])
-        }
-        _ => word.to_owned(),
+    let alike = |word: &str| {
+        let Some((id, list)) = word.split_once('=') else { return word.to_owned() };
+        let Some(bytes) = bytes(id) else { return word.to_owned() };
+        let values = list.split(',').map(|one| match bytes {
+            4 => format!("{:?}", one.trim_end().parse::<f32>().unwrap()),
+            _ => format!("{:?}", one.trim_end().parse::<f64>().unwrap()),
+        });
+        format!("{id}={:?}{}", values.collect::<Vec<_>>(), &list[list.trim_end().len()..])
     };
     answer.split_inclusive([' ', '\n']).map(alike).collect()
 }

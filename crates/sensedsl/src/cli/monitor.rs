@@ -25,7 +25,7 @@ pub(crate) struct MonitorArgs {
     /// The port of one of several boards: --at Left=/dev/ttyACM0 --at Right=/dev/ttyACM1
     #[arg(long, value_name = "NAME=DEVICE", value_parser = assignment, conflicts_with = "device")]
     pub(crate) at: Vec<(String, String)>,
-    /// How to print values; a table where people see it, otherwise lines
+    /// How to show values; a screen where people see it, otherwise lines
     #[arg(long, value_enum)]
     pub(crate) format: Option<MonitorFormat>,
     /// With `simulate`: what its sensors measure, as for the command of that name: a text (TOML), or
@@ -72,7 +72,7 @@ pub(crate) struct MonitorArgs {
 /// How values are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MonitorFormat {
-    /// The latest value of each device, refreshed in place
+    /// On a terminal a screen with plots and commands; elsewhere the last values, at the end
     Table,
     /// A line a value, for people
     Lines,

@@ -28,4 +28,8 @@ pub(super) trait Face {
     fn look(&mut self, now: Moment, links: &[Link<'_>]) -> Result<Vec<Ask>>;
     /// Shows what stays, and gives the terminal back.
     fn close(&mut self, now: Moment, links: &[Link<'_>]) -> Result<()>;
+    /// Whether it has the whole terminal: keys are its own, and it stays when nothing more comes.
+    fn has_terminal(&self) -> bool {
+        false
+    }
 }

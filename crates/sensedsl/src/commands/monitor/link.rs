@@ -19,6 +19,9 @@ use crate::cli::MonitorArgs;
 /// The time after which a device that is back and cannot be opened is told.
 const TOLD_AFTER: Duration = Duration::from_secs(2);
 
+/// How often health is asked for that is only shown: a board of many devices has a long answer.
+const SHOWN_HEALTH_EVERY: Duration = Duration::from_secs(2);
+
 /// What happened on a link.
 pub(super) enum Happening {
     Received(Vec<u8>),
@@ -69,6 +72,9 @@ pub(super) struct Link<'a> {
     worries: Vec<Option<HealthStatus>>,
     trouble: Option<String>,
     is_met: bool,
+    health_every: Option<Duration>,
+    /// Whether other boards are watched as well: what is said then says of which one.
+    is_one_of_several: bool,
 }
 
 impl<'a> Link<'a> {
@@ -100,6 +106,8 @@ impl<'a> Link<'a> {
             worries: vec![None; count],
             trouble: None,
             is_met: false,
+            health_every: super::sinks::health_s(args).map(Duration::from_secs_f64),
+            is_one_of_several: false,
         };
         link.ask_for_health();
         link
@@ -123,17 +131,36 @@ impl<'a> Link<'a> {
         Some(Duration::from_millis(cycle_ms.into()))
     }
 
-    fn name(&self, device: usize) -> &'a str {
-        self.board.devices.get(device).map_or("", |device| device.name.as_str())
+    /// Says from now on which board is meant.
+    pub(super) fn name_board(&mut self) {
+        self.is_one_of_several = true;
+    }
+
+    /// A device's name, with that of its board where others are watched as well.
+    fn name(&self, device: usize) -> String {
+        let own = self.board.devices.get(device).map_or("", |device| device.name.as_str());
+        if self.is_one_of_several { format!("{}/{own}", self.board.name) } else { own.to_owned() }
     }
 
     fn say(&mut self, text: String) {
         self.happened.push(Happening::Say(text));
     }
 
+    /// Says something of the link itself.
+    fn say_of_link(&mut self, text: &str) {
+        let name = &self.board.name;
+        self.say(if self.is_one_of_several { format!("{name}: {text}") } else { text.to_owned() });
+    }
+
+    /// Asks for health because it is shown, although the arguments do not.
+    pub(super) fn show_health(&mut self) {
+        self.health_every = Some(SHOWN_HEALTH_EVERY);
+        self.ask_for_health();
+    }
+
     fn ask_for_health(&mut self) {
-        if let Some(seconds) = super::sinks::health_s(self.args) {
-            self.session.health_every(Duration::from_secs_f64(seconds));
+        if let Some(every) = self.health_every {
+            self.session.health_every(every);
         }
     }
 
@@ -166,6 +193,7 @@ impl<'a> Link<'a> {
             Past::Event(event) => {
                 if let Some(why) = event.get("why").and_then(|why| why.as_str()) {
                     self.interrupt();
+                    self.before += self.session.counts();
                     self.session = Session::recording(self.board);
                     self.happened.push(Happening::Offline(why.to_owned()));
                 }
@@ -232,10 +260,10 @@ impl<'a> Link<'a> {
             Event::Values(stamp, values) => self.report(stamp, values, now),
             Event::Matched => self.matched(now),
             Event::Unverified => {
-                self.say("no hello before the first value: nobody knows whether this recording is of this design".into());
+                self.say_of_link("no hello before the first value: nobody knows whether this recording is of this design");
             }
             Event::Unanswered => {
-                self.say(self.unanswered().to_owned());
+                self.say_of_link(self.unanswered());
                 self.is_late = true;
                 self.early(now);
             }
@@ -342,10 +370,10 @@ impl<'a> Link<'a> {
         self.interrupt();
         self.happened.push(Happening::Offline("the device is gone".to_owned()));
         if self.args.no_reconnect {
-            self.say(format!("lost {path}: the device is gone"));
+            self.say_of_link(&format!("lost {path}: the device is gone"));
             self.end(true);
         } else {
-            self.say(format!("lost {path}: the device is gone; waiting for it"));
+            self.say_of_link(&format!("lost {path}: the device is gone; waiting for it"));
         }
     }
 
@@ -370,14 +398,14 @@ impl<'a> Link<'a> {
                 self.trouble = None;
                 self.opening += 1;
                 self.happened.push(Happening::Opened);
-                self.say(format!("back on {path} after {}", span(after)));
+                self.say_of_link(&format!("back on {path} after {}", span(after)));
             }
             Ok(None) => {}
             // Rights are given a moment after the device appears.
             Err(why) => {
                 let why = why.to_string();
                 if since.elapsed() > TOLD_AFTER && self.trouble.as_ref() != Some(&why) {
-                    self.say(format!("the device is back, but {why}"));
+                    self.say_of_link(&format!("the device is back, but {why}"));
                     self.trouble = Some(why);
                 }
             }
@@ -407,7 +435,7 @@ impl<'a> Link<'a> {
     pub(super) fn command(&mut self, name: &str, text: &str, now: Duration) {
         let (frame, index, value) = match self.board.command(name, text) {
             Ok(command) => command,
-            Err(why) => return self.say(format!("not sent: {name} {text}: {why}")),
+            Err(why) => return self.say_of_link(&format!("not sent: {name} {text}: {why}")),
         };
         let shown =
             self.board.devices.get(index).map_or_else(String::new, |device| device.text(&value));

@@ -2,9 +2,9 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
-//! prints (`show.rs`), and outputs (`outputs.rs`): a record (`record.rs`), which `replay.rs` plays again, a
-//! pseudo-terminal (`pty.rs`), other programs (`sinks.rs`). Whether a board is the one that is meant decides
-//! `sensedsl_host::Session`.
+//! prints (`show.rs`) or has the whole terminal (`screen`), and outputs (`outputs.rs`): a record (`record.rs`), which
+//! `replay.rs` plays again, a pseudo-terminal (`pty.rs`), other programs (`sinks.rs`). Whether a board is the one that
+//! is meant decides `sensedsl_host::Session`.
 
 mod face;
 mod find;
@@ -14,6 +14,7 @@ mod outputs;
 mod pty;
 mod record;
 mod replay;
+mod screen;
 mod show;
 mod sinks;
 mod source;
@@ -29,7 +30,7 @@ use sensedsl_diagnostics::codes::e0557_no_board as no_board;
 use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
 use sensedsl_host::Board;
 
-use crate::cli::MonitorArgs;
+use crate::cli::{MonitorArgs, MonitorFormat};
 use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -37,6 +38,7 @@ use face::Face;
 use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
+use screen::Screen;
 use show::{Printer, format};
 use source::Source;
 use subject::Subject;
@@ -147,6 +149,20 @@ fn named<'s>(
     }
 }
 
+/// What people see: a screen where they see it as it is written, otherwise printed values.
+fn face<'a>(args: &MonitorArgs, terminal: &'a Terminal, links: &[Link<'a>]) -> Box<dyn Face + 'a> {
+    let mut format = format(args, terminal);
+    if format == MonitorFormat::Table && terminal.is_watched() {
+        let boards = links.iter().map(|link| link.board).collect();
+        match terminal.has_pages().then(|| Screen::open(terminal, boards)) {
+            Some(Ok(screen)) => return Box::new(screen),
+            // Nobody can press keys: values are seen as they come.
+            Some(Err(_)) | None => format = MonitorFormat::Lines,
+        }
+    }
+    Box::new(Printer::new(args, terminal, format))
+}
+
 /// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
 fn replayed(path: &Path, args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
     let mut replay = match Replay::open(path) {
@@ -179,8 +195,15 @@ fn watch(
     found: Found<'_>,
     replay: Option<Replay>,
 ) -> Result<Status> {
-    let links: Vec<Link<'_>> =
+    let config = sinks::read(&args.sinks, terminal, subject)?;
+    let mut links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
-    let face: Box<dyn Face> = Box::new(Printer::new(args, terminal, format(args, terminal)));
-    Watch::new(args, terminal, subject, links, face, replay).run()
+    if links.len() > 1 {
+        links.iter_mut().for_each(Link::name_board);
+    }
+    let face = face(args, terminal, &links);
+    if face.has_terminal() && args.health.is_none() {
+        links.iter_mut().for_each(Link::show_health);
+    }
+    Watch::new(args, terminal, subject, links, face, replay, config).run()
 }

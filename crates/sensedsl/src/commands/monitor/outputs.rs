@@ -3,18 +3,18 @@
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0566_no_new_record::not_made;
 use sensedsl_host::{Board, Moment, Output};
+use sensedsl_sinks::Config;
 
 use super::link::Link;
 use super::record::Recording;
 use super::subject::Subject;
 use crate::cli::MonitorArgs;
 use crate::files::Refused;
-use crate::terminal::Terminal;
 
 /// All outputs of a run.
 pub(super) fn outputs(
     args: &MonitorArgs,
-    terminal: &Terminal,
+    config: &Config,
     subject: &Subject,
     links: &[Link<'_>],
     begin: Moment,
@@ -31,8 +31,8 @@ pub(super) fn outputs(
     }
     #[cfg(unix)]
     if args.pty {
-        outputs.extend(super::pty::of_boards(&boards, terminal)?);
+        outputs.extend(super::pty::of_boards(&boards)?);
     }
-    outputs.extend(super::sinks::begin(&args.sinks, terminal, subject, &boards)?);
+    outputs.extend(sensedsl_sinks::outputs(config, &boards, &std::process::id().to_string()));
     Ok(outputs)
 }

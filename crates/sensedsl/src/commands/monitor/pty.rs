@@ -10,7 +10,6 @@ use sensedsl_host::{Board, Moment, News, Output, What, Wish};
 use sensedsl_wire::{Decoder, Direction, Event, Health, encode_health, encode_hello};
 
 use crate::commands::simulate::Pty;
-use crate::terminal::Terminal;
 
 /// The pseudo-terminal of one board.
 struct Mirror {
@@ -20,16 +19,26 @@ struct Mirror {
     is_connected: bool,
     asked: Vec<u8>,
     health: Option<Health>,
+    /// Where it is, until that is told.
+    note: Option<String>,
 }
 
 /// One for each board; says where they are.
-pub(super) fn of_boards(boards: &[Board], terminal: &Terminal) -> Result<Vec<Box<dyn Output>>> {
+pub(super) fn of_boards(boards: &[Board]) -> Result<Vec<Box<dyn Output>>> {
     let mut all: Vec<Box<dyn Output>> = Vec::new();
     for (place, board) in boards.iter().enumerate() {
         let pty = Pty::open()?;
-        terminal.aside(&format!("`{}` is at {}", board.name, pty.name()))?;
+        let note = Some(format!("`{}` is at {}", board.name, pty.name()));
         let (asked, board) = (Vec::new(), board.clone());
-        all.push(Box::new(Mirror { place, board, pty, is_connected: false, asked, health: None }));
+        all.push(Box::new(Mirror {
+            place,
+            board,
+            pty,
+            is_connected: false,
+            asked,
+            health: None,
+            note,
+        }));
     }
     Ok(all)
 }
@@ -66,7 +75,7 @@ impl Output for Mirror {
         for answer in answers {
             self.pty.write(&answer, self.is_connected);
         }
-        Vec::new()
+        self.note.take().map(Wish::Note).into_iter().collect()
     }
 
     fn close(&mut self, _: Moment) -> Vec<Wish> {

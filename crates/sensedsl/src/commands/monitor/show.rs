@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use anyhow::Result;
-use sensedsl_host::{Board, Device, Moment, News, What};
+use sensedsl_host::{Board, Device, DeviceStats, Moment, News, What};
 use sensedsl_record::text::{CSV_HEAD, object, rows};
 use sensedsl_wire::{Direction, Scalar, Stamp};
 
@@ -16,8 +16,6 @@ use crate::terminal::Terminal;
 
 /// The most characters of a value in the table; arrays can be longer.
 const VALUE_CHARS: usize = 40;
-/// The interval at which the table is refreshed.
-const REFRESH: Duration = Duration::from_millis(200);
 
 /// How values are shown.
 pub(super) fn format(args: &MonitorArgs, terminal: &Terminal) -> MonitorFormat {
@@ -30,16 +28,14 @@ pub(super) struct Printer<'a> {
     terminal: &'a Terminal,
     format: MonitorFormat,
     is_health_asked: bool,
-    /// The lines of the table that is on the screen.
-    lines: usize,
     has_head: bool,
-    refreshed: Duration,
+    is_closed: bool,
 }
 
 impl<'a> Printer<'a> {
     pub(super) fn new(args: &MonitorArgs, terminal: &'a Terminal, format: MonitorFormat) -> Self {
-        let (is_health_asked, refreshed) = (args.health.is_some(), Duration::ZERO);
-        Self { terminal, format, is_health_asked, lines: 0, has_head: false, refreshed }
+        let is_health_asked = args.health.is_some();
+        Self { terminal, format, is_health_asked, has_head: false, is_closed: false }
     }
 
     fn value(
@@ -67,11 +63,6 @@ impl<'a> Printer<'a> {
             }
         }
     }
-
-    /// The tables of all boards.
-    fn tables(links: &[Link<'_>], now: Duration) -> String {
-        links.iter().map(|link| board_table(link, now)).collect()
-    }
 }
 
 impl Face for Printer<'_> {
@@ -93,7 +84,6 @@ impl Face for Printer<'_> {
                 }
             }
             What::Health(told) if self.is_health_asked => {
-                self.lines = 0;
                 for line in health(link.board, told).lines() {
                     self.terminal.aside(line)?;
                 }
@@ -109,33 +99,25 @@ impl Face for Printer<'_> {
     }
 
     fn say(&mut self, text: &str) -> Result<()> {
-        // The next table begins below it.
-        self.lines = 0;
         Ok(self.terminal.aside(text)?)
     }
 
-    fn look(&mut self, now: Moment, links: &[Link<'_>]) -> Result<Vec<Ask>> {
-        let is_time = now.run.saturating_sub(self.refreshed) >= REFRESH;
-        if self.format == MonitorFormat::Table && self.terminal.is_watched() && is_time {
-            self.refreshed = now.run;
-            let text = Self::tables(links, now.run);
-            let lines = fitting(&text, self.terminal.size());
-            let up = if self.lines > 0 { format!("\x1b[{}A", self.lines) } else { String::new() };
-            self.lines = lines.len();
-            let lines: Vec<String> = lines.iter().map(|line| format!("{line}\x1b[K\n")).collect();
-            self.terminal.result(&format!("{up}{}", lines.concat()))?;
-        }
+    fn look(&mut self, _: Moment, _: &[Link<'_>]) -> Result<Vec<Ask>> {
         Ok(Vec::new())
     }
 
     fn close(&mut self, now: Moment, links: &[Link<'_>]) -> Result<()> {
-        if self.format == MonitorFormat::Table {
-            let up =
-                if self.lines > 0 { format!("\x1b[{}A\x1b[J", self.lines) } else { String::new() };
-            self.terminal.result(&format!("{up}{}", Self::tables(links, now.run)))?;
+        if self.format == MonitorFormat::Table && !self.is_closed {
+            self.is_closed = true;
+            self.terminal.result(&tables(links, now.run))?;
         }
         Ok(())
     }
+}
+
+/// The tables of all boards.
+pub(super) fn tables(links: &[Link<'_>], now: Duration) -> String {
+    links.iter().map(|link| board_table(link, now)).collect()
 }
 
 fn board_table(link: &Link<'_>, now: Duration) -> String {
@@ -159,7 +141,7 @@ fn board_table(link: &Link<'_>, now: Duration) -> String {
 }
 
 fn cells(link: &Link<'_>, index: usize, device: &Device, now: Duration) -> [String; 5] {
-    let count = link.stats.get(index).map_or(0, |stats| stats.count()).to_string();
+    let count = link.stats.get(index).map_or(0, DeviceStats::count).to_string();
     let Some((at, value)) = link.latest.get(index).and_then(Option::as_ref) else {
         let none = match device.direction {
             Direction::Sensor => "-",
@@ -178,37 +160,4 @@ fn cells(link: &Link<'_>, index: usize, device: &Device, now: Duration) -> [Stri
         marks = format!("{marks} overdue").trim().to_owned();
     }
     [device.name.clone(), shown, format!("{age} ms"), count, marks]
-}
-
-/// The lines of a text that fit a terminal, each cut to its width; the last one says how many are missing.
-fn fitting(text: &str, size: Option<(usize, usize)>) -> Vec<String> {
-    let all: Vec<&str> = text.lines().collect();
-    let Some((columns, rows)) = size else { return all.into_iter().map(str::to_owned).collect() };
-    let cut = |line: &str| line.chars().take(columns.saturating_sub(1)).collect::<String>();
-    // The cursor is in the row below the table.
-    let room = rows.saturating_sub(1).max(2);
-    if all.len() <= room {
-        return all.into_iter().map(cut).collect();
-    }
-    let mut lines: Vec<String> = all.iter().take(room - 1).map(|line| cut(line)).collect();
-    let missing = all.len() - lines.len();
-    lines.push(cut(&format!(
-        "  and {missing} more: make the window higher, or use `--format lines`"
-    )));
-    lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_table_stays_in_its_terminal() {
-        let text = "head\nabcdef\nb\nc\n";
-        assert_eq!(fitting(text, None), ["head", "abcdef", "b", "c"]);
-        assert_eq!(fitting(text, Some((5, 5))), ["head", "abcd", "b", "c"]);
-        let cut = fitting(text, Some((20, 4)));
-        assert_eq!(cut, ["head", "abcdef", "  and 2 more: make "]);
-        assert_eq!(fitting(text, Some((1, 1))).len(), 2);
-    }
 }

@@ -1,15 +1,14 @@
-//! Other programs that get the values: arguments and a configuration in, outputs out.
+//! Other programs that get the values: arguments and a file in, a configuration out.
 
 use std::path::Path;
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{e0562_sinks_address as wrong_address, e0563_sink_not_built};
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
-use sensedsl_host::{Board, Output};
 use sensedsl_model::FileUse;
 use sensedsl_session::has_errors;
+use sensedsl_sinks::Config;
 use sensedsl_sinks::config::{self, Setting, Sort};
-use sensedsl_sinks::{Config, outputs};
 
 use super::subject::{self, Subject};
 use crate::cli::{MonitorArgs, SinkArgs};
@@ -26,13 +25,8 @@ pub(super) fn health_s(args: &MonitorArgs) -> Option<f64> {
     args.health.or_else(|| args.sinks.is_any().then_some(HEALTH_EVERY_S))
 }
 
-/// The outputs that the arguments name, for the boards that are watched. What is wrong with them is told.
-pub(super) fn begin(
-    args: &SinkArgs,
-    terminal: &Terminal,
-    subject: &Subject,
-    watched: &[Board],
-) -> Result<Vec<Box<dyn Output>>> {
+/// The programs that the arguments name. What is wrong with them is told.
+pub(super) fn read(args: &SinkArgs, terminal: &Terminal, subject: &Subject) -> Result<Config> {
     let mut sources = SourceMap::default();
     let (mut config, mut reported, mut file) = (Config::default(), Vec::new(), None);
     if let Some(path) = &args.config {
@@ -50,7 +44,7 @@ pub(super) fn begin(
     if has_errors(&reported) {
         bail!(Reported(Status::Misused));
     }
-    Ok(outputs(&config, watched, &std::process::id().to_string()))
+    Ok(config)
 }
 
 /// Adds the sinks of all short forms; what is wrong with them is returned.

@@ -11,18 +11,18 @@ use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
 use sensedsl_record::Ending;
 use sensedsl_record::summary::Summing;
+use sensedsl_sinks::Config;
 use sensedsl_wire::Direction;
 
 use super::face::{Ask, Face};
 use super::link::{Happening, Link};
 use super::outputs::outputs;
 use super::replay::Replay;
-use super::show::format;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
 use crate::cli::{MonitorArgs, MonitorFormat};
 use crate::commands::convert::text;
-use crate::commands::deadline::interruption;
+use crate::commands::deadline::ending;
 use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -42,6 +42,7 @@ pub(super) struct Watch<'a> {
     subject: &'a Subject,
     links: Vec<Link<'a>>,
     face: Box<dyn Face + 'a>,
+    config: Config,
     outputs: Vec<Box<dyn Output>>,
     to_loop: SyncSender<Heard>,
     heard: Receiver<Heard>,
@@ -63,6 +64,7 @@ impl<'a> Watch<'a> {
         links: Vec<Link<'a>>,
         face: Box<dyn Face + 'a>,
         replay: Option<Replay>,
+        config: Config,
     ) -> Self {
         let (to_loop, heard) = sync_channel(WAITING_MAX);
         Self {
@@ -71,6 +73,7 @@ impl<'a> Watch<'a> {
             subject,
             links,
             face,
+            config,
             outputs: Vec::new(),
             to_loop,
             heard,
@@ -105,7 +108,7 @@ impl<'a> Watch<'a> {
         if self.args.summary {
             self.summing = Some(Summing::new(self.links.iter().map(|link| link.board), begin));
         }
-        self.outputs = outputs(self.args, self.terminal, self.subject, &self.links, begin)?;
+        self.outputs = outputs(self.args, &self.config, self.subject, &self.links, begin)?;
         for (name, text) in &self.args.set {
             self.prepare(name, text)?;
         }
@@ -115,7 +118,7 @@ impl<'a> Watch<'a> {
         if let Some(replay) = self.replay.take() {
             replay.play(self.args.speed, self.to_loop.clone());
         }
-        let stop = interruption()?;
+        let stop = ending(self.face.has_terminal())?;
         self.listen();
         let result = self.turns(&stop);
         // The terminal is given back whatever happened.
@@ -212,10 +215,10 @@ impl<'a> Watch<'a> {
 
     fn past_over(&mut self, end: Result<Ending, String>) -> Result<()> {
         match end {
-            Ok(Ending::Whole) => self.status = Some(Status::Done),
+            Ok(Ending::Whole) => self.over()?,
             Ok(Ending::Cut) => {
-                self.status = Some(Status::Done);
                 self.face.say("the record was cut off: this is all up to its last whole chunk")?;
+                self.over()?;
             }
             Err(why) => {
                 let at = self.args.record_file().unwrap_or(Path::new(""));
@@ -266,7 +269,7 @@ impl<'a> Watch<'a> {
                     continue;
                 }
                 Happening::Ended { is_lost } => {
-                    self.ended(*is_lost);
+                    self.ended(*is_lost)?;
                     continue;
                 }
             };
@@ -291,12 +294,22 @@ impl<'a> Watch<'a> {
         Ok(())
     }
 
-    fn ended(&mut self, is_lost: bool) {
+    fn ended(&mut self, is_lost: bool) -> Result<()> {
         if is_lost {
             self.status = Some(Status::Wrong);
         } else if self.links.iter().all(|link| link.is_over) {
-            self.status = Some(Status::Done);
+            self.over()?;
         }
+        Ok(())
+    }
+
+    /// Nothing more comes: what is on a screen stays until people have seen it.
+    fn over(&mut self) -> Result<()> {
+        if self.face.has_terminal() {
+            return self.face.say("that is the end of the recording; q ends");
+        }
+        self.status = Some(Status::Done);
+        Ok(())
     }
 
     fn grant(&mut self, wishes: Vec<Wish>) -> Result<()> {
@@ -374,7 +387,8 @@ impl<'a> Watch<'a> {
         let is_taken = self.args.device.as_deref() == Some("-");
         let all = self.links.iter().flat_map(|link| &link.board.devices);
         let has_actuators = all.into_iter().any(|one| one.direction == Direction::Actuator);
-        if is_taken || !has_actuators || self.is_screen() {
+        let is_table = self.args.format == Some(MonitorFormat::Table);
+        if is_taken || !has_actuators || is_table || self.face.has_terminal() {
             return;
         }
         let to_loop = self.to_loop.clone();
@@ -388,17 +402,13 @@ impl<'a> Watch<'a> {
         });
     }
 
-    fn is_screen(&self) -> bool {
-        format(self.args, self.terminal) == MonitorFormat::Table
-    }
-
     /// Closes the outputs and prints the counts.
     fn finish(&mut self, now: Moment) -> Result<()> {
         for output in &mut self.outputs {
             for wish in output.close(now) {
                 match wish {
                     Wish::Trouble { what, help } => {
-                        self.terminal.aside(&format!("{what}; {help}"))?
+                        self.terminal.aside(&format!("{what}; {help}"))?;
                     }
                     Wish::Note(text) => self.terminal.aside(&text)?,
                     Wish::Set { .. } => {}

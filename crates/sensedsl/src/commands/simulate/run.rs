@@ -42,6 +42,9 @@ const ASK_NS: u64 = 500 * MS;
 const SHELL: &[u8] = b"ch> ";
 /// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
+/// How long the loop waits for the other side, in real time.
+#[cfg(unix)]
+const STEP: Duration = Duration::from_millis(1);
 /// The time that the board has to report its health.
 const HEALTH_NS: u64 = 500 * MS;
 
@@ -299,9 +302,9 @@ impl<'a> Session<'a> {
         let (began, mut shown) = (Instant::now(), Instant::now());
         while !stop.load(Ordering::Relaxed) && end_ns.is_none_or(|end| self.now_ns < end) {
             let is_connected = match &pty {
-                Some(pty) => pty.wait(Duration::from_millis(2)),
+                Some(pty) => pty.wait(STEP),
                 None => {
-                    std::thread::sleep(Duration::from_millis(2));
+                    std::thread::sleep(STEP);
                     false
                 }
             };
