@@ -46,6 +46,7 @@ mod sheet;
 mod shown_values;
 mod simulate;
 mod single_files;
+mod sinks;
 mod soft_units;
 mod spreadsheets;
 mod strangers;
