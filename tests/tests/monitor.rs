@@ -23,8 +23,13 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 
 /// A folder with the robot, its generated schema, and the link that it gives.
 pub(crate) fn robot(name: &str) -> (TempDir, Schema) {
+    robot_of(name, ROBOT)
+}
+
+/// The same with a design of one's own.
+pub(crate) fn robot_of(name: &str, design: &str) -> (TempDir, Schema) {
     let scratch = TempDir::new(name);
-    let file = scratch.write("robot.sense", ROBOT);
+    let file = scratch.write("robot.sense", design);
     let out = scratch.join("out");
     let _ = sensedsl(["generate", "--quiet", "--without", "firmware", "-o"])
         .arg(&out)

@@ -63,8 +63,10 @@ fn prose_is_wrapped() {
         .collect();
     let docs = std::fs::read_dir(root().join("docs")).unwrap();
     pages.extend(docs.map(|entry| entry.unwrap().path()));
-    let drivers = std::fs::read_dir(root().join("docs/drivers")).unwrap();
-    pages.extend(drivers.map(|entry| entry.unwrap().path()));
+    for folder in ["docs/drivers", "docs/sinks"] {
+        let entries = std::fs::read_dir(root().join(folder)).unwrap();
+        pages.extend(entries.map(|entry| entry.unwrap().path()));
+    }
     // This page is made from texts in the code, which are indented there.
     pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
     pages.retain(|path| !path.ends_with("diagnostics.md"));

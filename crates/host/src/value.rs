@@ -240,7 +240,10 @@ impl Device {
     }
 
     /// How many of the device's units one of another is: `ms` of `us` is 1000.
-    fn factor(&self, unit: &str) -> Result<f64, CommandError> {
+    ///
+    /// # Errors
+    /// Fails if the other unit is not one of the device's with another prefix.
+    pub fn factor(&self, unit: &str) -> Result<f64, CommandError> {
         let quantity = self.quantity.clone();
         let found = quantity.as_deref().and_then(|own| {
             if own == unit {

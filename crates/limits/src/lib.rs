@@ -32,6 +32,14 @@ pub const WORLD_TABLES_MAX: usize = 20_000;
 pub const RECORD_PART_BYTES_MAX: usize = 64 << 20;
 /// Bytes of an image of firmware for `simulate`.
 pub const IMAGE_BYTES_MAX: usize = 16 << 20;
+/// Bytes of a configuration of `monitor`.
+pub const CONFIG_BYTES_MAX: usize = 256 << 10;
+/// Tables and lists of a configuration of `monitor`, including nested ones.
+pub const CONFIG_TABLES_MAX: usize = 2_000;
+/// Bytes of one message that another program sends to `monitor`.
+pub const MESSAGE_BYTES_MAX: usize = 64 << 10;
+/// Programs that are connected to `monitor` at a time, for each way of connecting.
+pub const CLIENTS_MAX: usize = 32;
 /// Bytes of all files that one call reads.
 pub const TOTAL_BYTES_MAX: usize = 32 << 20;
 
@@ -143,6 +151,8 @@ limits! {
     WORLD_BYTES_MAX: "bytes of a world for `simulate`, and of a file with samples", "E0112";
     WORLD_TABLES_MAX: "tables and lists of a world, those in others included", "E0551";
     IMAGE_BYTES_MAX: "bytes of an image of firmware for `simulate`", "E0112";
+    CONFIG_BYTES_MAX: "bytes of a configuration of `monitor`", "E0112";
+    CONFIG_TABLES_MAX: "tables and lists of a configuration of `monitor`", "E0560";
     TOTAL_BYTES_MAX: "bytes of all files that one call reads", "E0112";
     TOKENS_MAX: "words, numbers, signs, spaces and comments of a design", "E0116";
     DIAGNOSTICS_MAX: "mistakes that are listed", "E0117";

@@ -6,6 +6,7 @@ mod convert;
 mod monitor;
 mod parts;
 mod simulate;
+mod sinks;
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -20,6 +21,7 @@ pub(crate) use convert::{ConvertArgs, ConvertTo};
 pub(crate) use monitor::{MonitorArgs, MonitorFormat, Speed};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
+pub(crate) use sinks::SinkArgs;
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///

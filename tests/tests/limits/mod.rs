@@ -9,6 +9,7 @@
 #![cfg(target_os = "linux")]
 
 mod answers;
+mod configurations;
 mod files;
 mod scaling;
 mod sources;

@@ -11,8 +11,8 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_limits::{
-    ANSWER_BYTES_MAX, IMAGE_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX, TABLE_BYTES_MAX,
-    TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
+    ANSWER_BYTES_MAX, CONFIG_BYTES_MAX, IMAGE_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX,
+    TABLE_BYTES_MAX, TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
 };
 
 /// How library code reads files; provided by the binary or by a test.
@@ -62,6 +62,8 @@ pub enum FileUse {
     Image,
     /// A generated `schema.json`.
     Schema,
+    /// A configuration of `monitor`.
+    Config,
 }
 
 impl FileUse {
@@ -77,6 +79,7 @@ impl FileUse {
             Self::Image => IMAGE_BYTES_MAX,
             // As much as an answer: both have an entry for each device.
             Self::Schema => ANSWER_BYTES_MAX,
+            Self::Config => CONFIG_BYTES_MAX,
         }
     }
 
@@ -89,6 +92,7 @@ impl FileUse {
             Self::World => "a world, or samples of one",
             Self::Image => "an image of firmware",
             Self::Schema => "a `schema.json`",
+            Self::Config => "a configuration of `monitor`",
         }
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::common::{Reach, seconds};
+use super::sinks::SinkArgs;
 
 #[derive(Debug, Args)]
 pub(crate) struct MonitorArgs {
@@ -62,6 +63,8 @@ pub(crate) struct MonitorArgs {
     /// Stop after that time
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) seconds: Option<f64>,
+    #[command(flatten)]
+    pub(crate) sinks: SinkArgs,
     #[command(flatten)]
     pub(crate) reach: Reach,
 }

@@ -106,7 +106,7 @@ impl<'a> Link<'a> {
             worries: vec![None; count],
             trouble: None,
             is_met: false,
-            health_every: args.health.map(Duration::from_secs_f64),
+            health_every: super::sinks::health_s(args).map(Duration::from_secs_f64),
             is_one_of_several: false,
         };
         link.ask_for_health();
@@ -440,6 +440,9 @@ impl<'a> Link<'a> {
         let shown =
             self.board.devices.get(index).map_or_else(String::new, |device| device.text(&value));
         let said = format!("{} = {shown}", self.name(index));
+        if self.source.is_recording() {
+            return self.say(format!("not sent: {said}: a recording takes no commands"));
+        }
         if self.session.state() != State::Matched {
             if self.is_met || self.is_late {
                 return self.say(format!("not sent: {said}: the board is not there"));

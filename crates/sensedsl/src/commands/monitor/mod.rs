@@ -2,8 +2,9 @@
 //!
 //! `subject.rs` says which boards are meant, `find.rs` where they are, `source.rs` has the bytes of one, `link.rs` what
 //! is known of it. `watch.rs` is the loop between links and those who are told: a *face* for people (`face.rs`), which
-//! prints (`show.rs`) or has the whole terminal (`screen`), and outputs (`outputs.rs`), such as a record (`record.rs`),
-//! which `replay.rs` plays again. Whether a board is the one that is meant decides `sensedsl_host::Session`.
+//! prints (`show.rs`) or has the whole terminal (`screen`), and outputs (`outputs.rs`): a record (`record.rs`), which
+//! `replay.rs` plays again, a pseudo-terminal (`pty.rs`), other programs (`sinks.rs`). Whether a board is the one that
+//! is meant decides `sensedsl_host::Session`.
 
 mod face;
 mod find;
@@ -15,6 +16,7 @@ mod record;
 mod replay;
 mod screen;
 mod show;
+mod sinks;
 mod source;
 mod subject;
 mod watch;
@@ -47,6 +49,9 @@ pub(crate) fn run(args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
         return replayed(path, args, terminal);
     }
     let (device, file) = places(args);
+    if let Some(to) = &args.sinks.init_config {
+        return sinks::init(args, file.or(device.map(Path::new)), to.as_deref(), terminal);
+    }
     if let (Some("simulate"), Some(file)) = (device, file) {
         return subject::simulated(args, file, terminal, |subject, found| {
             watch(args, terminal, subject, found, None)
@@ -190,6 +195,7 @@ fn watch(
     found: Found<'_>,
     replay: Option<Replay>,
 ) -> Result<Status> {
+    let config = sinks::read(&args.sinks, terminal, subject)?;
     let mut links: Vec<Link<'_>> =
         found.into_iter().map(|(board, source)| Link::new(args, board, source)).collect();
     if links.len() > 1 {
@@ -199,5 +205,5 @@ fn watch(
     if face.has_terminal() && args.health.is_none() {
         links.iter_mut().for_each(Link::show_health);
     }
-    Watch::new(args, terminal, subject, links, face, replay).run()
+    Watch::new(args, terminal, subject, links, face, replay, config).run()
 }

@@ -3,6 +3,7 @@
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0566_no_new_record::not_made;
 use sensedsl_host::{Board, Moment, Output};
+use sensedsl_sinks::Config;
 
 use super::link::Link;
 use super::record::Recording;
@@ -13,6 +14,7 @@ use crate::files::Refused;
 /// All outputs of a run.
 pub(super) fn outputs(
     args: &MonitorArgs,
+    config: &Config,
     subject: &Subject,
     links: &[Link<'_>],
     begin: Moment,
@@ -31,5 +33,6 @@ pub(super) fn outputs(
     if args.pty {
         outputs.extend(super::pty::of_boards(&boards)?);
     }
+    outputs.extend(sensedsl_sinks::outputs(config, &boards, &std::process::id().to_string()));
     Ok(outputs)
 }

@@ -11,6 +11,7 @@ use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
 use sensedsl_record::Ending;
 use sensedsl_record::summary::Summing;
+use sensedsl_sinks::Config;
 use sensedsl_wire::Direction;
 
 use super::face::{Ask, Face};
@@ -41,6 +42,7 @@ pub(super) struct Watch<'a> {
     subject: &'a Subject,
     links: Vec<Link<'a>>,
     face: Box<dyn Face + 'a>,
+    config: Config,
     outputs: Vec<Box<dyn Output>>,
     to_loop: SyncSender<Heard>,
     heard: Receiver<Heard>,
@@ -62,6 +64,7 @@ impl<'a> Watch<'a> {
         links: Vec<Link<'a>>,
         face: Box<dyn Face + 'a>,
         replay: Option<Replay>,
+        config: Config,
     ) -> Self {
         let (to_loop, heard) = sync_channel(WAITING_MAX);
         Self {
@@ -70,6 +73,7 @@ impl<'a> Watch<'a> {
             subject,
             links,
             face,
+            config,
             outputs: Vec::new(),
             to_loop,
             heard,
@@ -104,7 +108,7 @@ impl<'a> Watch<'a> {
         if self.args.summary {
             self.summing = Some(Summing::new(self.links.iter().map(|link| link.board), begin));
         }
-        self.outputs = outputs(self.args, self.subject, &self.links, begin)?;
+        self.outputs = outputs(self.args, &self.config, self.subject, &self.links, begin)?;
         for (name, text) in &self.args.set {
             self.prepare(name, text)?;
         }

@@ -1,0 +1,181 @@
+//! What can stand in a configuration: the sinks, their keys, and what each key is for.
+//!
+//! One table serves reader, printer and documentation, so that no key is read and not shown, or shown and not read.
+
+/// What a key takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sort {
+    /// Any text.
+    Text(&'static str),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// Several texts.
+    Texts,
+    /// `true` or `false`.
+    Flag(bool),
+    /// A whole number within these bounds.
+    Whole(u32, u32, u32),
+    /// A number above 0.
+    Positive(Option<f64>),
+    /// Where another program is: a host and a port.
+    Remote(&'static str),
+    /// Where this program listens: a number of an interface and a port.
+    Listen(&'static str),
+}
+
+/// A key of a sink's table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// The key.
+    pub name: &'static str,
+    /// What it takes, and what counts without it.
+    pub sort: Sort,
+    /// What it is for, in a line.
+    pub about: &'static str,
+}
+
+/// A way to pass values on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spec {
+    /// Its table, which is also its feature.
+    pub name: &'static str,
+    /// Its name for people.
+    pub title: &'static str,
+    /// Whether this build has it.
+    pub is_built: bool,
+    /// What it does, in a line.
+    pub about: &'static str,
+    /// Its keys.
+    pub keys: &'static [Key],
+}
+
+const fn key(name: &'static str, sort: Sort, about: &'static str) -> Key {
+    Key { name, sort, about }
+}
+
+const RATE: Key = key(
+    "rate_hz",
+    Sort::Positive(None),
+    "at most so many values a second of each device; 1e6 lets all pass",
+);
+const COMMANDS: Key =
+    key("commands", Sort::Flag(true), "whether other programs may set actuators this way");
+
+/// All ways, in the order of the documentation.
+pub const SINKS: &[Spec] = &[
+    Spec {
+        name: "plotjuggler",
+        title: "PlotJuggler",
+        is_built: cfg!(feature = "plotjuggler"),
+        about: "values as JSON over UDP, as the UDP server of PlotJuggler reads them",
+        keys: &[key("to", Sort::Remote("127.0.0.1:9870"), "where PlotJuggler listens"), RATE],
+    },
+    Spec {
+        name: "websocket",
+        title: "WebSocket",
+        is_built: cfg!(feature = "websocket"),
+        about: "values, health and commands as JSON, for web pages and scripts",
+        keys: &[
+            key("listen", Sort::Listen("127.0.0.1:8765"), "the address that clients connect to"),
+            key(
+                "origins",
+                Sort::Texts,
+                "origins of pages that may connect besides those of this machine; \"*\" allows all",
+            ),
+            COMMANDS,
+            RATE,
+        ],
+    },
+    Spec {
+        name: "mqtt",
+        title: "MQTT",
+        is_built: cfg!(feature = "mqtt"),
+        about: "a retained topic for each device, with discovery for Home Assistant",
+        keys: &[
+            key("broker", Sort::Remote("localhost:1883"), "where the broker is"),
+            key("prefix", Sort::Text("sensedsl"), "the first words of all topics"),
+            key(
+                "payload",
+                Sort::Word(&["plain", "json"]),
+                "a bare value, or an object with its time and unit",
+            ),
+            key(
+                "discovery",
+                Sort::Text("homeassistant"),
+                "the prefix of Home Assistant's discovery; \"\" for none",
+            ),
+            key(
+                "client_id",
+                Sort::Text(""),
+                "the name for the broker; \"\" for one of its own each time",
+            ),
+            key("user", Sort::Text(""), "the user for the broker; \"\" for none"),
+            key(
+                "password",
+                Sort::Text(""),
+                "the user's password, which goes over the network as it is",
+            ),
+            COMMANDS,
+            key("rate_hz", Sort::Positive(Some(10.0)), RATE.about),
+        ],
+    },
+    Spec {
+        name: "prometheus",
+        title: "Prometheus",
+        is_built: cfg!(feature = "prometheus"),
+        about: "the latest values and counts at http://ADDRESS/metrics",
+        keys: &[key(
+            "listen",
+            Sort::Listen("127.0.0.1:9101"),
+            "the address that Prometheus scrapes",
+        )],
+    },
+    Spec {
+        name: "od4",
+        title: "OD4",
+        is_built: cfg!(feature = "od4"),
+        about: "OD4 messages as libcluon and the generated libcluon host send them",
+        keys: &[
+            key("cid", Sort::Whole(111, 1, 254), "the OD4 session"),
+            key(
+                "interface",
+                Sort::Listen("0.0.0.0:12175"),
+                "the interface and the port; 0.0.0.0 leaves the interface to the system",
+            ),
+            COMMANDS,
+            RATE,
+        ],
+    },
+];
+
+/// Keys of `[boards.NAME]`.
+pub const BOARD_KEYS: &[Key] = &[
+    key("topic", Sort::Text(""), "its name for other programs; without it its own"),
+    key(
+        "frame",
+        Sort::Text(""),
+        "the coordinate frame of its devices, for ROS 2 and Foxglove; without it its topic",
+    ),
+    RATE,
+    key("leave_out", Sort::Flag(false), "whether none of its devices goes out"),
+];
+
+/// Keys of `[devices."BOARD/DEVICE"]`.
+pub const DEVICE_KEYS: &[Key] = &[
+    key("topic", Sort::Text(""), "its name for other programs; without it BOARD/DEVICE"),
+    key("frame", Sort::Text(""), "its coordinate frame; without it that of its board"),
+    RATE,
+    key("unit", Sort::Text(""), "the unit in which it goes out: \"m\" for what is shown in cm"),
+    key(
+        "scale",
+        Sort::Positive(None),
+        "what the shown value is multiplied with; `unit` then is only its name",
+    ),
+    key("leave_out", Sort::Flag(false), "whether it stays here"),
+];
+
+/// The sink with that table.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Spec> {
+    SINKS.iter().find(|spec| spec.name == name)
+}

@@ -1,0 +1,339 @@
+//! WebSocket: what happens in, text messages in JSON for pages and scripts out, and their commands back.
+//!
+//! The sink's thread is the hub: it makes each message once and puts it into the queue of each client. `client.rs` has
+//! the thread of one client, `head.rs` a page for browsers. A client that does not read what it gets is let go, so that it slows nobody down.
+//! The protocol is written down in `docs/sinks/websocket.md`.
+
+mod client;
+mod head;
+mod origin;
+
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::time::{Duration, Instant};
+
+use sensedsl_limits::CLIENTS_MAX;
+use serde_json::{Map, Value, json};
+use tungstenite::Utf8Bytes;
+
+use crate::command;
+use crate::config::Settings;
+use crate::event::{Event, Inbox, Next, Outbox, Sink, Values};
+use crate::json;
+use crate::picture::Picture;
+use crate::plan::Plan;
+
+/// How long the hub waits for an event before it looks at clients.
+const WAIT: Duration = Duration::from_millis(5);
+/// How often an address that is taken is tried again.
+const BIND_EVERY: Duration = Duration::from_secs(1);
+/// Messages that wait for one client; one that lets more come is not reading.
+const CLIENT_QUEUE_MAX: usize = 512;
+/// Requests of all clients that wait for the hub.
+const REQUESTS_MAX: usize = 256;
+/// How long a command waits for its echo.
+const ANSWERED_WITHIN: Duration = Duration::from_secs(2);
+/// The version of the protocol.
+const PROTOCOL: u32 = 1;
+
+/// A server for pages and scripts.
+#[derive(Debug)]
+pub(crate) struct WebSocketServer {
+    plan: Arc<Plan>,
+    listen: SocketAddr,
+    origins: Arc<Vec<String>>,
+    takes_commands: bool,
+}
+
+/// What a client's thread tells the hub.
+enum Request {
+    /// Somebody connected: where its messages go.
+    Open(u64, SyncSender<Utf8Bytes>),
+    /// It sent a text.
+    Text(u64, String),
+    /// It sent something else, or too much.
+    Wrong(u64, &'static str),
+    /// It is gone; whether because it read too slowly.
+    Closed(u64, bool),
+}
+
+struct Client {
+    number: u64,
+    to: SyncSender<Utf8Bytes>,
+}
+
+/// A command that waits for its echo.
+struct Pending {
+    client: u64,
+    id: Value,
+    board: usize,
+    index: usize,
+    topic: String,
+    since: Instant,
+}
+
+struct Hub<'a> {
+    plan: &'a Plan,
+    takes_commands: bool,
+    outbox: &'a Outbox,
+    picture: Picture,
+    clients: Vec<Client>,
+    pending: Vec<Pending>,
+    dropped: u64,
+}
+
+impl WebSocketServer {
+    /// With what a configuration says; none if its address is not one.
+    #[must_use]
+    pub(crate) fn new(settings: &Settings, plan: Arc<Plan>) -> Option<Self> {
+        let listen = crate::config::listening(settings.text("listen")).ok()?;
+        let origins = Arc::new(settings.texts("origins").to_vec());
+        Some(Self { plan, listen, origins, takes_commands: settings.flag("commands") })
+    }
+
+    /// Listens, as soon as the address is free.
+    fn bind(&self, outbox: &Outbox) -> Option<TcpListener> {
+        let listener = TcpListener::bind(self.listen).and_then(|listener| {
+            listener.set_nonblocking(true)?;
+            Ok(listener)
+        });
+        match listener {
+            Ok(listener) => {
+                outbox.works();
+                let at = listener.local_addr().unwrap_or(self.listen);
+                outbox.note(&format!("ws://{at}, with a page at http://{at}"));
+                if !at.ip().is_loopback() {
+                    let who = "everybody who reaches this address sees the values";
+                    let may = if self.takes_commands { " and may set actuators" } else { "" };
+                    outbox.note(&format!("{who}{may}"));
+                }
+                Some(listener)
+            }
+            Err(error) => {
+                let what = format!("cannot listen on {}: {error}", self.listen);
+                outbox.broken(&what, "choose another address with `listen`, or end what has it");
+                None
+            }
+        }
+    }
+}
+
+impl Sink for WebSocketServer {
+    fn run(self: Box<Self>, inbox: &Inbox, outbox: &Outbox) {
+        let (to_hub, requests) = sync_channel(REQUESTS_MAX);
+        let mut hub = Hub {
+            plan: &self.plan,
+            takes_commands: self.takes_commands,
+            outbox,
+            picture: Picture::new(&self.plan),
+            clients: Vec::new(),
+            pending: Vec::new(),
+            dropped: 0,
+        };
+        let (mut listener, mut tried, mut last_number) = (None, None::<Instant>, 0);
+        let alive = Arc::new(AtomicUsize::new(0));
+        loop {
+            if listener.is_none() && tried.is_none_or(|tried| tried.elapsed() >= BIND_EVERY) {
+                tried = Some(Instant::now());
+                listener = self.bind(outbox);
+            }
+            match inbox.next(WAIT) {
+                Next::Event(event) => hub.take(&event),
+                Next::Nothing => {}
+                Next::Over => break,
+            }
+            if let Some(listener) = &listener {
+                while let Ok((stream, _)) = listener.accept() {
+                    // One too many: the connection closes when it is dropped.
+                    if alive.load(Ordering::Relaxed) < CLIENTS_MAX {
+                        last_number += 1;
+                        let (origins, alive) = (Arc::clone(&self.origins), Arc::clone(&alive));
+                        client::start(last_number, stream, origins, to_hub.clone(), alive);
+                    }
+                }
+            }
+            hub.requests(&requests);
+        }
+        hub.end();
+    }
+}
+
+impl Hub<'_> {
+    fn take(&mut self, event: &Event) {
+        self.picture.take(event);
+        let message = match event {
+            Event::Values(values) => {
+                let name = if values.is_command { "command" } else { "values" };
+                self.echo(values);
+                json!({ name: json::values(self.plan, values) })
+            }
+            Event::Presence { board, away } => {
+                let Some(on) = self.plan.board(*board) else { return };
+                json!({ "presence": json::presence(on, away.as_deref()) })
+            }
+            Event::Health { board, health, .. } => {
+                let Some(on) = self.plan.board(*board) else { return };
+                json!({ "health": json::health(on, health) })
+            }
+        };
+        self.broadcast(&message);
+    }
+
+    fn broadcast(&mut self, message: &Value) {
+        if self.clients.is_empty() {
+            return;
+        }
+        let text = Utf8Bytes::from(message.to_string());
+        let before = self.clients.len();
+        self.clients.retain(|client| {
+            !matches!(client.to.try_send(text.clone()), Err(TrySendError::Full(_)))
+        });
+        for _ in self.clients.len()..before {
+            self.slow();
+        }
+    }
+
+    fn slow(&mut self) {
+        self.dropped += 1;
+        let count = self.dropped;
+        self.outbox.note(&format!("a client was too slow and was let go ({count} so far)"));
+    }
+
+    fn send(&self, client: u64, message: &Value) {
+        if let Some(client) = self.clients.iter().find(|one| one.number == client) {
+            // One whose queue is full is let go with the next value.
+            let _ = client.to.try_send(message.to_string().into());
+        }
+    }
+
+    fn requests(&mut self, requests: &Receiver<Request>) {
+        while let Ok(request) = requests.try_recv() {
+            match request {
+                Request::Open(number, to) => {
+                    let _ = to.try_send(self.hello().to_string().into());
+                    self.clients.push(Client { number, to });
+                }
+                Request::Closed(number, is_slow) => {
+                    let before = self.clients.len();
+                    self.clients.retain(|one| one.number != number);
+                    // One that the hub let go was counted then.
+                    if is_slow && self.clients.len() < before {
+                        self.slow();
+                    }
+                }
+                Request::Wrong(number, why) => self.refuse(number, &Value::Null, None, why),
+                Request::Text(number, text) => self.asked(number, &text),
+            }
+        }
+        let (late, waiting) = std::mem::take(&mut self.pending)
+            .into_iter()
+            .partition(|one| one.since.elapsed() > ANSWERED_WITHIN);
+        self.pending = waiting;
+        let late: Vec<Pending> = late;
+        for one in late {
+            self.refuse(one.client, &one.id, Some(&one.topic), "the board did not take it");
+        }
+    }
+
+    /// What a client is told first: the boards, how they are, and the latest value of each device.
+    fn hello(&self) -> Value {
+        let mut schema = json::schema(self.plan);
+        if let Value::Array(boards) = &mut schema {
+            let plans = self.plan.boards.iter().zip(&self.picture.boards);
+            for (board, (on, state)) in boards.iter_mut().zip(plans) {
+                if let Value::Object(board) = board {
+                    board.insert("online".into(), state.is_online.into());
+                    let health = state.health.as_ref().map(|told| json::health(on, told));
+                    board.insert("health".into(), health.unwrap_or_default());
+                }
+            }
+        }
+        let mut values = Map::new();
+        for latest in self.picture.values() {
+            for (place, raw) in self.plan.of(latest) {
+                values.insert(place.route.topic.clone(), json::value(&place, latest, raw));
+            }
+        }
+        let program = concat!("sensedsl ", env!("CARGO_PKG_VERSION"));
+        json!({ "hello": {
+            "protocol": PROTOCOL, "program": program, "commands": self.takes_commands,
+            "boards": schema, "values": values,
+        } })
+    }
+
+    fn asked(&mut self, client: u64, text: &str) {
+        let Ok(Value::Object(message)) = serde_json::from_str(text) else {
+            return self.refuse(client, &Value::Null, None, "a message must be an object in JSON");
+        };
+        let id = message.get("id").cloned().unwrap_or_default();
+        let Some(Value::Object(wanted)) = message.get("set") else {
+            return self.refuse(client, &id, None, "a message must have `set`, an object");
+        };
+        for (topic, value) in wanted {
+            if let Err(why) = self.set(client, &id, topic, value) {
+                self.refuse(client, &id, Some(topic), &why);
+            }
+        }
+    }
+
+    fn set(&mut self, client: u64, id: &Value, topic: &str, value: &Value) -> Result<(), String> {
+        if !self.takes_commands {
+            return Err("commands are off: `commands = true` in the configuration".to_owned());
+        }
+        let place = self.plan.places().find(|one| one.route.topic == topic);
+        let place = place.ok_or_else(|| "no device has this topic".to_owned())?;
+        let wanted = command::of_json(&place, value)?;
+        let state = self.picture.boards.get(wanted.board);
+        if !state.is_some_and(|state| state.is_online) {
+            return Err("the board is not there".to_owned());
+        }
+        if self.pending.len() >= REQUESTS_MAX
+            || !self.outbox.set(wanted.board, &wanted.name, wanted.text)
+        {
+            return Err("too many commands at a time".to_owned());
+        }
+        let (board, index) = (wanted.board, wanted.index);
+        let (id, topic) = (id.clone(), topic.to_owned());
+        self.pending.push(Pending { client, id, board, index, topic, since: Instant::now() });
+        Ok(())
+    }
+
+    fn refuse(&self, client: u64, id: &Value, topic: Option<&str>, why: &str) {
+        self.send(
+            client,
+            &json!({ "answer": { "id": id, "set": topic, "ok": false, "error": why } }),
+        );
+    }
+
+    /// Answers who waits for the echo of a command.
+    fn echo(&mut self, values: &Values) {
+        if !values.is_command {
+            return;
+        }
+        for (place, raw) in self.plan.of(values) {
+            let is_of = |one: &Pending| one.board == place.board && one.index == place.index;
+            // Commands are taken in their order, so the first that waits is the one.
+            if let Some(at) = self.pending.iter().position(is_of) {
+                let one = self.pending.remove(at);
+                self.send(
+                    one.client,
+                    &json!({ "answer": {
+                    "id": one.id, "set": one.topic, "ok": true,
+                    "value": place.json(raw), "raw": place.raw_json(raw),
+                } }),
+                );
+            }
+        }
+    }
+
+    fn end(&self) {
+        let bye = Utf8Bytes::from(json!({ "bye": "the monitor ended" }).to_string());
+        for client in &self.clients {
+            let _ = client.to.try_send(bye.clone());
+        }
+        // The threads of clients get the rest out, and end with their queues.
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
