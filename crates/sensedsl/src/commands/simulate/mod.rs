@@ -151,7 +151,7 @@ fn machine(
     match EmulatedBoard::new(scenery.job, bench, image) {
         Ok(machine) => Ok(Box::new(machine)),
         Err(why) => {
-            let (image, why) = (crate::files::shown(firmware), why.to_string());
+            let (image, why) = (shown(firmware), why.to_string());
             Err(e0546_image_refused::refused(scenery.at, &image, &why).into())
         }
     }
