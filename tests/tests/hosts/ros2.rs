@@ -89,8 +89,11 @@ print(package.getAttribute('format'), text('name'), text('depend'), [one.name fo
 /// What a right node publishes of a stream, from what the vectors say of it: a line for each value.
 fn published(schema: &Schema, answer: &str) -> String {
     let mut lines = String::new();
-    for word in
-        answer.lines().filter_map(|line| line.strip_prefix("got ")).flat_map(str::split_whitespace)
+    for word in answer
+        .lines()
+        .filter_map(|line| line.strip_prefix("got "))
+        .filter(|line| !line.starts_with("health"))
+        .flat_map(str::split_whitespace)
     {
         let Some((id, values)) = word.split_once('=') else { continue };
         let item = schema.items.iter().find(|item| item.id.to_string() == id);
