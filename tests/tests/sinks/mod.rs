@@ -7,6 +7,7 @@ mod od4;
 mod peer;
 mod plotjuggler;
 mod prometheus;
+mod ros2;
 mod websocket;
 
 use std::io::{BufRead as _, BufReader, Read, Write as _};

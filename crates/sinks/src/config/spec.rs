@@ -146,6 +146,24 @@ pub const SINKS: &[Spec] = &[
             RATE,
         ],
     },
+    Spec {
+        name: "ros2",
+        title: "ROS 2",
+        is_built: cfg!(feature = "ros2"),
+        about: "topics of ROS 2 over DDS, without an installation of ROS",
+        keys: &[
+            key(
+                "distro",
+                Sort::Word(&["jazzy", "humble"]),
+                "the messages' layout: \"jazzy\" also for later ones",
+            ),
+            key("domain", Sort::Whole(0, 0, 232), "the domain, ROS_DOMAIN_ID of the others"),
+            key("namespace", Sort::Text(""), "the first words of all topics; \"\" for none"),
+            key("node", Sort::Text("sensedsl"), "the name of the node"),
+            COMMANDS,
+            RATE,
+        ],
+    },
 ];
 
 /// Keys of `[boards.NAME]`.
