@@ -21,8 +21,8 @@ fn is_runtime(path: &str) -> bool {
         "/sense-rt/src/",
         "/sensedsl-host/",
         "/sensedsl-wire/",
-        "/host/c/sensedsl.",
-        "/host/matlab/read_record.m",
+        "host/c/sensedsl.",
+        "host/matlab/read_record.m",
     ];
     folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
 }

@@ -30,6 +30,7 @@ mod limits;
 mod limits_page;
 mod messages;
 mod monitor;
+mod monitor_damage;
 mod monitor_screen;
 mod no_panic;
 mod pages;

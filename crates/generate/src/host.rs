@@ -13,6 +13,7 @@ pub const HOSTS: &[&dyn Host] = &[
     &cpp::OpenDavinci2014,
     &cpp::Libcluon,
     &cpp::Plain,
+    &cpp::Ros2,
     &Python,
     &Rust,
     &C,

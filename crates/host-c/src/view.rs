@@ -1,5 +1,6 @@
 //! The plan in C's words.
 
+use sensedsl_diagnostics::visible;
 use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Scaling};
 use sensedsl_wire::{Checksum, Direction, ScalarType};
 
@@ -145,7 +146,7 @@ impl DeviceView {
             curve.len().to_string(),
             if curve.is_empty() { "NULL".to_owned() } else { format!("{own}_curve_{ident}") },
             literal(&plan.name),
-            literal(plan.quantity.as_deref().unwrap_or("")),
+            literal(&visible(plan.quantity.as_deref().unwrap_or_default())),
             scaling.is_some().to_string(),
             plan.limits.min.is_some().to_string(),
             plan.limits.max.is_some().to_string(),
@@ -156,7 +157,7 @@ impl DeviceView {
             plan.cycle_ms.unwrap_or(0).to_string(),
         ];
         Self {
-            doc: comment(&format!("{label}{}{unit}", plan.value)),
+            doc: comment(&visible(&format!("{label}{}{unit}", plan.value))),
             is_sensor,
             id: plan.id,
             c_type,

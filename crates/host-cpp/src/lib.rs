@@ -35,12 +35,14 @@ mod libcluon;
 mod names;
 mod opendavinci;
 mod plain;
+mod ros2;
 mod runtime;
 mod view;
 
 pub use libcluon::Libcluon;
 pub use opendavinci::{OpenDavinci, OpenDavinci2014};
 pub use plain::Plain;
+pub use ros2::Ros2;
 
 use sensedsl_files::{FileSet, print, templates};
 use view::{BoardView, DesignView};

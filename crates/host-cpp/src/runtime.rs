@@ -34,6 +34,9 @@ const EVERY_HOST: [(&str, &str); 17] = [
 pub(super) const BOARD: [(&str, &str); 3] =
     [shared!("board.hpp"), shared!("handlers.hpp"), shared!("typed.hpp")];
 
+/// The additional file for nodes of ROS 2.
+pub(super) const ROS2: (&str, &str) = shared!("ros2.hpp");
+
 /// The files of every host.
 pub(super) fn files() -> FileSet {
     let mut files = FileSet::default();

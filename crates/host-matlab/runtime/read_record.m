@@ -38,45 +38,49 @@ magic = uint8([137, double('MCAP0'), 13, 10]);
 if numel(bytes) < 8 || any(bytes(1:8) ~= magic)
     error('sensedsl:format', '%s is no MCAP file', file);
 end
-found = empty_record();
-[found, found.is_whole] = take_records(found, bytes, 9, numel(bytes));
+[found, messages] = find_records(bytes);
 if isempty(found.begin_ns)
     error('sensedsl:format', '%s has no attachment schema.json: it is no record of a board', file);
 end
-[run, link] = sort_out(found);
+[run, link] = sort_out(found, bytes, messages);
 end
 
-function found = empty_record()
+function [found, messages] = find_records(bytes)
+% What a file has besides messages, and where these begin and end: a column each. A record that is not whole ends it.
 found = struct('begin_ns', [], 'is_whole', false);
 % By the number of a channel, one more than its identifier.
 found.channels = {};
-% By the same number: times, and texts.
-found.times = {};
-found.texts = {};
-found.counts = [];
-end
-
-function [found, is_whole] = take_records(found, bytes, at, last)
-% Takes the records of a file, or of a chunk. A record that is not whole ends it.
-is_whole = false;
+messages = zeros(2, 1024);
+count = 0;
+at = 9;
+last = numel(bytes);
 while at + 8 <= last
+    size = double(typecast(bytes(at + 1:at + 8), 'uint64'));
     operation = bytes(at);
-    size = double(number(bytes, at + 1, 'uint64'));
     at = at + 9;
     stop = at + size - 1;
     if stop > last
-        return;
+        break;
     end
     switch operation
         case 2 % the footer
-            is_whole = true;
-            return;
+            found.is_whole = true;
+            break;
         case 4
             found = take_channel(found, bytes, at);
         case 5
-            found = take_message(found, bytes, at, stop);
+            count = count + 1;
+            if count > numel(messages) / 2
+                messages(:, 2 * count) = 0;
+            end
+            messages(:, count) = [at; stop];
         case 6
-            found = take_chunk(found, bytes, at);
+            % Its records are its end: they are read as if they stood by themselves.
+            [compression, at] = text(bytes, at + 28);
+            if ~isempty(compression)
+                error('sensedsl:format', 'a chunk is compressed (%s), as another program has left it', compression);
+            end
+            stop = at + 7;
         case 9
             name = text(bytes, at + 16);
             if strcmp(name, 'schema.json') && isempty(found.begin_ns)
@@ -85,22 +89,11 @@ while at + 8 <= last
     end
     at = stop + 1;
 end
-end
-
-function found = take_chunk(found, bytes, at)
-[compression, at] = text(bytes, at + 28);
-if ~isempty(compression)
-    error('sensedsl:format', 'a chunk is compressed (%s), as another program has left it', compression);
-end
-size = double(number(bytes, at, 'uint64'));
-found = take_records(found, bytes, at + 8, at + 7 + size);
+messages = messages(:, 1:count);
 end
 
 function found = take_channel(found, bytes, at)
 place = double(number(bytes, at, 'uint16')) + 1;
-if place <= numel(found.channels) && ~isempty(found.channels{place})
-    return;
-end
 [topic, at] = text(bytes, at + 4);
 [encoding, at] = text(bytes, at);
 channel = struct('topic', topic, 'encoding', encoding, 'type', '', 'unit', '', 'direction', '');
@@ -114,32 +107,14 @@ while at <= stop
     end
 end
 found.channels{place} = channel;
-found.times{place} = zeros(1, 64, 'uint64');
-found.texts{place} = cell(1, 64);
-found.counts(place) = 0;
 end
 
-function found = take_message(found, bytes, at, stop)
-place = double(number(bytes, at, 'uint16')) + 1;
-if place > numel(found.channels) || isempty(found.channels{place})
-    return;
-end
-if ~strcmp(found.channels{place}.encoding, 'json')
-    return;
-end
-count = found.counts(place) + 1;
-found.counts(place) = count;
-if count > numel(found.times{place})
-    found.times{place}(2 * count) = 0;
-    found.texts{place}{2 * count} = [];
-end
-found.times{place}(count) = number(bytes, at + 6, 'uint64');
-found.texts{place}{count} = char(bytes(at + 22:stop));
-end
-
-function [run, link] = sort_out(found)
+function [run, link] = sort_out(found, bytes, messages)
 run = struct();
 link = struct('begin', double(found.begin_ns) / 1e9, 'is_whole', found.is_whole);
+starts = messages(1, :);
+stops = messages(2, :);
+places = double(bytes(starts)) + 256 * double(bytes(starts + 1)) + 1;
 for place = 1:numel(found.channels)
     channel = found.channels{place};
     if isempty(channel) || ~strcmp(channel.encoding, 'json')
@@ -148,10 +123,12 @@ for place = 1:numel(found.channels)
     slash = find(channel.topic == '/', 2);
     board = field(channel.topic(2:slash(2) - 1));
     name = channel.topic(slash(2) + 1:end);
-    count = found.counts(place);
+    own = find(places == place);
+    octets = bytes(bsxfun(@plus, starts(own), (6:13)'));
+    times = typecast(reshape(octets, 1, []), 'uint64');
     % Of two whole numbers, so that no nanosecond is lost before the difference.
-    t = double(found.times{place}(1:count) - found.begin_ns)' / 1e9;
-    texts = found.texts{place}(1:count);
+    t = double(times - found.begin_ns)' / 1e9;
+    texts = lines_of(bytes, starts(own) + 22, stops(own));
     if strcmp(name, 'link/health') || strcmp(name, 'link/events')
         link.(board).(name(6:end)) = with_times(decoded(texts), t);
     elseif ~isempty(channel.type)
@@ -164,13 +141,29 @@ for place = 1:numel(found.channels)
 end
 end
 
+function texts = lines_of(bytes, starts, stops)
+% Parts of the file as lines of one text: to take them one by one would last much longer.
+texts = '';
+if isempty(starts)
+    return;
+end
+lengths = stops - starts + 2;
+steps = ones(1, sum(lengths));
+steps(1) = starts(1);
+ends = cumsum(lengths);
+steps(ends(1:end - 1) + 1) = starts(2:end) - stops(1:end - 1) - 1;
+bytes(end + 1) = 0;
+texts = char(bytes(cumsum(steps)));
+texts(ends) = char(10);
+end
+
 function messages = decoded(texts)
-% A cell for each text.
+% A cell for each line.
 if isempty(texts)
     messages = {};
     return;
 end
-messages = jsondecode(['[', strjoin(texts, ','), ']']);
+messages = jsondecode(['[', strrep(texts(1:end - 1), char(10), ','), ']']);
 if ~iscell(messages)
     messages = num2cell(messages);
 end
@@ -195,7 +188,8 @@ end
 
 function one = device(channel, name, t, texts)
 [kind, count] = parts(channel.type);
-one = struct('t', t, 'value', numbers(texts, 'value', count), 'raw', [], 'unit', channel.unit);
+all = numbers(texts, count, numel(t));
+one = struct('t', t, 'value', all.value, 'raw', [], 'unit', channel.unit);
 one.name = name;
 one.type = channel.type;
 one.direction = channel.direction;
@@ -203,18 +197,18 @@ switch kind
     case {'int64', 'uint64'}
         one.raw = whole_numbers(texts, count, kind);
     case 'bool'
-        one.raw = numbers(texts, 'raw', count) ~= 0;
+        one.raw = all.raw ~= 0;
         one.value = one.value ~= 0;
     case 'float32'
-        one.raw = single(numbers(texts, 'raw', count));
+        one.raw = single(all.raw);
     case 'float64'
-        one.raw = numbers(texts, 'raw', count);
+        one.raw = all.raw;
     otherwise
-        one.raw = feval(kind, numbers(texts, 'raw', count));
+        one.raw = feval(kind, all.raw);
 end
-if ~isempty(texts) && ~isempty(strfind(texts{1}, '"stamp_us":'))
-    one.stamp_us = uint32(numbers(texts, 'stamp_us', 1));
-    one.counter = uint8(numbers(texts, 'counter', 1));
+if isfield(all, 'stamp_us')
+    one.stamp_us = uint32(all.stamp_us);
+    one.counter = uint8(all.counter);
 end
 end
 
@@ -230,26 +224,41 @@ else
 end
 end
 
-function list = cells(texts, name)
-% The text of a field in each message, without brackets: `1,2,3`.
-found = regexp(texts, ['"', name, '":\[?([^\]}"]*)'], 'tokens', 'once');
-list = cellfun(@(one) one{1}, found, 'UniformOutput', false);
+function all = numbers(texts, count, rows)
+% The fields of the messages of a device, a row for each message. They all look like the first one, which so says how
+% they are read: that is much quicker than jsondecode, and exact to the last digit, which Octave's jsondecode is not.
+% What is no number is null in the record, and NaN here.
+all = struct('value', zeros(0, count), 'raw', zeros(0, count));
+if rows == 0
+    return;
 end
-
-function all = numbers(texts, name, count)
-% A row for each message. Not by jsondecode, which is not exact to the last digit in Octave. What is no number is null
-% in the record, and NaN here.
-list = strrep(strrep(strrep(cells(texts, name), 'null', 'NaN'), 'true', '1'), 'false', '0');
-all = sscanf(strrep(strjoin(list, ' '), ',', ' '), '%f');
-all = reshape(all, count, numel(texts))';
+texts = strrep(strrep(strrep(texts, 'null', 'NaN'), 'true', '1'), 'false', '0');
+form = regexprep(texts(1:find(texts == char(10), 1) - 1), '([:,\[])(NaN|[-+.0-9eE]+)', '$1%f');
+found = sscanf(texts, [form, ' ']);
+names = regexp(form, '"(\w+)":', 'tokens');
+width = numel(strfind(form, '%f'));
+if numel(found) ~= width * rows
+    error('sensedsl:format', 'a value cannot be read: the record is damaged');
+end
+found = reshape(found, width, rows)';
+column = 0;
+for i = 1:numel(names)
+    name = names{i}{1};
+    wide = 1;
+    if any(strcmp(name, {'value', 'raw'}))
+        wide = count;
+    end
+    all.(name) = found(:, column + (1:wide));
+    column = column + wide;
+end
 end
 
 function all = whole_numbers(texts, count, kind)
 % 64 bits are more than a double has.
-all = zeros(numel(texts), count, kind);
-list = cells(texts, 'raw');
-for i = 1:numel(texts)
-    digits = strsplit(list{i}, ',');
+list = regexp(texts, '"raw":\[?([-0-9,]*)', 'tokens');
+all = zeros(numel(list), count, kind);
+for i = 1:numel(list)
+    digits = strsplit(list{i}{1}, ',');
     for k = 1:count
         is_negative = digits{k}(1) == '-';
         element = zeros(1, 1, kind);

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeSet;
 
+use sensedsl_diagnostics::visible;
+
 const KEYWORDS: &str = "break case catch classdef continue do else elseif end for function global if otherwise parfor \
     persistent return spmd switch try until while";
 
@@ -51,7 +53,7 @@ pub(super) fn literal(text: &str) -> String {
 
 /// A text on one line.
 pub(super) fn plain(text: &str) -> String {
-    text.chars().map(|one| if one.is_control() { ' ' } else { one }).collect()
+    visible(text).into_owned()
 }
 
 #[cfg(test)]
@@ -75,6 +77,6 @@ mod tests {
 
     #[test]
     fn literals_stay_on_their_line() {
-        assert_eq!(literal("it's\n°C"), "'it''s °C'");
+        assert_eq!(literal("it's\n°C"), "'it''s\\u{a}°C'");
     }
 }

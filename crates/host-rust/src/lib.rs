@@ -46,13 +46,11 @@ templates! {
     design: DesignView;
     Library = "lib.rs.txt";
     Manifest = "Cargo.toml.txt";
+    Lock = "Cargo.lock.txt";
     Monitor = "monitor.rs.txt";
     Asynchronous = "asynchronous.rs.txt";
     Readme = "README.md.txt";
 }
-
-/// Cargo fills it, and it is the user's from then on.
-const LOCK: &str = "version = 4\n";
 
 /// The manifests of the library crates, whose sources are copied.
 const WIRE_MANIFEST: &str = include_str!("sensedsl-wire.toml.txt");
@@ -113,7 +111,7 @@ impl Host for Rust {
         let design = &DesignView::new(plan);
         let mut files = FileSet::default();
         files.add("Cargo.toml", print(&Manifest { design }));
-        files.add_once("Cargo.lock", LOCK);
+        files.add("Cargo.lock", print(&Lock { design }));
         files.add("README.md", print(&Readme { design }));
         files.add("src/lib.rs", print(&Library { design }));
         files.add("examples/monitor.rs", print(&Monitor { design }));

@@ -1,5 +1,6 @@
 //! The plan in Rust's words.
 
+use sensedsl_diagnostics::visible;
 use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Scaling};
 use sensedsl_wire::{Checksum, Direction, ScalarType};
 
@@ -154,7 +155,8 @@ impl MessageView {
             mode: if scaling.is_some() { "shown" } else { "plain" },
             name: literal(&plan.name),
             scaling: scaling.map_or("None".to_owned(), scaling_literal),
-            unit: option(plan.quantity.as_deref().map(literal)),
+            // It is printed to terminals.
+            unit: option(plan.quantity.as_deref().map(|unit| literal(&visible(unit)))),
             min: option(plan.limits.min.map(real)),
             max: option(plan.limits.max.map(real)),
             cycle_ms: option(plan.cycle_ms),

@@ -90,7 +90,7 @@ impl BoardView {
 
 impl Plot {
     fn new(device: &DeviceSummary, lasted_s: f64, breaks_s: &[f64]) -> Self {
-        let all = device.elements.iter().map(|series| series.numbers());
+        let all = device.elements.iter().map(Series::numbers);
         let ends = all.filter_map(|[least, _, most]| least.zip(most));
         let (least, most) =
             ends.reduce(|one, next| (one.0.min(next.0), one.1.max(next.1))).unwrap_or((0.0, 1.0));

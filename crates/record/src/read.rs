@@ -196,7 +196,7 @@ impl<R: Read> RecordReader<R> {
                     None
                 }
                 Some(Ok(LinearReadEvent::ReadRequest(wanted))) => {
-                    let room = self.reader.insert(wanted.min(READ_BYTES).max(1));
+                    let room = self.reader.insert(wanted.clamp(1, READ_BYTES));
                     let count = read_some(&mut self.from, room).map_err(RecordError::Io)?;
                     self.seen_bytes += count as u64;
                     self.reader.notify_read(count);
@@ -204,7 +204,7 @@ impl<R: Read> RecordReader<R> {
                 }
                 Some(Ok(LinearReadEvent::Record { opcode, data })) => parsed(opcode, data)?,
                 Some(Err(error)) => {
-                    self.end(error)?;
+                    self.end(&error)?;
                     None
                 }
             };
@@ -216,21 +216,16 @@ impl<R: Read> RecordReader<R> {
     }
 
     /// A record that ends anywhere is one that was stopped.
-    fn end(&mut self, error: McapError) -> Result<(), RecordError> {
-        match error {
-            McapError::UnexpectedEof | McapError::UnexpectedEoc if self.seen_bytes > 0 => {
-                self.ending = Some(Ending::Cut);
-                Ok(())
-            }
-            McapError::BadMagic | McapError::UnexpectedEof | McapError::UnexpectedEoc => {
-                if self.boards.is_empty() {
-                    return Err(RecordError::NotMcap);
-                }
-                self.ending = Some(Ending::Cut);
-                Ok(())
-            }
-            other => Err(RecordError::Damaged(other.to_string())),
+    fn end(&mut self, error: &McapError) -> Result<(), RecordError> {
+        let is_over = matches!(error, McapError::UnexpectedEof | McapError::UnexpectedEoc);
+        if !is_over && !matches!(error, McapError::BadMagic) {
+            return Err(RecordError::Damaged(error.to_string()));
         }
+        if self.boards.is_empty() && !(is_over && self.seen_bytes > 0) {
+            return Err(RecordError::NotMcap);
+        }
+        self.ending = Some(Ending::Cut);
+        Ok(())
     }
 
     fn take(&mut self, record: Kept) -> Result<Option<Entry>, RecordError> {
@@ -312,7 +307,11 @@ impl<R: Read> RecordReader<R> {
         let raw = message.get("raw").ok_or_else(damaged)?;
         let all = match raw {
             Value::Array(all) => all.as_slice(),
-            one => std::slice::from_ref(one),
+            Value::Null
+            | Value::Bool(_)
+            | Value::Number(_)
+            | Value::String(_)
+            | Value::Object(_) => std::slice::from_ref(raw),
         };
         let value: Option<Vec<Scalar>> =
             all.iter().map(|one| scalar(one, device.value.scalar)).collect();
@@ -343,14 +342,15 @@ fn parsed(opcode: u8, data: &[u8]) -> Result<Option<Kept>, RecordError> {
     }
     let record =
         parse_record(opcode, data).map_err(|error| RecordError::Damaged(error.to_string()))?;
-    Ok(match record {
-        Record::Attachment { header, data, .. } if header.name == SCHEMA_FILE => {
-            Some(Kept::Schema(header.log_time, data.into_owned()))
-        }
-        Record::Channel(channel) => Some(Kept::Channel(channel.id, channel.topic)),
-        Record::Message { header, data } => Some(Kept::Message(header, data.into_owned())),
-        _ => None,
-    })
+    if let Record::Attachment { header, data, .. } = record {
+        let is_schema = header.name == SCHEMA_FILE;
+        return Ok(is_schema.then(|| Kept::Schema(header.log_time, data.into_owned())));
+    }
+    if let Record::Channel(channel) = record {
+        return Ok(Some(Kept::Channel(channel.id, channel.topic)));
+    }
+    let Record::Message { header, data } = record else { return Ok(None) };
+    Ok(Some(Kept::Message(header, data.into_owned())))
 }
 
 fn read_some(from: &mut impl Read, room: &mut [u8]) -> io::Result<usize> {

@@ -5,8 +5,8 @@ use std::io::Read;
 use std::time::Duration;
 
 use sensedsl_host::{
-    Board, BoardClock, ClockError, Counts, Device, DeviceStats, Event, Moment, News, Overstep,
-    Session, What,
+    Board, BoardClock, ClockError, Counts, Device, DeviceStats, Event, Histogram, Moment, News,
+    Overstep, Session, What,
 };
 use sensedsl_wire::{Direction, Health, Scalar, Stamp};
 
@@ -335,8 +335,8 @@ impl DeviceSummary {
         [
             stats.count().to_string(),
             rate,
-            time(intervals.and_then(|all| all.mean())),
-            time(intervals.and_then(|all| all.deviation())),
+            time(intervals.and_then(Histogram::mean)),
+            time(intervals.and_then(Histogram::deviation)),
             time(stats.latencies().quantile(0.5)),
             time(stats.latencies().quantile(0.99)),
             if self.device.cycle_ms.is_some() && is_sensor {

@@ -245,10 +245,7 @@ impl Channels {
 }
 
 fn failed(error: McapError) -> io::Error {
-    match error {
-        McapError::Io(error) => error,
-        other => io::Error::other(other),
-    }
+    if let McapError::Io(error) = error { error } else { io::Error::other(error) }
 }
 
 fn nanoseconds(time: Duration) -> u64 {

@@ -57,6 +57,11 @@ impl Terminal {
         std::env::var_os("TERM").is_none_or(|name| name != "dumb")
     }
 
+    /// Whether the terminal has letters for bars and dots: the consoles of Linux have few beyond those of Latin.
+    pub(crate) fn has_shapes(&self) -> bool {
+        std::env::var_os("TERM").is_none_or(|name| name != "linux")
+    }
+
     /// Prints a line before the whole result is known.
     pub(crate) fn passing(&self, line: &str) -> io::Result<()> {
         let mut out = io::stdout().lock();

@@ -18,6 +18,7 @@ mod matlab;
 mod middleware;
 mod page;
 mod python;
+mod ros2;
 mod rust;
 mod shown;
 pub(crate) mod terminal;

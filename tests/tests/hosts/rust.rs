@@ -14,10 +14,13 @@ use super::vectors::{self, DAMAGED, Exchange, Numbers};
 use super::{designs, files};
 
 /// Cargo in a generated folder. What the packages build on is built once for all tests.
+///
+/// The lock file must be what Cargo would make of the package. Where it is not, `cargo generate-lockfile` in the folder
+/// makes the new `crates/host-rust/src/Cargo.lock.txt`.
 fn cargo(folder: &Path, arguments: &[&str]) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     let target = folder.parent().unwrap().join("rust-target");
-    cargo.current_dir(folder).args(arguments).args(["--quiet", "--offline"]);
+    cargo.current_dir(folder).args(arguments).args(["--quiet", "--offline", "--locked"]);
     cargo.env("CARGO_TARGET_DIR", target).env("CARGO_PROFILE_DEV_DEBUG", "none");
     cargo
 }

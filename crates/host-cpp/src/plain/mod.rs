@@ -21,6 +21,11 @@ templates! {
     Readme = "plain/README.md.txt";
 }
 
+/// The header of a board, as programs include it.
+pub(super) fn board_header(board: &BoardView) -> String {
+    print(&BoardHeader { board })
+}
+
 impl Host for Plain {
     fn name(&self) -> &'static str {
         "cpp"
@@ -47,7 +52,7 @@ impl Host for Plain {
         for board in &design.boards {
             let ident = &board.ident;
             let header = format!("include/sense/{}/{ident}.hpp", design.ident);
-            files.add(header, print(&BoardHeader { board }));
+            files.add(header, board_header(board));
             files.add(format!("src/monitor_{ident}.cpp"), print(&Monitor { board }));
         }
         files.add("CMakeLists.txt", print(&CMakeLists { design }));

@@ -11,8 +11,8 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_limits::{
-    ANSWER_BYTES_MAX, CONFIG_BYTES_MAX, IMAGE_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX, TABLE_BYTES_MAX,
-    TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
+    ANSWER_BYTES_MAX, CONFIG_BYTES_MAX, IMAGE_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX,
+    TABLE_BYTES_MAX, TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
 };
 
 /// How library code reads files; provided by the binary or by a test.

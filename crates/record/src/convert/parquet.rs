@@ -1,4 +1,4 @@
-//! Apache Parquet: what pandas, Polars, DuckDB and Spark read fastest.
+//! Apache Parquet: what pandas, Polars, `DuckDB` and Spark read fastest.
 
 use std::io::{self, Write};
 use std::sync::Arc;

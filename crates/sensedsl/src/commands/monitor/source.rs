@@ -85,6 +85,15 @@ impl Source {
         Ok(Self::Recording(Some(reader)))
     }
 
+    /// The path of the port, also of one that is gone.
+    pub(super) fn path(&self) -> Option<&str> {
+        match self {
+            Self::Port(port) => Some(port.path()),
+            Self::Away(away) => Some(&away.path),
+            Self::Recording(_) | Self::Simulated(_) | Self::Replayed => None,
+        }
+    }
+
     pub(super) fn is_recording(&self) -> bool {
         matches!(self, Self::Recording(_) | Self::Replayed)
     }

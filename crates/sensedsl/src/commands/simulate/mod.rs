@@ -38,6 +38,8 @@ use sensedsl_twin::emulated::EmulatedBoard;
 use super::input;
 use crate::cli::{On, SimulateArgs};
 use crate::files::read_bytes;
+#[cfg(feature = "twin")]
+use crate::files::shown;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;

@@ -35,7 +35,7 @@ static const sensedsl_device curves_Rover_devices[] = {
     {1, true, false, SENSEDSL_UINT16, 1, 6, curves_Rover_curve_Ranger, "Ranger", "cm", true, true, true, (sensedsl_real)0.0008056640625, (sensedsl_real)0.0, (sensedsl_real)8.0, (sensedsl_real)70.0, 1000},
     {10, true, true, SENSEDSL_UINT16, 8, 2, curves_Rover_curve_Line, "Line", "percent", true, true, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)1.0, (sensedsl_real)0.0, 1000},
     {12, true, true, SENSEDSL_BOOL, 3, 0, NULL, "Bumper", "", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 1000},
-    {13, true, true, SENSEDSL_INT32, 2, 0, NULL, "Wheels", "", true, false, false, (sensedsl_real)0.25, (sensedsl_real)-90.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 1000},
+    {13, true, true, SENSEDSL_INT32, 2, 0, NULL, "Wheels", "", true, false, false, (sensedsl_real)0.25, (sensedsl_real)-90.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 0},
     {14, true, false, SENSEDSL_UINT16, 1, 2, curves_Rover_curve_Bent, "Bent", "", true, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 1000},
     {20, false, true, SENSEDSL_UINT16, 4, 2, curves_Rover_curve_Escs, "Escs", "percent", true, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 0},
     {21, false, true, SENSEDSL_BOOL, 3, 0, NULL, "Lamps", "", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 0},
@@ -43,7 +43,7 @@ static const sensedsl_device curves_Rover_devices[] = {
     {30, true, true, SENSEDSL_INT16, 3, 0, NULL, "Acceleration", "g", true, false, false, (sensedsl_real)6.103515625e-5, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 10},
     {31, true, true, SENSEDSL_INT16, 3, 0, NULL, "Rate", "deg/s", true, false, false, (sensedsl_real)0.007633587786259542, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 10},
     {40, false, false, SENSEDSL_INT16, 1, 0, NULL, "Speed", "%", true, true, true, (sensedsl_real)0.01, (sensedsl_real)0.0, (sensedsl_real)-100.0, (sensedsl_real)100.0, 0},
-    {41, true, false, SENSEDSL_INT32, 1, 0, NULL, "Position", "deg", true, false, false, (sensedsl_real)0.2571428571428571, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 1000},
+    {41, true, false, SENSEDSL_INT32, 1, 0, NULL, "Position", "deg", true, false, false, (sensedsl_real)0.2571428571428571, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 0},
 };
 #define DEVICES curves_Rover_devices
 

@@ -1,6 +1,10 @@
 function plot_curves(file)
 % Plots a record of the design curves: plot_curves('run.mcap'). Generated: copy it to start a
 % script of your own.
+if nargin < 1
+    help plot_curves
+    return;
+end
 run = read_record(file);
 
 figure('Name', 'Rover');

@@ -1,6 +1,10 @@
 function plot_fig2(file)
 % Plots a record of the design fig2: plot_fig2('run.mcap'). Generated: copy it to start a
 % script of your own.
+if nargin < 1
+    help plot_fig2
+    return;
+end
 run = read_record(file);
 
 figure('Name', 'STM32F4DiscoveryBoard');

@@ -1,6 +1,10 @@
 function plot_miniature_car(file)
 % Plots a record of the design miniature_car: plot_miniature_car('run.mcap'). Generated: copy it to start a
 % script of your own.
+if nargin < 1
+    help plot_miniature_car
+    return;
+end
 run = read_record(file);
 
 figure('Name', 'STM32F4DiscoveryBoard');

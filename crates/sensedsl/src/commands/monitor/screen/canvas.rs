@@ -13,6 +13,19 @@ pub(super) const DOWN: usize = 4;
 /// The bit of each point, by its row and column.
 const DOTS: [[u32; ACROSS]; DOWN] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 const BLANK: u32 = 0x2800;
+/// The dots of the upper half.
+const UPPER: u32 = 0x01 | 0x08 | 0x02 | 0x10;
+
+/// The letter for some dots, if there are any.
+fn letter(dots: u32, has_shapes: bool) -> Option<char> {
+    match (dots & UPPER != 0, dots & !UPPER != 0) {
+        (false, false) => None,
+        _ if has_shapes => char::from_u32(BLANK | dots),
+        (true, false) => Some('\''),
+        (false, true) => Some('.'),
+        (true, true) => Some(':'),
+    }
+}
 
 /// A grid of points.
 pub(super) struct Canvas {
@@ -51,7 +64,7 @@ impl Canvas {
         let area = area.intersection(buffer.area);
         for (row, cells) in (area.y..area.bottom()).zip(self.cells.chunks(self.wide.max(1))) {
             for (column, (dots, line)) in (area.x..area.right()).zip(cells) {
-                let letter = char::from_u32(BLANK | dots).filter(|_| *dots != 0);
+                let letter = letter(*dots, look.has_shapes);
                 if let (Some(letter), Some(cell)) = (letter, buffer.cell_mut((column, row))) {
                     let _ = cell.set_char(letter).set_style(look.of(Tone::Line(*line)));
                 }

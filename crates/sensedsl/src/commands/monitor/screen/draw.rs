@@ -117,6 +117,10 @@ fn heads(
             Condition::Offline(why) => (format!("OFFLINE: {}", visible(why)), Tone::Bad),
         };
         let mut x = put(buffer, area, (x, row), &text, look.of(tone));
+        if let Some(path) = link.source.path() {
+            let at = (x.saturating_add(2), row);
+            x = put(buffer, area, at, &visible(path), look.of(Tone::Plain));
+        }
         for (fact, tone) in facts(link, now) {
             x = put(buffer, area, (x.saturating_add(2), row), &fact, look.of(tone));
         }

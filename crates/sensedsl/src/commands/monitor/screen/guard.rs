@@ -82,3 +82,54 @@ pub(super) fn give_back() {
     let _ = disable_raw_mode();
     let _ = stdout().flush();
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    use std::fs::{File, OpenOptions};
+    use std::io::Read as _;
+    use std::process::{Command, Stdio};
+
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    use rustix::termios::{LocalModes, tcgetattr};
+
+    const PANICS: &str = "SENSEDSL_TEST_PANICS";
+
+    /// The test runs itself on a terminal, where it panics.
+    #[test]
+    fn a_panic_is_told_on_the_terminal_as_it_was() {
+        if std::env::var_os(PANICS).is_some() {
+            let _guard = Guard::open().unwrap();
+            panic!("as it was asked to");
+        }
+        let outer = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).unwrap();
+        grantpt(&outer).unwrap();
+        unlockpt(&outer).unwrap();
+        let path = ptsname(&outer, Vec::new()).unwrap().into_string().unwrap();
+        let inner = OpenOptions::new().read(true).write(true).open(path).unwrap();
+        let end = || Stdio::from(inner.try_clone().unwrap());
+        let name =
+            "commands::monitor::screen::guard::tests::a_panic_is_told_on_the_terminal_as_it_was";
+        let mut child = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", name, "--nocapture"])
+            .env(PANICS, "1")
+            .env("RUST_BACKTRACE", "0")
+            .stdin(end())
+            .stdout(end())
+            .stderr(end())
+            .spawn()
+            .unwrap();
+        // A terminal holds more than what is printed, so nobody has to read meanwhile.
+        assert!(!child.wait().unwrap().success());
+        let modes = tcgetattr(&inner).unwrap().local_modes;
+        assert!(modes.contains(LocalModes::ICANON | LocalModes::ECHO | LocalModes::ISIG));
+        rustix::fs::fcntl_setfl(&outer, rustix::fs::OFlags::NONBLOCK).unwrap();
+        let mut seen = Vec::new();
+        let _ = File::from(outer).read_to_end(&mut seen);
+        let seen = String::from_utf8_lossy(&seen);
+        let (before, after) = seen.split_once("\u{1b}[?1049l").unwrap();
+        assert!(before.contains("\u{1b}[?1049h") && !before.contains("as it was asked to"));
+        assert!(after.contains("\u{1b}[?25h") && after.contains("as it was asked to"), "{seen}");
+    }
+}

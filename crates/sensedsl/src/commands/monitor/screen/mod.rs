@@ -40,10 +40,12 @@ use keys::{Key, Pressed};
 use state::State;
 use style::Look;
 
-/// The time between two pictures: after a key, while plots go on, and otherwise.
-const AFTER_KEY: Duration = Duration::from_millis(30);
-const WITH_PLOTS: Duration = Duration::from_millis(50);
+/// The least time between two pictures, and the usual one of a table.
+const PAUSE_MIN: Duration = Duration::from_millis(50);
 const USUAL: Duration = Duration::from_millis(100);
+/// Plots are drawn so often while the time goes by that they show: what moves less than a dot is not seen.
+const STEPS: u32 = 200;
+const WITH_PLOTS_MAX: Duration = Duration::from_millis(500);
 /// How many keys wait for the next look.
 const PRESSED_MAX: usize = 256;
 
@@ -70,7 +72,7 @@ impl<'a> Screen<'a> {
             guard: Some(guard),
             state: State::new(boards),
             pressed: listen(),
-            look: Look { has_colours: terminal.colour() },
+            look: Look { has_colours: terminal.colour(), has_shapes: terminal.has_shapes() },
             drawn: None,
             is_pressed: false,
         })
@@ -79,7 +81,8 @@ impl<'a> Screen<'a> {
     /// Takes what was pressed since the last look.
     fn take_keys(&mut self) -> Result<Vec<Ask>> {
         let mut asks = Vec::new();
-        loop {
+        // What is pressed next may depend on what becomes of the first thing that is asked for.
+        while asks.is_empty() {
             let pressed = match self.pressed.try_recv() {
                 Ok(pressed) => pressed,
                 Err(TryRecvError::Empty) => return Ok(asks),
@@ -102,6 +105,7 @@ impl<'a> Screen<'a> {
                 }
             }
         }
+        Ok(asks)
     }
 
     /// Lets the shell have the terminal until the program goes on.
@@ -119,8 +123,14 @@ impl<'a> Screen<'a> {
     }
 
     fn is_due(&mut self) -> bool {
-        let plots = if self.state.plotted.is_empty() { USUAL } else { WITH_PLOTS };
-        let pause = if self.is_pressed { AFTER_KEY.max(WITH_PLOTS) } else { plots };
+        let step = self.state.view.span() / STEPS;
+        let pause = match (self.is_pressed, self.state.plotted.is_empty(), self.state.is_large) {
+            (true, ..) => PAUSE_MIN,
+            (false, true, _) => USUAL,
+            // The table beside them goes on as usual.
+            (false, false, false) => step.clamp(PAUSE_MIN, USUAL),
+            (false, false, true) => step.clamp(PAUSE_MIN, WITH_PLOTS_MAX),
+        };
         let is_due = self.drawn.is_none_or(|drawn| drawn.elapsed() >= pause);
         if is_due {
             (self.drawn, self.is_pressed) = (Some(Instant::now()), false);

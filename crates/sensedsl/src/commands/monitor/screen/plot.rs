@@ -237,6 +237,8 @@ fn magnified(state: &State<'_>, lines: &[Line], (least, most): (f64, f64)) -> (f
         });
     let middle = at.map_or((least + most) / 2.0, |at| at.last);
     let half = (most - least) / 2.0 / f64::from(2_u32.pow(state.view.magnified.into()));
+    // It stays where it is as long as the value does not go far.
+    let middle = (middle / half * 2.0).round() * half / 2.0;
     (middle - half, middle + half)
 }
 
@@ -360,35 +362,52 @@ fn cursor(buffer: &mut Buffer, area: Rect, state: &State<'_>, times: Times, look
 /// The times below the frames.
 fn time_axis(buffer: &mut Buffer, area: Rect, state: &State<'_>, now: Duration, look: Look) {
     let (span, end) = (state.view.span(), state.view.end(now));
-    let behind = now.saturating_sub(end);
+    let told = told(state, now);
+    let is_fine = span < Duration::from_secs(10);
+    let precise = |time: Duration| match time.as_secs() {
+        0..60 if is_fine => format!("{:.2} s", time.as_secs_f64()),
+        _ => moment(time),
+    };
     let text = |back: Duration| match (state.view.is_frozen(), back.is_zero()) {
         (false, true) => "now".to_owned(),
-        (false, false) => format!("-{}", moment(back).replace(".0 s", " s")),
-        (true, _) => end.checked_sub(back).map_or_else(String::new, moment),
+        (false, false) => {
+            format!("-{}", precise(back).replace(".00 s", " s").replace(".0 s", " s"))
+        }
+        (true, _) => end.checked_sub(back).map_or_else(String::new, precise),
     };
-    let axis = match state.view.axis {
-        Axis::Auto => "",
-        Axis::Limits => " axis by limits ",
-        Axis::Held => " axis held ",
-    };
-    let held = if state.view.is_frozen() {
-        format!(" held, {} ago ", moment(behind))
-    } else {
-        String::new()
-    };
-    let told = format!("{held}{axis}");
     let steps: u32 = if area.width >= 60 { 4 } else { 2 };
-    // What is told stands where the second label would.
-    for step in (0..=steps).filter(|step| *step != 1 || told.is_empty()) {
+    let place = area.x + area.width / 8;
+    let beyond = place.saturating_add(u16::try_from(width(&told)).unwrap_or(0));
+    for step in 0..=steps {
         let label = text(span * (steps - step) / steps);
         let wide = u16::try_from(width(&label)).unwrap_or(0);
         let centre = (u32::from(area.width) * step / steps) as u16;
         let x = area.x + centre.saturating_sub(wide / 2).min(area.width.saturating_sub(wide));
-        let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
+        // What is told stands in the place of labels.
+        if told.is_empty() || x + wide < place || x > beyond {
+            let _ = put(buffer, area, (x, area.y), &label, look.of(Tone::Faint));
+        }
     }
-    let place = area.x + area.width / 8;
     let style = look.of(Tone::Warning).add_modifier(Modifier::REVERSED);
-    let _ = put(buffer, area, (place, area.y), told.trim_end(), style);
+    let _ = put(buffer, area, (place, area.y), &told, style);
+}
+
+/// How the plots are not as usual.
+fn told(state: &State<'_>, now: Duration) -> String {
+    let mut told = Vec::new();
+    if state.view.is_frozen() {
+        let behind = now.saturating_sub(state.view.end(now));
+        told.push(format!("held, {} ago", moment(behind)));
+    }
+    if let Some(at) = state.view.cursor {
+        told.push(format!("cursor at {:.2} s", at.as_secs_f64()));
+    }
+    match state.view.axis {
+        Axis::Auto => {}
+        Axis::Limits => told.push("axis by limits".to_owned()),
+        Axis::Held => told.push("axis held".to_owned()),
+    }
+    if told.is_empty() { String::new() } else { format!(" {} ", told.join(", ")) }
 }
 
 #[cfg(test)]

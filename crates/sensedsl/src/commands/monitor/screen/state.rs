@@ -181,6 +181,11 @@ impl<'a> State<'a> {
         *self.condition(board) == Condition::Online
     }
 
+    /// What an actuator was set to last.
+    pub(super) fn last(&self, item: usize) -> Option<&[Scalar]> {
+        self.last.get(item).and_then(Option::as_deref)
+    }
+
     /// The least and the greatest number of an item since the start.
     pub(super) fn extremes(&self, item: usize) -> Option<(f64, f64)> {
         self.extremes.get(item).copied().flatten()
@@ -426,7 +431,7 @@ impl<'a> State<'a> {
             self.told = Some("choose an actuator: brackets and 0 set it".to_owned());
             return None;
         };
-        let last = self.last.get(index).and_then(Option::as_deref);
+        let last = self.last(index);
         let text = slid(item.device, last, slide);
         let board = self.boards.get(item.board)?;
         if let Err(why) = board.command(&item.device.name, &text) {

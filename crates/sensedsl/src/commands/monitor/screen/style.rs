@@ -27,6 +27,8 @@ const LINES: [Color; 6] =
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) has_colours: bool,
+    /// Whether there are letters for bars and dots.
+    pub(super) has_shapes: bool,
 }
 
 impl Look {

@@ -16,7 +16,7 @@ use super::super::link::Link;
 use super::state::{Item, State};
 use super::style::{Look, Tone};
 use super::traces::micros;
-use super::words::{age, cut, number, put, rate, short, width};
+use super::words::{age, cut, number, put, rate, short, short_value, width};
 
 /// The columns before the names: the letter in the plots, and an arrow for actuators.
 const MARKS: usize = 3;
@@ -30,6 +30,8 @@ const TREND_MIN: usize = 10;
 /// What each column of a trend is of.
 const TREND_US: u64 = 1_000_000;
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// The same where there are no bars.
+const PLAIN_LEVELS: [&str; 8] = ["_", ".", "-", "=", "+", "*", "#", "@"];
 
 /// What a column tells. They stand in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -111,8 +113,10 @@ pub(super) fn draw(
     let page = usize::from(area.height - 1).max(1);
     state.scroll(page);
     let seen: Vec<usize> = state.shown.iter().skip(state.top).take(page).copied().collect();
+    // A long array is no reason to leave out everything else.
+    let room = (usize::from(area.width) * 2 / 7).clamp(Column::Value.bounds().0, VALUE_MAX);
     let rows: Vec<BTreeMap<Column, Cell>> =
-        seen.iter().map(|place| cells(state, *place, links, now)).collect();
+        seen.iter().map(|place| cells(state, *place, links, (now, room))).collect();
     let columns = fit(&widths(state, &rows), usize::from(area.width));
     head(buffer, area, &columns, state, look);
     for (row, (place, cells)) in (area.y + 1..area.bottom()).zip(seen.iter().zip(&rows)) {
@@ -188,7 +192,8 @@ fn draw_row(
     let mut x = MARKS;
     for (column, wide) in columns {
         let (text, tone) = if *column == Column::Trend {
-            (trend(state, item, *wide, state.now), Tone::Plain)
+            let slider = slider(state, place, *wide, look).map(|text| (text, Tone::Actuator));
+            slider.unwrap_or_else(|| (trend(state, item, *wide, look), Tone::Plain))
         } else {
             cells.get(column).cloned().unwrap_or((String::new(), Tone::Plain))
         };
@@ -209,7 +214,7 @@ fn cells(
     state: &State<'_>,
     place: usize,
     links: &[Link<'_>],
-    now: Duration,
+    (now, room): (Duration, usize),
 ) -> BTreeMap<Column, Cell> {
     let mut cells = BTreeMap::new();
     let Some(item) = state.items.get(place) else { return cells };
@@ -221,7 +226,7 @@ fn cells(
     let latest = link.latest.get(item.index).and_then(Option::as_ref);
     let value = match latest {
         Some((_, value)) => {
-            let shown = visible(&item.device.brief(value)).into_owned();
+            let shown = visible(&short_value(item.device, value, room)).into_owned();
             (shown, if is_there || !is_sensor { Tone::Plain } else { Tone::Faint })
         }
         None => ((if is_sensor { "-" } else { "not set" }).to_owned(), Tone::Faint),
@@ -332,12 +337,32 @@ fn fit(widths: &BTreeMap<Column, usize>, window: usize) -> Vec<(Column, usize)> 
     columns
 }
 
+/// Where an actuator's value is between its limits; none without limits, and for several values.
+fn slider(state: &State<'_>, place: usize, wide: usize, look: Look) -> Option<String> {
+    let device = state.items.get(place).map(|item| item.device)?;
+    let (least, most) = device.min.zip(device.max).filter(|(least, most)| least < most)?;
+    if device.direction != Direction::Actuator || device.value.length.is_some() || wide < 3 {
+        return None;
+    }
+    let inner = wide - 2;
+    let value = state.last(place).and_then(|value| value.first()).map(|raw| device.shown(*raw));
+    let knob = value.map(|value| {
+        let share = ((value - least) / (most - least)).clamp(0.0, 1.0);
+        (share * (inner - 1) as f64).round() as usize
+    });
+    let [end, bar, at_value, other_end] =
+        if look.has_shapes { ['├', '─', '●', '┤'] } else { ['|', '-', 'o', '|'] };
+    let bar: String = (0..inner).map(|at| if Some(at) == knob { at_value } else { bar }).collect();
+    Some(format!("{end}{bar}{other_end}"))
+}
+
 /// A small picture of the last seconds, whose scale is that of its own values.
-fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, now: Duration) -> String {
+fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, look: Look) -> String {
     let Some(history) = state.traces.of(item.board, item.index).first() else {
         return String::new();
     };
-    let second = micros(now) / TREND_US;
+    let levels = if look.has_shapes { LEVELS } else { PLAIN_LEVELS };
+    let second = micros(state.now) / TREND_US;
     // The second that is under way has no column.
     let count = usize::try_from(second).unwrap_or(wide).min(wide);
     let from_us = (second - count as u64) * TREND_US;
@@ -358,7 +383,7 @@ fn trend(state: &State<'_>, item: &Item<'_>, wide: usize, now: Duration) -> Stri
     let most = all.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
     let level = |value: f64| {
         let share = if most > least { (value - least) / (most - least) } else { 0.5 };
-        LEVELS.get((share * 7.0).round() as usize).copied().unwrap_or(" ")
+        levels.get((share * 7.0).round() as usize).copied().unwrap_or(" ")
     };
     let padding = " ".repeat(wide - count);
     let drawn: String = all.iter().map(|value| value.map_or(" ", level)).collect();

@@ -126,7 +126,8 @@ impl<'a> Bench<'a> {
         let links: Vec<Link<'a>> =
             boards.iter().map(|board| Link::new(args, board, Source::Replayed)).collect();
         let state = State::new(boards.iter().collect());
-        let mut bench = Self { links, state, now_ms: 0, look: Look { has_colours: true } };
+        let mut bench =
+            Self { links, state, now_ms: 0, look: Look { has_colours: true, has_shapes: true } };
         for (index, board) in boards.iter().enumerate() {
             bench.feed(index, encode_hello(&board.schema));
         }
@@ -535,10 +536,13 @@ fn colours_are_those_of_the_terminal_or_none() {
     let with = colours(&bench.draw(120, 40));
     assert!(with.contains(&Color::Red) && with.contains(&Color::Green));
     assert!(!with.iter().any(|colour| matches!(colour, Color::Rgb(..) | Color::Indexed(_))));
-    bench.look = Look { has_colours: false };
+    bench.look = Look { has_colours: false, has_shapes: false };
     let without = bench.draw(120, 40);
     assert!(colours(&without).is_empty());
     assert!(without.content.iter().any(|cell| cell.modifier.contains(Modifier::REVERSED)));
+    let is_plain = |letter: char| letter.is_ascii() || "…›│↑↓←→".contains(letter);
+    assert!(text(&without).chars().all(is_plain), "{}", text(&without));
+    assert!(text(&without).contains(".:'"), "{}", text(&without));
 }
 
 /// The pictures of the documentation.

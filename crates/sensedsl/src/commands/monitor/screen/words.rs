@@ -7,7 +7,7 @@ use ratatui_core::layout::Rect;
 use ratatui_core::style::Style;
 use ratatui_core::text::Span;
 use sensedsl_host::Device;
-use sensedsl_wire::ScalarType;
+use sensedsl_wire::{Scalar, ScalarType};
 
 /// The most digits behind the point.
 const DECIMALS_MAX: usize = 9;
@@ -112,6 +112,38 @@ pub(super) fn number(device: &Device, shown: f64) -> String {
     fixed(shown, decimals(step))
 }
 
+/// A value within so many columns: an array with fewer digits, or without its last elements, before its unit is cut.
+pub(super) fn short_value(device: &Device, value: &[Scalar], columns: usize) -> String {
+    let whole = device.brief(value);
+    if width(&whole) <= columns || device.value.length.is_none() {
+        return whole;
+    }
+    let unit = device.quantity.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
+    let shown: Vec<f64> = value.iter().map(|raw| device.shown(*raw)).collect();
+    let most = shown.iter().map(|shown| number(device, *shown)).map(|text| digits(&text)).max();
+    let is_bool = device.value.scalar == ScalarType::Bool;
+    let written = |decimals: usize| -> Vec<String> {
+        let one =
+            |shown: &f64| if is_bool { number(device, *shown) } else { fixed(*shown, decimals) };
+        shown.iter().map(one).collect()
+    };
+    let mut fitting = (0..most.unwrap_or(0))
+        .rev()
+        .map(|decimals| format!("[{}]{unit}", written(decimals).join(", ")));
+    fitting.find(|text| width(text) <= columns).unwrap_or_else(|| {
+        let mut words = written(0);
+        while words.len() > 1 && width(&words.join(", ")) + width(&unit) + 5 > columns {
+            let _ = words.pop();
+        }
+        format!("[{}, …]{unit}", words.join(", "))
+    })
+}
+
+/// The digits behind the point of a text.
+fn digits(text: &str) -> usize {
+    text.split_once('.').map_or(0, |(_, digits)| digits.len())
+}
+
 /// A number with five digits that mean something.
 fn significant(number: f64) -> String {
     let text = format!("{number:.4e}");
@@ -168,6 +200,8 @@ pub(super) fn moment(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sensedsl_host::Scale;
+    use sensedsl_wire::{Direction, ValueType};
 
     #[test]
     fn texts_fit_their_columns() {
@@ -197,5 +231,31 @@ mod tests {
             (label(-0.001, 0.5), label(12.5, 0.5), label(4e9, 1e9)),
             ("0.0".into(), "12.5".into(), "4.00e9".into())
         );
+    }
+    #[test]
+    fn arrays_lose_digits_before_their_unit() {
+        let device = Device {
+            name: "Rate".into(),
+            id: 1,
+            direction: Direction::Sensor,
+            value: ValueType { scalar: ScalarType::Int16, length: Some(3) },
+            kind: String::new(),
+            quantity: Some("deg/s".into()),
+            scale: Scale::new(Some(0.001), None, Vec::new()),
+            min: None,
+            max: None,
+            cycle_ms: None,
+        };
+        let value = [-17_649, 58_267 - 65_536, 9_328].map(Scalar::Signed);
+        let all = [40, 30, 26, 22, 18, 10].map(|columns| short_value(&device, &value, columns));
+        let expected = [
+            "[-17.649, -7.269, 9.328] deg/s",
+            "[-17.649, -7.269, 9.328] deg/s",
+            "[-17.6, -7.3, 9.3] deg/s",
+            "[-18, -7, 9] deg/s",
+            "[-18, -7, 9] deg/s",
+            "[-18, …] deg/s",
+        ];
+        assert_eq!(all, expected);
     }
 }

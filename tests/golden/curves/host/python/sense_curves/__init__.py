@@ -98,7 +98,7 @@ class Wheels(Message):
         unit=None,
         min=None,
         max=None,
-        cycle_ms=1000,
+        cycle_ms=None,
     )
 
     value: Tuple[float, ...]
@@ -166,7 +166,7 @@ class Position(Message):
         unit="deg",
         min=None,
         max=None,
-        cycle_ms=1000,
+        cycle_ms=None,
     )
 
     value: float

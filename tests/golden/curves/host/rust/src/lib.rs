@@ -95,7 +95,7 @@ device! {
         unit: None,
         min: None,
         max: None,
-        cycle_ms: Some(1000),
+        cycle_ms: None,
     }
 }
 
@@ -179,7 +179,7 @@ device! {
         unit: Some("deg"),
         min: None,
         max: None,
-        cycle_ms: Some(1000),
+        cycle_ms: None,
     }
 }
 

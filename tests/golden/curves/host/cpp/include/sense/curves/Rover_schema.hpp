@@ -27,11 +27,11 @@ inline const ::sensedsl::BoardFacts &Rover() {
         {"Ranger", 1000},
         {"Line", 1000},
         {"Bumper", 1000},
-        {"Wheels", 1000},
+        {"Wheels", 0},
         {"Bent", 1000},
         {"Acceleration", 10},
         {"Rate", 10},
-        {"Position", 1000},
+        {"Position", 0},
     };
     static const ::sensedsl::Item actuators[] = {
         {20, 2, false, 4}, // actuator Escs uint16[4]
