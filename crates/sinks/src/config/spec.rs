@@ -56,7 +56,7 @@ const fn key(name: &'static str, sort: Sort, about: &'static str) -> Key {
 const RATE: Key = key(
     "rate_hz",
     Sort::Positive(None),
-    "at most so many values a second of each device; 1e6 lets all pass",
+    "at most so many values a second of each device; all without it",
 );
 const COMMANDS: Key =
     key("commands", Sort::Flag(true), "whether other programs may set actuators this way");
@@ -74,7 +74,7 @@ pub const SINKS: &[Spec] = &[
         name: "websocket",
         title: "WebSocket",
         is_built: cfg!(feature = "websocket"),
-        about: "values, health and commands as JSON, for web pages and scripts",
+        about: "values, health and commands as JSON, for scripts, and a page for browsers",
         keys: &[
             key("listen", Sort::Listen("127.0.0.1:8765"), "the address that clients connect to"),
             key(
@@ -116,7 +116,11 @@ pub const SINKS: &[Spec] = &[
                 "the user's password, which goes over the network as it is",
             ),
             COMMANDS,
-            key("rate_hz", Sort::Positive(Some(10.0)), RATE.about),
+            key(
+                "rate_hz",
+                Sort::Positive(Some(10.0)),
+                "at most so many values a second of each device; 1e6 lets all pass",
+            ),
         ],
     },
     Spec {
@@ -134,7 +138,7 @@ pub const SINKS: &[Spec] = &[
         name: "od4",
         title: "OD4",
         is_built: cfg!(feature = "od4"),
-        about: "OD4 messages as libcluon and the generated libcluon host send them",
+        about: "messages of an OD4 session, as the generated host for libcluon sends them",
         keys: &[
             key("cid", Sort::Whole(111, 1, 254), "the OD4 session"),
             key(
@@ -172,7 +176,7 @@ pub const BOARD_KEYS: &[Key] = &[
     key(
         "frame",
         Sort::Text(""),
-        "the coordinate frame of its devices, for ROS 2 and Foxglove; without it its topic",
+        "the coordinate frame of its devices, for ROS 2; without it its topic",
     ),
     RATE,
     key("leave_out", Sort::Flag(false), "whether none of its devices goes out"),
