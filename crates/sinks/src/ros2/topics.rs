@@ -107,10 +107,9 @@ impl Told {
             }
             Topic::Imu(to) => {
                 let vector = vector(&numbers);
-                let (velocity, acceleration) = match self.shape {
-                    Shape::Rotation(_) => (Some(vector), None),
-                    _ => (None, Some(vector)),
-                };
+                let is_rotation = matches!(self.shape, Shape::Rotation(_));
+                let (velocity, acceleration) =
+                    (is_rotation.then_some(vector), (!is_rotation).then_some(vector));
                 to.publish(Imu::new(header(), velocity, acceleration)).map_err(drop)
             }
             Topic::Magnetic(to) => {
@@ -171,13 +170,13 @@ impl Heard {
         let topic = node.create_topic(name, MessageTypeName::new(package, kind), &qos());
         let topic = topic.map_err(|why| why.to_string())?;
         let refused = |why: ros2_client::CreateError| why.to_string();
-        Ok(match shape {
-            Shape::Flag => Self::Flag(node.create_subscription(&topic, None).map_err(refused)?),
-            Shape::Numbers => {
-                let from = node.create_subscription(&topic, None).map_err(refused)?;
-                Self::Numbers(from, place.is_bool())
-            }
-            _ => Self::Number(node.create_subscription(&topic, None).map_err(refused)?),
+        let is_bool = place.is_bool();
+        Ok(if place.device.value.length.is_some() {
+            Self::Numbers(node.create_subscription(&topic, None).map_err(refused)?, is_bool)
+        } else if is_bool {
+            Self::Flag(node.create_subscription(&topic, None).map_err(refused)?)
+        } else {
+            Self::Number(node.create_subscription(&topic, None).map_err(refused)?)
         })
     }
 

@@ -337,3 +337,35 @@ impl Hub<'_> {
         std::thread::sleep(Duration::from_millis(50));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+    use sensedsl_host::Wish;
+
+    #[test]
+    fn a_client_that_does_not_read_is_let_go() {
+        let plan = Plan::new(&[], &Config::default(), None);
+        let outbox = Outbox::new("WebSocket");
+        let mut hub = Hub {
+            plan: &plan,
+            takes_commands: true,
+            outbox: &outbox,
+            picture: Picture::new(&plan),
+            clients: Vec::new(),
+            pending: Vec::new(),
+            dropped: 0,
+        };
+        let (quick, from_quick) = sync_channel(CLIENT_QUEUE_MAX);
+        let (slow, _from_slow) = sync_channel(CLIENT_QUEUE_MAX);
+        hub.clients = vec![Client { number: 1, to: quick }, Client { number: 2, to: slow }];
+        for number in 0..=CLIENT_QUEUE_MAX {
+            hub.broadcast(&json!(number));
+            assert_eq!(from_quick.try_recv().unwrap().as_str(), number.to_string());
+        }
+        assert_eq!(hub.clients.iter().map(|one| one.number).collect::<Vec<_>>(), [1]);
+        let told = "WebSocket: a client was too slow and was let go (1 so far)".to_owned();
+        assert_eq!(outbox.take(), [Wish::Note(told)]);
+    }
+}
