@@ -24,6 +24,8 @@
 pub mod command;
 pub mod config;
 mod event;
+#[cfg(feature = "foxglove")]
+mod foxglove;
 mod json;
 #[cfg(feature = "mqtt")]
 mod mqtt;
@@ -83,6 +85,8 @@ fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn
         "od4" => boxed(od4::Od4::new(settings, plan)),
         #[cfg(feature = "ros2")]
         "ros2" => boxed(ros2::Ros2::new(settings, plan)),
+        #[cfg(feature = "foxglove")]
+        "foxglove" => boxed(foxglove::Foxglove::new(settings, plan)),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_host::Board;
-use sensedsl_sinks::config::{Setting, find, read, sample};
+use sensedsl_sinks::config::{Setting, Spec, find, read, sample};
 use sensedsl_sinks::{Config, Plan, command};
 use sensedsl_wire::Scalar;
 
@@ -77,7 +77,7 @@ fn the_printed_file_is_taken_as_it_is_and_with_all_its_keys() {
     let (config, reported) = taken(&all.join("\n"));
     // What this build does not have is told, and nothing else.
     let (built, not_built) =
-        sensedsl_sinks::config::SINKS.iter().partition::<Vec<_>, _>(|spec| spec.is_built);
+        sensedsl_sinks::config::SINKS.iter().partition::<Vec<&Spec>, _>(|spec| spec.is_built);
     let codes: Vec<&str> = reported.iter().map(|one| one.code.name()).collect();
     assert_eq!(codes, vec!["E0563"; not_built.len()], "{reported:?}\n{}", all.join("\n"));
     assert_eq!(

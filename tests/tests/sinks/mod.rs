@@ -2,6 +2,7 @@
 //! socket, a WebSocket client after RFC 6455, the broker and the clients of Eclipse Mosquitto.
 
 mod configuration;
+mod foxglove;
 mod mqtt;
 mod od4;
 mod peer;

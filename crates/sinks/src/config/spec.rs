@@ -87,6 +87,22 @@ pub const SINKS: &[Spec] = &[
         ],
     },
     Spec {
+        name: "foxglove",
+        title: "Foxglove",
+        is_built: cfg!(feature = "foxglove"),
+        about: "a server that Foxglove connects to, with a channel for each device",
+        keys: &[
+            key("listen", Sort::Listen("127.0.0.1:8766"), "the address that Foxglove connects to"),
+            key(
+                "origins",
+                Sort::Texts,
+                "origins of pages that may connect besides Foxglove's and those of this machine",
+            ),
+            COMMANDS,
+            RATE,
+        ],
+    },
+    Spec {
         name: "mqtt",
         title: "MQTT",
         is_built: cfg!(feature = "mqtt"),
@@ -176,7 +192,7 @@ pub const BOARD_KEYS: &[Key] = &[
     key(
         "frame",
         Sort::Text(""),
-        "the coordinate frame of its devices, for ROS 2; without it its topic",
+        "the coordinate frame of its devices, for Foxglove and ROS 2; without it its topic",
     ),
     RATE,
     key("leave_out", Sort::Flag(false), "whether none of its devices goes out"),
