@@ -24,6 +24,8 @@
 pub mod command;
 pub mod config;
 mod event;
+#[cfg(feature = "foxglove")]
+mod foxglove;
 mod json;
 #[cfg(feature = "mqtt")]
 mod mqtt;
@@ -36,6 +38,8 @@ mod plotjuggler;
 #[cfg(feature = "prometheus")]
 mod prometheus;
 mod relay;
+#[cfg(feature = "ros2")]
+mod ros2;
 #[cfg(feature = "websocket")]
 mod websocket;
 
@@ -79,6 +83,10 @@ fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn
         "prometheus" => boxed(prometheus::Prometheus::new(settings, plan)),
         #[cfg(feature = "od4")]
         "od4" => boxed(od4::Od4::new(settings, plan)),
+        #[cfg(feature = "ros2")]
+        "ros2" => boxed(ros2::Ros2::new(settings, plan)),
+        #[cfg(feature = "foxglove")]
+        "foxglove" => boxed(foxglove::Foxglove::new(settings, plan)),
         _ => None,
     }
 }

@@ -2,11 +2,13 @@
 //! socket, a WebSocket client after RFC 6455, the broker and the clients of Eclipse Mosquitto.
 
 mod configuration;
+mod foxglove;
 mod mqtt;
 mod od4;
 mod peer;
 mod plotjuggler;
 mod prometheus;
+mod ros2;
 mod websocket;
 
 use std::io::{BufRead as _, BufReader, Read, Write as _};

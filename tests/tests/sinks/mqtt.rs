@@ -24,7 +24,12 @@ fn has_mosquitto() -> bool {
 }
 
 fn broker(scratch: &TempDir, port: u16) -> Running {
-    let config = format!("listener {port} 127.0.0.1\nallow_anonymous true\npersistence false\n");
+    broker_with(scratch, port, "allow_anonymous true\n")
+}
+
+fn broker_with(scratch: &TempDir, port: u16, more: &str) -> Running {
+    // Root's broker keeps its rights, so that it reads what is in the test's folder.
+    let config = format!("user root\nlistener {port} 127.0.0.1\npersistence false\n{more}");
     let config = scratch.write(&format!("mosquitto-{port}.conf"), config);
     let broker = Running::start(Command::new(BROKER).args(["-v", "-c", text(&config)]));
     until(
@@ -288,6 +293,41 @@ fn a_broker_that_is_away_comes_or_goes() {
         until(lost, || run.said());
     }
     assert!(has_value());
+}
+
+#[test]
+fn a_broker_that_asks_who_it_is() {
+    if !has_mosquitto() {
+        return;
+    }
+    let (scratch, _) = robot("sinks-mqtt-user");
+    let port = free_port();
+    let passwords = scratch.join("passwords");
+    let written = Command::new("mosquitto_passwd")
+        .args(["-c", "-b", text(&passwords), "rover", "a secret"])
+        .output()
+        .unwrap();
+    assert!(written.status.success(), "{written:?}");
+    let more = format!("allow_anonymous false\npassword_file {}\n", text(&passwords));
+    let _broker = broker_with(&scratch, port, &more);
+    let file = scratch.join("robot.sense");
+    let start = |user: &str| {
+        let config = format!("[mqtt]\nbroker = \"127.0.0.1:{port}\"\n{user}");
+        let config = scratch.write("sinks.toml", config);
+        Running::monitor(["simulate", text(&file), "--config", text(&config)])
+    };
+    for user in ["", "user = \"rover\"\npassword = \"wrong\"\n"] {
+        let run = start(user);
+        run.says("the broker does not know the user (E0567); set `user` and `password`");
+    }
+    let run = start("user = \"rover\"\npassword = \"a secret\"\n");
+    let heard = Command::new("mosquitto_sub")
+        .args(["-p", &port.to_string(), "-u", "rover", "-P", "a secret", "-W", "10", "-C", "1"])
+        .args(["-t", "sensedsl/Rover/Light"])
+        .output()
+        .unwrap();
+    assert!(heard.status.success() && !heard.stdout.is_empty(), "{heard:?}: {}", run.said());
+    assert!(!run.said().contains("E0567"), "{}", run.said());
 }
 
 #[test]

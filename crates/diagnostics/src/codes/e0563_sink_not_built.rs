@@ -11,7 +11,7 @@ use. This one was built without the one that is asked for.
 
 Way out: install `sensedsl` with the feature:
 
-    cargo install --path crates/sensedsl --features mqtt
+    cargo install --path crates/sensedsl --features ros2
 
 Features are listed with commas between them."#,
 });

@@ -10,7 +10,7 @@ use super::{BOARD_KEYS, Config, DEVICE_KEYS, Key, SINKS, Setting, Sort};
 
 const HEAD: &str = "\
 # Who gets the values of these boards: sensedsl monitor --config FILE
-# Remove `#` before the table of a program, and before the keys that differ from what is shown.
+# Remove `#` before the table of a program, and before the keys that you change.
 ";
 
 /// A file for the given boards, with the sinks of a configuration.

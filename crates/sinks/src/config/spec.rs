@@ -56,7 +56,7 @@ const fn key(name: &'static str, sort: Sort, about: &'static str) -> Key {
 const RATE: Key = key(
     "rate_hz",
     Sort::Positive(None),
-    "at most so many values a second of each device; 1e6 lets all pass",
+    "at most so many values a second of each device; all without it",
 );
 const COMMANDS: Key =
     key("commands", Sort::Flag(true), "whether other programs may set actuators this way");
@@ -74,13 +74,29 @@ pub const SINKS: &[Spec] = &[
         name: "websocket",
         title: "WebSocket",
         is_built: cfg!(feature = "websocket"),
-        about: "values, health and commands as JSON, for web pages and scripts",
+        about: "values, health and commands as JSON, for scripts, and a page for browsers",
         keys: &[
             key("listen", Sort::Listen("127.0.0.1:8765"), "the address that clients connect to"),
             key(
                 "origins",
                 Sort::Texts,
                 "origins of pages that may connect besides those of this machine; \"*\" allows all",
+            ),
+            COMMANDS,
+            RATE,
+        ],
+    },
+    Spec {
+        name: "foxglove",
+        title: "Foxglove",
+        is_built: cfg!(feature = "foxglove"),
+        about: "a server that Foxglove connects to, with a channel for each device",
+        keys: &[
+            key("listen", Sort::Listen("127.0.0.1:8766"), "the address that Foxglove connects to"),
+            key(
+                "origins",
+                Sort::Texts,
+                "origins of pages that may connect besides Foxglove's and those of this machine",
             ),
             COMMANDS,
             RATE,
@@ -116,7 +132,11 @@ pub const SINKS: &[Spec] = &[
                 "the user's password, which goes over the network as it is",
             ),
             COMMANDS,
-            key("rate_hz", Sort::Positive(Some(10.0)), RATE.about),
+            key(
+                "rate_hz",
+                Sort::Positive(Some(10.0)),
+                "at most so many values a second of each device; 1e6 lets all pass",
+            ),
         ],
     },
     Spec {
@@ -134,7 +154,7 @@ pub const SINKS: &[Spec] = &[
         name: "od4",
         title: "OD4",
         is_built: cfg!(feature = "od4"),
-        about: "OD4 messages as libcluon and the generated libcluon host send them",
+        about: "messages of an OD4 session, as the generated host for libcluon sends them",
         keys: &[
             key("cid", Sort::Whole(111, 1, 254), "the OD4 session"),
             key(
@@ -142,6 +162,24 @@ pub const SINKS: &[Spec] = &[
                 Sort::Listen("0.0.0.0:12175"),
                 "the interface and the port; 0.0.0.0 leaves the interface to the system",
             ),
+            COMMANDS,
+            RATE,
+        ],
+    },
+    Spec {
+        name: "ros2",
+        title: "ROS 2",
+        is_built: cfg!(feature = "ros2"),
+        about: "topics of ROS 2 over DDS, without an installation of ROS",
+        keys: &[
+            key(
+                "distro",
+                Sort::Word(&["jazzy", "humble"]),
+                "the messages' layout: \"jazzy\" also for later ones",
+            ),
+            key("domain", Sort::Whole(0, 0, 232), "the domain, ROS_DOMAIN_ID of the others"),
+            key("namespace", Sort::Text(""), "the first words of all topics; \"\" for none"),
+            key("node", Sort::Text("sensedsl"), "the name of the node"),
             COMMANDS,
             RATE,
         ],
@@ -154,7 +192,7 @@ pub const BOARD_KEYS: &[Key] = &[
     key(
         "frame",
         Sort::Text(""),
-        "the coordinate frame of its devices, for ROS 2 and Foxglove; without it its topic",
+        "the coordinate frame of its devices, for Foxglove and ROS 2; without it its topic",
     ),
     RATE,
     key("leave_out", Sort::Flag(false), "whether none of its devices goes out"),

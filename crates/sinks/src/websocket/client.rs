@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use sensedsl_limits::MESSAGE_BYTES_MAX;
 use tungstenite::handshake::server::{ErrorResponse, Request as Head, Response};
+use tungstenite::http::{HeaderValue, StatusCode};
 use tungstenite::protocol::WebSocketConfig;
-use tungstenite::{Error, Message, Utf8Bytes, WebSocket, accept_hdr_with_config};
+use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
 
 use super::head::{Wanted, answer, wanted};
 use super::origin::is_allowed;
@@ -27,11 +28,19 @@ const PING_EVERY: Duration = Duration::from_secs(20);
 /// How many of a client's messages are taken before it gets its values again.
 const MESSAGES_AT_ONCE: usize = 16;
 
+/// Who may come in, and what for.
+pub(crate) struct Terms {
+    /// Origins of pages that may connect, besides those of this machine.
+    pub(crate) origins: Vec<String>,
+    /// The protocol that clients must name; none for the one of this project, which has no name, and a page.
+    pub(crate) protocol: Option<&'static str>,
+}
+
 /// Serves a client until it goes.
 pub(super) fn start(
     number: u64,
     stream: TcpStream,
-    origins: Arc<Vec<String>>,
+    terms: Arc<Terms>,
     hub: SyncSender<Request>,
     alive: Arc<AtomicUsize>,
 ) {
@@ -39,7 +48,7 @@ pub(super) fn start(
     // It ends with its connection, or with its queue.
     let _ = std::thread::spawn(move || {
         let (to, messages) = sync_channel(CLIENT_QUEUE_MAX);
-        if let Ok(mut socket) = greet(stream, &origins)
+        if let Ok(mut socket) = greet(stream, &terms)
             && hub.send(Request::Open(number, to)).is_ok()
         {
             let served = serve(number, &mut socket, &messages, &hub);
@@ -52,14 +61,15 @@ pub(super) fn start(
     });
 }
 
-fn greet(mut stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStream>, Error> {
+fn greet(mut stream: TcpStream, terms: &Terms) -> Result<WebSocket<TcpStream>, Error> {
     stream.set_nonblocking(false)?;
     stream.set_nodelay(true)?;
     stream.set_read_timeout(Some(GREETS_WITHIN))?;
     stream.set_write_timeout(Some(GREETS_WITHIN))?;
     let wanted = wanted(&stream, GREETS_WITHIN)?;
     if wanted != Wanted::Socket {
-        answer(&mut stream, wanted)?;
+        let has_page = terms.protocol.is_none();
+        answer(&mut stream, if has_page { wanted } else { Wanted::Other })?;
         return Err(Error::ConnectionClosed);
     }
     let config = WebSocketConfig::default()
@@ -69,15 +79,20 @@ fn greet(mut stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStrea
         .max_message_size(Some(MESSAGE_BYTES_MAX))
         .max_frame_size(Some(MESSAGE_BYTES_MAX));
     #[expect(clippy::result_large_err, reason = "the type of an answer is the crate's")]
-    let judge = |head: &Head, response: Response| {
+    let judge = |head: &Head, mut response: Response| {
         let field = |name| head.headers().get(name).map(|one| one.to_str().unwrap_or("unreadable"));
-        if is_allowed(field("origin"), field("host"), origins) {
-            return Ok(response);
+        if !is_allowed(field("origin"), field("host"), &terms.origins) {
+            let why = "pages of this origin may not connect: name it in `origins`\n";
+            return Err(refused(StatusCode::FORBIDDEN, why));
         }
-        let why = "pages of this origin may not connect: name it in `origins`\n";
-        let mut refused = ErrorResponse::new(Some(why.to_owned()));
-        *refused.status_mut() = tungstenite::http::StatusCode::FORBIDDEN;
-        Err(refused)
+        let Some(protocol) = terms.protocol else { return Ok(response) };
+        let named = field("sec-websocket-protocol").unwrap_or_default();
+        if !named.split(',').any(|one| one.trim() == protocol) {
+            return Err(refused(StatusCode::BAD_REQUEST, "this server has another protocol\n"));
+        }
+        let protocol = HeaderValue::from_static(protocol);
+        response.headers_mut().insert("sec-websocket-protocol", protocol);
+        Ok(response)
     };
     let began = Instant::now();
     let socket = accept_hdr_with_config(stream, judge, Some(config));
@@ -90,21 +105,27 @@ fn greet(mut stream: TcpStream, origins: &[String]) -> Result<WebSocket<TcpStrea
     Ok(socket)
 }
 
+fn refused(status: StatusCode, why: &str) -> ErrorResponse {
+    let mut refused = ErrorResponse::new(Some(why.to_owned()));
+    *refused.status_mut() = status;
+    refused
+}
+
 fn serve(
     number: u64,
     socket: &mut WebSocket<TcpStream>,
-    messages: &Receiver<Utf8Bytes>,
+    messages: &Receiver<Message>,
     hub: &SyncSender<Request>,
 ) -> Result<(), Error> {
     let mut pinged = Instant::now();
     loop {
         match messages.recv_timeout(WAIT) {
-            Ok(text) => write(socket, Message::Text(text))?,
+            Ok(message) => write(socket, message)?,
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         }
-        while let Ok(text) = messages.try_recv() {
-            write(socket, Message::Text(text))?;
+        while let Ok(message) = messages.try_recv() {
+            write(socket, message)?;
         }
         if pinged.elapsed() >= PING_EVERY {
             pinged = Instant::now();
@@ -118,7 +139,7 @@ fn serve(
         for _ in 0..MESSAGES_AT_ONCE {
             let request = match socket.read() {
                 Ok(Message::Text(text)) => Request::Text(number, text.as_str().to_owned()),
-                Ok(Message::Binary(_)) => Request::Wrong(number, "a message must be text"),
+                Ok(Message::Binary(bytes)) => Request::Binary(number, bytes.to_vec()),
                 Ok(Message::Close(_)) => return Ok(()),
                 Ok(Message::Ping(_) | Message::Pong(_) | Message::Frame(_)) => continue,
                 Err(error) if would_block(&error) => break,

@@ -1,22 +1,21 @@
 //! WebSocket: what happens in, text messages in JSON for pages and scripts out, and their commands back.
 //!
-//! The sink's thread is the hub: it makes each message once and puts it into the queue of each client. `client.rs` has
-//! the thread of one client, `head.rs` a page for browsers. A client that does not read what it gets is let go, so that it slows nobody down.
+//! The sink's thread is the hub: it makes each message once and puts it into the queue of each client. `door.rs`
+//! lets clients in, `client.rs` has the thread of one, `head.rs` a page for browsers. A client that does not read what it gets is let go, so that it slows nobody down.
 //! The protocol is written down in `docs/sinks/websocket.md`.
 
 mod client;
+mod door;
 mod head;
 mod origin;
 
-use std::net::{SocketAddr, TcpListener};
+use std::net::SocketAddr;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_limits::CLIENTS_MAX;
 use serde_json::{Map, Value, json};
-use tungstenite::Utf8Bytes;
+use tungstenite::Message;
 
 use crate::command;
 use crate::config::Settings;
@@ -24,15 +23,15 @@ use crate::event::{Event, Inbox, Next, Outbox, Sink, Values};
 use crate::json;
 use crate::picture::Picture;
 use crate::plan::Plan;
+pub(crate) use client::Terms;
+pub(crate) use door::Door;
 
 /// How long the hub waits for an event before it looks at clients.
 const WAIT: Duration = Duration::from_millis(5);
-/// How often an address that is taken is tried again.
-const BIND_EVERY: Duration = Duration::from_secs(1);
 /// Messages that wait for one client; one that lets more come is not reading.
-const CLIENT_QUEUE_MAX: usize = 512;
+pub(crate) const CLIENT_QUEUE_MAX: usize = 512;
 /// Requests of all clients that wait for the hub.
-const REQUESTS_MAX: usize = 256;
+pub(crate) const REQUESTS_MAX: usize = 256;
 /// How long a command waits for its echo.
 const ANSWERED_WITHIN: Duration = Duration::from_secs(2);
 /// The version of the protocol.
@@ -43,25 +42,25 @@ const PROTOCOL: u32 = 1;
 pub(crate) struct WebSocketServer {
     plan: Arc<Plan>,
     listen: SocketAddr,
-    origins: Arc<Vec<String>>,
+    origins: Vec<String>,
     takes_commands: bool,
 }
 
 /// What a client's thread tells the hub.
-enum Request {
+pub(crate) enum Request {
     /// Somebody connected: where its messages go.
-    Open(u64, SyncSender<Utf8Bytes>),
+    Open(u64, SyncSender<Message>),
     /// It sent a text.
     Text(u64, String),
-    /// It sent something else, or too much.
-    Wrong(u64, &'static str),
+    /// It sent bytes.
+    Binary(u64, Vec<u8>),
     /// It is gone; whether because it read too slowly.
     Closed(u64, bool),
 }
 
 struct Client {
     number: u64,
-    to: SyncSender<Utf8Bytes>,
+    to: SyncSender<Message>,
 }
 
 /// A command that waits for its echo.
@@ -89,34 +88,8 @@ impl WebSocketServer {
     #[must_use]
     pub(crate) fn new(settings: &Settings, plan: Arc<Plan>) -> Option<Self> {
         let listen = crate::config::listening(settings.text("listen")).ok()?;
-        let origins = Arc::new(settings.texts("origins").to_vec());
+        let origins = settings.texts("origins").to_vec();
         Some(Self { plan, listen, origins, takes_commands: settings.flag("commands") })
-    }
-
-    /// Listens, as soon as the address is free.
-    fn bind(&self, outbox: &Outbox) -> Option<TcpListener> {
-        let listener = TcpListener::bind(self.listen).and_then(|listener| {
-            listener.set_nonblocking(true)?;
-            Ok(listener)
-        });
-        match listener {
-            Ok(listener) => {
-                outbox.works();
-                let at = listener.local_addr().unwrap_or(self.listen);
-                outbox.note(&format!("ws://{at}, with a page at http://{at}"));
-                if !at.ip().is_loopback() {
-                    let who = "everybody who reaches this address sees the values";
-                    let may = if self.takes_commands { " and may set actuators" } else { "" };
-                    outbox.note(&format!("{who}{may}"));
-                }
-                Some(listener)
-            }
-            Err(error) => {
-                let what = format!("cannot listen on {}: {error}", self.listen);
-                outbox.broken(&what, "choose another address with `listen`, or end what has it");
-                None
-            }
-        }
     }
 }
 
@@ -132,27 +105,15 @@ impl Sink for WebSocketServer {
             pending: Vec::new(),
             dropped: 0,
         };
-        let (mut listener, mut tried, mut last_number) = (None, None::<Instant>, 0);
-        let alive = Arc::new(AtomicUsize::new(0));
+        let terms = Terms { origins: self.origins.clone(), protocol: None };
+        let mut door = Door::new(self.listen, terms);
+        let open = |at| format!("ws://{at}, with a page at http://{at}");
         loop {
-            if listener.is_none() && tried.is_none_or(|tried| tried.elapsed() >= BIND_EVERY) {
-                tried = Some(Instant::now());
-                listener = self.bind(outbox);
-            }
+            door.tend(&to_hub, outbox, self.takes_commands, &open);
             match inbox.next(WAIT) {
                 Next::Event(event) => hub.take(&event),
                 Next::Nothing => {}
                 Next::Over => break,
-            }
-            if let Some(listener) = &listener {
-                while let Ok((stream, _)) = listener.accept() {
-                    // One too many: the connection closes when it is dropped.
-                    if alive.load(Ordering::Relaxed) < CLIENTS_MAX {
-                        last_number += 1;
-                        let (origins, alive) = (Arc::clone(&self.origins), Arc::clone(&alive));
-                        client::start(last_number, stream, origins, to_hub.clone(), alive);
-                    }
-                }
             }
             hub.requests(&requests);
         }
@@ -185,7 +146,7 @@ impl Hub<'_> {
         if self.clients.is_empty() {
             return;
         }
-        let text = Utf8Bytes::from(message.to_string());
+        let text = Message::text(message.to_string());
         let before = self.clients.len();
         self.clients.retain(|client| {
             !matches!(client.to.try_send(text.clone()), Err(TrySendError::Full(_)))
@@ -204,7 +165,7 @@ impl Hub<'_> {
     fn send(&self, client: u64, message: &Value) {
         if let Some(client) = self.clients.iter().find(|one| one.number == client) {
             // One whose queue is full is let go with the next value.
-            let _ = client.to.try_send(message.to_string().into());
+            let _ = client.to.try_send(Message::text(message.to_string()));
         }
     }
 
@@ -212,7 +173,7 @@ impl Hub<'_> {
         while let Ok(request) = requests.try_recv() {
             match request {
                 Request::Open(number, to) => {
-                    let _ = to.try_send(self.hello().to_string().into());
+                    let _ = to.try_send(Message::text(self.hello().to_string()));
                     self.clients.push(Client { number, to });
                 }
                 Request::Closed(number, is_slow) => {
@@ -223,7 +184,9 @@ impl Hub<'_> {
                         self.slow();
                     }
                 }
-                Request::Wrong(number, why) => self.refuse(number, &Value::Null, None, why),
+                Request::Binary(number, _) => {
+                    self.refuse(number, &Value::Null, None, "a message must be text");
+                }
                 Request::Text(number, text) => self.asked(number, &text),
             }
         }
@@ -329,11 +292,43 @@ impl Hub<'_> {
     }
 
     fn end(&self) {
-        let bye = Utf8Bytes::from(json!({ "bye": "the monitor ended" }).to_string());
+        let bye = Message::text(json!({ "bye": "the monitor ended" }).to_string());
         for client in &self.clients {
             let _ = client.to.try_send(bye.clone());
         }
         // The threads of clients get the rest out, and end with their queues.
         std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+    use sensedsl_host::Wish;
+
+    #[test]
+    fn a_client_that_does_not_read_is_let_go() {
+        let plan = Plan::new(&[], &Config::default(), None);
+        let outbox = Outbox::new("WebSocket");
+        let mut hub = Hub {
+            plan: &plan,
+            takes_commands: true,
+            outbox: &outbox,
+            picture: Picture::new(&plan),
+            clients: Vec::new(),
+            pending: Vec::new(),
+            dropped: 0,
+        };
+        let (quick, from_quick) = sync_channel(CLIENT_QUEUE_MAX);
+        let (slow, _from_slow) = sync_channel(CLIENT_QUEUE_MAX);
+        hub.clients = vec![Client { number: 1, to: quick }, Client { number: 2, to: slow }];
+        for number in 0..=CLIENT_QUEUE_MAX {
+            hub.broadcast(&json!(number));
+            assert_eq!(from_quick.try_recv().unwrap(), Message::text(number.to_string()));
+        }
+        assert_eq!(hub.clients.iter().map(|one| one.number).collect::<Vec<_>>(), [1]);
+        let told = "WebSocket: a client was too slow and was let go (1 so far)".to_owned();
+        assert_eq!(outbox.take(), [Wish::Note(told)]);
     }
 }

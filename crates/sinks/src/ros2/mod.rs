@@ -1,0 +1,178 @@
+//! ROS 2: values in, topics over DDS out, without an installation of ROS, and commands by subscription.
+//!
+//! `shape.rs` says which message a device has, `message.rs` has their fields, `topics.rs` the topics. What a topic is
+//! called, and what is in it, is written down in `docs/sinks/ros2.md`.
+
+mod message;
+mod shape;
+mod topics;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use ros2_client::{
+    Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher,
+};
+
+use crate::command;
+use crate::config::Settings;
+use crate::event::{Event, Inbox, Next, Outbox, Refusals, Sink};
+use crate::plan::{Place, Plan};
+use message::DiagnosticArray;
+use topics::{Heard, Told, qos};
+
+/// How long the sink waits for an event before it looks for commands.
+const WAIT: Duration = Duration::from_millis(5);
+/// How often a domain that cannot be joined is tried again.
+const JOIN_EVERY: Duration = Duration::from_secs(2);
+
+/// The way to ROS 2.
+#[derive(Debug)]
+pub(crate) struct Ros2 {
+    plan: Arc<Plan>,
+    is_humble: bool,
+    domain: u16,
+    /// Empty, or words with a slash before each.
+    namespace: String,
+    node: String,
+    takes_commands: bool,
+}
+
+/// A node with all its topics.
+struct Joined {
+    /// It holds what it has made.
+    _node: Node,
+    told: Vec<Vec<Option<Told>>>,
+    heard: Vec<(usize, usize, Heard)>,
+    diagnostics: Publisher<DiagnosticArray>,
+}
+
+impl Ros2 {
+    /// With what a configuration says; none if its domain cannot be one.
+    #[must_use]
+    pub(crate) fn new(settings: &Settings, plan: Arc<Plan>) -> Option<Self> {
+        let namespace = settings.text("namespace").trim_matches('/');
+        let namespace = if namespace.is_empty() { String::new() } else { format!("/{namespace}") };
+        Some(Self {
+            plan,
+            is_humble: settings.text("distro") == "humble",
+            domain: u16::try_from(settings.whole("domain")).ok()?,
+            namespace,
+            node: settings.text("node").to_owned(),
+            takes_commands: settings.flag("commands"),
+        })
+    }
+
+    /// The name of a topic.
+    fn name(&self, topic: &str) -> Result<Name, String> {
+        Name::parse(&format!("{}/{topic}", self.namespace))
+            .map_err(|why| format!("`{topic}` is no name for ROS 2: {why:?}"))
+    }
+
+    fn join(&self) -> Result<Joined, String> {
+        let context = Context::with_options(ContextOptions::new().domain_id(self.domain));
+        let context = context.map_err(|why| format!("domain {}: {why}", self.domain))?;
+        let namespace = if self.namespace.is_empty() { "/" } else { &self.namespace };
+        let name = NodeName::new(namespace, &self.node)
+            .map_err(|why| format!("`{}` is no name of a node: {why:?}", self.node))?;
+        let options = NodeOptions::new().enable_rosout(false);
+        let mut node =
+            context.new_node(name, options).map_err(|why| format!("no node: {why:?}"))?;
+        let mut told = Vec::new();
+        for (board, on) in self.plan.boards.iter().enumerate() {
+            let mut of_board = Vec::new();
+            for index in 0..on.routes.len() {
+                let place = self.plan.place(board, index);
+                of_board.push(place.map(|place| self.told(&mut node, &place)).transpose()?);
+            }
+            told.push(of_board);
+        }
+        let mut heard = Vec::new();
+        for place in self.plan.places().filter(|one| self.takes_commands && one.is_actuator()) {
+            let name = self.name(&format!("{}/set", place.route.topic))?;
+            heard.push((place.board, place.index, Heard::new(&mut node, &place, &name)?));
+        }
+        let kind = MessageTypeName::new("diagnostic_msgs", "DiagnosticArray");
+        let name = Name::parse("/diagnostics").map_err(|why| format!("{why:?}"))?;
+        let topic = node.create_topic(&name, kind, &qos()).map_err(|why| why.to_string())?;
+        let diagnostics = node.create_publisher(&topic, None).map_err(|why| why.to_string())?;
+        Ok(Joined { _node: node, told, heard, diagnostics })
+    }
+
+    fn told(&self, node: &mut Node, place: &Place<'_>) -> Result<Told, String> {
+        Told::new(node, place, &self.name(&place.route.topic)?, self.is_humble)
+    }
+
+    fn tell(&self, joined: &Joined, event: &Event) -> Result<(), String> {
+        match event {
+            Event::Values(values) => {
+                for (place, raw) in self.plan.of(values) {
+                    let told = joined.told.get(place.board).and_then(|all| all.get(place.index));
+                    if let Some(Some(told)) = told {
+                        told.publish(&place, raw, values.taken)?;
+                    }
+                }
+                Ok(())
+            }
+            Event::Presence { board, away } => {
+                let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+                let Some(on) = self.plan.board(*board) else { return Ok(()) };
+                let told = DiagnosticArray::of_presence(on, away.as_deref(), now);
+                joined.diagnostics.publish(told).map_err(|why| why.to_string())
+            }
+            Event::Health { board, at, health } => {
+                let Some(on) = self.plan.board(*board) else { return Ok(()) };
+                let told = DiagnosticArray::of_health(on, health, *at);
+                joined.diagnostics.publish(told).map_err(|why| why.to_string())
+            }
+        }
+    }
+
+    fn hear(&self, joined: &Joined, outbox: &Outbox, refusals: &mut Refusals) {
+        for (board, index, heard) in &joined.heard {
+            let Some(place) = self.plan.place(*board, *index) else { continue };
+            while let Some(value) = heard.take() {
+                let done = command::of_json(&place, &value).and_then(|wanted| {
+                    let is_taken = outbox.set(wanted.board, &wanted.name, wanted.text);
+                    if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
+                });
+                if let Err(why) = done {
+                    refusals.tell(outbox, format!("{} not set: {why}", place.device.name));
+                }
+            }
+        }
+    }
+}
+
+impl Sink for Ros2 {
+    fn run(self: Box<Self>, inbox: &Inbox, outbox: &Outbox) {
+        let help = "look at the network, or correct `[ros2]`; trying again";
+        let (mut joined, mut tried) = (None, None::<Instant>);
+        let mut refusals = Refusals::default();
+        loop {
+            if joined.is_none() && tried.is_none_or(|tried| tried.elapsed() >= JOIN_EVERY) {
+                tried = Some(Instant::now());
+                match self.join() {
+                    Ok(made) => {
+                        outbox.works();
+                        joined = Some(made);
+                    }
+                    Err(why) => outbox.broken(&why, help),
+                }
+            }
+            let next = inbox.next(WAIT);
+            if matches!(next, Next::Over) {
+                return;
+            }
+            let Some(joined) = &joined else { continue };
+            if let Next::Event(event) = next {
+                match self.tell(joined, &event) {
+                    Ok(()) => outbox.works(),
+                    Err(why) => outbox.broken(&why, help),
+                }
+            }
+            self.hear(joined, outbox, &mut refusals);
+            refusals.look(outbox);
+        }
+    }
+}
