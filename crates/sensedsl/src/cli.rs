@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sensedsl_generate::host::HOSTS;
 use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
@@ -204,7 +205,7 @@ pub(crate) struct GenerateArgs {
     #[command(flatten)]
     pub(crate) on: On,
     /// Only these host applications
-    #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
+    #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',', help = hosts())]
     pub(crate) host: Vec<String>,
     /// Everything but this
     #[arg(long, value_name = "PART", value_enum, num_args = 1.., value_delimiter = ',')]
@@ -222,6 +223,12 @@ pub(crate) struct GenerateArgs {
     /// connectors, or shorter runs of contacts
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) neat: u32,
+}
+
+/// What `--host` takes.
+fn hosts() -> String {
+    let names: Vec<&str> = HOSTS.iter().map(|host| host.name()).collect();
+    format!("Only these host applications: {}", names.join(", "))
 }
 
 /// What `generate` can leave out.

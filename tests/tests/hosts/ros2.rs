@@ -160,7 +160,7 @@ fn what_is_published_is_what_the_vectors_say() {
             assert_eq!(values.collect::<String>(), published(&schema, answer), "{name}: {asked}");
             count += 1;
         }
-        assert!(count > 5, "{name}: {count}");
+        assert!(count > 2, "{name}: {count}");
     }
 }
 
