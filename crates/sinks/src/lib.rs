@@ -20,6 +20,10 @@
 //! assert_eq!(mistakes[0].message, "the design has no device called `Rover/Ligth`");
 //! ```
 #![allow(clippy::disallowed_methods, reason = "this crate is the network: it has clocks")]
+#![cfg_attr(
+    not(all(feature = "mqtt", feature = "foxglove")),
+    allow(dead_code, unused_variables, reason = "what sinks share, some builds do without")
+)]
 
 pub mod command;
 pub mod config;
@@ -70,7 +74,6 @@ pub fn outputs(config: &Config, boards: &[Board], own_name: &str) -> Vec<Box<dyn
 
 /// The sink of a table; none if this build does not have it, which the reader has told.
 fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn Sink>> {
-    let _ = own_name;
     let plan = Arc::clone(plan);
     match settings.spec.name {
         #[cfg(feature = "plotjuggler")]
@@ -91,7 +94,6 @@ fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn
     }
 }
 
-#[allow(dead_code, reason = "a build may have no sink at all")]
 fn boxed(sink: Option<impl Sink>) -> Option<Box<dyn Sink>> {
     sink.map(|sink| Box::new(sink) as Box<dyn Sink>)
 }

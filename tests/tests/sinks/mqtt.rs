@@ -224,6 +224,37 @@ fn commands_come_back() {
     run.says("not set by sensedsl/Rover/Servo/set: 181 deg is above the maximum of 180");
 }
 
+/// Each element of an array of `bool` is a switch, also where several are set in a row.
+#[test]
+fn switches_are_set_one_by_one() {
+    if !has_mosquitto() {
+        return;
+    }
+    let scratch = TempDir::new("sinks-mqtt-switches");
+    let port = free_port();
+    let _broker = broker(&scratch, port);
+    let live = Listener::start(port);
+    let at = format!("127.0.0.1:{port}");
+    let run = Running::monitor(["simulate", "examples/greenhouse.sense", "--mqtt", &at]);
+    live.hears("sensedsl/Greenhouse/board-status", "online");
+    for element in ["0", "1", "2"] {
+        let topic = format!("homeassistant/switch/sensedsl_Greenhouse_Switches_{element}/config");
+        until(|| !live.of(&topic).is_empty(), || run.said());
+        let config: Value = serde_json::from_str(&live.of(&topic)[0]).unwrap();
+        assert_eq!(config["state_topic"], "sensedsl/Greenhouse/Switches");
+        let set = config["command_topic"].as_str().unwrap();
+        assert_eq!(set, format!("sensedsl/Greenhouse/Switches/set/{element}"));
+        publish(port, &["-t", set, "-m", config["payload_on"].as_str().unwrap()]);
+    }
+    live.hears("sensedsl/Greenhouse/Switches", "[true,true,true]");
+    // Later, the others keep what they were set to.
+    std::thread::sleep(Duration::from_millis(1_200));
+    publish(port, &["-t", "sensedsl/Greenhouse/Switches/set/1", "-m", "false"]);
+    live.hears("sensedsl/Greenhouse/Switches", "[true,false,true]");
+    publish(port, &["-t", "sensedsl/Greenhouse/Switches/set/3", "-m", "true"]);
+    run.says("not set by sensedsl/Greenhouse/Switches/set/3: there is no such element");
+}
+
 #[test]
 fn what_is_gone_is_told_within_two_seconds() {
     if !has_mosquitto() {

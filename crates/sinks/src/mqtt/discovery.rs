@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Mqtt, OFFLINE, ONLINE};
+use super::{Mqtt, OFFLINE, ONLINE, elements};
 use crate::plan::Place;
 
 /// Elements of an array that are told one by one; Home Assistant shows no longer ones.
@@ -20,8 +20,9 @@ pub(super) fn messages(mqtt: &Mqtt, place: &Place<'_>) -> Vec<(String, String)> 
     let count = place.device.value.count();
     match place.device.value.length {
         None => vec![message(mqtt, place, None)],
-        // An array is set as a whole, for which Home Assistant has nothing.
-        Some(_) if place.is_actuator() || count > ELEMENTS_MAX => Vec::new(),
+        Some(_) if count > ELEMENTS_MAX => Vec::new(),
+        // An array of numbers is set as a whole, for which Home Assistant has nothing.
+        Some(_) if place.is_actuator() && !elements::are_set(place) => Vec::new(),
         Some(_) => (0..count).map(|element| message(mqtt, place, Some(element))).collect(),
     }
 }
@@ -64,7 +65,9 @@ fn message(mqtt: &Mqtt, place: &Place<'_>, element: Option<usize>) -> (String, S
     );
     shape(&mut about, place, is_set);
     if is_set {
-        about.insert("command_topic".into(), mqtt.topics.set(place).into());
+        let topics = &mqtt.topics;
+        let topic = element.map_or(topics.set(place), |element| topics.set_element(place, element));
+        about.insert("command_topic".into(), topic.into());
     }
     (format!("{}/{component}/{id}/config", mqtt.discovery), Value::Object(about).to_string())
 }

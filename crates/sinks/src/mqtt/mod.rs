@@ -1,10 +1,12 @@
 //! MQTT: values, presence and health in, retained topics out, and commands back.
 //!
-//! `network.rs` has the thread of the connection, `discovery.rs` what Home Assistant is told. The topics are written
+//! `network.rs` has the thread of the connection, `discovery.rs` what Home Assistant is told, `elements.rs` sets one
+//! element of an array. The topics are written
 //! down in `docs/sinks/mqtt.md`. After each connection everything that is known goes out again, so that a broker that
 //! was away or has forgotten has it all.
 
 mod discovery;
+mod elements;
 mod network;
 
 use std::sync::Arc;
@@ -19,6 +21,7 @@ use crate::event::{Event, Inbox, Next, Outbox, Refusals, Sink, Values};
 use crate::json;
 use crate::picture::Picture;
 use crate::plan::{BoardPlan, Place, Plan};
+use elements::Elements;
 use network::{Network, Said};
 
 /// How long the sink waits for an event before it looks at the network.
@@ -76,6 +79,10 @@ impl Topics {
     fn set(&self, place: &Place<'_>) -> String {
         format!("{}/set", self.state(place))
     }
+
+    fn set_element(&self, place: &Place<'_>, element: usize) -> String {
+        format!("{}/{element}", self.set(place))
+    }
 }
 
 impl Mqtt {
@@ -126,6 +133,7 @@ impl Sink for Mqtt {
             is_connected: false,
             is_lost: false,
             refusals: Refusals::default(),
+            elements: Elements::default(),
         };
         loop {
             match inbox.next(WAIT) {
@@ -158,6 +166,7 @@ struct Link<'a> {
     is_connected: bool,
     is_lost: bool,
     refusals: Refusals,
+    elements: Elements,
 }
 
 impl Link<'_> {
@@ -227,6 +236,10 @@ impl Link<'_> {
         for place in mqtt.plan.places() {
             if mqtt.takes_commands && place.is_actuator() {
                 let _ = self.client.try_subscribe(mqtt.topics.set(&place), QoS::AtLeastOnce);
+                if elements::are_set(&place) {
+                    let all = format!("{}/+", mqtt.topics.set(&place));
+                    let _ = self.client.try_subscribe(all, QoS::AtLeastOnce);
+                }
             }
             for (topic, payload) in discovery::messages(mqtt, &place) {
                 self.send(topic, QoS::AtLeastOnce, payload);
@@ -243,16 +256,27 @@ impl Link<'_> {
         self.picture.values().for_each(|values| self.values(values));
     }
 
-    fn command(&self, topic: &str, payload: &[u8], is_retained: bool) -> Result<(), String> {
+    fn command(&mut self, topic: &str, payload: &[u8], is_retained: bool) -> Result<(), String> {
         let mqtt = self.mqtt;
         let mut actuators = mqtt.plan.places().filter(Place::is_actuator);
-        let place = actuators.find(|place| mqtt.topics.set(place) == topic);
-        let place = place.ok_or("no actuator has this topic")?;
+        // The actuator, and what follows its topic: the number of an element.
+        let found = actuators.find_map(|place| {
+            let rest = topic.strip_prefix(&mqtt.topics.set(&place))?;
+            (rest.is_empty() || rest.starts_with('/')).then_some((place, rest.strip_prefix('/')))
+        });
+        let (place, element) = found.ok_or("no actuator has this topic")?;
         // Nobody knows how old it is, and it would come again with each connection.
         if is_retained {
             return Err("the command is retained: send it without that".to_owned());
         }
-        let command = command::of_bytes(&place, payload)?;
+        let command = match element {
+            None => command::of_bytes(&place, payload)?,
+            Some(element) => {
+                let element = element.parse().map_err(|_| "there is no such element")?;
+                let all = self.elements.with(&place, &self.picture, element, payload)?;
+                command::of_json(&place, &all)?
+            }
+        };
         let is_taken = self.outbox.set(command.board, &command.name, command.text);
         if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
     }

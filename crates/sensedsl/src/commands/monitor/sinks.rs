@@ -117,7 +117,7 @@ pub(super) fn init(
     }
     // A file for nobody would be refused, and this one reaches no other machine.
     if wanted.sinks.is_empty()
-        && let Some(spec) = config::find("websocket")
+        && let Some(spec) = config::find("websocket").filter(|spec| spec.is_built)
     {
         wanted.add(spec, "listen", None);
     }
