@@ -46,7 +46,7 @@ pub(crate) struct Zenoh {
 }
 
 /// The latest sample of each key, for who asks.
-type Latest = Arc<Mutex<BTreeMap<OwnedKeyExpr, Vec<u8>>>>;
+type Latest = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Vec<u8>)>>>;
 
 /// A session with all that is declared in it.
 struct Joined {
@@ -193,7 +193,7 @@ impl Joined {
         let put = self.session.put(&key, text.as_str()).encoding(Encoding::APPLICATION_JSON);
         put.wait().map_err(|why| why.to_string())?;
         let mut latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
-        let _ = latest.insert(key, text.into_bytes());
+        let _ = latest.insert(key.to_string(), (key, text.into_bytes()));
         Ok(())
     }
 }
@@ -202,7 +202,7 @@ impl Joined {
 fn answer(query: &Query, latest: &Latest) {
     let asked = query.key_expr();
     let latest = latest.lock().unwrap_or_else(PoisonError::into_inner);
-    for (key, bytes) in latest.iter().filter(|(key, _)| asked.intersects(key)) {
+    for (key, bytes) in latest.values().filter(|(key, _)| asked.intersects(key)) {
         let reply = query.reply(KeyExpr::from(key.clone()), bytes.as_slice());
         // Who has asked may be gone.
         let _ = reply.encoding(Encoding::APPLICATION_JSON).wait();
