@@ -1,8 +1,11 @@
-//! `monitor` and a million frames of which many are damaged: the counters are those of the damage, no undamaged frame is
-//! lost, and no wrong value comes beyond what the checksum's bits allow.
+//! `monitor`, the programs of generated hosts, and a million frames of which many are damaged: the counters are those of
+//! the damage, no undamaged frame is lost, and no wrong value comes beyond what the checksum's bits allow.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use sensedsl_host::Board;
-use sensedsl_tests::{Random, TempDir, is_exhaustive, is_thorough, read, sensedsl};
+use sensedsl_tests::{Random, TempDir, fed, has, is_exhaustive, is_thorough, read, run, sensedsl};
 use sensedsl_wire::{Scalar, Stamp, encode_hello, encode_stamped_report};
 use serde_json::Value;
 
@@ -76,13 +79,13 @@ fn stream(board: &Board, count: usize, random: &mut Random) -> Sent {
     sent
 }
 
-#[test]
-fn counters_are_those_of_the_damage() {
-    let scratch = TempDir::new("monitor-damage");
+/// The design's board, its generated files, and a stream.
+fn prepared(scratch: &TempDir) -> (Board, PathBuf, Sent) {
     let file = scratch.write("robot.sense", ROBOT);
     let out = scratch.join("out");
-    let generate = sensedsl(["generate", "--quiet", "--without", "firmware", "-o"]);
-    let _ = generate.arg(&out).arg(&file).run().exits(0);
+    let generate = sensedsl(["generate", "--quiet", "--without", "firmware", "-o"]).arg(&out);
+    let hosts = ["--host", "c", "cpp", "python", "rust", "--"];
+    let _ = generate.args(hosts).arg(&file).run().exits(0);
     let board = Board::all_of_json(&read(&out.join("schema.json"))).unwrap().remove(0);
     let count = match (is_exhaustive(), is_thorough()) {
         (true, _) => 1_000_000,
@@ -90,24 +93,100 @@ fn counters_are_those_of_the_damage() {
         _ => 10_000,
     };
     let sent = stream(&board, count, &mut Random::new(1_000_000));
-    let frames = scratch.write("frames", &sent.bytes);
-    let ran = sensedsl(["monitor", "--format", "ndjson"]).arg(&frames).arg(&file).run().exits(0);
+    let _ = scratch.write("frames", &sent.bytes);
+    (board, out, sent)
+}
+
+/// Judges what a program has printed: the numbers of frames, and its last words.
+fn judge(who: &str, numbers: impl Iterator<Item = i64>, said: &str, sent: &Sent) {
     let mut whole = sent.whole.iter().peekable();
     let mut wrong = 0;
-    for line in ran.stdout.lines().filter(|line| line.contains("\"Turns\"")) {
-        let object: Value = serde_json::from_str(line).unwrap();
-        if whole.next_if(|number| object["raw"] == **number).is_none() {
+    for number in numbers {
+        if whole.next_if(|expected| **expected == number).is_none() {
             wrong += 1;
         }
     }
-    assert_eq!(whole.next(), None, "an undamaged frame is lost");
+    assert_eq!(whole.next(), None, "{who}: an undamaged frame is lost");
     // Of 65,536 damaged frames that still look like one, a checksum of 16 bits lets one pass.
     let most = 6 + sent.damaged / 10_000;
-    assert!(sent.damaged > count / 50 && wrong <= most, "{wrong} of {}", sent.damaged);
+    assert!(sent.damaged > sent.whole.len() / 50, "{}", sent.damaged);
+    assert!(wrong <= most, "{who}: {wrong} of {}", sent.damaged);
     if wrong == 0 {
         let (kept, dropped) =
             (sent.whole.len() + sent.greetings, sent.bytes.len() - sent.good_bytes);
         let counts = format!("{kept} frames, {dropped} bytes dropped");
-        assert!(ran.stderr.contains(&counts), "{counts}: {}", ran.stderr);
+        assert!(said.contains(&counts), "{who}: {counts}: {said}");
+    }
+}
+
+#[test]
+fn counters_are_those_of_the_damage() {
+    let scratch = TempDir::new("monitor-damage");
+    let (_, _, sent) = prepared(&scratch);
+    let run = sensedsl(["monitor", "--format", "ndjson"]).arg(scratch.join("frames"));
+    let ran = run.arg(scratch.join("robot.sense")).run().exits(0);
+    let turns = ran.stdout.lines().filter(|line| line.contains("\"Turns\""));
+    let numbers = turns.map(|line| {
+        let object: Value = serde_json::from_str(line).unwrap();
+        object["raw"].as_i64().unwrap()
+    });
+    judge("monitor", numbers, &ran.stderr, &sent);
+}
+
+/// The monitor of a generated host, as its README says to build it; none where its tools are missing.
+fn program(host: &str, out: &Path, scratch: &TempDir) -> Option<Command> {
+    let folder = out.join("host").join(host);
+    let built = scratch.join(&format!("{host}-monitor"));
+    match host {
+        "c" if has("gcc") => {
+            let mut gcc = Command::new("gcc");
+            gcc.args(["-std=c99", "-O1", "-I."]).current_dir(&folder).arg("-o").arg(&built);
+            let _ = run(gcc.args(["monitor_robot_Rover.c", "robot_Rover.c", "sensedsl.c"]));
+            Some(Command::new(built))
+        }
+        "cpp" if has("g++") => {
+            let mut gcc = Command::new("g++");
+            gcc.args(["-std=c++17", "-O1", "-pthread", "-Iinclude"]).current_dir(&folder);
+            let _ = run(gcc.arg("src/monitor_Rover.cpp").arg("-o").arg(&built));
+            Some(Command::new(built))
+        }
+        "python" if has("python3") => {
+            let mut python = Command::new("python3");
+            let _ = python.args(["-m", "sense_robot"]).current_dir(folder);
+            Some(python)
+        }
+        // It builds what the host builds on, too.
+        "rust" if is_thorough() => {
+            let mut cargo =
+                Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+            let target = scratch.join("rust-target");
+            cargo.current_dir(&folder).env("CARGO_TARGET_DIR", &target);
+            cargo.env("CARGO_PROFILE_DEV_DEBUG", "none");
+            let _ = run(cargo.args([
+                "build",
+                "--quiet",
+                "--offline",
+                "--locked",
+                "--example",
+                "monitor",
+            ]));
+            Some(Command::new(target.join("debug/examples/monitor")))
+        }
+        _ => None,
+    }
+}
+
+#[test]
+fn programs_of_hosts_count_the_same() {
+    let scratch = TempDir::new("hosts-damage");
+    let (_, out, sent) = prepared(&scratch);
+    for host in ["c", "cpp", "python", "rust"] {
+        let Some(mut program) = program(host, &out, &scratch) else { continue };
+        let done = fed(program.arg(scratch.join("frames")), "");
+        let [printed, said] =
+            [done.stdout, done.stderr].map(|text| String::from_utf8(text).unwrap());
+        let numbers =
+            printed.lines().filter_map(|line| line.strip_prefix("Turns = ")?.parse().ok());
+        judge(host, numbers, &said, &sent);
     }
 }

@@ -46,6 +46,8 @@ mod relay;
 mod ros2;
 #[cfg(feature = "websocket")]
 mod websocket;
+#[cfg(feature = "zenoh")]
+mod zenoh;
 
 use std::sync::Arc;
 
@@ -88,6 +90,8 @@ fn sink(settings: &Settings, plan: &Arc<Plan>, own_name: &str) -> Option<Box<dyn
         "od4" => boxed(od4::Od4::new(settings, plan)),
         #[cfg(feature = "ros2")]
         "ros2" => boxed(ros2::Ros2::new(settings, plan)),
+        #[cfg(feature = "zenoh")]
+        "zenoh" => boxed(Some(zenoh::Zenoh::new(settings, plan))),
         #[cfg(feature = "foxglove")]
         "foxglove" => boxed(foxglove::Foxglove::new(settings, plan)),
         _ => None,

@@ -10,6 +10,7 @@ mod plotjuggler;
 mod prometheus;
 mod ros2;
 mod websocket;
+mod zenoh;
 
 use std::io::{BufRead as _, BufReader, Read, Write as _};
 use std::net::TcpListener;

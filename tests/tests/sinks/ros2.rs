@@ -1,5 +1,5 @@
 //! ROS 2: another program of the domain is CycloneDDS, with the definitions of messages that rosbags has. The monitor is
-//! one that was built with the feature `ros2`; `SENSEDSL_ROS2_BIN` names it.
+//! one that was built with the feature `ros2`; `SENSEDSL_ALL_SINKS_BIN` names it.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -23,9 +23,9 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 }";
 
 fn monitor() -> Option<PathBuf> {
-    let found = std::env::var_os("SENSEDSL_ROS2_BIN").map(PathBuf::from);
+    let found = std::env::var_os("SENSEDSL_ALL_SINKS_BIN").map(PathBuf::from);
     if found.is_none() {
-        eprintln!("SKIPPED: SENSEDSL_ROS2_BIN names no program");
+        eprintln!("SKIPPED: SENSEDSL_ALL_SINKS_BIN names no program");
     }
     found
 }

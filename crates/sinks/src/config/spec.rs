@@ -184,6 +184,25 @@ pub const SINKS: &[Spec] = &[
             RATE,
         ],
     },
+    Spec {
+        name: "zenoh",
+        title: "Zenoh",
+        is_built: cfg!(feature = "zenoh"),
+        about: "a key for each device, between machines and networks, with or without a router",
+        keys: &[
+            key(
+                "mode",
+                Sort::Word(&["peer", "client"]),
+                "\"peer\" finds others by itself, \"client\" needs a router",
+            ),
+            key("connect", Sort::Texts, "whom to connect to, such as \"tcp/192.168.1.5:7447\""),
+            key("listen", Sort::Texts, "where others connect; any free port without it"),
+            key("scouting", Sort::Flag(true), "whether to look for others by multicast"),
+            key("prefix", Sort::Text("sensedsl"), "the first words of all keys; \"\" for none"),
+            COMMANDS,
+            RATE,
+        ],
+    },
 ];
 
 /// Keys of `[boards.NAME]`.
