@@ -105,9 +105,7 @@ impl Zenoh {
         if !self.listen.is_empty() {
             say("listen/endpoints", self.listen.clone().into())?;
         }
-        // Who is not there at the start may come later: the session tries again by itself.
-        say("connect/exit_on_failure", false.into())?;
-        say("connect/timeout_ms", 0.into())?;
+        // Whom a peer does not reach it tries again by itself; a client fails, and is begun anew.
         Ok(config)
     }
 
