@@ -188,6 +188,9 @@ fn built(program: &str) -> Option<PathBuf> {
         // Tests run images the way users do.
         command.args(["--features", "sensedsl-tests/machine,sensedsl/twin"]);
     }
+    if cfg!(feature = "all-sinks") {
+        command.args(["--features", "sensedsl-tests/all-sinks,sensedsl/ros2,sensedsl/zenoh"]);
+    }
     let output = command.stderr(Stdio::inherit()).output().unwrap();
     let messages = String::from_utf8_lossy(&output.stdout).into_owned();
     messages.lines().find_map(|line| {
@@ -453,6 +456,19 @@ pub fn has(tool: &str) -> bool {
     let found = command.status().is_ok_and(|status| status.success());
     if !found {
         missing(tool);
+    }
+    found
+}
+
+/// Whether Python has all these modules, with commas between them; if not, reports it on stderr.
+#[must_use]
+pub fn has_python(modules: &str) -> bool {
+    let mut python = Command::new("python3");
+    python.args(["-c", &format!("import {modules}")]).stdin(Stdio::null());
+    python.stdout(Stdio::null()).stderr(Stdio::null());
+    let found = python.status().is_ok_and(|status| status.success());
+    if !found {
+        missing(&format!("python3 with {modules}"));
     }
     found
 }

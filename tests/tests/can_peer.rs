@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{TempDir, binary, few, missing, root, sensedsl};
+use sensedsl_tests::{TempDir, binary, few, has_python, root, sensedsl};
 use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, Schema, encode_report};
 
 use crate::hosts::designs;
@@ -55,16 +55,6 @@ impl Running {
         }
         panic!("only {reported:#?}");
     }
-}
-
-fn has_peer() -> bool {
-    let mut python = Command::new("python3");
-    let ran = python.args(["-c", "import can, cantools, serial"]).stderr(Stdio::null()).status();
-    let is_there = ran.is_ok_and(|status| status.success());
-    if !is_there {
-        missing("python-can, cantools and pyserial");
-    }
-    is_there
 }
 
 fn schema() -> Schema {
@@ -127,7 +117,7 @@ fn between_host_and_peer(simulate: &mut Command) {
 
 #[test]
 fn a_vesc_is_moved_by_an_independent_peer() {
-    if has_peer() {
+    if has_python("can, cantools, serial") {
         between_host_and_peer(Command::new(binary()).args(["simulate", DESIGN]));
     }
 }
@@ -150,7 +140,7 @@ fn row(line: &str) -> Option<(String, f64, f64)> {
 /// multiplexed and as floats: the user is shown the values that cantools puts into the frames.
 #[test]
 fn values_of_an_imported_file_are_those_of_cantools() {
-    if !has_peer() {
+    if !has_python("can, cantools, serial") {
         return;
     }
     let (scratch, dbc) = (TempDir::new("dbc"), root().join("tests/can/vehicle.dbc"));

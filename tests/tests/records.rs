@@ -7,8 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sensedsl_tests::{
-    Random, TempDir, binary, few, is_thorough, missing, printed, read, root, run, sensedsl,
-    write_file,
+    Random, TempDir, binary, few, has_python, is_thorough, printed, read, root, run, sensedsl,
 };
 use serde_json::Value;
 
@@ -64,9 +63,9 @@ fn what_was_shown_is_shown_again() {
         let csv = sensedsl(["monitor", "--speed", "max", "--format", "csv"]).arg(&record);
         assert!(csv.run().exits(0).stdout == converted(&record, "csv"), "{name}");
         let summary = sensedsl(["convert", "--summary"]).arg(&record).run().exits(0).stdout;
-        let board = &live.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-        for object in board.clone() {
+        for line in live.lines() {
+            let object: Value = serde_json::from_str(line).unwrap();
             *counts.entry(object["device"].as_str().unwrap().to_owned()).or_default() += 1;
         }
         for (device, count) in counts {
@@ -120,18 +119,30 @@ fn a_recorded_run_is_a_world() {
         let judge = judge.exits(0);
         assert!(judge.stdout.contains("agree with the world"), "{name}: {}", judge.stdout);
     }
-    // A design that measures otherwise is told from it.
+    // A design that reports something else is told from it, whatever the difference is.
     let pair = scratch.write("pair.sense", PAIR);
     let (record, _) = recorded(&scratch, &pair, "1", &["--set", "Servo=20"]);
-    let other = scratch.write("other.sense", PAIR.replace("scale = 0.1", "scale = 0.1; max = 9"));
-    let kept = sensedsl(["simulate", "--judge", "--board", "Left", "--world"]).arg(&record);
-    let kept = kept.arg(&pair).run().exits(0);
-    assert!(kept.stdout.contains("Servo"), "{}", kept.stdout);
-    let left_out = other.with_file_name("less.sense");
-    write_file(&left_out, PAIR.replace("Light", "Lamp"));
-    let less = sensedsl(["simulate", "--judge", "--board", "Left", "--world"]).arg(&record);
-    let less = less.arg(&left_out).run().exits(0);
-    assert!(less.stderr.contains("Light"), "{}", less.stderr);
+    let judge = |text: &str| {
+        let file = scratch.write("changed.sense", text);
+        let call = sensedsl(["simulate", "--judge", "--board", "Left", "--world"]).arg(&record);
+        call.arg(&file).run()
+    };
+    let kept = judge(PAIR).exits(0);
+    assert!(kept.stdout.contains("Servo") && !kept.stderr.contains("E0568"), "{}", kept.stderr);
+    for (from, to, told) in [
+        ("type = analog;", "type = analog; scale = 0.5;", "Light of "),
+        ("delay = 10 ms;", "delay = 20 ms;", "Light came every 10 ms and comes every 20 ms"),
+        ("Light returns uint16", "Light returns int32", "Light was uint16 and is int32"),
+        ("Light", "Lamp", "Light is gone"),
+        ("scale = 0.1;", "scale = 0.2;", "Servo of "),
+    ] {
+        let changed = judge(&PAIR.replacen(from, to, 1)).exits(1);
+        assert!(
+            changed.stderr.contains("E0568") && changed.stderr.contains(told),
+            "{told}: {}",
+            changed.stderr
+        );
+    }
     let none = sensedsl(["simulate", "--judge", "--world"]).arg(&record).arg(example("fig2"));
     let none = none.run().exits(2);
     assert!(none.stderr.contains("E0565") && none.stderr.contains("Left"), "{}", none.stderr);
@@ -253,26 +264,17 @@ fn a_full_disk_ends_the_record_and_not_the_run() {
     let done = run(&mut command);
     let (shown, told) =
         (String::from_utf8(done.stdout).unwrap(), String::from_utf8(done.stderr).unwrap());
-    assert!(told.contains("ends here") && told.contains("make room"), "{told}");
+    assert!(told.contains("ends here") && told.contains("E0566"), "{told}");
+    assert!(told.contains("make room"), "{told}");
     let last: Value = serde_json::from_str(shown.lines().last().unwrap()).unwrap();
     assert!(last["time_s"].as_f64().unwrap() > 4.5, "the run went on: {last}");
     let kept = sensedsl(["convert", "--to", "ndjson"]).arg(&record).run().exits(0).stdout;
     assert!(shown.starts_with(&kept) && kept.lines().count() > 20, "{}", kept.len());
 }
 
-/// A Python that has these modules.
-fn python(modules: &str) -> bool {
-    let has = Command::new("python3").args(["-c", &format!("import {modules}")]).output();
-    let has = has.is_ok_and(|done| done.status.success());
-    if !has {
-        missing(&format!("python3 with {modules}"));
-    }
-    has
-}
-
 #[test]
 fn other_programs_read_them() {
-    if !python("mcap, pyarrow") {
+    if !has_python("mcap, pyarrow") {
         return;
     }
     let scratch = TempDir::new("records-peers");

@@ -1,10 +1,9 @@
 //! The rule that makes C names of a design's names.
 //!
-//! A name is kept as it is if possible. A character that C does not allow becomes `_u` and its code; a leading `_` or
-//! digit gets an `n` before it. Every name that is printed has the design and the board in front, or `on_`, so that no
+//! Names are those of [`sensedsl_job::host::Names`], with nothing reserved: every name that is printed has the design and the board in front, or `on_`, so that no
 //! keyword and no macro is hit. No board's name is the beginning of another's up to a `_`.
 
-use std::collections::BTreeSet;
+use sensedsl_job::host::identifier;
 
 /// Hands out the names of boards.
 pub(super) struct Prefixes {
@@ -15,7 +14,7 @@ pub(super) struct Prefixes {
 impl Prefixes {
     /// Those of a design.
     pub(super) fn new(design: &str) -> Self {
-        let mut design = plain(design);
+        let mut design = identifier(design);
         // What the runtime has begins with `sensedsl_`.
         if design.starts_with("sensedsl") {
             design.insert(0, 'n');
@@ -25,7 +24,7 @@ impl Prefixes {
 
     /// What stands before each name of a board; upper and lower case count as the same, as in some file systems.
     pub(super) fn take(&mut self, board: &str) -> String {
-        let mut board = plain(board);
+        let mut board = identifier(board);
         let begins = |one: &str, other: &str| format!("{one}_").starts_with(&format!("{other}_"));
         while self.taken.iter().any(|other| {
             let lower = board.to_ascii_lowercase();
@@ -36,38 +35,6 @@ impl Prefixes {
         self.taken.push(board.to_ascii_lowercase());
         format!("{}_{board}", self.design)
     }
-}
-
-/// Hands out the names of a board's devices, each at most once.
-#[derive(Default)]
-pub(super) struct CNames {
-    taken: BTreeSet<String>,
-}
-
-impl CNames {
-    /// The C name for `name`, which is then taken.
-    pub(super) fn take(&mut self, name: &str) -> String {
-        let mut identifier = plain(name);
-        while !self.taken.insert(identifier.clone()) {
-            identifier.push('_');
-        }
-        identifier
-    }
-}
-
-fn plain(name: &str) -> String {
-    let mut identifier = String::new();
-    for character in name.chars() {
-        if character.is_ascii_alphanumeric() || character == '_' {
-            identifier.push(character);
-        } else {
-            identifier.push_str(&format!("_u{:x}", u32::from(character)));
-        }
-    }
-    if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
-        identifier.insert(0, 'n');
-    }
-    identifier
 }
 
 /// A text as a literal, in ASCII and on one line.
@@ -103,21 +70,6 @@ pub(super) fn comment(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn names_stay_unless_they_cannot() {
-        let mut names = CNames::default();
-        let given = [
-            ("IRFront", "IRFront"),
-            ("default", "default"),
-            ("_hidden", "n_hidden"),
-            ("n_hidden", "n_hidden_"),
-            ("Größe", "Gr_uf6_udfe"),
-        ];
-        for (name, expected) in given {
-            assert_eq!(names.take(name), expected);
-        }
-    }
 
     #[test]
     fn no_board_begins_another() {

@@ -1,10 +1,10 @@
 //! The plan in C's words.
 
 use sensedsl_diagnostics::visible;
-use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Scaling};
+use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Names, Scaling};
 use sensedsl_wire::{Checksum, Direction, ScalarType};
 
-use crate::names::{CNames, Prefixes, comment, literal};
+use crate::names::{Prefixes, comment, literal};
 
 /// A design.
 pub(super) struct DesignView {
@@ -78,7 +78,7 @@ impl DesignView {
 impl BoardView {
     fn new(design: &str, plan: &BoardPlan, prefixes: &mut Prefixes) -> Self {
         let own = prefixes.take(&plan.name);
-        let mut names = CNames::default();
+        let mut names = Names::default();
         let devices = plan.devices.iter().filter_map(|device| {
             let is_it =
                 |one: &&MessagePlan| (one.id, one.direction) == (device.id, device.direction);

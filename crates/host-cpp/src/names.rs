@@ -8,6 +8,8 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use sensedsl_job::host::identifier;
+
 const RESERVED: &str = include_str!("reserved.txt");
 
 /// The reserved words.
@@ -33,17 +35,7 @@ impl CppNames {
 
     /// The C++ name for `name`, which is then taken.
     pub(super) fn take(&mut self, name: &str) -> String {
-        let mut identifier = String::new();
-        for character in name.chars() {
-            if character.is_ascii_alphanumeric() || character == '_' {
-                identifier.push(character);
-            } else {
-                identifier.push_str(&format!("_u{:x}", u32::from(character)));
-            }
-        }
-        if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
-            identifier.insert(0, 'n');
-        }
+        let mut identifier = identifier(name);
         while reserved().contains(identifier.as_str())
             || !self.taken.insert(identifier.to_ascii_lowercase())
         {

@@ -1,10 +1,7 @@
-//! The rule that makes Python names of a design's names.
-//!
-//! A name is kept as it is if possible. A character that Python's names of this package do not have becomes `_u` and its
-//! code; a leading `_` or digit gets an `n` before it, because names with `_` are the package's own; a keyword, a name
-//! of the language or of the package gets a `_` after it, and so does a name that is already taken.
+//! The names of a design in Python: those of [`Names`], without keywords and names of the language or of the package.
+//! Names with `_` in front are the package's own.
 
-use std::collections::BTreeSet;
+use sensedsl_job::host::{Names, identifier};
 
 /// Keywords, names of the language that the package uses, and names of its own.
 const RESERVED: &str = "False None True and as assert async await break class continue def del elif else except \
@@ -14,45 +11,14 @@ const RESERVED: &str = "False None True and as assert async await break class co
     of_shown to_pandas \
     FACTS at of outside raw stamp unit value";
 
-/// Hands out names, each at most once.
-pub(super) struct PythonNames {
-    taken: BTreeSet<String>,
-}
-
-impl PythonNames {
-    /// Only the reserved names are taken.
-    pub(super) fn new() -> Self {
-        Self { taken: RESERVED.split_whitespace().map(str::to_owned).collect() }
-    }
-
-    /// The Python name for `name`, which is then taken.
-    pub(super) fn take(&mut self, name: &str) -> String {
-        let mut identifier = plain(name);
-        while !self.taken.insert(identifier.clone()) {
-            identifier.push('_');
-        }
-        identifier
-    }
+/// The names that are left.
+pub(super) fn names() -> Names {
+    Names::without(RESERVED)
 }
 
 /// The name of a package: lower case, behind `sense_`.
 pub(super) fn package(name: &str) -> String {
-    format!("sense_{}", plain(name).to_ascii_lowercase())
-}
-
-fn plain(name: &str) -> String {
-    let mut identifier = String::new();
-    for character in name.chars() {
-        if character.is_ascii_alphanumeric() || character == '_' {
-            identifier.push(character);
-        } else {
-            identifier.push_str(&format!("_u{:x}", u32::from(character)));
-        }
-    }
-    if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
-        identifier.insert(0, 'n');
-    }
-    identifier
+    format!("sense_{}", identifier(name).to_ascii_lowercase())
 }
 
 /// A text as a literal, in ASCII and on one line.
@@ -78,7 +44,7 @@ mod tests {
 
     #[test]
     fn names_stay_unless_they_cannot() {
-        let mut names = PythonNames::new();
+        let mut names = names();
         let given = [
             ("IRFront", "IRFront"),
             ("lambda", "lambda_"),

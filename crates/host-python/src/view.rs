@@ -1,9 +1,9 @@
 //! The plan in Python's words.
 
-use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Scaling};
+use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Names, Scaling};
 use sensedsl_wire::{Direction, ScalarType};
 
-use crate::names::{PythonNames, literal, package};
+use crate::names::{literal, names, package};
 
 /// A design.
 pub(super) struct DesignView {
@@ -48,7 +48,7 @@ pub(super) struct MessageView {
 
 impl DesignView {
     pub(super) fn new(plan: &HostPlan) -> Self {
-        let mut names = PythonNames::new();
+        let mut names = names();
         let boards = plan.boards.iter().map(|board| BoardView::new(board, &mut names)).collect();
         let package = package(&plan.name);
         let distribution = package.replace('_', "-");
@@ -77,7 +77,7 @@ impl DesignView {
 }
 
 impl BoardView {
-    fn new(plan: &BoardPlan, names: &mut PythonNames) -> Self {
+    fn new(plan: &BoardPlan, names: &mut Names) -> Self {
         let ident = names.take(&plan.name);
         let messages: Vec<MessageView> =
             plan.messages().map(|message| MessageView::new(message, names)).collect();
@@ -102,7 +102,7 @@ impl BoardView {
 }
 
 impl MessageView {
-    fn new(plan: &MessagePlan, names: &mut PythonNames) -> Self {
+    fn new(plan: &MessagePlan, names: &mut Names) -> Self {
         let scalar = plan.value.scalar;
         let raw = match scalar {
             ScalarType::Bool => "bool",

@@ -1,10 +1,6 @@
-//! The rule that makes Rust names of a design's names.
-//!
-//! A name is kept as it is if possible. A character that Rust's names of this crate do not have becomes `_u` and its
-//! code; a leading `_` or digit gets an `n` before it; a keyword, a name of the language or of the crate gets a `_`
-//! after it, and so does a name that is already taken.
+//! The names of a design in Rust: those of [`Names`], without keywords and names of the language or of the crate.
 
-use std::collections::BTreeSet;
+use sensedsl_job::host::{Names, identifier};
 
 /// Keywords, names of the language that the crate uses, and names of its own.
 const RESERVED: &str = "Self abstract as async await become box break const continue crate default do dyn else enum \
@@ -19,45 +15,14 @@ const RESERVED: &str = "Self abstract as async await become box break const cont
     HealthFrame Item Link Messages Overstep Question Raw Received Refused Report ResetCause Scaling Schema Stamp State \
     Status Stream Table DESIGN ITEMS";
 
-/// Hands out names, each at most once.
-pub(super) struct RustNames {
-    taken: BTreeSet<String>,
-}
-
-impl RustNames {
-    /// Only the reserved names are taken.
-    pub(super) fn new() -> Self {
-        Self { taken: RESERVED.split_whitespace().map(str::to_owned).collect() }
-    }
-
-    /// The Rust name for `name`, which is then taken.
-    pub(super) fn take(&mut self, name: &str) -> String {
-        let mut identifier = plain(name);
-        while !self.taken.insert(identifier.clone()) {
-            identifier.push('_');
-        }
-        identifier
-    }
+/// The names that are left.
+pub(super) fn names() -> Names {
+    Names::without(RESERVED)
 }
 
 /// The name of a crate, as its manifest has it: lower case, after `sense-`.
 pub(super) fn package(name: &str) -> String {
-    format!("sense-{}", plain(name).to_ascii_lowercase().replace('_', "-"))
-}
-
-fn plain(name: &str) -> String {
-    let mut identifier = String::new();
-    for character in name.chars() {
-        if character.is_ascii_alphanumeric() || character == '_' {
-            identifier.push(character);
-        } else {
-            identifier.push_str(&format!("_u{:x}", u32::from(character)));
-        }
-    }
-    if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
-        identifier.insert(0, 'n');
-    }
-    identifier
+    format!("sense-{}", identifier(name).to_ascii_lowercase().replace('_', "-"))
 }
 
 /// A text as a literal, in ASCII and on one line.
@@ -80,7 +45,7 @@ mod tests {
 
     #[test]
     fn names_stay_unless_they_cannot() {
-        let mut names = RustNames::new();
+        let mut names = names();
         let given = [
             ("IRFront", "IRFront"),
             ("loop", "loop_"),

@@ -1,10 +1,10 @@
 //! The plan in Rust's words.
 
 use sensedsl_diagnostics::visible;
-use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Scaling};
+use sensedsl_job::host::{BoardPlan, HostPlan, MessagePlan, Names, Scaling};
 use sensedsl_wire::{Checksum, Direction, ScalarType};
 
-use crate::names::{RustNames, literal, package};
+use crate::names::{literal, names, package};
 
 /// A design.
 pub(super) struct DesignView {
@@ -57,7 +57,7 @@ pub(super) struct MessageView {
 
 impl DesignView {
     pub(super) fn new(plan: &HostPlan) -> Self {
-        let mut names = RustNames::new();
+        let mut names = names();
         let boards = plan.boards.iter().map(|board| BoardView::new(board, &mut names)).collect();
         let package = package(&plan.name);
         let krate = package.replace('-', "_");
@@ -84,7 +84,7 @@ impl DesignView {
 }
 
 impl BoardView {
-    fn new(plan: &BoardPlan, names: &mut RustNames) -> Self {
+    fn new(plan: &BoardPlan, names: &mut Names) -> Self {
         let ident = names.take(&plan.name);
         let messages: Vec<MessageView> =
             plan.messages().map(|message| MessageView::new(message, names)).collect();
@@ -130,7 +130,7 @@ impl BoardView {
 }
 
 impl MessageView {
-    fn new(plan: &MessagePlan, names: &mut RustNames) -> Self {
+    fn new(plan: &MessagePlan, names: &mut Names) -> Self {
         let scalar = plan.value.scalar;
         let raw = rust_type(scalar);
         let scaling = plan.scaling.as_ref().filter(|_| scalar != ScalarType::Bool);

@@ -11,6 +11,8 @@ use sensedsl_diagnostics::codes::e0567_program_not_reached::not_reached;
 use sensedsl_host::Wish;
 use sensedsl_wire::{Health, Scalar, Stamp};
 
+use crate::command::Command;
+
 /// The most wishes that wait for the host: more at a time are of nobody who waits for an answer.
 const WISHES_MAX: usize = 256;
 
@@ -109,10 +111,14 @@ impl Outbox {
         Self { name, wishes: Arc::default(), broken: Arc::default() }
     }
 
-    /// Asks for an actuator to be set. False if too many wait already.
-    #[must_use]
-    pub fn set(&self, board: usize, name: &str, text: String) -> bool {
-        self.push(Wish::Set { board, name: name.to_owned(), text })
+    /// Asks for an actuator to be set.
+    ///
+    /// # Errors
+    /// Fails with the reason, for people, if too many commands wait already.
+    pub fn set(&self, command: Command) -> Result<(), String> {
+        let Command { board, name, text, .. } = command;
+        let is_taken = self.push(Wish::Set { board, name, text });
+        if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
     }
 
     /// Tells people something.

@@ -15,6 +15,7 @@ use tungstenite::Message;
 use crate::command;
 use crate::config::Settings;
 use crate::event::{Event, Inbox, Next, Outbox, Sink, Values};
+use crate::listener::Listener;
 use crate::picture::Picture;
 use crate::plan::{Place, Plan};
 use crate::websocket::{Door, REQUESTS_MAX, Request, Terms};
@@ -82,9 +83,10 @@ impl Sink for Foxglove {
             channels: places.zip(1..).collect(),
         };
         let terms = Terms { origins: self.origins.clone(), protocol: Some(PROTOCOL) };
-        let mut door = Door::new(self.listen, terms);
+        let listener = Listener::new(self.listen, self.takes_commands);
+        let mut door = Door::new(listener, terms);
         loop {
-            door.tend(&to_hub, outbox, self.takes_commands, &|at| format!("ws://{at}"));
+            door.tend(&to_hub, outbox, &|at| format!("ws://{at}"));
             match inbox.next(WAIT) {
                 Next::Event(event) => hub.take(&event),
                 Next::Nothing => {}
@@ -245,8 +247,7 @@ impl Hub<'_> {
             None => payload,
         };
         let command = command::of_json(&place, &wanted).map_err(|why| format!("{topic}: {why}"))?;
-        let is_taken = self.outbox.set(command.board, &command.name, command.text);
-        if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
+        self.outbox.set(command)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What happened, as JSON: values, presence and health in, one object each out.
 
-use sensedsl_wire::{Health, NEVER_MS, Status};
+use sensedsl_host::status;
+use sensedsl_wire::{Health, NEVER_MS};
 use serde_json::{Map, Value, json};
 
 use crate::event::Values;
@@ -75,19 +76,6 @@ pub(crate) fn health(on: &BoardPlan, health: &Health) -> Value {
         "stack_left_bytes": known(health.stack_left_bytes.into(), u16::MAX.into()),
         "devices": devices,
     })
-}
-
-/// A device's status in a word.
-#[must_use]
-pub(crate) fn status(status: Status) -> &'static str {
-    match status {
-        Status::NeverRead => "never_read",
-        Status::Good => "good",
-        Status::Stale => "stale",
-        Status::Failed => "failed",
-        Status::Invalid => "invalid",
-        Status::Other(_) => "unknown",
-    }
 }
 
 /// What a client needs to know of the boards before values make sense.

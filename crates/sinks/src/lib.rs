@@ -31,8 +31,11 @@ mod event;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod json;
+mod listener;
 #[cfg(feature = "mqtt")]
 mod mqtt;
+#[cfg(any(feature = "ros2", feature = "zenoh"))]
+mod network;
 #[cfg(feature = "od4")]
 mod od4;
 mod picture;

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Read as _, Write as _};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -15,13 +15,12 @@ use sensedsl_wire::NEVER_MS;
 
 use crate::config::Settings;
 use crate::event::{Event, Inbox, Next, Outbox, Sink};
+use crate::listener::Listener;
 use crate::picture::Picture;
 use crate::plan::{Place, Plan, seconds};
 
 /// How long the sink waits for an event before it looks whether somebody asks.
 const WAIT: Duration = Duration::from_millis(20);
-/// How often an address that is taken is tried again.
-const BIND_EVERY: Duration = Duration::from_secs(1);
 /// How long somebody may take to ask, and to take the answer.
 const ASKS_WITHIN: Duration = Duration::from_secs(3);
 /// The most bytes of a request.
@@ -48,26 +47,6 @@ impl Prometheus {
         let listen = crate::config::listening(settings.text("listen")).ok()?;
         Some(Self { plan, listen })
     }
-
-    fn bind(&self, outbox: &Outbox) -> Option<TcpListener> {
-        let listener = TcpListener::bind(self.listen).and_then(|listener| {
-            listener.set_nonblocking(true)?;
-            Ok(listener)
-        });
-        match listener {
-            Ok(listener) => {
-                outbox.works();
-                let at = listener.local_addr().unwrap_or(self.listen);
-                outbox.note(&format!("http://{at}/metrics"));
-                Some(listener)
-            }
-            Err(error) => {
-                let what = format!("cannot listen on {}: {error}", self.listen);
-                outbox.broken(&what, "choose another address with `listen`, or end what has it");
-                None
-            }
-        }
-    }
 }
 
 impl Sink for Prometheus {
@@ -75,12 +54,8 @@ impl Sink for Prometheus {
         let counts = self.plan.boards.iter().map(|on| vec![0; on.routes.len()]).collect();
         let known = Arc::new(Mutex::new(Known { picture: Picture::new(&self.plan), counts }));
         let alive = Arc::new(AtomicUsize::new(0));
-        let (mut listener, mut tried) = (None, None::<Instant>);
+        let mut listener = Listener::new(self.listen, false);
         loop {
-            if listener.is_none() && tried.is_none_or(|tried| tried.elapsed() >= BIND_EVERY) {
-                tried = Some(Instant::now());
-                listener = self.bind(outbox);
-            }
             match inbox.next(WAIT) {
                 Next::Event(event) => {
                     known.lock().unwrap_or_else(PoisonError::into_inner).take(&event);
@@ -88,8 +63,7 @@ impl Sink for Prometheus {
                 Next::Nothing => {}
                 Next::Over => return,
             }
-            let Some(listener) = &listener else { continue };
-            while let Ok((stream, _)) = listener.accept() {
+            for stream in listener.accept(outbox, &|at| format!("http://{at}/metrics")) {
                 if alive.load(Ordering::Relaxed) < CLIENTS_MAX {
                     serve(stream, Arc::clone(&self.plan), Arc::clone(&known), Arc::clone(&alive));
                 }

@@ -7,7 +7,6 @@
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
 
 use sensedsl_limits::MESSAGE_BYTES_MAX;
 use serde_json::Value;
@@ -20,16 +19,13 @@ use zenoh::query::{Query, Queryable};
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Session, Wait as _};
 
-use crate::command;
+use crate::command::{self, Command};
 use crate::config::Settings;
-use crate::event::{Event, Inbox, Next, Outbox, Refusals, Sink};
+use crate::event::{Event, Inbox, Outbox, Sink};
 use crate::json;
+use crate::network::{Network, serve};
 use crate::plan::{BoardPlan, Plan};
 
-/// How long the sink waits for an event before it looks for commands.
-const WAIT: Duration = Duration::from_millis(5);
-/// How often a network that cannot be joined is tried again.
-const JOIN_EVERY: Duration = Duration::from_secs(2);
 /// The most commands that wait.
 const COMMANDS_MAX: usize = 64;
 
@@ -49,7 +45,7 @@ pub(crate) struct Zenoh {
 type Latest = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Vec<u8>)>>>;
 
 /// A session with all that is declared in it.
-struct Joined {
+pub(crate) struct Joined {
     session: Session,
     latest: Latest,
     commands: Receiver<(usize, usize, Vec<u8>)>,
@@ -108,6 +104,11 @@ impl Zenoh {
         // Whom a peer does not reach it tries again by itself; a client fails, and is begun anew.
         Ok(config)
     }
+}
+
+impl Network for Zenoh {
+    type Joined = Joined;
+    const HELP: &'static str = "look at the network, or correct `[zenoh]`; trying again";
 
     fn join(&self) -> Result<Joined, String> {
         let session = zenoh::open(self.config()?).wait().map_err(|why| why.to_string())?;
@@ -171,17 +172,18 @@ impl Zenoh {
         }
     }
 
-    fn hear(&self, joined: &Joined, outbox: &Outbox, refusals: &mut Refusals) {
-        for (board, index, bytes) in joined.commands.try_iter() {
-            let Some(place) = self.plan.place(board, index) else { continue };
-            let done = command::of_bytes(&place, &bytes).and_then(|wanted| {
-                let is_taken = outbox.set(wanted.board, &wanted.name, wanted.text);
-                if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
-            });
-            if let Err(why) = done {
-                refusals.tell(outbox, format!("{} not set: {why}", place.device.name));
-            }
-        }
+    fn heard(&self, joined: &mut Joined) -> Vec<(String, Result<Command, String>)> {
+        let all = joined.commands.try_iter();
+        let all = all.filter_map(|(board, index, bytes)| {
+            let place = self.plan.place(board, index)?;
+            Some((place.device.name.clone(), command::of_bytes(&place, &bytes)))
+        });
+        all.collect()
+    }
+
+    fn leave(&self, joined: Joined) {
+        // Tokens and declarations go with the session; a router that is gone needs no goodbye.
+        let _ = joined.session.close().wait();
     }
 }
 
@@ -223,37 +225,6 @@ fn heard(
 
 impl Sink for Zenoh {
     fn run(self: Box<Self>, inbox: &Inbox, outbox: &Outbox) {
-        let help = "look at the network, or correct `[zenoh]`; trying again";
-        let (mut joined, mut tried) = (None, None::<Instant>);
-        let mut refusals = Refusals::default();
-        loop {
-            if joined.is_none() && tried.is_none_or(|tried| tried.elapsed() >= JOIN_EVERY) {
-                tried = Some(Instant::now());
-                match self.join() {
-                    Ok(made) => {
-                        outbox.works();
-                        joined = Some(made);
-                    }
-                    Err(why) => outbox.broken(&why, help),
-                }
-            }
-            let next = inbox.next(WAIT);
-            if matches!(next, Next::Over) {
-                if let Some(joined) = joined.take() {
-                    // Tokens and declarations go with the session.
-                    let _ = joined.session.close().wait();
-                }
-                return;
-            }
-            let Some(joined) = &mut joined else { continue };
-            if let Next::Event(event) = next {
-                match self.tell(joined, &event) {
-                    Ok(()) => outbox.works(),
-                    Err(why) => outbox.broken(&why, help),
-                }
-            }
-            self.hear(joined, outbox, &mut refusals);
-            refusals.look(outbox);
-        }
+        serve(&*self, inbox, outbox);
     }
 }

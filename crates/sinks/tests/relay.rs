@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use sensedsl_host::{Board, Moment, News, Output as _, Report, What, Wish};
+use sensedsl_sinks::command::Command;
 use sensedsl_sinks::{Config, Event, Inbox, Next, Outbox, Plan, Relay, Sink};
 use sensedsl_wire::Scalar;
 
@@ -22,7 +23,8 @@ impl Sink for Told {
         outbox.broken("it does not work", "wait");
         outbox.broken("it does not work", "wait");
         outbox.works();
-        assert!(outbox.set(0, "Servo", "5".to_owned()));
+        let (name, text) = ("Servo".to_owned(), "5".to_owned());
+        outbox.set(Command { board: 0, index: 0, name, text }).unwrap();
         loop {
             match inbox.next(Duration::from_millis(100)) {
                 Next::Event(event) => self.0.send(event).unwrap(),

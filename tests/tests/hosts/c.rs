@@ -9,7 +9,8 @@ use sensedsl_tests::{
 };
 use sensedsl_wire::{Checksum, Event, Scalar, Schema, encode_hello, encode_report};
 
-use super::rust::{ROBOT, played};
+use super::played::played;
+use super::rust::ROBOT;
 use super::vectors::{self, DAMAGED, Exchange, Numbers};
 use super::{designs, files};
 
@@ -254,7 +255,8 @@ fn robot() -> Option<(Schema, PathBuf)> {
 #[test]
 fn a_program_reads_sets_and_asks() {
     let Some((schema, program)) = robot() else { return };
-    let (commands, status, said) = played(&program, &schema, &encode_hello(&schema));
+    let (commands, status, said) =
+        played(&mut Command::new(&program), &schema, &encode_hello(&schema));
     assert_eq!(status, 0, "{said}");
     let servo = |code| Event::Report(None, vec![(19, vec![Scalar::Unsigned(code)])]);
     assert_eq!(commands, [servo(455), servo(7)], "{said}");
@@ -274,7 +276,8 @@ fn other_firmware_is_told_and_nothing_else() {
     let Some((schema, program)) = robot() else { return };
     let mut other = schema.clone();
     other.items[0].name = "Dark".to_owned();
-    let (commands, status, said) = played(&program, &schema, &encode_hello(&other));
+    let (commands, status, said) =
+        played(&mut Command::new(&program), &schema, &encode_hello(&other));
     assert_eq!((commands.len(), status, &*said), (0, 0, "other hash\ndropped 0\n"));
 }
 

@@ -17,6 +17,7 @@ mod link;
 mod matlab;
 mod middleware;
 mod page;
+mod played;
 mod python;
 mod ros2;
 mod rust;

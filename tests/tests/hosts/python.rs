@@ -2,28 +2,13 @@
 //! test plays.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
-use sensedsl_tests::{TempDir, answered, few, has, is_thorough, missing, root, run, sensedsl};
-use sensedsl_wire::{
-    Decoder, Direction, Event, Scalar, Schema, encode_health, encode_hello, encode_report,
-};
+use sensedsl_tests::{TempDir, answered, few, has, has_python, is_thorough, root, run, sensedsl};
+use sensedsl_wire::{Event, Scalar, Schema, encode_hello};
 
-use super::terminal::{Line, is_command};
 use super::vectors::{self, DAMAGED, Exchange, Numbers};
 use super::{designs, files};
-
-/// Whether Python has these modules.
-fn imports(modules: &str) -> bool {
-    let mut python = Command::new("python3");
-    let ran = python.args(["-c", &format!("import {modules}")]).stderr(Stdio::null()).status();
-    let is_there = ran.is_ok_and(|status| status.success());
-    if !is_there {
-        missing(&format!("python3 with {modules}"));
-    }
-    is_there
-}
 
 fn runtime() -> PathBuf {
     root().join("crates/host-python/runtime/sensedsl")
@@ -68,7 +53,7 @@ fn damaged_streams_are_read_as_by_the_reference() {
 
 #[test]
 fn types_are_checked_strictly() {
-    if !is_thorough() || !imports("mypy") || !imports("serial") {
+    if !is_thorough() || !has_python("mypy") || !has_python("serial") {
         return;
     }
     for (name, boards) in designs::all() {
@@ -101,72 +86,16 @@ fn robot(name: &str) -> (TempDir, Schema) {
     (scratch, boards[0].schema.clone())
 }
 
-/// Runs a program with the package while the test plays the board. Returns what it has commanded, its status, and all
-/// that it printed.
+/// Runs a program with the package while the test plays the board.
 fn played(
     scratch: &TempDir,
     schema: &Schema,
     hello: &[u8],
     program: &str,
 ) -> (Vec<Event>, i32, String) {
-    let mut line = Line::new();
-    let mut child = Command::new("python3")
-        .args(["-c", program])
-        .arg(&line.device)
-        .env("PYTHONPATH", scratch.join("out/host/python"))
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut decoder = Decoder::new(schema, Direction::Actuator);
-    let values = [(17, vec![Scalar::Unsigned(1_840)]), (18, vec![Scalar::Signed(-3)])];
-    let report = encode_report(schema, Direction::Sensor, &values).unwrap();
-    let devices = schema.items.iter().map(|item| sensedsl_wire::DeviceHealth {
-        id: item.id,
-        status: sensedsl_wire::Status::Failed,
-        age_ms: 7,
-        causes: [1, 2, 3, 4, 5, 6].into(),
-    });
-    let health = sensedsl_wire::Health {
-        uptime_ms: 12_345,
-        reset_cause: sensedsl_wire::ResetCause::Watchdog,
-        reset_device: 17,
-        reports_sent: 5,
-        reports_refused: 1,
-        load_percent: 40,
-        stack_left_bytes: 200,
-        devices: devices.collect(),
-    };
-    let health = encode_health(schema, &health).unwrap();
-    let (mut commands, mut is_met) = (Vec::new(), false);
-    let start = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        assert!(start.elapsed() < Duration::from_secs(30), "it does not end");
-        let bytes = line.hear(1, Duration::from_millis(30));
-        let mut asked = (false, false);
-        decoder.feed(&bytes, |event| {
-            asked.0 |= event == Event::HelloRequest;
-            asked.1 |= event == Event::HealthRequest;
-            commands.extend(Some(event).filter(is_command));
-        });
-        // A board says hello when it is asked, and its shell answers.
-        if asked.0 || bytes.windows(6).any(|word| word == b"schema") {
-            is_met = true;
-            line.say(hello);
-        }
-        if asked.1 {
-            line.say(&health);
-        }
-        if is_met {
-            line.say(&report);
-        }
-    }
-    let output = child.wait_with_output().unwrap();
-    let [out, errors] =
-        [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (commands, output.status.code().unwrap(), out + &errors)
+    let mut python = Command::new("python3");
+    python.args(["-c", program]).env("PYTHONPATH", scratch.join("out/host/python"));
+    super::played::played(python.env("PYTHONDONTWRITEBYTECODE", "1"), schema, hello)
 }
 
 const PROGRAM: &str = r#"
@@ -203,7 +132,7 @@ with Rover.open(sys.argv[1]) as board:
 
 #[test]
 fn a_program_reads_sets_and_asks() {
-    if !imports("serial") {
+    if !has_python("serial") {
         return;
     }
     let (scratch, schema) = robot("python-program");
@@ -228,7 +157,7 @@ fn a_program_reads_sets_and_asks() {
 
 #[test]
 fn other_firmware_and_devices_that_are_none_end_it() {
-    if !imports("serial") {
+    if !has_python("serial") {
         return;
     }
     let (scratch, schema) = robot("python-other");

@@ -1,15 +1,12 @@
 //! The host `rust`: the shared vectors, damaged streams, lints, and a program on a serial line that the test plays.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 use sensedsl_tests::{TempDir, answered, compiled_once, few, is_thorough, run, sensedsl};
-use sensedsl_wire::{
-    Decoder, Direction, Event, Scalar, Schema, encode_health, encode_hello, encode_report,
-};
+use sensedsl_wire::{Direction, Event, Scalar, Schema, encode_hello, encode_report};
 
-use super::terminal::{Line, is_command};
+use super::played::played;
 use super::vectors::{self, DAMAGED, Exchange, Numbers};
 use super::{designs, files};
 
@@ -167,69 +164,11 @@ fn robot() -> (Schema, PathBuf) {
     (boards[0].schema.clone(), program)
 }
 
-/// Runs the program while the test plays the board. Returns what it has commanded, its status, and all that it printed.
-pub(super) fn played(program: &Path, schema: &Schema, hello: &[u8]) -> (Vec<Event>, i32, String) {
-    let mut line = Line::new();
-    let mut child = Command::new(program)
-        .arg(&line.device)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut decoder = Decoder::new(schema, Direction::Actuator);
-    let values = [(17, vec![Scalar::Unsigned(1_840)]), (18, vec![Scalar::Signed(-3)])];
-    let report = encode_report(schema, Direction::Sensor, &values).unwrap();
-    let devices = schema.items.iter().map(|item| sensedsl_wire::DeviceHealth {
-        id: item.id,
-        status: sensedsl_wire::Status::Failed,
-        age_ms: 7,
-        causes: [1, 2, 3, 4, 5, 6].into(),
-    });
-    let health = sensedsl_wire::Health {
-        uptime_ms: 12_345,
-        reset_cause: sensedsl_wire::ResetCause::Watchdog,
-        reset_device: 17,
-        reports_sent: 5,
-        reports_refused: 1,
-        load_percent: 40,
-        stack_left_bytes: 200,
-        devices: devices.collect(),
-    };
-    let health = encode_health(schema, &health).unwrap();
-    let (mut commands, mut is_met) = (Vec::new(), false);
-    let start = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        assert!(start.elapsed() < Duration::from_secs(30), "it does not end");
-        let bytes = line.hear(1, Duration::from_millis(30));
-        let mut asked = (false, false);
-        decoder.feed(&bytes, |event| {
-            asked.0 |= event == Event::HelloRequest;
-            asked.1 |= event == Event::HealthRequest;
-            commands.extend(Some(event).filter(is_command));
-        });
-        // A board says hello when it is asked, and its shell answers.
-        if asked.0 || bytes.windows(6).any(|word| word == b"schema") {
-            is_met = true;
-            line.say(hello);
-        }
-        if asked.1 {
-            line.say(&health);
-        }
-        if is_met {
-            line.say(&report);
-        }
-    }
-    let output = child.wait_with_output().unwrap();
-    let [out, errors] =
-        [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (commands, output.status.code().unwrap(), out + &errors)
-}
-
 #[test]
 fn a_program_reads_sets_and_asks() {
     let (schema, program) = robot();
-    let (commands, status, said) = played(&program, &schema, &encode_hello(&schema));
+    let (commands, status, said) =
+        played(&mut Command::new(&program), &schema, &encode_hello(&schema));
     assert_eq!(status, 0, "{said}");
     let servo = |code| Event::Report(None, vec![(19, vec![Scalar::Unsigned(code)])]);
     assert_eq!(commands, [servo(455), servo(7), servo(10)], "{said}");
@@ -252,7 +191,7 @@ fn other_firmware_and_devices_that_are_none_end_it() {
     other.items[0].name = "Dark".to_owned();
     let text = other.canonical_text().replace('\n', "\r\n");
     let hello = [encode_hello(&other), format!("ch> schema\r\n{text}ch> ").into_bytes()].concat();
-    let (commands, status, said) = played(&program, &schema, &hello);
+    let (commands, status, said) = played(&mut Command::new(&program), &schema, &hello);
     assert_eq!((status, commands.len()), (1, 0), "{said}");
     for expected in ["Light: not on the board", "Dark: only on the board"] {
         assert!(said.contains(expected), "{expected}: {said}");

@@ -8,8 +8,10 @@ mod od4;
 mod peer;
 mod plotjuggler;
 mod prometheus;
+#[cfg(feature = "all-sinks")]
 mod ros2;
 mod websocket;
+#[cfg(feature = "all-sinks")]
 mod zenoh;
 
 use std::io::{BufRead as _, BufReader, Read, Write as _};

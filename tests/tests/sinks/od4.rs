@@ -1,22 +1,12 @@
 //! OD4: another program of the session is pycluon, which reads and sends messages by the generated `sense.odvd`.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use sensedsl_tests::{missing, root, sensedsl};
+use sensedsl_tests::{has_python, root, sensedsl};
 use serde_json::Value;
 
 use super::{Running, robot, shown, text, until};
-
-fn has_pycluon() -> bool {
-    let mut command = Command::new("python3");
-    command.args(["-c", "import pycluon.importer"]).stderr(Stdio::null());
-    let found = command.status().is_ok_and(|status| status.success());
-    if !found {
-        missing("pycluon");
-    }
-    found
-}
 
 /// A session of this run alone.
 fn session(test: u32) -> String {
@@ -39,7 +29,7 @@ fn peer(design: &Path, out: &Path, cid: &str, sent: &[&str]) -> Running {
 
 #[test]
 fn messages_are_those_of_the_generated_host() {
-    if !has_pycluon() {
+    if !has_python("pycluon.importer") {
         return;
     }
     let (scratch, _) = robot("sinks-od4");
@@ -92,7 +82,7 @@ fn messages_are_those_of_the_generated_host() {
 /// Values of all types and arrays, as other programs read them.
 #[test]
 fn arrays_and_signs_are_kept() {
-    if !has_pycluon() {
+    if !has_python("pycluon.importer") {
         return;
     }
     let (scratch, _) = robot("sinks-od4-types");

@@ -3,7 +3,7 @@
 use std::net::TcpListener;
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::missing;
+use sensedsl_tests::has_python;
 use serde_json::Value;
 
 use super::websocket::get;
@@ -14,16 +14,6 @@ import json, sys
 from prometheus_client.parser import text_string_to_metric_families as families
 print(json.dumps([[one.name, one.labels, one.value] for all in families(sys.stdin.read()) for one in all.samples]))
 ";
-
-fn has_parser() -> bool {
-    let mut command = Command::new("python3");
-    command.args(["-c", "import prometheus_client.parser"]).stderr(Stdio::null());
-    let found = command.status().is_ok_and(|status| status.success());
-    if !found {
-        missing("prometheus_client");
-    }
-    found
-}
 
 /// All samples: name, labels, value.
 fn samples(page: &str) -> Vec<(String, Value, f64)> {
@@ -44,7 +34,7 @@ fn samples(page: &str) -> Vec<(String, Value, f64)> {
 
 #[test]
 fn the_latest_of_all_is_there_for_who_asks() {
-    if !has_parser() {
+    if !has_python("prometheus_client.parser") {
         return;
     }
     let (scratch, _) = robot("sinks-prometheus");

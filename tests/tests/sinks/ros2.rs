@@ -1,10 +1,9 @@
-//! ROS 2: another program of the domain is CycloneDDS, with the definitions of messages that rosbags has. The monitor is
-//! one that was built with the feature `ros2`; `SENSEDSL_ALL_SINKS_BIN` names it.
+//! ROS 2: another program of the domain is CycloneDDS, with the definitions of messages that rosbags has.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::Command;
 
-use sensedsl_tests::{missing, root};
+use sensedsl_tests::{has_python, root};
 use serde_json::Value;
 
 use super::{Running, shown, text, until};
@@ -21,24 +20,6 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
     actuator Servo accepts uint16 { id = 23; type = dac; scale = 0.1; quantity = deg; min = 0; max = 180; }
     actuator Lamps accepts bool[3] { id = 24; type = digital; }
 }";
-
-fn monitor() -> Option<PathBuf> {
-    let found = std::env::var_os("SENSEDSL_ALL_SINKS_BIN").map(PathBuf::from);
-    if found.is_none() {
-        eprintln!("SKIPPED: SENSEDSL_ALL_SINKS_BIN names no program");
-    }
-    found
-}
-
-fn has_peer() -> bool {
-    let mut command = Command::new("python3");
-    command.args(["-c", "import cyclonedds, rosbags.typesys"]).stderr(Stdio::null());
-    let found = command.status().is_ok_and(|status| status.success());
-    if !found {
-        missing("cyclonedds, rosbags");
-    }
-    found
-}
 
 /// A domain of this run alone.
 fn domain(test: u32) -> String {
@@ -63,25 +44,15 @@ fn of(peer: &Running, topic: &str) -> Vec<Value> {
     own.map(|json| serde_json::from_str(json).unwrap()).collect()
 }
 
-fn start(monitor: &Path, file: &Path, config: &Path) -> Running {
-    Running::start(
-        Command::new(monitor)
-            .args([
-                "monitor",
-                "simulate",
-                text(file),
-                "--format",
-                "ndjson",
-                "--config",
-                text(config),
-            ])
-            .current_dir(root()),
-    )
+fn start(file: &Path, config: &Path) -> Running {
+    Running::monitor(["simulate", text(file), "--format", "ndjson", "--config", text(config)])
 }
 
 #[test]
 fn each_device_has_its_message() {
-    let Some(monitor) = monitor().filter(|_| has_peer()) else { return };
+    if !has_python("cyclonedds, rosbags.typesys") {
+        return;
+    }
     let (scratch, _) = robot_of("sinks-ros2", ROBOT);
     let domain = domain(0);
     let peer = peer(
@@ -103,7 +74,7 @@ fn each_device_has_its_message() {
     let config =
         format!("[ros2]\ndomain = {domain}\n[devices.\"Rover/Wall\"]\nframe = \"front\"\n");
     let config = scratch.write("sinks.toml", config);
-    let run = start(&monitor, &scratch.join("robot.sense"), &config);
+    let run = start(&scratch.join("robot.sense"), &config);
     run.says("sent: Servo = 455 (45.5 deg)");
     run.says("ROS 2: Servo not set: 181 deg is above the maximum of 180");
     for name in ["Wall", "Oven", "Push", "Volts", "Switch", "Wheel"] {
@@ -158,7 +129,9 @@ fn each_device_has_its_message() {
 /// `Range` has a field less in Humble, which a reader of its definition would stumble over.
 #[test]
 fn humble_has_its_own_layout_and_arrays_are_set() {
-    let Some(monitor) = monitor().filter(|_| has_peer()) else { return };
+    if !has_python("cyclonedds, rosbags.typesys") {
+        return;
+    }
     let (scratch, _) = robot_of("sinks-ros2-humble", ROBOT);
     let domain = domain(1);
     let topics = [
@@ -169,7 +142,7 @@ fn humble_has_its_own_layout_and_arrays_are_set() {
     let peer = peer("humble", &domain, &topics);
     let config = format!("[ros2]\ndomain = {domain}\ndistro = \"humble\"\nnamespace = \"/car\"\n");
     let config = scratch.write("sinks.toml", config);
-    let run = start(&monitor, &scratch.join("robot.sense"), &config);
+    let run = start(&scratch.join("robot.sense"), &config);
     run.says("sent: Lamps = [true, false, true]");
     until(|| of(&peer, "car/Rover/Wall").len() > 5, || run.said());
     let wall = &of(&peer, "car/Rover/Wall")[0];

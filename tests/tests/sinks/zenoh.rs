@@ -1,31 +1,11 @@
-//! Zenoh: the others are two programs with the library in Python, a router and a client behind it. The monitor is one
-//! that was built with the feature `zenoh`; `SENSEDSL_ALL_SINKS_BIN` names it.
+//! Zenoh: the others are two programs with the library in Python, a router and a client behind it.
 
-use std::path::PathBuf;
 use std::process::Command;
 
-use sensedsl_tests::{missing, root};
+use sensedsl_tests::{has_python, root};
 use serde_json::Value;
 
 use super::{Running, free_port, robot, shown, text, until};
-
-fn monitor() -> Option<PathBuf> {
-    let found = std::env::var_os("SENSEDSL_ALL_SINKS_BIN").map(PathBuf::from);
-    if found.is_none() {
-        eprintln!("SKIPPED: SENSEDSL_ALL_SINKS_BIN names no program");
-    }
-    found
-}
-
-fn has_peer() -> bool {
-    let mut command = Command::new("python3");
-    command.args(["-c", "import zenoh"]).stderr(std::process::Stdio::null());
-    let found = command.status().is_ok_and(|status| status.success());
-    if !found {
-        missing("eclipse-zenoh");
-    }
-    found
-}
 
 fn peer(mode: &str, endpoint: &str) -> Running {
     let script = root().join("tests/hosts/zenoh_peer.py");
@@ -43,7 +23,9 @@ fn of(peer: &Running, what: &str) -> Vec<Value> {
 
 #[test]
 fn values_go_through_a_router_and_commands_come_back() {
-    let Some(monitor) = monitor().filter(|_| has_peer()) else { return };
+    if !has_python("zenoh") {
+        return;
+    }
     let (scratch, _) = robot("sinks-zenoh");
     let endpoint = format!("tcp/127.0.0.1:{}", free_port());
     let router = peer("router", &endpoint);
@@ -52,12 +34,14 @@ fn values_go_through_a_router_and_commands_come_back() {
         "[zenoh]\nmode = \"client\"\nconnect = [\"{endpoint}\"]\nscouting = false\n[devices.\"Rover/Light\"]\nunit = \"m\"\n"
     );
     let config = scratch.write("sinks.toml", config);
-    let mut run = Running::start(
-        Command::new(monitor)
-            .args(["monitor", "simulate", text(&scratch.join("robot.sense"))])
-            .args(["--format", "ndjson", "--config", text(&config)])
-            .current_dir(root()),
-    );
+    let mut run = Running::monitor([
+        "simulate",
+        text(&scratch.join("robot.sense")),
+        "--format",
+        "ndjson",
+        "--config",
+        text(&config),
+    ]);
     until(|| of(&client, "sample sensedsl/Rover/Turns").len() > 10, || run.said());
     let alive = "alive sensedsl/Rover/link/alive".to_owned();
     until(|| client.printed().contains(&alive), || run.said());
@@ -93,7 +77,9 @@ fn values_go_through_a_router_and_commands_come_back() {
 
 #[test]
 fn a_router_may_come_later_and_two_peers_need_none() {
-    let Some(monitor) = monitor().filter(|_| has_peer()) else { return };
+    if !has_python("zenoh") {
+        return;
+    }
     let (scratch, _) = robot("sinks-zenoh-later");
     let endpoint = format!("tcp/127.0.0.1:{}", free_port());
     let own = format!("tcp/127.0.0.1:{}", free_port());
@@ -101,12 +87,14 @@ fn a_router_may_come_later_and_two_peers_need_none() {
         "[zenoh]\nconnect = [\"{endpoint}\"]\nlisten = [\"{own}\"]\nscouting = false\nprefix = \"sensedsl/car\"\n"
     );
     let config = scratch.write("sinks.toml", config);
-    let run = Running::start(
-        Command::new(monitor)
-            .args(["monitor", "simulate", text(&scratch.join("robot.sense"))])
-            .args(["--format", "ndjson", "--config", text(&config)])
-            .current_dir(root()),
-    );
+    let run = Running::monitor([
+        "simulate",
+        text(&scratch.join("robot.sense")),
+        "--format",
+        "ndjson",
+        "--config",
+        text(&config),
+    ]);
     until(|| run.printed().len() > 10, || run.said());
     // Straight to the monitor.
     let direct = peer("client", &own);

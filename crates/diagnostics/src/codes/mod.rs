@@ -157,6 +157,7 @@ codes! {
     e0565_not_a_record,
     e0566_no_new_record,
     e0567_program_not_reached,
+    e0568_recorded_otherwise,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

@@ -75,7 +75,7 @@ pub(super) fn of_actuator(message: &MessagePlan) -> Carrier {
 /// The message of `std_msgs` that has one such code, or an array of them.
 pub(super) fn code_message(scalar: ScalarType, is_array: bool) -> String {
     let name = match scalar {
-        // There is no array of truths.
+        // `std_msgs` has no array of `bool`.
         ScalarType::Bool if is_array => "UInt8",
         ScalarType::Bool => "Bool",
         ScalarType::Uint8 => "UInt8",

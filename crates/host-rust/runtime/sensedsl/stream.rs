@@ -1,7 +1,7 @@
 //! A board in a thread, for programs with an executor: any, because nothing but `std` is needed here.
 //!
-//! A serial port has no readiness that all executors and systems know, so a thread waits for it and wakes the task. At a
-//! serial line's speed that costs one wake-up a read.
+//! No portable way lets an executor poll a serial port, so a thread blocks on it and wakes the task: one wake-up a read,
+//! which is cheap at the speed of a serial line.
 
 use std::collections::VecDeque;
 use std::future::poll_fn;

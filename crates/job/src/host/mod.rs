@@ -3,8 +3,10 @@
 //! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. Each language has its own crate with its
 //! names, its view of the plan, its templates and its hand-written runtime.
 
+mod names;
 mod plan;
 
+pub use names::{Names, identifier};
 pub use plan::{
     BoardPlan, DevicePlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Scaling,
 };

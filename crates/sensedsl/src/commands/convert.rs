@@ -1,21 +1,20 @@
 //! `sensedsl convert`: a record as a table, a summary, or a page with plots.
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context as _, Result, bail};
-use sensedsl_diagnostics::codes::e0565_not_a_record::{no_such_name, not_a_record};
+use sensedsl_diagnostics::codes::e0565_not_a_record::no_such_name;
 use sensedsl_record::convert::{ConvertError, Form, Part, convert};
 use sensedsl_record::summary::{HEADS, Summary};
-use sensedsl_record::{Ending, RecordReader, page, summary};
+use sensedsl_record::{Ending, page, summary};
 
 use super::in_the_way;
 use super::table::table as aligned;
 use crate::cli::{ConvertArgs, ConvertTo};
-use crate::files::{Refused, is_stream, write_streamed};
+use crate::files::{Refused, is_stream, no_record, open_record, write_streamed};
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -64,16 +63,9 @@ fn form(args: &ConvertArgs) -> Result<ConvertTo> {
         Some("html" | "htm") => ConvertTo::Html,
         Some(_) if args.summary => ConvertTo::Csv,
         Some(other) => {
-            bail!("`.{other}` is no form that a record is converted to: say one with `--to`")
+            bail!("a record cannot be converted to `.{other}`: choose a format with `--to`")
         }
     })
-}
-
-fn opened(args: &ConvertArgs) -> Result<RecordReader<BufReader<File>>> {
-    let refused =
-        |why: String| Refused::new(&args.record, |at, shown| not_a_record(at, shown, &why));
-    let file = File::open(&args.record).map_err(|error| refused(error.to_string()))?;
-    Ok(RecordReader::new(BufReader::new(file)).map_err(|error| refused(error.to_string()))?)
 }
 
 fn part(args: &ConvertArgs) -> Part {
@@ -86,7 +78,7 @@ fn part(args: &ConvertArgs) -> Part {
 }
 
 fn summarised(args: &ConvertArgs) -> Result<Summary> {
-    summary::summary(opened(args)?, &part(args)).map_err(|error| refusal(args, error))
+    summary::summary(open_record(&args.record)?, &part(args)).map_err(|error| refusal(args, error))
 }
 
 /// The summary for a terminal.
@@ -118,7 +110,7 @@ fn table(args: &ConvertArgs, form: ConvertTo, terminal: &Terminal) -> Result<End
     if form == Form::Parquet && args.output.is_none() && terminal.is_watched() {
         bail!("Parquet is no text for a terminal: name a file with `-o`");
     }
-    let reader = opened(args)?;
+    let reader = open_record(&args.record)?;
     let converted = written(args, |to| {
         convert(reader, form, &part(args), to).map_err(|error| refusal(args, error))
     })?;
@@ -140,10 +132,8 @@ fn written<T>(
 }
 
 fn refusal(args: &ConvertArgs, error: ConvertError) -> anyhow::Error {
-    let at =
-        |why: String| Refused::new(&args.record, |at, shown| not_a_record(at, shown, &why)).into();
     match error {
-        ConvertError::Read(error) => at(error.to_string()),
+        ConvertError::Read(error) => no_record(&args.record, &error.to_string()).into(),
         ConvertError::Write(error) => error.into(),
         ConvertError::Name(name, all) => {
             Refused::new(&args.record, |at, shown| no_such_name(at, shown, &name, &all)).into()

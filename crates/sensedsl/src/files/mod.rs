@@ -3,7 +3,7 @@
 //! `read` reads. `write` writes single files, `tree` whole folders, both in such a way that a run
 //! which is stopped at any moment leaves nothing half done. `ops` has the changes of which writing
 //! a tree consists, `lock` keeps two runs apart, and `state` knows what this machine has written. `growing` is a
-//! file that is written while the program runs.
+//! file that is written while the program runs, `record` opens one.
 
 #[cfg(test)]
 mod fault;
@@ -12,6 +12,7 @@ pub(crate) mod lock;
 mod open;
 mod ops;
 mod read;
+mod record;
 pub(crate) mod state;
 pub(crate) mod tree;
 mod write;
@@ -23,6 +24,7 @@ use sensedsl_model::{FileRequest, FileUse, ReadError};
 
 pub(crate) use growing::Growing;
 pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
+pub(crate) use record::{RecordFile, no_record, open_record};
 pub(crate) use write::{
     begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_streamed, write_together,
     write_whole,

@@ -277,8 +277,7 @@ impl Link<'_> {
                 command::of_json(&place, &all)?
             }
         };
-        let is_taken = self.outbox.set(command.board, &command.name, command.text);
-        if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
+        self.outbox.set(command)
     }
 
     fn end(&self) {

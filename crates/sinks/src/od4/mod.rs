@@ -108,9 +108,7 @@ impl Od4 {
 
     fn command(&self, place: &Place<'_>, message: &[u8], outbox: &Outbox) -> Result<(), String> {
         let wanted = wanted(place, message)?;
-        let command = command::of_json(place, &wanted)?;
-        let is_taken = outbox.set(command.board, &command.name, command.text);
-        if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
+        outbox.set(command::of_json(place, &wanted)?)
     }
 }
 

@@ -8,23 +8,19 @@ mod shape;
 mod topics;
 
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use ros2_client::{
     Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher,
 };
 
-use crate::command;
+use crate::command::{self, Command};
 use crate::config::Settings;
-use crate::event::{Event, Inbox, Next, Outbox, Refusals, Sink};
+use crate::event::{Event, Inbox, Outbox, Sink};
+use crate::network::{Network, serve};
 use crate::plan::{Place, Plan};
 use message::DiagnosticArray;
 use topics::{Heard, Told, qos};
-
-/// How long the sink waits for an event before it looks for commands.
-const WAIT: Duration = Duration::from_millis(5);
-/// How often a domain that cannot be joined is tried again.
-const JOIN_EVERY: Duration = Duration::from_secs(2);
 
 /// The way to ROS 2.
 #[derive(Debug)]
@@ -39,7 +35,7 @@ pub(crate) struct Ros2 {
 }
 
 /// A node with all its topics.
-struct Joined {
+pub(crate) struct Joined {
     /// It holds what it has made.
     _node: Node,
     told: Vec<Vec<Option<Told>>>,
@@ -66,15 +62,24 @@ impl Ros2 {
     /// The name of a topic.
     fn name(&self, topic: &str) -> Result<Name, String> {
         Name::parse(&format!("{}/{topic}", self.namespace))
-            .map_err(|why| format!("`{topic}` is no name for ROS 2: {why:?}"))
+            .map_err(|why| format!("`{topic}` is not a valid topic name: {why:?}"))
     }
+
+    fn told(&self, node: &mut Node, place: &Place<'_>) -> Result<Told, String> {
+        Told::new(node, place, &self.name(&place.route.topic)?, self.is_humble)
+    }
+}
+
+impl Network for Ros2 {
+    type Joined = Joined;
+    const HELP: &'static str = "look at the network, or correct `[ros2]`; trying again";
 
     fn join(&self) -> Result<Joined, String> {
         let context = Context::with_options(ContextOptions::new().domain_id(self.domain));
         let context = context.map_err(|why| format!("domain {}: {why}", self.domain))?;
         let namespace = if self.namespace.is_empty() { "/" } else { &self.namespace };
         let name = NodeName::new(namespace, &self.node)
-            .map_err(|why| format!("`{}` is no name of a node: {why:?}", self.node))?;
+            .map_err(|why| format!("`{}` is not a valid node name: {why:?}", self.node))?;
         let options = NodeOptions::new().enable_rosout(false);
         let mut node =
             context.new_node(name, options).map_err(|why| format!("no node: {why:?}"))?;
@@ -99,11 +104,7 @@ impl Ros2 {
         Ok(Joined { _node: node, told, heard, diagnostics })
     }
 
-    fn told(&self, node: &mut Node, place: &Place<'_>) -> Result<Told, String> {
-        Told::new(node, place, &self.name(&place.route.topic)?, self.is_humble)
-    }
-
-    fn tell(&self, joined: &Joined, event: &Event) -> Result<(), String> {
+    fn tell(&self, joined: &mut Joined, event: &Event) -> Result<(), String> {
         match event {
             Event::Values(values) => {
                 for (place, raw) in self.plan.of(values) {
@@ -128,51 +129,23 @@ impl Ros2 {
         }
     }
 
-    fn hear(&self, joined: &Joined, outbox: &Outbox, refusals: &mut Refusals) {
+    fn heard(&self, joined: &mut Joined) -> Vec<(String, Result<Command, String>)> {
+        let mut commands = Vec::new();
         for (board, index, heard) in &joined.heard {
             let Some(place) = self.plan.place(*board, *index) else { continue };
-            while let Some(value) = heard.take() {
-                let done = command::of_json(&place, &value).and_then(|wanted| {
-                    let is_taken = outbox.set(wanted.board, &wanted.name, wanted.text);
-                    if is_taken { Ok(()) } else { Err("too many commands at a time".to_owned()) }
-                });
-                if let Err(why) = done {
-                    refusals.tell(outbox, format!("{} not set: {why}", place.device.name));
-                }
-            }
+            let wanted = std::iter::from_fn(|| heard.take());
+            commands.extend(
+                wanted.map(|value| (place.device.name.clone(), command::of_json(&place, &value))),
+            );
         }
+        commands
     }
+
+    fn leave(&self, _: Joined) {}
 }
 
 impl Sink for Ros2 {
     fn run(self: Box<Self>, inbox: &Inbox, outbox: &Outbox) {
-        let help = "look at the network, or correct `[ros2]`; trying again";
-        let (mut joined, mut tried) = (None, None::<Instant>);
-        let mut refusals = Refusals::default();
-        loop {
-            if joined.is_none() && tried.is_none_or(|tried| tried.elapsed() >= JOIN_EVERY) {
-                tried = Some(Instant::now());
-                match self.join() {
-                    Ok(made) => {
-                        outbox.works();
-                        joined = Some(made);
-                    }
-                    Err(why) => outbox.broken(&why, help),
-                }
-            }
-            let next = inbox.next(WAIT);
-            if matches!(next, Next::Over) {
-                return;
-            }
-            let Some(joined) = &joined else { continue };
-            if let Next::Event(event) = next {
-                match self.tell(joined, &event) {
-                    Ok(()) => outbox.works(),
-                    Err(why) => outbox.broken(&why, help),
-                }
-            }
-            self.hear(joined, outbox, &mut refusals);
-            refusals.look(outbox);
-        }
+        serve(&*self, inbox, outbox);
     }
 }

@@ -21,6 +21,7 @@ use crate::command;
 use crate::config::Settings;
 use crate::event::{Event, Inbox, Next, Outbox, Sink, Values};
 use crate::json;
+use crate::listener::Listener;
 use crate::picture::Picture;
 use crate::plan::Plan;
 pub(crate) use client::Terms;
@@ -106,10 +107,11 @@ impl Sink for WebSocketServer {
             dropped: 0,
         };
         let terms = Terms { origins: self.origins.clone(), protocol: None };
-        let mut door = Door::new(self.listen, terms);
+        let listener = Listener::new(self.listen, self.takes_commands);
+        let mut door = Door::new(listener, terms);
         let open = |at| format!("ws://{at}, with a page at http://{at}");
         loop {
-            door.tend(&to_hub, outbox, self.takes_commands, &open);
+            door.tend(&to_hub, outbox, &open);
             match inbox.next(WAIT) {
                 Next::Event(event) => hub.take(&event),
                 Next::Nothing => {}
@@ -252,12 +254,11 @@ impl Hub<'_> {
         if !state.is_some_and(|state| state.is_online) {
             return Err("the board is not there".to_owned());
         }
-        if self.pending.len() >= REQUESTS_MAX
-            || !self.outbox.set(wanted.board, &wanted.name, wanted.text)
-        {
-            return Err("too many commands at a time".to_owned());
+        if self.pending.len() >= REQUESTS_MAX {
+            return Err("too many commands wait for their echo".to_owned());
         }
         let (board, index) = (wanted.board, wanted.index);
+        self.outbox.set(wanted)?;
         let (id, topic) = (id.clone(), topic.to_owned());
         self.pending.push(Pending { client, id, board, index, topic, since: Instant::now() });
         Ok(())

@@ -11,7 +11,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_model::design::{Device, DeviceIndex};
 use sensedsl_wire::{Direction, ScalarType};
 
-use super::file::{Scene, impossible, is_turning, key};
+use super::file::{Scene, impossible, is_turning, key, short};
 use super::{Shape, Signal, World};
 use crate::commands::Command;
 use crate::range::is_counter;
@@ -27,6 +27,8 @@ pub struct Recorded {
     pub sensors: BTreeMap<String, Vec<Vec<Point>>>,
     /// What each actuator was set to, in the order of time, an element each.
     pub actuators: BTreeMap<String, Vec<(u64, Vec<f64>)>>,
+    /// What the record says of its devices.
+    pub devices: Vec<sensedsl_host::Device>,
     /// The length of the run.
     pub lasts_ns: u64,
 }
@@ -40,6 +42,8 @@ pub struct Again {
     pub reported: Vec<Diagnostic>,
     /// Devices of the record that the board does not have.
     pub left_out: Vec<String>,
+    /// What of the others is not as it was, in words.
+    pub changes: Vec<String>,
 }
 
 /// The world of a recorded run. `file` is the record, for diagnostics.
@@ -52,11 +56,17 @@ pub fn recorded(file: FileId, run: Recorded, scene: &Scene<'_>) -> Again {
         let mut all = scene.devices.iter().filter_map(|at| Some((*at, scene.design.device(*at)?)));
         all.find(|(_, one)| one.name.value == name && one.direction == direction)
     };
+    for was in &run.devices {
+        match here(&was.name, was.direction) {
+            Some((_, device)) => {
+                let value = run.sensors.get(&was.name).and_then(|all| all.first()?.first());
+                again.changes.extend(changes(was, device, value.map(|point| point.1)));
+            }
+            None => again.left_out.push(was.name.clone()),
+        }
+    }
     for (name, courses) in run.sensors {
-        let Some((index, device)) = here(&name, Direction::Sensor) else {
-            again.left_out.push(name);
-            continue;
-        };
+        let Some((index, device)) = here(&name, Direction::Sensor) else { continue };
         if courses.iter().all(Vec::is_empty) {
             continue;
         }
@@ -73,10 +83,7 @@ pub fn recorded(file: FileId, run: Recorded, scene: &Scene<'_>) -> Again {
         let _ = again.world.signals.insert(index, signals);
     }
     for (name, all) in run.actuators {
-        let Some((index, device)) = here(&name, Direction::Actuator) else {
-            again.left_out.push(name);
-            continue;
-        };
+        let Some((index, device)) = here(&name, Direction::Actuator) else { continue };
         let (scale, of) = (scale_of(&device.shown), device.value.value.scalar);
         let count = device.value.value.count();
         let fitting = all.into_iter().filter(|(_, shown)| shown.len() == count);
@@ -87,6 +94,36 @@ pub fn recorded(file: FileId, run: Recorded, scene: &Scene<'_>) -> Again {
         }));
     }
     again
+}
+
+/// What a host sees otherwise; `value` is one that was shown.
+fn changes(was: &sensedsl_host::Device, device: &Device, value: Option<f64>) -> Vec<String> {
+    let (name, scale) = (&was.name, scale_of(&device.shown));
+    let mut all = Vec::new();
+    if was.value != device.value.value {
+        all.push(format!("{name} was {} and is {}", was.value, device.value.value));
+    }
+    let unit =
+        |unit: &Option<String>| unit.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
+    let (unit_was, unit_is) = (unit(&was.quantity), unit(&device.shown.quantity));
+    if was.scale != scale || unit_was != unit_is {
+        let shown_was = value.unwrap_or_else(|| was.scale.shown(1.0));
+        let shown_is = scale.shown(was.scale.raw(shown_was));
+        all.push(format!(
+            "{name} of {}{unit_was} would be {}{unit_is}",
+            short(shown_was),
+            short(shown_is)
+        ));
+    }
+    let is_paced =
+        was.direction == Direction::Sensor && device.kind.name().spec().comes_each_cycle();
+    let cycle_ms = is_paced.then_some(device.delay_ms);
+    if let (Some(was_ms), Some(is_ms)) = (was.cycle_ms, cycle_ms)
+        && was_ms != is_ms
+    {
+        all.push(format!("{name} came every {was_ms} ms and comes every {is_ms} ms"));
+    }
+    all
 }
 
 fn signal(

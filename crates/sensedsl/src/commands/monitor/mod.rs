@@ -27,7 +27,7 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0557_no_board as no_board;
-use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
+use sensedsl_diagnostics::codes::e0565_not_a_record::other_boards;
 use sensedsl_host::Board;
 
 use crate::cli::{MonitorArgs, MonitorFormat};
@@ -165,12 +165,7 @@ fn face<'a>(args: &MonitorArgs, terminal: &'a Terminal, links: &[Link<'a>]) -> B
 
 /// Plays a record; a design or schema beside it says which boards are meant, and is compared by its hash.
 fn replayed(path: &Path, args: &MonitorArgs, terminal: &Terminal) -> Result<Status> {
-    let mut replay = match Replay::open(path) {
-        Ok(replay) => replay,
-        Err(why) => {
-            bail!(Refused::new(path, |at, shown| not_a_record(at, shown, &why.to_string())))
-        }
-    };
+    let mut replay = Replay::open(path)?;
     let (_, file) = places(args);
     let subject = match (&args.schema, file) {
         (None, None) => subject::of_record(&replay),

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use sensedsl_diagnostics::codes::e0566_no_new_record::ends_here;
 use sensedsl_host::{Board, Moment, News, Output, Wish};
 use sensedsl_record::Recorder;
 
@@ -34,7 +35,7 @@ impl Recording {
         self.recorder = None;
         let (file, why) = (shown(&self.path), error);
         self.trouble = Some(Wish::Trouble {
-            what: format!("the record {file} ends here: {why}"),
+            what: ends_here(&file, &why.to_string()),
             help: "what was written until now can be read; make room and begin another one"
                 .to_owned(),
         });

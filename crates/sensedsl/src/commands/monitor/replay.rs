@@ -1,23 +1,22 @@
 //! A record that is played again: the same news at the same pace, a faster one, or as fast as it can be shown.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
 use sensedsl_host::{Board, Moment};
-use sensedsl_record::{Ending, RecordError, RecordReader};
+use sensedsl_record::Ending;
 
 use super::source::Heard;
 use crate::cli::Speed;
+use crate::files::{RecordFile, Refused, open_record};
 
 /// The longest pause in one go: between two, the thread sees whether anybody still listens.
 const PAUSE_MAX: Duration = Duration::from_millis(200);
 
 /// A record that was opened.
 pub(super) struct Replay {
-    reader: RecordReader<BufReader<File>>,
+    reader: RecordFile,
     pub(super) path: PathBuf,
     pub(super) begin: Moment,
     /// The place of each board of the record among those that are watched.
@@ -25,9 +24,8 @@ pub(super) struct Replay {
 }
 
 impl Replay {
-    pub(super) fn open(path: &Path) -> Result<Self, RecordError> {
-        let file = File::open(path).map_err(RecordError::Io)?;
-        let reader = RecordReader::new(BufReader::new(file))?;
+    pub(super) fn open(path: &Path) -> Result<Self, Refused> {
+        let reader = open_record(path)?;
         let begin = reader.begin();
         let links = vec![None; reader.boards().len()];
         Ok(Self { reader, path: path.to_owned(), begin, links })

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0558_other_firmware::other_firmware;
-use sensedsl_diagnostics::codes::e0565_not_a_record::not_a_record;
 use sensedsl_host::{Moment, News, Output, What, Wish};
 use sensedsl_record::Ending;
 use sensedsl_record::summary::Summing;
@@ -23,7 +22,7 @@ use super::subject::Subject;
 use crate::cli::{MonitorArgs, MonitorFormat};
 use crate::commands::convert::text;
 use crate::commands::deadline::ending;
-use crate::files::Refused;
+use crate::files::no_record;
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -222,7 +221,7 @@ impl<'a> Watch<'a> {
             }
             Err(why) => {
                 let at = self.args.record_file().unwrap_or(Path::new(""));
-                bail!(Refused::new(at, |at, shown| not_a_record(at, shown, &why)));
+                bail!(no_record(at, &why));
             }
         }
         Ok(())

@@ -1,21 +1,20 @@
 //! The world that a board is simulated in: a text, or a record of a run, and the values set on the command line.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use sensedsl_diagnostics::SourceMap;
-use sensedsl_diagnostics::codes::e0565_not_a_record::{not_a_record, other_boards};
+use sensedsl_diagnostics::codes::e0565_not_a_record::other_boards;
+use sensedsl_diagnostics::codes::e0568_recorded_otherwise::changed;
+use sensedsl_diagnostics::{SourceMap, Span};
 use sensedsl_job::BoardJob;
 use sensedsl_model::FileUse;
-use sensedsl_record::{Ending, Past, RecordReader};
+use sensedsl_record::{Ending, Past};
 use sensedsl_session::has_errors;
 use sensedsl_twin::world::{self, Recorded, Scene, World};
 use sensedsl_wire::Direction;
 
 use crate::cli::SimulateArgs;
-use crate::files::{Disk, Refused, read_text, shown};
+use crate::files::{Disk, Refused, no_record, open_record, read_text, shown};
 use crate::terminal::Terminal;
 
 /// Reads the world; `None` if it has errors, which have been reported.
@@ -52,11 +51,16 @@ pub(super) fn world(
     let (mut world, mut reported) = match record {
         Some(path) => {
             let again = world::recorded(file, recorded(path, job, terminal)?, &scene);
-            if !again.left_out.is_empty() {
-                let names = again.left_out.join(", ");
-                terminal.aside(&format!("the board has no {names} any more: left out"))?;
+            let mut reported = again.reported;
+            let gone = again.left_out.iter().map(|name| format!("{name} is gone"));
+            let changes: Vec<String> = gone.chain(again.changes).collect();
+            if args.judge && !changes.is_empty() {
+                reported.push(changed(Span::new(file, 0..0), &shown(path), &changes));
             }
-            (again.world, again.reported)
+            for change in changes.iter().filter(|_| !args.judge) {
+                terminal.aside(&format!("not as in the record: {change}"))?;
+            }
+            (again.world, reported)
         }
         None => world::read(file, &text, &scene),
     };
@@ -73,18 +77,16 @@ pub(super) fn world(
 
 /// What a record has of the board.
 fn recorded(path: &Path, job: &BoardJob<'_>, terminal: &Terminal) -> Result<Recorded> {
-    let refused = |why: String| Refused::new(path, |at, shown| not_a_record(at, shown, &why));
-    let file = File::open(path).map_err(|error| refused(error.to_string()))?;
-    let mut reader =
-        RecordReader::new(BufReader::new(file)).map_err(|error| refused(error.to_string()))?;
+    let mut reader = open_record(path)?;
     let boards = reader.boards().to_vec();
     let wanted = job.board.name.value.as_str();
     let Some(index) = boards.iter().position(|board| board.name == wanted) else {
         let names: Vec<&str> = boards.iter().map(|board| board.name.as_str()).collect();
         bail!(Refused::new(path, |at, shown| other_boards(at, shown, wanted, &names)))
     };
-    let mut run = Recorded::default();
-    while let Some(entry) = reader.next_entry().map_err(|error| refused(error.to_string()))? {
+    let devices = boards.get(index).map(|board| board.devices.clone()).unwrap_or_default();
+    let mut run = Recorded { devices, ..Recorded::default() };
+    while let Some(entry) = reader.next_entry().map_err(|why| no_record(path, &why.to_string()))? {
         run.lasts_ns = nanoseconds(entry.at.run);
         let Past::Value { device, value, latency, .. } = entry.what else { continue };
         let place = boards.get(index).filter(|_| entry.board == index);
