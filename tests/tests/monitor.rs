@@ -300,6 +300,38 @@ fn a_board_in_its_own_program_is_watched_and_set() {
 }
 
 #[test]
+fn a_world_may_speak_of_all_boards_of_a_file() {
+    let scratch = TempDir::new("monitor-world");
+    let board = |name: &str, id: u8| {
+        format!(
+            "board {name} on NUCLEO_F446RE {{ sensor Light{name} returns uint16 {{ id = {id}; type = analog; delay = 50 ms; }} }}\n"
+        )
+    };
+    let file = scratch.write("two.sense", [board("Left", 1), board("Right", 2)].concat());
+    // Only one of them loses its cable, although both are at the same pin of their boards.
+    let world = "[devices]\nLightLeft = 1000\nLightRight = 2000\n
+[[fault]]\nkind = \"torn\"\ndevice = \"LightLeft\"\nat = \"500 ms\"\nfor = \"10 s\"";
+    let (file, world) = (file.to_str().unwrap(), scratch.write("two.toml", world));
+    let run = |rest: &[&str]| {
+        let call = ["monitor", "simulate", file, "--seconds", "1.5", "--format", "ndjson"];
+        sensedsl(call).arg("--world").arg(&world).args(rest).run()
+    };
+    let all = objects(&run(&[]).exits(0).stdout);
+    let of = |board: &str, from_us: u64| {
+        let own = all.iter().filter(move |one| one["board"] == *board);
+        let own = own.filter(|one| one["time_s"].as_f64().unwrap() * 1e6 >= from_us as f64);
+        own.map(|one| one["raw"].as_u64().unwrap()).collect::<Vec<_>>()
+    };
+    assert!(of("Left", 0).contains(&1000) && of("Right", 0).len() > 10, "{all:?}");
+    assert!(of("Left", 800_000).iter().any(|raw| *raw != 1000), "{all:?}");
+    assert!(of("Right", 0).iter().all(|raw| *raw == 2000), "{all:?}");
+    // Of a board that is not simulated it has nothing to say.
+    let alone = run(&["--board", "Right"]);
+    assert_eq!(alone.status, 1, "{}", alone.stderr);
+    assert!(alone.stderr.contains("`LightLeft` is not on the simulated board"), "{}", alone.stderr);
+}
+
+#[test]
 fn wrong_calls_and_files_say_what_to_do() {
     let (scratch, _) = robot("monitor-wrong");
     let file = scratch.join("robot.sense");

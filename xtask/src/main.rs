@@ -5,18 +5,22 @@
 //! of them `simulate --judge` notices. `firmware` builds the firmware of every board and kind. `parts` writes the table
 //! of known parts, or compares it; `mcus` writes the facts that the emulated machine needs about each MCU, `packages`
 //! the table of Embassy's lock files. `profiles` compares the target profiles with a tree of ChibiOS, and writes those
-//! for Embassy. `soak` has a monitor watch a busy board for a long time. `web` builds the WebAssembly module.
+//! for Embassy. `soak` has a monitor watch a busy board for a long time, `fleet` a subscriber of Zenoh many boards. `web`
+//! builds the WebAssembly module, `studio` the page and `npm` the package that are made of it.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod embassy;
 mod firmware;
+mod fleet;
 mod fuzz;
 mod mcus;
 mod mutants;
 mod packages;
 mod parts;
 mod profiles;
+mod programs;
 mod soak;
+mod studio;
 mod typecheck;
 mod web;
 
@@ -41,9 +45,11 @@ fn run() -> Result<()> {
     match arguments.split_first() {
         Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "firmware" => firmware::run(rest),
+        Some((task, rest)) if task == "fleet" => fleet::run(rest),
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "mcus" => mcus::run(rest),
         Some((task, rest)) if task == "mutants" => mutants::run(rest),
+        Some((task, [])) if task == "npm" => studio::pack(),
         Some((task, rest)) if task == "packages" => packages::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => match rest.split_first() {
@@ -51,10 +57,11 @@ fn run() -> Result<()> {
             _ => profiles::run(rest),
         },
         Some((task, rest)) if task == "soak" => soak::run(rest),
+        Some((task, [])) if task == "studio" => studio::run(),
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], soak [--seconds N] [--limits], typecheck"
+            "tasks: web, studio, npm, bless, firmware --matrix or --embassy, fleet [--boards N] [--rate HZ], fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], soak [--seconds N] [--limits], typecheck"
         ),
     }
 }

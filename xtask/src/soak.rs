@@ -6,7 +6,7 @@
 use std::fs::File;
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, bail};
@@ -15,6 +15,7 @@ use sensedsl_record::convert::Part;
 use sensedsl_record::summary::{Summary, summary};
 
 use super::say;
+use crate::programs::Ended;
 
 const SENSORS: usize = 24;
 /// What `--limits` holds: the processor's share, the median latency, and how much memory may grow after the first third.
@@ -23,9 +24,6 @@ const LATENCY_MAX: Duration = Duration::from_millis(2);
 const GROWTH_MAX_BYTES: u64 = 4 << 20;
 /// How often the monitor is looked at.
 const LOOK_EVERY: Duration = Duration::from_millis(500);
-/// Linux counts the time of processes so many times a second.
-const TICKS_A_SECOND: f64 = 100.0;
-const PAGE_BYTES: u64 = 4_096;
 
 /// What the monitor used.
 #[derive(Default)]
@@ -103,16 +101,9 @@ fn watched(monitor: &mut Ended) -> Result<Used> {
             }
             return Ok(used);
         }
-        let of = |file| std::fs::read_to_string(format!("/proc/{}/{file}", monitor.0.id()));
-        if let (Ok(stat), Ok(memory)) = (of("stat"), of("statm")) {
-            // After the name in brackets; user and system time are the 14th and 15th words of all.
-            let words: Vec<&str> =
-                stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
-            let ticks = words.iter().skip(11).take(2).filter_map(|word| word.parse::<f64>().ok());
-            let pages = memory.split_whitespace().nth(1).and_then(|word| word.parse::<u64>().ok());
-            used.processor_s = ticks.sum::<f64>() / TICKS_A_SECOND;
-            used.memory_bytes
-                .extend(pages.filter(|pages| *pages > 0).map(|pages| pages * PAGE_BYTES));
+        if let Some(now) = monitor.used() {
+            used.processor_s = now.processor_s;
+            used.memory_bytes.push(now.memory_bytes);
         }
         std::thread::sleep(LOOK_EVERY);
     }
@@ -153,14 +144,4 @@ fn judge(used: &Used, summary: &Summary, has_limits: bool) -> Result<()> {
         );
     }
     Ok(())
-}
-
-/// A program that ends when it is no longer needed.
-struct Ended(Child);
-
-impl Drop for Ended {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
 }

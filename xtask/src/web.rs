@@ -16,7 +16,19 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const RUSTC: &str = "/usr/bin/rustc";
 
 pub(crate) fn run() -> Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
+    let module = build()?;
+    let bytes = std::fs::metadata(&module).context("the module is not where it should be")?.len();
+    say(&format!("{} ({bytes} bytes)\n", module.display()))
+}
+
+/// The repository.
+pub(crate) fn root() -> Result<PathBuf> {
+    Ok(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?)
+}
+
+/// Builds the module, and says where it is.
+pub(crate) fn build() -> Result<PathBuf> {
+    let root = root()?;
     let own = std::env::var_os("SENSEDSL_WASM_RUSTC").map(PathBuf::from);
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(&root).args(["build", "--locked", "--profile", "web", "--target", TARGET]);
@@ -36,9 +48,7 @@ pub(crate) fn run() -> Result<()> {
     if !cargo.status()?.success() {
         bail!("the module was not built");
     }
-    let module = root.join("target/web").join(TARGET).join("web/sensedsl_wasm.wasm");
-    let bytes = std::fs::metadata(&module).context("the module is not where it should be")?.len();
-    say(&format!("{} ({bytes} bytes)\n", module.display()))
+    Ok(root.join("target/web").join(TARGET).join("web/sensedsl_wasm.wasm"))
 }
 
 /// The linker that the installed toolchain has for all targets.

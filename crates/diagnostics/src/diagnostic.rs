@@ -37,13 +37,29 @@ pub struct Label {
     pub message: String,
 }
 
-/// The replacement of the text at `span`.
+/// A change of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// The text to replace; empty for an insertion.
+    /// The place of the change.
     pub span: Span,
     /// The new text.
     pub text: String,
+    /// What of the text the place stands for.
+    pub scope: Scope,
+}
+
+/// What is changed at the place of an edit.
+///
+/// Only a tree knows where statements and blocks end. Whoever has the tree turns these edits into edits of
+/// [`Scope::Text`] before anybody sees them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// The text at the place is replaced; an empty place is one to insert at.
+    Text,
+    /// The statement in which the place begins is replaced; without a new text, it is removed with its line.
+    Statement,
+    /// The new text is a statement. It is added to the block in whose head, or in which, the place begins.
+    Block,
 }
 
 /// A change that fixes the problem, for editors.
@@ -51,7 +67,7 @@ pub struct Edit {
 pub struct Fix {
     /// The effect, as a command ("change to `analog`").
     pub title: String,
-    /// The edits; they do not overlap.
+    /// The edits; they do not overlap. There may be several files.
     pub edits: Vec<Edit>,
 }
 
@@ -71,9 +87,12 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// The way out, one or more sentences without a full stop.
     pub help: Option<String>,
-    /// The way out as edits.
-    pub fix: Option<Fix>,
+    /// The ways out as edits. If there are several, each is a different one.
+    pub fixes: Vec<Fix>,
 }
+
+/// The most texts that are offered to choose from.
+const CHOICES_MAX: usize = 8;
 
 /// A sentence without the middle of a quotation that is as long as a whole file.
 fn short(sentence: String) -> String {
@@ -97,7 +116,7 @@ impl Diagnostic {
             primary: Label { span, message: String::new() },
             labels: Vec::new(),
             help: None,
-            fix: None,
+            fixes: Vec::new(),
         }
     }
 
@@ -120,7 +139,7 @@ impl Diagnostic {
         self
     }
 
-    /// Asks whether another word was meant, if there is one, and sets it as the way out.
+    /// Asks whether another word was meant, if there is one, and adds it as a way out.
     pub fn meant(self, word: Option<&str>) -> Self {
         let Some(word) = word else { return self };
         let span = self.primary.span;
@@ -131,15 +150,44 @@ impl Diagnostic {
         )
     }
 
-    /// Sets the way out as one replacement.
-    pub fn replace(
+    /// Adds a way out: one replacement.
+    pub fn replace(self, title: impl Into<String>, span: Span, text: impl Into<String>) -> Self {
+        self.change(title, span, text, Scope::Text)
+    }
+
+    /// Adds a way out for each of a few texts: it replaces the text at the primary place. Of more texts than a person
+    /// would read, there is none.
+    pub fn one_of<'a>(mut self, texts: impl IntoIterator<Item = &'a str>) -> Self {
+        let texts: Vec<&str> = texts.into_iter().collect();
+        if texts.len() <= CHOICES_MAX {
+            let span = self.primary.span;
+            for text in texts {
+                self = self.replace(format!("change to `{text}`"), span, text);
+            }
+        }
+        self
+    }
+
+    /// Adds a way out: the statement in which `span` begins is removed.
+    pub fn remove(self, title: impl Into<String>, span: Span) -> Self {
+        self.change(title, span, "", Scope::Statement)
+    }
+
+    /// Adds a way out: a statement is added to the block in whose head `span` is.
+    pub fn add(self, span: Span, statement: &str) -> Self {
+        self.change(format!("add `{statement}`"), span, statement, Scope::Block)
+    }
+
+    /// Adds a way out as one edit.
+    pub fn change(
         mut self,
         title: impl Into<String>,
         span: Span,
         text: impl Into<String>,
+        scope: Scope,
     ) -> Self {
-        let edits = vec![Edit { span, text: text.into() }];
-        self.fix = Some(Fix { title: title.into(), edits });
+        let edits = vec![Edit { span, text: text.into(), scope }];
+        self.fixes.push(Fix { title: title.into(), edits });
         self
     }
 }

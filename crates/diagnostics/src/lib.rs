@@ -30,7 +30,7 @@ mod suggest;
 mod visible;
 
 pub use codes::{Code, CodeInfo};
-pub use diagnostic::{Diagnostic, Edit, Fix, Label, Severity};
+pub use diagnostic::{Diagnostic, Edit, Fix, Label, Scope, Severity};
 pub use source::{FileId, LineColumn, SourceMap, Span};
-pub use suggest::{distance, nearest};
+pub use suggest::{distance, nearest, spelled};
 pub use visible::{is_hidden, visible, visible_json, visible_lines};

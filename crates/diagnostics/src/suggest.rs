@@ -10,6 +10,22 @@ pub fn distance(left: &str, right: &str) -> usize {
     strsim::osa_distance(&left.to_lowercase(), &right.to_lowercase())
 }
 
+/// A name as a file has to spell it: as it is if it is a word or a pin such as `P0.13`, otherwise between quotes.
+#[must_use]
+pub fn spelled(name: &str) -> String {
+    let is_word = |word: &str| word.bytes().all(|one| one.is_ascii_alphanumeric() || one == b'_');
+    let is_pin = |(port, number): (&str, &str)| {
+        port.starts_with(['P', 'p'])
+            && !number.is_empty()
+            && port.bytes().skip(1).chain(number.bytes()).all(|one| one.is_ascii_digit())
+    };
+    let starts = name.starts_with(|one: char| one.is_ascii_alphabetic());
+    if starts && (is_word(name) || name.split_once('.').is_some_and(is_pin)) {
+        return name.to_owned();
+    }
+    format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
 /// The name nearest to `typed`, the first among equals, if it is near enough to be a typing mistake:
 /// at most one edit for every three letters, and at least one.
 pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -49,6 +65,20 @@ mod tests {
         for (left, right, expected) in cases {
             assert_eq!(distance(left, right), expected, "{left} {right}");
             assert_eq!(distance(right, left), expected, "{right} {left}");
+        }
+    }
+
+    #[test]
+    fn names_are_spelled_as_a_file_has_to() {
+        let cases = [
+            ("LED", "LED"),
+            ("P0.13", "P0.13"),
+            ("CN7.3", "\"CN7.3\""),
+            ("5V", "\"5V\""),
+            ("a \"b\"", "\"a \\\"b\\\"\""),
+        ];
+        for (name, expected) in cases {
+            assert_eq!(spelled(name), expected);
         }
     }
 

@@ -28,7 +28,8 @@ change. The letter is the severity: **E** error (exit status 1, nothing is writt
 `sensedsl explain CODE` prints the text below; `sensedsl explain` lists all codes.
 
 `allow W0602 \"the reason\";` in a device or board accepts a warning or hint there; an error cannot be allowed.
-`sensedsl check --format json|sarif|github` says the same for machines.
+`sensedsl check --format json|sarif|github` says the same for machines. In JSON, `fix` is a way out as edits: each
+replaces the text from `start` to `end`, which are counted as in all messages. `fixes` are several to choose from.
 
 This page is made from the registry in `crates/diagnostics/src/codes/`.
 ";

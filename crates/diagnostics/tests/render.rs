@@ -9,7 +9,7 @@ fn example() -> (Vec<Diagnostic>, SourceMap) {
     let table = sources.add("my table.csv", "Pin,ADC\nPA1,x\nPA1,y\n");
     let diagnostics = vec![
         e0203_duplicate_identifier::duplicate_identifier(
-            Span::new(robot, 38..40),
+            (Span::new(robot, 38..40), true),
             17,
             Span::new(robot, 16..18),
             Some(18),
@@ -72,7 +72,7 @@ fn hidden_characters_are_shown_by_their_codes() {
     };
     let table = sources.add("t\u{202e}.csv", "Pin\nPA1\u{9b}\n");
     let mut diagnostic = e0203_duplicate_identifier::duplicate_identifier(
-        at("A\u{9b}"),
+        (at("A\u{9b}"), true),
         17,
         Span::new(table, 4..7),
         Some(18),

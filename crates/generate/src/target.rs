@@ -5,7 +5,7 @@
 //! is reported, and then no firmware is generated, but everything besides the firmware still can be.
 
 use sensedsl_board::catalog;
-use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_diagnostics::codes::{
     e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware,
 };
@@ -41,6 +41,21 @@ pub fn serving(
     let target = of(profile);
     let target = target.ok_or_else(|| format!("there is no generator for {}", profile.system()))?;
     target.refusal(profile, facts).map_or(Ok(target), Err)
+}
+
+/// The systems for which there is firmware for a built-in board, with their versions, the usual one first.
+#[must_use]
+pub fn systems_of(board: &catalog::Entry) -> Vec<&'static str> {
+    let facts = board.board().ok();
+    let names = profile::names();
+    let mut systems: Vec<&'static str> =
+        names.iter().filter_map(|name| profile::full_name(name)).collect();
+    systems.dedup();
+    systems.retain(|name| match profile::find(name, board.mcu) {
+        Ok(profile::Target::Profile(profile)) => serving(Some(&profile), facts.as_ref()).is_ok(),
+        Ok(profile::Target::None) | Err(_) => false,
+    });
+    systems
 }
 
 /// The gaps of a board: what its system lacks for it.

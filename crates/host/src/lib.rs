@@ -42,6 +42,8 @@ mod stats;
 #[cfg(feature = "schema")]
 mod value;
 #[cfg(feature = "schema")]
+mod watch;
+#[cfg(feature = "schema")]
 mod words;
 
 #[cfg(feature = "sources")]
@@ -63,4 +65,6 @@ pub use stats::{DeviceStats, Histogram};
 #[cfg(feature = "schema")]
 pub use value::{CommandError, Overstep};
 #[cfg(feature = "schema")]
-pub use words::{causes, status};
+pub use watch::{Faults, keep_alive};
+#[cfg(feature = "schema")]
+pub use words::{causes, reset_cause, status};

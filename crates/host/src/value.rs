@@ -60,7 +60,7 @@ impl fmt::Display for CommandError {
             Self::Count { expected, found } => {
                 write!(f, "{found} values for {expected}: write one for each element")
             }
-            Self::Value(word) => write!(f, "`{word}` is no value of it"),
+            Self::Value(word) => write!(f, "`{word}` is not a valid value"),
             Self::Unit { unit, quantity: Some(quantity) } => {
                 write!(f, "`{unit}` does not fit: it is shown in {quantity}")
             }
@@ -391,10 +391,10 @@ mod tests {
         assert_eq!(why("3001"), "3001 us is above the maximum of 3000");
         assert_eq!(why("-1"), "-1 us is below the minimum of 0");
         assert_eq!(why("raw 6000"), "raw 6000 is above the maximum of 3000");
-        assert_eq!(why("raw 70000"), "`70000` is no value of it");
+        assert_eq!(why("raw 70000"), "`70000` is not a valid value");
         assert_eq!(why("1 V"), "`V` does not fit: it is shown in us");
-        assert_eq!(why("fast"), "`fast` is no value of it");
-        assert_eq!(why("nan"), "`nan` is no value of it");
+        assert_eq!(why("fast"), "`fast` is not a valid value");
+        assert_eq!(why("nan"), "`nan` is not a valid value");
         assert_eq!(why(""), "0 values for 1: write one for each element");
         assert_eq!(why("1 2 3"), "`3` does not fit: it is shown in us");
         assert_eq!(why("5"), "5 is out of reach of its type");

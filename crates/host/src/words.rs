@@ -1,6 +1,6 @@
 //! Words for how devices are.
 
-use sensedsl_wire::Status;
+use sensedsl_wire::{ResetCause, Status};
 
 /// How a device is, in a word or two.
 #[must_use]
@@ -12,6 +12,21 @@ pub fn status(status: Status) -> &'static str {
         Status::Failed => "failed",
         Status::Invalid => "invalid",
         Status::Other(_) => "unknown",
+    }
+}
+
+/// Why a board started, in a word or two.
+#[must_use]
+pub fn reset_cause(cause: ResetCause) -> &'static str {
+    match cause {
+        ResetCause::Unknown | ResetCause::Other(_) => "unknown",
+        ResetCause::Power => "power",
+        ResetCause::Pin => "reset pin",
+        ResetCause::Software => "software",
+        ResetCause::Watchdog => "watchdog",
+        ResetCause::WindowWatchdog => "window watchdog",
+        ResetCause::LowPower => "low-power mode",
+        ResetCause::Halt => "halt of the kernel",
     }
 }
 

@@ -21,6 +21,7 @@ use crate::request::Request;
 use crate::rule::{checks, names};
 use crate::sound::{Partial, broken_drivers};
 use crate::source::files::Files;
+use crate::source::fixes::settle_fixes;
 use crate::source::reader::{Items, Reader};
 use crate::source::syntax_errors;
 use crate::spanned::Spanned;
@@ -42,6 +43,8 @@ pub struct Resolved {
     pub files: Vec<FileId>,
     /// The syntax trees of the texts in the language, in the order of reading.
     pub trees: Vec<(FileId, Parse)>,
+    /// The constants of all texts.
+    pub constants: Constants,
 }
 
 /// Reads a file, the files it uses and its tables. Never fails on user text.
@@ -99,7 +102,8 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         (Some(design), None)
     };
     limit(&mut diagnostics);
-    Resolved { design, partial, diagnostics, sources, files: read, trees }
+    settle_fixes(&mut diagnostics, &read, &trees, &sources);
+    Resolved { design, partial, diagnostics, sources, files: read, trees, constants }
 }
 
 /// Keeps as many diagnostics as are listed, and adds the number of the rest.
@@ -238,10 +242,20 @@ fn check_names(
     let mut seen: BTreeMap<u8, Span> = BTreeMap::new();
     let used: BTreeSet<u8> = devices().map(|device| device.id.value).collect();
     let free = (1..=254_u8).find(|id| !used.contains(id));
-    for Spanned { value, span } in devices().map(|device| device.id).filter(|id| id.value > 0) {
+    let names = |read: &ReadPart| -> BTreeSet<Span> {
+        let of_devices = read.devices.iter().map(|device| device.name.span);
+        of_devices.chain([read.part.name.span]).collect()
+    };
+    let ids = parts.iter().flat_map(|read| {
+        let names = names(read);
+        read.devices.iter().map(move |device| (device.id, !names.contains(&device.id.span)))
+    });
+    for (Spanned { value, span }, is_written) in ids.filter(|(id, _)| id.value > 0) {
         match seen.get(&value) {
-            Some(first) => diagnostics
-                .push(e0203_duplicate_identifier::duplicate_identifier(span, value, *first, free)),
+            Some(first) => {
+                let report = e0203_duplicate_identifier::duplicate_identifier;
+                diagnostics.push(report((span, is_written), value, *first, free));
+            }
             None => {
                 seen.insert(value, span);
             }
@@ -267,7 +281,7 @@ fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
                     wanted.span,
                     what,
                     &wanted.value,
-                    &known.join(", "),
+                    &known,
                 ));
             }
         }

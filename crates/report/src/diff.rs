@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
+use crate::columns::table;
+
 /// A wire of a device.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Wire {
@@ -96,4 +98,37 @@ pub fn changes(old: &BTreeMap<Wire, Place>, new: &BTreeMap<Wire, Place>) -> Vec<
         to: new.get(wire).cloned(),
     };
     all.into_iter().map(change).filter(|change| change.from != change.to).collect()
+}
+
+/// The changes, as `sensedsl diff --format json` prints them.
+#[must_use]
+pub fn value(changes: &[Change]) -> Value {
+    let list: Vec<Value> = changes.iter().map(Change::value).collect();
+    json!({ "version": 1, "changes": list })
+}
+
+/// The changes as a table, with their number among all wires.
+#[must_use]
+pub fn human(changes: &[Change], wires: usize) -> String {
+    if changes.is_empty() {
+        return "nothing changes\n".to_owned();
+    }
+    let places = changes.iter().flat_map(|change| [&change.from, &change.to]).flatten();
+    let boards: BTreeSet<&str> = places.map(|place| place.board.as_str()).collect();
+    let place = |place: &Option<Place>| match place {
+        None => "-".to_owned(),
+        Some(Place { pin, signal, .. }) if boards.len() == 1 => format!("{pin} ({signal})"),
+        Some(Place { board, pin, signal }) => format!("{board} {pin} ({signal})"),
+    };
+    let rows: Vec<[String; 5]> = changes
+        .iter()
+        .map(|change| {
+            let Change { wire, from, to } = change;
+            let (device, role) = (wire.device.clone(), wire.role.clone());
+            [change.name().to_owned(), device, role, place(from), place(to)]
+        })
+        .collect();
+    let heads = ["Change", "Device", "Role", "From", "To"];
+    let text = table(heads, &rows);
+    format!("{text}\n{} of {wires} wires change\n", changes.len())
 }

@@ -20,6 +20,8 @@
 //! assert!(svg::svg(&design, &wiring).contains("PB0"));
 //! ```
 
+pub mod capacity;
+pub mod columns;
 mod contact;
 pub mod csv;
 pub mod diff;
@@ -32,5 +34,7 @@ mod rows;
 pub mod schema;
 pub mod sheet;
 pub mod svg;
+pub mod timing;
+pub mod why;
 
 pub use rows::{Row, rows};

@@ -25,8 +25,10 @@ mod usages;
 
 use std::fmt::Write as _;
 
+use sensedsl_board::catalog;
 use sensedsl_model::design::{Board, BoardIndex, Design};
 use sensedsl_model::kind::KindName;
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use sensedsl_wiring::kept_back;
 
@@ -80,6 +82,14 @@ pub fn of_board(design: &Design, on: BoardIndex) -> Option<String> {
     let names = names(board);
     let drawn = Drawn { heading: names.join(", "), elements, area };
     Some(page(names.first().map_or("Board", String::as_str), &[drawn], &legend, &[]))
+}
+
+/// The picture of a built-in board that nothing is wired to; nothing if its table cannot be read.
+#[must_use]
+pub fn of_built_in(board: &catalog::Entry) -> Option<String> {
+    let text = format!("board Board on {} {{}}\n", board.name.replace('-', "_"));
+    let request = Request { path: "board.sense", text: &text, board: None, target: None };
+    of_board(&resolve(&request, &NoFiles).design?, BoardIndex(0))
 }
 
 /// The whole page: the boards one below the other, and the legend.

@@ -77,6 +77,10 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Lay files out canonically, comments kept; write identifiers into them
     Fmt(FmtArgs),
+    /// Serve an editor: the language server, on the standard input and output
+    Lsp,
+    /// Show the studio in a browser: text, wiring and a robot that runs in a page, with the files of a folder
+    Studio(StudioArgs),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
     /// Print the manual page, or write one for each command into a folder
@@ -93,6 +97,22 @@ pub(crate) struct NewArgs {
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StudioArgs {
+    /// The folder with the designs, or one of its files
+    #[arg(default_value = ".")]
+    pub(crate) folder: PathBuf,
+    /// The port of this machine; 0 takes one that is free
+    #[arg(long, default_value_t = 0)]
+    pub(crate) port: u16,
+    /// Start the browser
+    #[arg(long)]
+    pub(crate) open: bool,
+    /// A folder with the studio's page, instead of the one in this program
+    #[arg(long)]
+    pub(crate) site: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -75,6 +75,8 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Drivers(args) => commands::drivers::run(&args, terminal),
         Command::Import(args) => commands::import::run(&args, terminal),
         Command::Fmt(args) => commands::fmt::run(&args, terminal),
+        Command::Lsp => commands::lsp::run(),
+        Command::Studio(args) => commands::studio::run(&args, terminal),
         Command::Completions(args) => commands::help::completions(&args, terminal),
         Command::Man(args) => commands::help::man(&args, terminal),
     }

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 
 use sensedsl_certify::Subject;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::w0604_unused_rule;
+use sensedsl_diagnostics::codes::{e0404_out_of_time, w0604_unused_rule};
 use sensedsl_model::design::{Design, Spanned};
-use sensedsl_model::{Partial, apply_allows, sort};
+use sensedsl_model::{Partial, apply_allows, settle_fixes, sort};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
 
@@ -40,6 +40,15 @@ pub struct Ask<'a> {
     pub cancel: Cancel<'a>,
 }
 
+/// How long a search may last: by name, so that nobody takes one end for the other.
+#[derive(Clone, Copy, Default)]
+pub struct Patience<'a> {
+    /// Once this is over, what was found by then is the answer.
+    pub late: Cancel<'a>,
+    /// Once this is over, no answer is wanted any more.
+    pub stop: Cancel<'a>,
+}
+
 /// The result of a search, with all its diagnostics.
 #[derive(Debug)]
 pub struct Answer<'s> {
@@ -56,6 +65,14 @@ pub struct Answer<'s> {
 }
 
 impl Answer<'_> {
+    /// The same answer, which outlives its snapshot.
+    #[must_use]
+    pub fn into_owned(self) -> Answer<'static> {
+        let Answer { design, left_out, solved, certificate, diagnostics } = self;
+        let design = design.map(|design| Cow::Owned(design.into_owned()));
+        Answer { design, left_out, solved, certificate, diagnostics }
+    }
+
     /// The wiring, with its design.
     #[must_use]
     pub fn wired(&self) -> Option<(&Design, &Assignment)> {
@@ -71,6 +88,13 @@ impl Snapshot {
     /// it.
     #[must_use]
     pub fn solve(&self, ask: &Ask<'_>) -> Answer<'_> {
+        let mut answer = self.answered(ask);
+        settle_fixes(&mut answer.diagnostics, self.files(), self.trees(), self.sources());
+        answer
+    }
+
+    /// The answer whose fixes are those of their builders.
+    fn answered(&self, ask: &Ask<'_>) -> Answer<'_> {
         let known = self.diagnostics().to_vec();
         match (self.design(), self.partial()) {
             (Some(design), _) => {
@@ -93,6 +117,22 @@ impl Snapshot {
                 certificate: None,
                 diagnostics: known,
             },
+        }
+    }
+}
+
+impl Snapshot {
+    /// Wires the sound part of the design: the best wiring, or the best that was found in time, or else any.
+    #[must_use]
+    pub fn solve_best_or_any(&self, Patience { late, stop }: Patience<'_>) -> Answer<'_> {
+        let is_over = || late.is_over() || stop.is_over();
+        let cancel = Cancel::when(&is_over);
+        let answer = self.solve(&Ask { partly: true, cancel, ..Ask::default() });
+        match &answer.solved {
+            Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => {
+                self.solve(&Ask { goal: Goal::Any, partly: true, cancel: stop, ..Ask::default() })
+            }
+            _ => answer,
         }
     }
 }

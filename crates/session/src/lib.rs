@@ -30,12 +30,13 @@
 //! ```
 
 mod answer;
+pub mod boards;
 mod fit;
 mod snapshot;
 mod subject;
 mod workspace;
 
-pub use answer::{Answer, Ask, Goal};
+pub use answer::{Answer, Ask, Goal, Patience};
 pub use fit::{Fit, Quality};
 pub use snapshot::{Snapshot, Sound, has_errors};
 pub use subject::{Origin, printed_board};

@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_model::design::{Design, Spanned};
-use sensedsl_model::{Partial, Resolved, SyntaxTree};
+use sensedsl_model::{Constants, Partial, Resolved, SyntaxTree};
 
 /// A file as it was read: its tree, its design, and all their diagnostics.
 #[derive(Debug)]
@@ -73,6 +73,12 @@ impl Snapshot {
     #[must_use]
     pub fn trees(&self) -> &[(FileId, SyntaxTree)] {
         &self.resolved.trees
+    }
+
+    /// The constants of all files.
+    #[must_use]
+    pub fn constants(&self) -> &Constants {
+        &self.resolved.constants
     }
 
     /// The place for diagnostics about the whole design: the name of its first board.

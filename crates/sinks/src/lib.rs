@@ -59,7 +59,7 @@ use sensedsl_host::{Board, Output};
 pub use config::Config;
 pub use event::{Event, Inbox, Next, Outbox, Refusals, Sink, Values};
 pub use picture::{BoardState, Picture};
-pub use plan::{BoardPlan, Place, Plan, Route, nest, seconds};
+pub use plan::{BoardPlan, Composed, Place, Plan, Route, nest, seconds};
 pub use relay::Relay;
 
 use config::Settings;
@@ -70,7 +70,8 @@ use config::Settings;
 pub fn outputs(config: &Config, boards: &[Board], own_name: &str) -> Vec<Box<dyn Output>> {
     let all = config.sinks.iter().filter_map(|settings| {
         let plan = Plan::new(boards, config, settings.number("rate_hz"));
-        let plan = Arc::new(plan);
+        let has_messages = settings.spec.name == "ros2";
+        let plan = Arc::new(if has_messages { plan.with_messages(config) } else { plan });
         let sink = sink(settings, &plan, own_name)?;
         Some(Box::new(Relay::start(settings.spec.title, plan, sink)) as Box<dyn Output>)
     });

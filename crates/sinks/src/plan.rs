@@ -8,7 +8,7 @@ use sensedsl_host::{Board, Device};
 use sensedsl_wire::{Direction, Scalar, ScalarType};
 use serde_json::{Map, Number, Value};
 
-use crate::config::Config;
+use crate::config::{Config, Message, Part};
 use crate::event::Values;
 
 /// From this rate on all values pass: several that come at once are not too many for it.
@@ -29,6 +29,8 @@ pub struct Route {
     pub unit: Option<String>,
     /// Whether it stays here.
     pub is_left_out: bool,
+    /// Whether a message needs it, although it may stay here itself.
+    pub is_in_message: bool,
 }
 
 /// How one board goes out.
@@ -47,6 +49,17 @@ pub struct BoardPlan {
 pub struct Plan {
     /// The boards.
     pub boards: Vec<BoardPlan>,
+    /// Messages that several devices go out in.
+    pub messages: Vec<Composed>,
+}
+
+/// A message that several devices go out in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Composed {
+    /// What it is made of.
+    pub message: Message,
+    /// The board and the device of each of its parts, by their places.
+    pub sources: Vec<(usize, usize)>,
 }
 
 /// A device with all that is known of it.
@@ -89,11 +102,35 @@ impl Plan {
                     factor: own.factor.unwrap_or(1.0),
                     unit: own.unit.or_else(|| device.quantity.clone()),
                     is_left_out: own.is_left_out || of_board.is_left_out,
+                    is_in_message: false,
                 }
             });
             BoardPlan { board: board.clone(), topic: topic.clone(), routes: routes.collect() }
         });
-        Self { boards: boards.collect() }
+        Self { boards: boards.collect(), messages: Vec::new() }
+    }
+
+    /// The same with the messages of a configuration, for a sink that has such. A message of boards that are not
+    /// watched never comes about, and is left out.
+    #[must_use]
+    pub fn with_messages(mut self, config: &Config) -> Self {
+        for message in &config.messages {
+            let place = |part: &Part| {
+                let board = self.boards.iter().position(|on| on.board.name == part.board)?;
+                let devices = &self.boards.get(board)?.board.devices;
+                Some((board, devices.iter().position(|device| device.name == part.device)?))
+            };
+            let sources: Option<Vec<(usize, usize)>> = message.parts.iter().map(place).collect();
+            let Some(sources) = sources else { continue };
+            for (board, index) in &sources {
+                let on = self.boards.get_mut(*board);
+                if let Some(route) = on.and_then(|on| on.routes.get_mut(*index)) {
+                    route.is_in_message = true;
+                }
+            }
+            self.messages.push(Composed { message: message.clone(), sources });
+        }
+        self
     }
 
     /// A board.
@@ -105,9 +142,15 @@ impl Plan {
     /// A device that goes out.
     #[must_use]
     pub fn place(&self, board: usize, index: usize) -> Option<Place<'_>> {
+        self.any_place(board, index).filter(|place| !place.route.is_left_out)
+    }
+
+    /// A device, whether it goes out or stays here.
+    #[must_use]
+    pub fn any_place(&self, board: usize, index: usize) -> Option<Place<'_>> {
         let on = self.boards.get(board)?;
         let (device, route) = (on.board.devices.get(index)?, on.routes.get(index)?);
-        (!route.is_left_out).then_some(Place { board, index, on, device, route })
+        Some(Place { board, index, on, device, route })
     }
 
     /// All devices that go out.

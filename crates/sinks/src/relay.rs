@@ -90,7 +90,7 @@ impl Relay {
             let (Some(route), Some(gate)) = (on.routes.get(*index), gates.get_mut(*index)) else {
                 continue;
             };
-            if route.is_left_out {
+            if route.is_left_out && !route.is_in_message {
                 continue;
             }
             let value = value.clone();

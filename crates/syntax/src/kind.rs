@@ -3,9 +3,9 @@
 //! Keywords are contextual: the lexer knows only identifiers, and the parser turns an identifier
 //! into a keyword where the grammar expects one, so that `driver = srf08;` remains a property.
 
-/// Generates the type, and the list of all kinds by their discriminants.
+/// Generates the type, the list of all kinds by their discriminants, and the words of keywords.
 macro_rules! kinds {
-    ($($(#[$doc:meta])* $kind:ident,)*) => {
+    ($($(#[$doc:meta])* $kind:ident $(= $word:literal)?,)*) => {
         /// The kind of a token or a node.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
@@ -16,6 +16,9 @@ macro_rules! kinds {
 
         /// Every kind at the index of its discriminant, to convert a raw kind back.
         const ALL: &[SyntaxKind] = &[$(SyntaxKind::$kind),*];
+
+        /// Keywords with their words.
+        const WORDS: &[(SyntaxKind, &str)] = &[$($((SyntaxKind::$kind, $word),)?)*];
     };
 }
 
@@ -51,29 +54,29 @@ kinds! {
     Unit,
 
     // Keywords; identifiers to the lexer.
-    UseKw,
-    ConstKw,
-    SpareKw,
-    BoardKw,
-    OnKw,
-    LinkKw,
-    SensorKw,
-    ReturnsKw,
-    ActuatorKw,
-    AcceptsKw,
-    ChipKw,
-    ConnectionKw,
-    ReadingKw,
-    CommandKw,
-    DriverKw,
-    ForKw,
-    PreferKw,
-    AvoidKw,
-    ReserveKw,
-    ReleaseKw,
-    AllowKw,
+    UseKw = "use",
+    ConstKw = "const",
+    SpareKw = "spare",
+    BoardKw = "board",
+    OnKw = "on",
+    LinkKw = "link",
+    SensorKw = "sensor",
+    ReturnsKw = "returns",
+    ActuatorKw = "actuator",
+    AcceptsKw = "accepts",
+    ChipKw = "chip",
+    ConnectionKw = "connection",
+    ReadingKw = "reading",
+    CommandKw = "command",
+    DriverKw = "driver",
+    ForKw = "for",
+    PreferKw = "prefer",
+    AvoidKw = "avoid",
+    ReserveKw = "reserve",
+    ReleaseKw = "release",
+    AllowKw = "allow",
     /// Before a number: marks it as a code, not a shown value.
-    RawKw,
+    RawKw = "raw",
 
     // Nodes.
     SourceFile,
@@ -114,6 +117,17 @@ impl SyntaxKind {
     #[must_use]
     pub fn is_trivia(self) -> bool {
         self <= Self::Unknown
+    }
+
+    /// The word of a keyword; `None` for everything else.
+    #[must_use]
+    pub fn word(self) -> Option<&'static str> {
+        WORDS.iter().find(|entry| entry.0 == self).map(|entry| entry.1)
+    }
+
+    /// The words of all keywords, each of which is one only where the grammar has it.
+    pub fn keywords() -> impl Iterator<Item = &'static str> {
+        WORDS.iter().map(|entry| entry.1)
     }
 
     /// Whether this is a comment.

@@ -329,6 +329,7 @@ mod tests {
         check("0.1", &[(Float, "0.1")]);
         check("8N1;", &[(Ident, "8N1"), (SyntaxKind::Semicolon, ";")]);
         check("1E3", &[(Float, "1E3")]);
+        check("0XF0", &[(Int, "0XF0")]);
         check(
             "20 deg/s;",
             &[(Int, "20"), (Whitespace, " "), (Ident, "deg/s"), (SyntaxKind::Semicolon, ";")],

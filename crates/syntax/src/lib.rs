@@ -14,6 +14,7 @@
 //! ```
 
 pub mod ast;
+pub mod edit;
 mod error;
 mod fmt;
 mod kind;

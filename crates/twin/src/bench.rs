@@ -22,6 +22,7 @@ use crate::world::{Fault, FaultKind, World, usual};
 use sensedsl_surroundings::{Pad, TimerOutput};
 
 mod chips;
+mod held;
 mod log;
 mod mcu;
 mod peer;
@@ -30,6 +31,7 @@ mod units;
 
 use chips::Chip;
 pub use chips::UncheckedIdentity;
+use held::Held;
 pub use peer::Peer;
 pub(crate) use units::Units;
 pub use units::number_of;
@@ -55,6 +57,7 @@ pub struct Bench {
     recorder: Recorder,
     commands: Vec<Command>,
     faults: Vec<Broken>,
+    held: Held,
     units: Units,
     /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
@@ -107,6 +110,7 @@ impl Bench {
             recorder: Recorder::default(),
             commands: world.commands.clone(),
             faults: world.faults.iter().map(|fault| Broken::new(job, fault)).collect(),
+            held: Held::default(),
             units: Units::new(job),
             peer: None,
             seed,
@@ -122,6 +126,15 @@ impl Bench {
     #[must_use]
     pub fn subjects(&self) -> &[Subject] {
         &self.subjects
+    }
+
+    /// Holds an element of a sensor at a value in the sensor's own unit from a moment on; `None` lets the world have it
+    /// again. A device or an element that is not there changes nothing.
+    pub fn hold(&mut self, device: DeviceIndex, element: usize, shown: Option<f64>, now_ns: u64) {
+        let mut subjects = self.subjects.iter_mut().enumerate();
+        if let Some(one) = subjects.find(|(_, one)| one.device == device) {
+            self.held.hold(one, element, shown, now_ns);
+        }
     }
 
     /// The time between two messages or frames of a device that sends by itself.

@@ -8,6 +8,9 @@
 //! - `svg`, the picture of the wiring; null if there is none;
 //! - `left_out`, the names of the boards and devices in error; everything else was wired.
 //!
+//! [`Studio`] is everything else that a page needs: reports, files, palettes, and a board that runs. [`Editor`] is the
+//! language server.
+//!
 //! A page runs this as WebAssembly (crate `wasm`), in a worker that it can terminate if it takes
 //! too long.
 //!
@@ -27,26 +30,25 @@
 //! assert_eq!(answer["answer"]["boards"][0]["devices"][0]["name"], "Light");
 //! ```
 
-use std::collections::BTreeMap;
+mod editor;
+mod library;
+mod live;
+mod project;
+mod reports;
+mod request;
+mod studio;
+
+pub use editor::Editor;
+pub use studio::Studio;
 
 use sensedsl_diagnostics::render;
 use sensedsl_generate::target;
-use sensedsl_model::NoFiles;
 use sensedsl_report::{json, svg};
-use sensedsl_session::{Answer, Ask, On, Workspace};
+use sensedsl_session::{Answer, Ask};
 use sensedsl_wiring::Solved;
-use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// A page's request.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Request {
-    path: String,
-    files: BTreeMap<String, String>,
-    board: Option<String>,
-    target: Option<String>,
-}
+use crate::request::Request;
 
 /// Answers a request. The answer to a request that is not understood has `error`, which gives the
 /// reason.
@@ -59,12 +61,7 @@ pub fn ask(request: &str) -> String {
 }
 
 fn answer(request: &Request) -> Value {
-    let mut workspace = Workspace::default();
-    for (path, text) in &request.files {
-        workspace.open(path, text.as_str());
-    }
-    let on = On { board: request.board.as_deref(), target: request.target.as_deref() };
-    let snapshot = workspace.snapshot(&request.path, on, &NoFiles);
+    let snapshot = request.snapshot();
     let answer = snapshot.solve(&Ask { partly: true, ..Ask::default() });
     let mut diagnostics = answer.diagnostics.clone();
     if let Some((design, wiring)) = answer.wired().filter(|_| answer.left_out.is_empty()) {

@@ -16,7 +16,7 @@ use sensedsl_diagnostics::codes::{
     e0321_too_much_voltage, w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
     w0610_level_not_known,
 };
-use sensedsl_diagnostics::{Diagnostic, visible};
+use sensedsl_diagnostics::{Diagnostic, Span, visible};
 use sensedsl_model::design::{
     Board, BoardIndex, Connection, Design, Level, PinRef, PreferenceSubject, Spanned,
 };
@@ -98,12 +98,16 @@ impl<'d> Placed<'d> {
         if reachable {
             return None;
         }
-        let units = self.units().join(", ");
+        let units = self.units();
         let kind = wires.kind.name().with_article();
         if let Some(because) = self.unit_lacks(&unit.value) {
             let name = &unit.value;
             return Some(e0320_silicon_cannot::unit_cannot(
-                unit.span, name, &kind, because, &units,
+                unit.span,
+                name,
+                &kind,
+                because,
+                &units.join(", "),
             ));
         }
         Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units))
@@ -159,13 +163,17 @@ impl<'d> Placed<'d> {
                 (role.describe().to_owned(), None, help)
             }
         };
-        Some(e0316_pin_not_available::pin_not_available(
-            pin.span,
-            &pin.value.shown(),
-            &by,
-            place,
-            &help,
-        ))
+        let is_releasable = !matches!(first, Withheld::Reserved(_) | Withheld::Link);
+        let release = self.board_of(pin).filter(|_| is_releasable).map(|board| (board, name));
+        let shown = pin.value.shown();
+        let report = e0316_pin_not_available::pin_not_available;
+        Some(report((pin.span, &shown), &by, place, &help, release))
+    }
+
+    /// The name of the first board that has the pin.
+    fn board_of(&self, pin: &Spanned<PinRef>) -> Option<Span> {
+        let mut has = self.offers.iter().filter(|offer| pin.value.on(offer.index).is_some());
+        has.next().map(|offer| offer.board.name.span)
     }
 
     /// The report for a device whose level none of its possible pins tolerates.
@@ -213,9 +221,9 @@ impl<'d> Placed<'d> {
         let needs = format!("`{role}` of {}", self.wires.kind.name().with_article());
         let line = |role: Role, pin: &PinRef| format!("{} = {};", role.property(), pin.spelled);
         let lines = format!("{} {}", line(*role, &its_pin.value), line(*other, &pin.value));
-        let name = pin.value.shown();
+        let (one, two) = ((pin.span, &*pin.value.spelled), (its_pin.span, &*its_pin.value.spelled));
         let report = e0314_pin_cannot_serve::pins_swapped;
-        Some(report(pin.span, &name, &needs, its_pin.span, &lines))
+        Some(report(one, two, (&pin.value.shown(), &needs), &lines))
     }
 
     fn cannot_serve(&self, (role, pin): &Fixed) -> Diagnostic {
@@ -254,13 +262,10 @@ impl<'d> Placed<'d> {
         let help = format!("take another pin, or write `release {name};` if {part} is not needed");
         let by = format!("{part} on the board");
         free.then(|| {
-            e0316_pin_not_available::pin_not_available(
-                pin.span,
-                &pin.value.shown(),
-                &by,
-                None,
-                &help,
-            )
+            let release = self.board_of(pin).map(|board| (board, name.as_str()));
+            let shown = pin.value.shown();
+            let report = e0316_pin_not_available::pin_not_available;
+            report((pin.span, &shown), &by, None, &help, release)
         })
     }
 
@@ -353,13 +358,13 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
                 let on_bus = |part: &Onboard| part.how == Occupation::Bus;
                 let Some(with) = on.shared_with(wire) else { continue };
                 // A device that names the part wants it, and one that joins its bus does not disturb it.
-                let named =
-                    wires.placement.pins.iter().any(|(role, pin)| {
-                        *role == wire.role && names_part(&pin.value.spelled, with)
-                    });
-                if !named && !pin.onboard.as_ref().is_some_and(on_bus) {
-                    let pin = pin.name.as_str();
-                    diagnostics.push(w0605_onboard_part::onboard_part(span, name, pin, with));
+                let mut fixed = wires.placement.pins.iter().filter(|(role, _)| *role == wire.role);
+                let is_fixed = fixed.clone().next().is_some();
+                let is_named = fixed.any(|(_, pin)| names_part(&pin.value.spelled, with));
+                if !is_named && !pin.onboard.as_ref().is_some_and(on_bus) {
+                    let (pin, at) = (pin.name.as_str(), board.name.span);
+                    let report = w0605_onboard_part::onboard_part;
+                    diagnostics.push(report((span, name), pin, with, at, is_fixed));
                 }
             }
         }

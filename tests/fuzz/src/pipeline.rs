@@ -264,7 +264,7 @@ fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnost
 fn reported(mut diagnostics: Vec<Diagnostic>, sources: &SourceMap) {
     for one in &diagnostics {
         assert_ne!(one.code.name(), "E0402", "{}", one.message);
-        let edits = one.fix.iter().flat_map(|fix| &fix.edits).map(|edit| edit.span);
+        let edits = one.fixes.iter().flat_map(|fix| &fix.edits).map(|edit| edit.span);
         let labels = one.labels.iter().map(|label| label.span);
         for span in edits.chain(labels).chain([one.primary.span]) {
             let inside = sources.text(span.file).get(span.range());

@@ -99,6 +99,9 @@ fn texts() {
     };
     one_grows("check", 1_800, "p.sense", |n| properties(n, &|at| format!("p{at} = 1;\n")));
     one_grows("check", 1_800, "d.sense", |n| properties(n, &|_| "delay = 1 s;\n".to_owned()));
+    one_grows("check", 1_800, "names.sense", |n| {
+        format!("{BOARD}reserve PA0{};}}\n", repeat(n, |at| format!(", PX{at}")))
+    });
     one_grows("check", 50_000, "comments.sense", |n| "// x\n".repeat(n));
 }
 

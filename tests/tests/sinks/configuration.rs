@@ -17,6 +17,7 @@ fn the_written_file_is_taken_as_it_is() {
         "\n[websocket]\n",
         "# [devices.\"Rover/Light\"]",
         "# actuator Servo uint16 in deg",
+        "#     [messages.battery]",
     ] {
         assert!(written.contains(expected), "{expected}: {written}");
     }
@@ -51,6 +52,10 @@ fn wrong_files_and_arguments_begin_nothing() {
             &["E0564", "another `topic`"],
         ),
         ("[mqtt]\n[devices.Light]\nunit = \"V\"\n", &["E0560", "it is shown in cm"]),
+        (
+            "[mqtt]\n[messages.b]\ntype = \"BatteryState\"\nvoltage = \"Light\"\n",
+            &["E0560", "sinks.toml:4:11", "`Light` is in cm, and `voltage` needs V"],
+        ),
     ] {
         let path = scratch.write("sinks.toml", config);
         let call = ["monitor", "simulate", text(&file), "--config", text(&path)];
@@ -60,7 +65,13 @@ fn wrong_files_and_arguments_begin_nothing() {
         }
         assert_eq!(run.stdout, "", "{config}");
     }
+    let has_ros2 = cfg!(feature = "all-sinks");
     for (arguments, expected) in [
+        (
+            ["--ros-distro", "humble"],
+            if has_ros2 { "is for ROS 2: write a table" } else { "E0563" },
+        ),
+        (["--ros-distro", "jazy"], "a similar value exists: 'jazzy'"),
         (["--mqtt", "mqtt://x"], "E0562"),
         (["--websocket=localhost:80", "-q"], "E0562"),
         (["--plotjuggler=here", "-q"], "E0562"),

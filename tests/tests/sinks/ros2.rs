@@ -1,5 +1,8 @@
 //! ROS 2: another program of the domain is CycloneDDS, with the definitions of messages that rosbags has.
 
+mod messages;
+mod parameters;
+
 use std::path::Path;
 use std::process::Command;
 
@@ -23,7 +26,7 @@ const ROBOT: &str = "board Rover on NUCLEO_F446RE {
 
 /// A domain of this run alone.
 fn domain(test: u32) -> String {
-    (20 + 4 * (std::process::id() % 50) + test).to_string()
+    (20 + 6 * (std::process::id() % 33) + test).to_string()
 }
 
 fn peer(distro: &str, domain: &str, topics: &[&str]) -> Running {

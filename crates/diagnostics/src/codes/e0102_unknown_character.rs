@@ -20,6 +20,7 @@ quotes."#,
 pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{}` means nothing here", visible(found)))
         .help("remove it; text belongs between straight quotes or in a comment")
+        .replace("remove it", span, if found.chars().all(char::is_whitespace) { " " } else { "" })
 }
 
 /// A `#` and the rest of its line, meant as a comment.

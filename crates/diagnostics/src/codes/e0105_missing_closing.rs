@@ -17,4 +17,5 @@ pub fn missing_closing(span: Span, closing: &str, opened: Option<Span>) -> Diagn
         .here(format!("`{closing}` belongs here"))
         .help(format!("close it with `{closing}`"))
         .label(opened, "opened here")
+        .replace(format!("add `{closing}`"), Span { end: span.start, ..span }, if closing == "}" { "\n}" } else { closing })
 }

@@ -18,6 +18,7 @@ pub fn property_of_chip(span: Span, name: &str, chip: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, message)
         .here("the same for all devices of the chip")
         .help(format!("move the line into `chip {chip}` itself"))
+        .remove("remove the line", span)
 }
 
 /// `of` describes the owner ("an analog device"); `known` is the nearest known name.
@@ -25,6 +26,9 @@ pub fn unknown_property(span: Span, name: &str, of: &str, known: Option<&str>) -
     let diagnostic = Diagnostic::new(CODE, span, format!("{of} has no property `{name}`"));
     match known {
         Some(word) => diagnostic.meant(known).help(format!("write `{word}`")),
-        None => diagnostic.here("unknown").help("remove the line, or look the name up in the language reference"),
+        None => diagnostic
+            .here("unknown")
+            .help("remove the line, or look the name up in the language reference")
+            .remove("remove the line", span),
     }
 }

@@ -17,4 +17,6 @@ pub fn property_twice(span: Span, name: &str, first: Span) -> Diagnostic {
         .here("again here")
         .label(first, "first here")
         .help("remove one of the two lines")
+        .remove("remove this one", span)
+        .remove("remove the first one", first)
 }

@@ -12,10 +12,11 @@ messages and the wiring sheet call them.
 Way out: rename one of them."#,
 });
 
-/// `what` is "board", "device" or "driver".
-pub fn duplicate_name(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
+/// `what` is "board", "device" or "driver", `free` a name that is not in use.
+pub fn duplicate_name(span: Span, what: &str, name: &str, first: Span, free: Option<&str>) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the {what} `{name}` exists already"))
         .here("the same name again")
         .label(first, "first here")
         .help("rename one of the two")
+        .one_of(free)
 }

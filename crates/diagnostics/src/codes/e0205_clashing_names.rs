@@ -13,10 +13,17 @@ become the same there.
 Way out: rename one of them so that they differ in letters or digits."#,
 });
 
-/// `form` is the spelling in which both are equal.
-pub fn clashing_names(span: Span, name: &str, other: &str, form: &str, first: Span) -> Diagnostic {
+/// `form` is the spelling in which both are equal, `free` a name that is not in use.
+pub fn clashing_names(
+    span: Span,
+    (name, other): (&str, &str),
+    form: &str,
+    first: Span,
+    free: Option<&str>,
+) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` and `{other}` both become `{form}` in generated code"))
         .here("clashes")
         .label(first, format!("with `{other}`"))
         .help("rename one so that they differ in more than case and underscores")
+        .one_of(free)
 }

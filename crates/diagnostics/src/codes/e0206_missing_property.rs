@@ -17,4 +17,5 @@ pub fn missing_property(span: Span, name: &str, of: &str, example: &str) -> Diag
     Diagnostic::new(CODE, span, format!("{of} needs `{name}`"))
         .here(format!("`{name}` is missing"))
         .help(format!("add a line such as `{example}`"))
+        .add(span, example)
 }

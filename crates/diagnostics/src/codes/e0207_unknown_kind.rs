@@ -1,6 +1,7 @@
 //! E0207: no such kind of device.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
+use crate::diagnostic::Scope;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -17,6 +18,7 @@ pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` is a part, not a kind of connection"))
         .here(format!("write `driver = {driver};` instead of this line"))
         .help(format!("`driver = {driver};` says how it is connected: `sensedsl drivers {driver}` shows it"))
+        .change(format!("change to `driver = {driver};`"), span, format!("driver = {driver};"), Scope::Statement)
 }
 
 /// `known` lists all kinds; `meant` is the nearest.

@@ -11,8 +11,11 @@ pub const CODE: Code = Code(&CodeInfo {
 Way out: use a unit of the right dimension."#,
 });
 
-/// `takes` lists the units that fit.
-pub fn wrong_unit(span: Span, name: &str, unit: &str, takes: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{name}` cannot be given in {unit}"))
-        .help(format!("use {takes}"))
+/// `takes` lists the units that fit, `same` is the value in one of them.
+pub fn wrong_unit(span: Span, name: &str, unit: &str, takes: &str, same: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` cannot be given in {unit}"));
+    match same {
+        Some(same) => diagnostic.help(format!("use {takes}: `{same}` is the same")).one_of([same]),
+        None => diagnostic.help(format!("use {takes}")),
+    }
 }

@@ -27,4 +27,5 @@ pub fn property_of_other_kind(
     Diagnostic::new(CODE, span, format!("`{name}` means nothing for {kind}"))
         .here(format!("only for {kinds}"))
         .help(help)
+        .remove("remove the line", span)
 }

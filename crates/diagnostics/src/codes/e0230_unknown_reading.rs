@@ -17,7 +17,7 @@ pub fn unknown_reading(span: Span, message: &str, has: &str, meant: Option<&str>
     let diagnostic = Diagnostic::new(CODE, span, message);
     let has = if has.is_empty() { "it has none".to_owned() } else { format!("it has {has}") };
     match meant {
-        Some(meant) => diagnostic.help(format!("did you mean `{meant}`? {has}")),
+        Some(meant) => diagnostic.help(format!("did you mean `{meant}`? {has}")).one_of([meant]),
         None => diagnostic.help(format!("{has}: write `reading = NAME;`")),
     }
 }

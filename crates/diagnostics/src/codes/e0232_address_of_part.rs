@@ -14,8 +14,17 @@ Way out: write one of the addresses that the message lists, in the 7-bit form; t
 gets a driver of the file with its own `addresses`."#,
 });
 
-/// `address` is the 7-bit address, `has` lists the addresses of the driver's part, `help` says what to write.
-pub fn address_of_part(span: Span, address: u8, driver: &str, has: &str, help: &str) -> Diagnostic {
+/// `address` is the 7-bit address, `has` lists the addresses of the driver's part, `help` says what to
+/// write, `others` are the addresses to choose from.
+pub fn address_of_part(
+    span: Span,
+    address: u8,
+    driver: &str,
+    (has, help): (&str, &str),
+    others: &[u8],
+) -> Diagnostic {
     let message = format!("0x{address:02X} is not an address of `{driver}`, whose part can have {has}");
-    Diagnostic::new(CODE, span, message).here("nothing answers there").help(help)
+    let others: Vec<String> = others.iter().map(|one| format!("0x{one:02X}")).collect();
+    let diagnostic = Diagnostic::new(CODE, span, message).here("nothing answers there").help(help);
+    diagnostic.one_of(others.iter().map(String::as_str))
 }

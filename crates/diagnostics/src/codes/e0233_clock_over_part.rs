@@ -18,4 +18,5 @@ pub fn clock_over_part(span: Span, property: &str, asked: &str, driver: &str, mo
     Diagnostic::new(CODE, span, format!("{asked} is too fast for `{driver}`, which takes {most} at most"))
         .here("over the greatest clock of the part")
         .help(format!("write `{property} = {most};`, or remove the line"))
+        .one_of([most])
 }

@@ -14,7 +14,11 @@ must then be one that the quantity converts to (`0.5 m` where `cm` is shown). Th
 Way out: write the value in the unit that the message names, or its code behind `raw`."#,
 });
 
-/// `message` says what does not fit, `help` what to write.
-pub fn value_does_not_fit(span: Span, message: &str, help: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, message).here("this value").help(help)
+/// `message` says what does not fit, `help` what to write; `code` is the number if it can be a code.
+pub fn value_does_not_fit(span: Span, message: &str, help: &str, code: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, message).here("this value").help(help);
+    match code {
+        Some(code) => diagnostic.one_of([format!("raw {code}").as_str()]),
+        None => diagnostic,
+    }
 }

@@ -28,7 +28,8 @@ pub fn unknown_board(span: Span, name: &str, meant: Option<&str>, is_own: bool) 
     match meant.map(|meant| meant.replace('-', "_")) {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))
-            .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`")),
+            .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`"))
+            .one_of([meant.as_str()]),
         None if is_own => diagnostic
             .here("a name of your own needs a board")
             .help(format!("write `board {name} on BOARD {{`, where `sensedsl boards` and `sensedsl parts --list` list what BOARD can be; or name a table of your own: `on \"table.csv\"`")),

@@ -1,6 +1,7 @@
 //! E0310: the board has no such pin.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
+use crate::suggest::spelled;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -17,4 +18,5 @@ pub fn unknown_pin(span: Span, pin: &str, board: &str, meant: Option<&str>) -> D
     Diagnostic::new(CODE, span, format!("{board} has no pin {pin}"))
         .here(asked.unwrap_or_default())
         .help("correct the name, or add a row to the board's table")
+        .one_of(meant.map(spelled).as_deref())
 }

@@ -12,12 +12,13 @@ this kind of device can use.
 Way out: use one of the units that the message lists."#,
 });
 
-/// `units` lists the units that exist for this kind.
-pub fn unknown_unit(span: Span, unit: &str, kind: &str, units: &str) -> Diagnostic {
+/// `units` are the units that exist for this kind.
+pub fn unknown_unit(span: Span, unit: &str, kind: &str, units: &[String]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{unit}` cannot serve {kind}"))
         .help(if units.is_empty() {
             format!("the board has nothing for {kind}")
         } else {
-            format!("use one of {units}")
+            format!("use one of {}", units.join(", "))
         })
+        .one_of(units.iter().map(String::as_str))
 }

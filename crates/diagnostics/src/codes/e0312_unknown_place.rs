@@ -1,6 +1,7 @@
 //! E0312: the board has no such side or header.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
+use crate::suggest::spelled;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -11,12 +12,13 @@ pub const CODE: Code = Code(&CodeInfo {
 Way out: use one of the names that the message lists, or add the column to the table."#,
 });
 
-/// `what` is "side" or "header"; `names` lists those of the table.
-pub fn unknown_place(span: Span, what: &str, name: &str, names: &str) -> Diagnostic {
+/// `what` is "side" or "header"; `names` are those of the table.
+pub fn unknown_place(span: Span, what: &str, name: &str, names: &[String]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no pin of the board is on the {what} `{name}`"))
         .help(if names.is_empty() {
             format!("the board's table has no column `{what}`: add one")
         } else {
-            format!("use one of {names}")
+            format!("use one of {}", names.join(", "))
         })
+        .one_of(names.iter().map(|name| spelled(name)).collect::<Vec<_>>().iter().map(String::as_str))
 }

@@ -12,8 +12,9 @@ version such as `chibios-21.11`, or `none`, the paper's pure pin model.
 Way out: use one of these."#,
 });
 
-/// `known` lists the targets.
-pub fn unknown_target(span: Span, name: &str, known: &str) -> Diagnostic {
+/// `known` lists the targets; `meant` is the nearest.
+pub fn unknown_target(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no target `{name}`"))
         .help(format!("use one of {known}"))
+        .meant(meant)
 }

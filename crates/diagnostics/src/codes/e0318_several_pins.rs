@@ -12,8 +12,9 @@ it (`LED`). The board has several pins of that name.
 Way out: write the name of one of them."#,
 });
 
-/// `pins` lists the pins, in order.
-pub fn several_pins(span: Span, name: &str, board: &str, pins: &str) -> Diagnostic {
+/// `pins` are the pins, in order.
+pub fn several_pins(span: Span, name: &str, board: &str, pins: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{board} has several pins called {name}"))
-        .help(format!("write one of {pins}"))
+        .help(format!("write one of {}", pins.join(", ")))
+        .one_of(pins.iter().copied())
 }

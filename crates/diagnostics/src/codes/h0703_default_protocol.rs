@@ -17,4 +17,5 @@ Way out: nothing to do if it is one; write `driver = srf08;` to say so, or give 
 pub fn default_protocol(span: Span, device: &str, driver: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{device} has no protocol; its address says that it is a `{driver}`"))
         .help(format!("write `driver = {driver};` to say so, or give `register` and `length`"))
+        .add(span, &format!("driver = {driver};"))
 }

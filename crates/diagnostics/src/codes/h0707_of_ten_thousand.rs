@@ -19,4 +19,5 @@ pub fn of_ten_thousand(span: Span, number: &str, percent: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{number} of 10000 is {percent} % of the range"))
         .here("0 to 10000")
         .help(format!("write `{number} %` or a pulse such as `1500 us` if that is meant, or `raw {number}`"))
+        .one_of([format!("{number} %").as_str(), format!("raw {number}").as_str()])
 }

@@ -17,4 +17,5 @@ Way out: remove the line, or say that you know: `allow W0601 "reason";`."#,
 pub fn unused_property(span: Span, name: &str, kind: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` has no effect for {kind}: {why}"))
         .help("remove the line, or `allow W0601 \"…\";` if it is meant as a note")
+        .remove("remove the line", span)
 }

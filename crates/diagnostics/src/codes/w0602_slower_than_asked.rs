@@ -1,6 +1,7 @@
 //! W0602: the device is slower than asked for.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
+use crate::diagnostic::Scope;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -12,14 +13,20 @@ a new value comes only when the measurement is done; the last value is not sent 
 Way out: give a `delay` of at least the time the message names, or set the device to a shorter range."#,
 });
 
-/// `needs_ms` is what the device needs, `delay_ms` what was asked for.
+/// `needs_ms` is what the device needs, `delay_ms` what was asked for; `name` is the place of the device's name, `delay`
+/// that of its cycle time, if it is stated.
 pub fn slower_than_asked(
     span: Span,
-    device: &str,
+    (device, name, delay): (&str, Span, Option<Span>),
     needs_ms: &str,
     delay_ms: &str,
     source: Option<Span>,
 ) -> Diagnostic {
+    let title = format!("write `delay = {needs_ms} ms;`");
+    let (at, text, scope) = match delay {
+        Some(delay) => (delay, format!("delay = {needs_ms} ms"), Scope::Text),
+        None => (name, format!("delay = {needs_ms} ms;"), Scope::Block),
+    };
     Diagnostic::new(
         CODE,
         span,
@@ -28,4 +35,5 @@ pub fn slower_than_asked(
     .here("asked here")
     .help(format!("write `delay = {needs_ms};` or more: there are no new values sooner"))
     .label(source, format!("waits {needs_ms} ms"))
+    .change(title, at, text, scope)
 }

@@ -12,9 +12,16 @@ the type, never a wrapped one.
 Way out: use the type that the message names, or scale the value down."#,
 });
 
-/// `found` is what is measured, `range` its range, `wider` the type that holds it.
-pub fn narrow_type(span: Span, found: &str, range: &str, wider: &str) -> Diagnostic {
+/// `found` is what is measured, `range` its range, `wider` says which type holds it; `holds` is that type as a
+/// file has to spell it.
+pub fn narrow_type(
+    span: Span,
+    (found, range): (&str, &str),
+    wider: &str,
+    holds: Option<&str>,
+) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{found} cannot hold every measurement ({range})"))
         .here("larger values are reported as the largest of the type")
         .help(format!("use {wider}"))
+        .one_of(holds)
 }

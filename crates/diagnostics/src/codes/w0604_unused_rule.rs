@@ -15,5 +15,7 @@ Way out: correct the name, or remove the rule."#,
 
 /// `why` is the reason why the rule has no effect.
 pub fn unused_rule(span: Span, rule: &str, why: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{rule}` has no effect: {why}")).help("remove the line")
+    Diagnostic::new(CODE, span, format!("`{rule}` has no effect: {why}"))
+        .help("remove the line")
+        .remove("remove the line", span)
 }

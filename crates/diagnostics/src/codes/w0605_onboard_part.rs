@@ -15,7 +15,18 @@ say that you know: `allow W0605 "reason";`."#,
 });
 
 /// `part` is the on-board part that shares the pin with the device.
-pub fn onboard_part(span: Span, device: &str, pin: &str, part: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{device} shares {pin} with {part}"))
-        .help(format!("write `reserve {pin};` if it must stay free, or `release {pin};` if {part} is not there"))
+///
+/// `board` is the place of the board's name; `is_fixed` is true if the file says that the device is on the pin.
+pub fn onboard_part(
+    (span, device): (Span, &str),
+    pin: &str,
+    part: &str,
+    board: Span,
+    is_fixed: bool,
+) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("{device} shares {pin} with {part}"))
+        .help(format!("write `reserve {pin};` if it must stay free, or `release {pin};` if {part} is not there"));
+    let diagnostic =
+        if is_fixed { diagnostic } else { diagnostic.add(board, &format!("reserve {pin};")) };
+    diagnostic.add(board, &format!("release {pin};"))
 }

@@ -14,15 +14,17 @@ Way out: use the type that the message names. Where the rest of the range is not
 `allow W0611 "only the first part of the range";`."#,
 });
 
-/// `holds` is the range of the type `found`, `takes` what the device takes, `wider` the type that holds that.
+/// `holds` is the range of the type `found`, `takes` what the device takes, `wider` the scalar type that holds that,
+/// and `write` the type as the file has to spell it.
 pub fn narrow_command(
     span: Span,
     (found, holds): (&str, &str),
     (device, takes): (&str, &str),
-    wider: &str,
+    (wider, write): (&str, &str),
 ) -> Diagnostic {
     let message = format!("{found} holds {holds}, but {device} takes {takes}");
     Diagnostic::new(CODE, span, message)
         .here("the rest of the range cannot be commanded")
         .help(format!("use {wider}"))
+        .one_of([write])
 }

@@ -16,8 +16,14 @@ value is meant, write its unit (`1500 us`), which says so; where the unit is non
 });
 
 /// `shown` is the number as shown, `code` the code that it is, `more` how many more there are in the file, `write` what
-/// to write if the shown value is meant.
-pub fn shown_not_raw(span: Span, shown: &str, code: &str, more: usize, write: &str) -> Diagnostic {
+/// to write if the shown value is meant; `ways` are what can be written for the shown value and for the code.
+pub fn shown_not_raw(
+    span: Span,
+    (shown, code): (&str, &str),
+    more: usize,
+    write: &str,
+    ways: [Option<&str>; 2],
+) -> Diagnostic {
     let others = match more {
         0 => String::new(),
         1 => ", and so is one more number of this file".to_owned(),
@@ -27,4 +33,5 @@ pub fn shown_not_raw(span: Span, shown: &str, code: &str, more: usize, write: &s
     Diagnostic::new(CODE, span, message)
         .here("in the unit that is shown")
         .help(format!("{write}; `sensedsl fmt --migrate FILE` writes what an older file meant"))
+        .one_of(ways.into_iter().flatten())
 }

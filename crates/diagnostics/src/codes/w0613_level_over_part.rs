@@ -18,4 +18,6 @@ pub fn level_over_part(span: Span, level: &str, driver: &str, most: &str) -> Dia
     Diagnostic::new(CODE, span, format!("{level} on the wires of `{driver}`, whose supply is {most} at most"))
         .here("over the supply of the part")
         .help(format!("write `level = {most};` or less, or remove the line"))
+        .one_of([most])
+        .remove("remove the line", span)
 }

@@ -32,8 +32,16 @@ pub fn json_value(diagnostic: &Diagnostic, sources: &SourceMap) -> Value {
         let labels = diagnostic.labels.iter().map(|label| label_value(label, sources));
         object.insert("labels".into(), labels.collect());
     }
-    if let Some(fix) = &diagnostic.fix {
-        object.insert("fix".into(), fix_value(fix, sources));
+    // A reader may apply the only way out; of several, a person chooses one.
+    match diagnostic.fixes.as_slice() {
+        [] => {}
+        [fix] => {
+            object.insert("fix".into(), fix_value(fix, sources));
+        }
+        fixes => {
+            let fixes = fixes.iter().map(|fix| fix_value(fix, sources));
+            object.insert("fixes".into(), fixes.collect());
+        }
     }
     Value::Object(object)
 }

@@ -18,6 +18,9 @@ use crate::value::constants::Constants;
 /// The properties of a link.
 const LINK_PROPERTIES: &[&str] =
     &["transport", "unit", "baud", "checksum", "stamp", "silence", "rate", "vbus"];
+/// The words after `transport`.
+pub(crate) const TRANSPORTS: [(&str, Transport); 3] =
+    [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
 /// Bits per second of a serial link if the file gives none.
 const LINK_BAUD_DEFAULT: u32 = 115_200;
 /// Silence, in milliseconds, after which a host is taken to be gone, if the file gives none.
@@ -129,9 +132,7 @@ fn stated_link(
     }
     let at = place(&link);
     let mut fields = Fields::new(link.properties(), file, "a link", at, (constants, diagnostics));
-    let transports =
-        [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
-    let transport = fields.word("transport", &transports);
+    let transport = fields.word("transport", &TRANSPORTS);
     let unit = fields.name("unit", "a peripheral such as USART2");
     let baud = fields.integer("baud", 1_200..=10_000_000);
     let checksums = Checksum::ALL.map(|checksum| (checksum.name(), checksum));

@@ -89,7 +89,13 @@ fn pins(
         return if is_path {
             from_file(context, path, name.span, true)
         } else {
-            built_in(context, &as_name, false)
+            let before = context.diagnostics.len();
+            let pins = built_in(context, &as_name, false);
+            // The name is not in the file.
+            for one in context.diagnostics.iter_mut().skip(before) {
+                one.fixes.clear();
+            }
+            pins
         };
     }
     match node.on() {

@@ -103,7 +103,6 @@ impl Binder<'_> {
                 }
                 FoundName::Several(pins) => {
                     let pins: Vec<&str> = pins.iter().map(PinName::as_str).collect();
-                    let pins = pins.join(", ");
                     report = Some(e0318_several_pins::several_pins(span, name, on, &pins));
                 }
                 FoundName::None if report.is_none() && must => {

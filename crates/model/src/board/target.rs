@@ -18,6 +18,8 @@ pub(crate) struct RequestedTarget {
     /// None for the default, if that covers the MCU.
     name: Option<String>,
     at: Span,
+    /// Whether it is the file that requests it.
+    is_of_file: bool,
 }
 
 /// Reads the properties of a board. A target given on the command line overrides the file's.
@@ -40,9 +42,13 @@ pub(crate) fn asked(
         ));
     }
     match (context.request.target, stated) {
-        (Some(name), _) => RequestedTarget { name: Some(name.to_owned()), at: board },
-        (None, Some(name)) => RequestedTarget { name: Some(name.value), at: name.span },
-        (None, None) => RequestedTarget { name: None, at: board },
+        (Some(name), _) => {
+            RequestedTarget { name: Some(name.to_owned()), at: board, is_of_file: false }
+        }
+        (None, Some(name)) => {
+            RequestedTarget { name: Some(name.value), at: name.span, is_of_file: true }
+        }
+        (None, None) => RequestedTarget { name: None, at: board, is_of_file: true },
     }
 }
 
@@ -53,7 +59,7 @@ pub(crate) fn find(
     mcu: Option<&str>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Target> {
-    let at = asked.at;
+    let (at, is_of_file) = (asked.at, asked.is_of_file);
     let asked = asked.name.as_deref();
     let no_firmware = |why: &str| e0504_no_firmware_target::no_firmware_target(at, shown, why);
     let Some(mcu) = mcu else {
@@ -72,9 +78,10 @@ pub(crate) fn find(
     match profile::find(asked.unwrap_or_else(|| profile::usual(mcu)), mcu) {
         Ok(target) => Some(target),
         Err(NoProfile::UnknownTarget { known, .. }) => {
-            let known = known.join(", ");
             let name = asked.unwrap_or_default();
-            let report = e0313_unknown_target::unknown_target(at, name, &known);
+            let meant = nearest(name, known.iter().map(AsRef::as_ref)).filter(|_| is_of_file);
+            let list = known.join(", ");
+            let report = e0313_unknown_target::unknown_target(at, name, &list, meant);
             diagnostics.push(report);
             None
         }

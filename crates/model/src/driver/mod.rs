@@ -139,14 +139,15 @@ impl Drivers {
     pub(crate) fn find_for(
         &self,
         wanted: &Spanned<String>,
-        kind: KindName,
+        kind: Spanned<KindName>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<&Driver> {
         let driver = self.find(wanted, diagnostics)?;
+        let Spanned { value: kind, span: stated } = kind;
         if driver.kind != Some(kind) {
             let (span, name) = (wanted.span, &driver.name.value);
             let wrong = e0217_driver_of_other_kind::driver_of_other_kind;
-            diagnostics.push(wrong(span, name, &driver.what(), kind.name()));
+            diagnostics.push(wrong(span, name, &driver.what(), kind.name(), Some(stated)));
             return None;
         }
         Some(driver)

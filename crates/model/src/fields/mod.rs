@@ -3,6 +3,9 @@
 //! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
 //! code for what every device has, and asked at the end which properties were not taken.
 
+#[cfg(test)]
+pub(crate) mod asked;
+mod contradictions;
 mod plain;
 mod quantities;
 mod shown;
@@ -12,13 +15,14 @@ use std::ops::RangeInclusive;
 
 use sensedsl_diagnostics::codes::{
     e0202_property_twice, e0206_missing_property, e0209_wrong_value, e0211_out_of_range,
-    e0212_unknown_word, e0222_contradiction,
+    e0212_unknown_word,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
-use sensedsl_wire::Direction;
 
 use crate::design::Bare;
+#[cfg(test)]
+use crate::meaning::Takes;
 use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::{Evaluator, Value};
@@ -62,9 +66,6 @@ pub(crate) struct Fields<'a> {
     owner: String,
     owner_span: Span,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// The names that were asked for, whether written or not.
-    #[cfg(test)]
-    pub(crate) asked: std::collections::BTreeSet<String>,
 }
 
 impl<'a> Fields<'a> {
@@ -90,8 +91,6 @@ impl<'a> Fields<'a> {
             owner,
             owner_span,
             diagnostics,
-            #[cfg(test)]
-            asked: std::collections::BTreeSet::new(),
         };
         fields.add(own, file);
         fields
@@ -236,7 +235,7 @@ impl<'a> Fields<'a> {
 
     pub(crate) fn take(&mut self, name: &str) -> Option<Field> {
         #[cfg(test)]
-        self.asked.insert(name.to_owned());
+        asked::name(name);
         let field = self.fields.get_mut(*self.names.get(name)?)?;
         field.taken = true;
         Some(field.clone())
@@ -293,6 +292,8 @@ impl<'a> Fields<'a> {
         name: &str,
         range: RangeInclusive<i64>,
     ) -> Option<Spanned<i64>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Whole(*range.start(), *range.end()));
         let field = self.take(name)?;
         let Some(value) = plain_integer(&field.value) else {
             self.wrong(
@@ -318,6 +319,8 @@ impl<'a> Fields<'a> {
         range: RangeInclusive<i64>,
         example: &str,
     ) -> Option<Spanned<i64>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Whole(*range.start(), *range.end()));
         if self.has(name) {
             return self.integer(name, range);
         }
@@ -328,7 +331,7 @@ impl<'a> Fields<'a> {
     /// Reports that a required property is missing.
     pub(crate) fn missing(&mut self, name: &str, example: &str) {
         #[cfg(test)]
-        self.asked.insert(name.to_owned());
+        asked::name(name);
         self.diagnostics.push(e0206_missing_property::missing_property(
             self.owner_span,
             name,
@@ -339,11 +342,15 @@ impl<'a> Fields<'a> {
 
     /// Any number without a unit.
     pub(crate) fn number(&mut self, name: &str) -> Option<Spanned<f64>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Number);
         self.read(name, "a number", plain_number)
     }
 
     /// One of a few words.
     pub(crate) fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Option<Spanned<T>> {
+        #[cfg(test)]
+        asked::words(name, words);
         let field = self.take(name)?;
         let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
         // `8E1` is a number to the parser, but can be a word here.
@@ -438,6 +445,8 @@ impl<'a> Fields<'a> {
         name: &str,
         lengths: RangeInclusive<usize>,
     ) -> Option<Spanned<Vec<u8>>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Bytes(*lengths.start(), *lengths.end()));
         let field = self.take(name)?;
         let Some(numbers) = byte_list(&field.value) else {
             self.wrong(&field, "a list of whole numbers such as [0x00, 0x51]");
@@ -459,39 +468,5 @@ impl<'a> Fields<'a> {
             return None;
         }
         Some(Spanned { value: bytes, span: field.value_span })
-    }
-
-    /// Reports that the property at `here` contradicts another one.
-    pub(crate) fn contradiction(&mut self, here: Span, other: &str, message: &str) {
-        let other_span = self.value_span(other).unwrap_or(self.owner_span);
-        self.diagnostics.push(e0222_contradiction::contradiction(
-            here,
-            message,
-            other_span,
-            &format!("`{other}`"),
-            "change or remove one of the two",
-        ));
-    }
-
-    /// Reports a property that only arrays can have.
-    pub(crate) fn needs_array(&mut self, here: Span, name: &str) {
-        self.diagnostics.push(e0222_contradiction::contradiction(
-            here,
-            &format!("`{name}` is for arrays only"),
-            self.owner_span,
-            "this device has one value",
-            "remove the line, or make it an array: `returns uint16[4]`",
-        ));
-    }
-
-    /// Reports a property that only sensors, or only actuators, can have.
-    pub(crate) fn needs_direction(&mut self, here: Span, name: &str, direction: Direction) {
-        self.diagnostics.push(e0222_contradiction::contradiction(
-            here,
-            &format!("`{name}` is for {}s only", direction.name()),
-            self.owner_span,
-            "this device is none",
-            "remove the line",
-        ));
     }
 }

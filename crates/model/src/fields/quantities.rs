@@ -5,7 +5,11 @@ use std::ops::RangeInclusive;
 use sensedsl_diagnostics::codes::{e0210_wrong_unit, e0211_out_of_range};
 use sensedsl_syntax::Unit;
 
+#[cfg(test)]
+use super::asked;
 use super::{Field, Fields};
+#[cfg(test)]
+use crate::meaning::Takes;
 use crate::spanned::Spanned;
 use crate::value::{Dimension, Measure, Number, Value};
 
@@ -16,6 +20,8 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Time((*range.start()).into(), (*range.end()).into()));
         let (field, us) = self.time(name)?;
         self.whole(&field, us, range, "us")
     }
@@ -26,6 +32,8 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Time(of_ms(*range.start()), of_ms(*range.end())));
         let (field, us) = self.time(name)?;
         self.whole(&field, us / 1000.0, range, "ms")
     }
@@ -36,6 +44,8 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Frequency(*range.start(), *range.end()));
         let field = self.take(name)?;
         let hz = self.quantity(&field, Unit::Hertz, &FREQUENCY, "a frequency such as 400 kHz")?;
         self.whole(&field, hz, range, "Hz")
@@ -48,6 +58,8 @@ impl Fields<'_> {
         range: RangeInclusive<u32>,
         bare: Unit,
     ) -> Option<Spanned<u32>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Rate(*range.start(), *range.end()));
         let field = self.take(name)?;
         let Value::Number(number) = &field.value else {
             self.wrong(&field, "a frequency such as 1 MHz, or the time of one tick such as 1 us");
@@ -62,7 +74,7 @@ impl Fields<'_> {
         } else {
             let (takes, found) = ("Hz, kHz, MHz, us, ms or s", number.unit_name());
             let wrong = e0210_wrong_unit::wrong_unit;
-            self.diagnostics.push(wrong(field.value_span, &field.name, &found, takes));
+            self.diagnostics.push(wrong(field.value_span, &field.name, &found, takes, None));
             return None;
         };
         self.whole(&field, hz, range, "Hz")
@@ -81,6 +93,8 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Voltage(*range.start(), *range.end()));
         let field = self.take(name)?;
         let mv = self.quantity(&field, Unit::Volts, &VOLTAGE, "a voltage such as 5 V")?;
         self.whole(&field, mv, range, "mV")
@@ -89,6 +103,8 @@ impl Fields<'_> {
     /// Two resistances in ohms; bare numbers are ohms.
     pub(crate) fn resistances_ohm(&mut self, name: &str) -> Option<Spanned<[u32; 2]>> {
         const TAKES: &str = "two resistances such as [10 kOhm, 20 kOhm]";
+        #[cfg(test)]
+        asked::takes(name, &Takes::Resistances);
         let field = self.take(name)?;
         let Value::List(list) = &field.value else {
             self.wrong(&field, TAKES);
@@ -122,7 +138,8 @@ impl Fields<'_> {
         if number.dimension() != quantity.dimension {
             let (at, found) = (field.value_span, number.unit_name());
             let wrong = e0210_wrong_unit::wrong_unit;
-            self.diagnostics.push(wrong(at, &field.name, &found, quantity.units));
+            let same = same(&number, quantity);
+            self.diagnostics.push(wrong(at, &field.name, &found, quantity.units, same.as_deref()));
             return None;
         }
         Some(number.in_base_units() * quantity.per_base)
@@ -162,6 +179,27 @@ impl Fields<'_> {
         let value = rounded as u32;
         Some(Spanned { value, span: field.value_span })
     }
+}
+
+#[cfg(test)]
+fn of_ms(ms: u32) -> u64 {
+    u64::from(ms) * 1_000
+}
+
+/// The time of a frequency, or the frequency of a time, if that is what the quantity is and it is a whole number of one of
+/// its units.
+fn same(number: &Number, quantity: &Quantity) -> Option<String> {
+    let units = match (number.dimension(), quantity.dimension) {
+        (Dimension::FREQUENCY, Dimension::TIME) => [(1.0, "s"), (1e-3, "ms"), (1e-6, "us")],
+        (Dimension::TIME, Dimension::FREQUENCY) => [(1e6, "MHz"), (1e3, "kHz"), (1.0, "Hz")],
+        _ => return None,
+    };
+    let base = 1.0 / number.in_base_units();
+    units.into_iter().find_map(|(factor, unit)| {
+        let (value, whole) = (base / factor, (base / factor).round());
+        let is_whole = whole >= 1.0 && (value - whole).abs() <= 1e-6 * whole;
+        is_whole.then(|| format!("{whole} {unit}"))
+    })
 }
 
 /// Gives a number without a unit that unit.

@@ -5,9 +5,14 @@
 
 use sensedsl_diagnostics::codes::{e0234_value_does_not_fit as misfit, h0707_of_ten_thousand};
 use sensedsl_syntax::Unit;
+use sensedsl_syntax::ast::{self, AstNode as _};
 
+#[cfg(test)]
+use super::asked;
 use super::{Field, Fields, plain_number, points};
 use crate::design::{Bare, Presentation};
+#[cfg(test)]
+use crate::meaning::Takes;
 use crate::spanned::Spanned;
 use crate::value::written::rounded;
 use crate::value::{Dimension, Measure, Number, Value, power_of_ten, shifted};
@@ -73,6 +78,8 @@ impl Fields<'_> {
 
     /// Takes a bound of the shown value.
     pub(crate) fn bound(&mut self, name: &str) -> Option<Spanned<f64>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Bound);
         let field = self.take(name)?;
         let number = field.value.number().filter(|number| number.measure != Measure::Raw);
         let Some(number) = number else {
@@ -83,7 +90,7 @@ impl Fields<'_> {
             Ok(value) => Some(Spanned { value, span: field.value_span }),
             Err(ValueMismatch(message, help)) => {
                 let message = format!("`{name}`: {message}");
-                self.say(misfit::value_does_not_fit(field.value_span, &message, &help));
+                self.say(misfit::value_does_not_fit(field.value_span, &message, &help, None));
                 None
             }
         }
@@ -91,6 +98,8 @@ impl Fields<'_> {
 
     /// Takes a value that a person gives for the device, and returns its code.
     pub(crate) fn code(&mut self, name: &str, codes: Codes) -> Option<Spanned<f64>> {
+        #[cfg(test)]
+        asked::takes(name, &Takes::Shown);
         let field = self.take(name)?;
         let Value::Number(number) = &field.value else {
             self.wrong(&field, "a number, in the unit that is shown, or a code such as raw 307");
@@ -112,7 +121,14 @@ impl Fields<'_> {
             }
             Err(ValueMismatch(message, help)) => {
                 let message = format!("`{name}`: {message}");
-                self.say(misfit::value_does_not_fit(at, &message, &help));
+                // Files of older versions have codes there without saying so.
+                let as_code = Number { measure: Measure::Raw, ..number };
+                let is_code = number.measure == Measure::Bare
+                    && matches!(field.node, ast::Value::Number(_))
+                    && code_of(&as_code, &shown, codes).is_ok();
+                let written = field.node.syntax().text().to_string();
+                let code = is_code.then(|| written.trim());
+                self.say(misfit::value_does_not_fit(at, &message, &help, code));
                 None
             }
         }

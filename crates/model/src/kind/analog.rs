@@ -3,6 +3,7 @@
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes};
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -30,6 +31,22 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#FFCA77",
     letter: 'A',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("samples", Takes::Whole(1, 1_024)),
+        "32",
+        "The value is the mean of that many conversions.",
+        "samples = 64;",
+    ),
+    Meaning::new(
+        ("sampling", Takes::Whole(1, 1_024)),
+        "the target's (84 on STM32F4)",
+        "Sampling time in cycles of the converter; it takes the next longer one that it has.",
+        "sampling = 480;",
+    ),
+];
 
 /// Samples per value if the file gives none: the number in the car's firmware.
 const SAMPLES_DEFAULT: u16 = 32;

@@ -2,10 +2,11 @@
 
 mod place;
 
-use super::i2c::{self, ByteOrder};
+use super::i2c::{self, ByteOrder, ORDERS};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Fields, name_or_text, plain_integer};
+use crate::meaning::{Meaning, REQUIRED, Takes, first};
 use crate::spanned::Spanned;
 use crate::value::Value;
 use sensedsl_board::signal::{CanLine, Function};
@@ -37,6 +38,72 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#7356A8",
     letter: 'N',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("bitrate", Takes::Frequency(10_000, 1_000_000)),
+        "500 kHz",
+        "The bit rate of the bus; all its devices have one.",
+        "bitrate = 250 kHz;",
+    ),
+    Meaning::new(
+        ("frame", Takes::Hex(0, 0x1FFF_FFFF)),
+        REQUIRED,
+        "The identifier of the frame.",
+        "frame = 0x120;",
+    ),
+    Meaning::new(
+        ("node", Takes::Whole(0, 255)),
+        "0",
+        "Added to `frame`: the unit or node number of parts whose identifiers contain it.",
+        "node = 5;",
+    ),
+    Meaning::new(
+        ("extended", Takes::Truth),
+        "`true` from 0x800 on",
+        "The identifier has 29 bits and not 11.",
+        "extended = true;",
+    ),
+    Meaning::new(
+        ("length", Takes::Whole(1, 8)),
+        "as far as the last value",
+        "Bytes of the frame.",
+        "length = 8;",
+    ),
+    Meaning::new(
+        ("order", Takes::Words(|| first(&ORDERS))),
+        "`big`",
+        "The order of the bytes of a number: the highest or the lowest one first.",
+        "order = little;",
+    ),
+    Meaning::new(
+        ("byte", Takes::Whole(0, 63)),
+        "0",
+        "Where the value begins in the frame, in whole bytes.",
+        "byte = 2;",
+    ),
+    Meaning::new(
+        ("bit", Takes::Whole(0, 63)),
+        "none",
+        "Where the value begins in the frame, in bits as a DBC file counts them; in place of `byte`. `bits` \
+         beside it says how many it has.",
+        "bit = 12;",
+    ),
+    Meaning::new(
+        ("mux", Takes::Form("the value that selects and what it is, such as `Page = 3`", &[])),
+        "none",
+        "The value is in the frame only where the other value of the same frame is this.",
+        "mux = Page = 3;",
+    ),
+    Meaning::new(
+        ("resend", Takes::Time(1_000, 60_000_000)),
+        "never",
+        "The actuator's frame is sent again and again after it was commanded.",
+        "resend = 20 ms;",
+    )
+    .only(Direction::Actuator),
+];
 
 /// Bits per second if the file gives none.
 const BITRATE_DEFAULT_HZ: u32 = 500_000;

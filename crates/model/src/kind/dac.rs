@@ -6,6 +6,7 @@ use super::analog::CONVERTED_MAX;
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
+use crate::meaning::{Meaning, Takes};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
@@ -29,6 +30,14 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#DF8E1B",
     letter: 'D',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[Meaning::new(
+    ("failsafe", Takes::Shown),
+    "keep the last",
+    "What the output becomes when the host falls silent. It begins with it at the start.",
+    "failsafe = 0;",
+)];
 
 /// A DAC output.
 #[derive(Clone, Debug, PartialEq)]

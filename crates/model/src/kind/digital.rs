@@ -3,6 +3,7 @@
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes, first};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 /// The properties that all devices of this kind share.
@@ -26,6 +27,43 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#DCE3EB",
     letter: 'G',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("pull", Takes::Words(|| first(&PULLS))),
+        "`none`",
+        "The resistor inside the MCU: to the supply or to ground.",
+        "pull = up;",
+    ),
+    Meaning::new(
+        ("edge", Takes::Words(|| first(&EDGES))),
+        "none",
+        "Changes raise an interrupt: a `bool` is told at once, a whole number is the count of these edges \
+         since the start.",
+        "edge = both;",
+    )
+    .only(Direction::Sensor),
+    Meaning::new(
+        ("active", Takes::Words(|| first(&ACTIVE))),
+        "`high`",
+        "The level that means 1.",
+        "active = low;",
+    ),
+    Meaning::new(
+        ("debounce", Takes::Time(0, 10_000_000)),
+        "0",
+        "A change counts when it has lasted that long.",
+        "debounce = 20 ms;",
+    ),
+    Meaning::new(
+        ("initial", Takes::Truth),
+        "`false`",
+        "The output is on from the start.",
+        "initial = true;",
+    )
+    .only(Direction::Actuator),
+];
 
 /// The resistor inside the MCU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,13 +104,19 @@ pub struct Digital {
     pub initial: bool,
 }
 
+/// The words after `pull`.
+const PULLS: [(&str, Pull); 3] = [("none", Pull::None), ("up", Pull::Up), ("down", Pull::Down)];
+/// The words after `edge`.
+const EDGES: [(&str, Edge); 3] =
+    [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
+/// The words after `active`, and whether low means "on".
+const ACTIVE: [(&str, bool); 2] = [("high", false), ("low", true)];
+
 impl Properties for Digital {
     fn read(fields: &mut Fields<'_>, direction: Direction, _: ValueType) -> Self {
-        let pulls = [("none", Pull::None), ("up", Pull::Up), ("down", Pull::Down)];
-        let pull = fields.word("pull", &pulls).map(|word| word.value).unwrap_or_default();
-        let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
-        let edge = fields.word("edge", &edges);
-        let active = fields.word("active", &[("high", false), ("low", true)]);
+        let pull = fields.word("pull", &PULLS).map(|word| word.value).unwrap_or_default();
+        let edge = fields.word("edge", &EDGES);
+        let active = fields.word("active", &ACTIVE);
         let debounce = fields.time_us("debounce", 0..=10_000_000);
         let initial = fields.boolean("initial");
         match direction {

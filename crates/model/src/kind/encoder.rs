@@ -3,6 +3,7 @@
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes};
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -27,6 +28,14 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#72CE9C",
     letter: 'E',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[Meaning::new(
+    ("counts", Takes::Whole(1, 10_000_000)),
+    "none",
+    "Counts per turn.",
+    "counts = 1400;",
+)];
 
 /// A quadrature encoder.
 #[derive(Clone, Debug, PartialEq, Eq)]

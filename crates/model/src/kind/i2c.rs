@@ -9,6 +9,7 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, REQUIRED, Takes, first};
 use crate::spanned::Spanned;
 
 /// The properties that all devices of this kind share.
@@ -44,6 +45,60 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'I',
 };
 
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("address", Takes::Hex(0, 255)),
+        REQUIRED,
+        "The address of the part: 7-bit form, 0x08 to 0x77; from 0x80 on the 8-bit form of data sheets, which \
+         is even (0xE6 is 0x73).",
+        "address = 0x68;",
+    ),
+    Meaning::new(
+        ("speed", Takes::Frequency(1_000, 1_000_000)),
+        "100 kHz",
+        "The greatest clock that the device stands. The bus gets the fastest that suits all its devices.",
+        "speed = 400 kHz;",
+    ),
+    Meaning::new(
+        ("exclusive", Takes::Truth),
+        "`false`",
+        "No other device is on its bus.",
+        "exclusive = true;",
+    ),
+    Meaning::new(
+        ("trigger", Takes::Bytes(0, 32)),
+        "none",
+        "Written to start a measurement.",
+        "trigger = [0x00, 0x51];",
+    ),
+    Meaning::new(
+        ("wait", Takes::Time(0, 60_000_000)),
+        "0",
+        "From the trigger to the measurement; asked sooner, the last value stands.",
+        "wait = 65 ms;",
+    ),
+    Meaning::new(
+        ("register", Takes::Whole(0, 255)),
+        "none",
+        "Selected before reading, or written before an actuator's value. With `register_size = 2` of a driver \
+         it goes up to 65535.",
+        "register = 0x3B;",
+    ),
+    Meaning::new(
+        ("length", Takes::Whole(1, 2_048)),
+        "the size of the type",
+        "Bytes that are read or written, divided evenly among the elements of the value.",
+        "length = 2;",
+    ),
+    Meaning::new(
+        ("order", Takes::Words(|| first(&ORDERS))),
+        "`big`",
+        "The order of the bytes of each element: the highest or the lowest one first.",
+        "order = little;",
+    ),
+];
+
 /// The properties that define a protocol. A device with none of them does not have its own protocol.
 pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"];
 
@@ -63,6 +118,10 @@ pub enum ByteOrder {
     /// Least significant byte first.
     Little,
 }
+
+/// The words after `order`.
+pub(super) const ORDERS: [(&str, ByteOrder); 2] =
+    [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
 
 /// A device on an I2C bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -149,13 +208,12 @@ pub(super) fn register(fields: &mut Fields<'_>) -> Option<u16> {
 /// The order of the bytes of a number. For a number of one byte the order means nothing, which is
 /// reported if the device itself gives one.
 pub(super) fn order(fields: &mut Fields<'_>, is_one_byte: bool) -> ByteOrder {
-    let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
     if let Some(at) = fields.own_span("order").filter(|_| is_one_byte && !fields.has("of")) {
         let why = "there is no order in one byte";
         let unused = w0601_unused_property::unused_property(at, "order", "this value", why);
         fields.say(unused);
     }
-    fields.word("order", &orders).map(|word| word.value).unwrap_or_default()
+    fields.word("order", &ORDERS).map(|word| word.value).unwrap_or_default()
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {

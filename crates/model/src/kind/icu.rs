@@ -8,6 +8,7 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes, first};
 
 /// The properties that all devices of this kind share.
 pub const SPEC: KindSpec = KindSpec {
@@ -31,6 +32,42 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'C',
 };
 
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("mode", Takes::Words(|| Mode::ALL.map(Mode::name).to_vec())),
+        "`count`",
+        "`count`: edges since the start; `width` and `period`: last pulse and last period in ticks; \
+         `frequency`: active edges per second; `duty`: active part in ten-thousandths; `ppm`: the channels of \
+         a model receiver in us, of a driver's reading only.",
+        "mode = width;",
+    ),
+    Meaning::new(
+        ("edge", Takes::Words(|| first(&EDGES))),
+        "`rising`",
+        "Which edge begins a pulse, or is counted; `both` is for counting only.",
+        "edge = falling;",
+    ),
+    Meaning::new(
+        ("resolution", Takes::Rate(1, 100_000_000)),
+        "10 kHz to count, 1 us to measure",
+        "The tick of the timer. The clock must divide to it within a thousandth.",
+        "resolution = 1 us;",
+    ),
+    Meaning::new(
+        ("pulse", Takes::Time(1, 10_000)),
+        "none",
+        "Each cycle a pulse of that length goes out on the wire `trigger` (HC-SR04).",
+        "pulse = 10 us;",
+    ),
+    Meaning::new(
+        ("wait", Takes::Time(0, 60_000_000)),
+        "0",
+        "With `pulse`: how long the device measures after it.",
+        "wait = 60 ms;",
+    ),
+];
+
 /// What is computed from the edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
@@ -50,6 +87,10 @@ pub enum Mode {
 }
 
 impl Mode {
+    /// All variants.
+    pub const ALL: [Self; 6] =
+        [Self::Count, Self::Width, Self::Period, Self::Frequency, Self::Duty, Self::Ppm];
+
     /// The word in the language.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -75,6 +116,10 @@ pub enum Edge {
     /// Every change; only for counting.
     Both,
 }
+
+/// The words after `edge`.
+const EDGES: [(&str, Edge); 3] =
+    [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
 
 /// An input-capture channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,8 +155,7 @@ fn serves(_: Role, function: &Function) -> bool {
 impl Properties for Icu {
     fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
         let mode = mode(fields);
-        let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
-        let edge = fields.word("edge", &edges);
+        let edge = fields.word("edge", &EDGES);
         if let Some(edge) = edge
             && edge.value == Edge::Both
             && mode != Mode::Count
@@ -148,8 +192,7 @@ impl Properties for Icu {
 }
 
 fn mode(fields: &mut Fields<'_>) -> Mode {
-    let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty, Mode::Ppm];
-    let modes = modes.map(|mode| (mode.name(), mode));
+    let modes = Mode::ALL.map(|mode| (mode.name(), mode));
     let Some(mode) = fields.word("mode", &modes) else { return Mode::default() };
     // Its value is several numbers on one wire, which only a driver's reading can declare.
     if mode.value == Mode::Ppm && !fields.is_of_reading() {

@@ -10,6 +10,7 @@ use sensedsl_board::table::Pin;
 use sensedsl_wire::{Direction, ValueType};
 
 use crate::fields::Fields;
+use crate::meaning::Meaning;
 
 pub mod analog;
 pub mod can;
@@ -33,17 +34,17 @@ use spec::Properties;
 
 /// Generates the types, and everything that covers all kinds, from the registry below.
 macro_rules! kinds {
-    ($($(#[$doc:meta])* $Kind:ident in $module:ident;)*) => {
+    ($($(#[doc = $doc:literal])* $Kind:ident in $module:ident;)*) => {
         /// The kind of a device, with the properties of that kind.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Kind {
-            $($(#[$doc])* $Kind($module::$Kind),)*
+            $($(#[doc = $doc])* $Kind($module::$Kind),)*
         }
 
         /// The word after `type`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum KindName {
-            $($(#[$doc])* $Kind,)*
+            $($(#[doc = $doc])* $Kind,)*
         }
 
         impl KindName {
@@ -54,6 +55,17 @@ macro_rules! kinds {
             #[must_use]
             pub const fn spec(self) -> &'static KindSpec {
                 match self { $(Self::$Kind => &$module::SPEC,)* }
+            }
+
+            /// What the properties of the kind mean; those that fix its wires are the same for all kinds.
+            pub(crate) const fn meanings(self) -> &'static [Meaning] {
+                match self { $(Self::$Kind => $module::MEANINGS,)* }
+            }
+
+            /// What it is, in a line.
+            #[must_use]
+            pub fn about(self) -> &'static str {
+                match self { $(Self::$Kind => concat!($($doc),*).trim_start(),)* }
             }
 
             pub(crate) fn read(
@@ -137,7 +149,8 @@ impl KindName {
     }
 
     /// Whether the pin can be that wire.
-    pub(crate) fn serves(self, role: Role, pin: &Pin) -> bool {
+    #[must_use]
+    pub fn serves(self, role: Role, pin: &Pin) -> bool {
         let of_kind = match self.spec().serves {
             Serves::AnyPin => true,
             Serves::Signal(is) => pin.usages.iter().any(|usage| is(role, usage.signal.function())),
@@ -166,21 +179,22 @@ mod tests {
     use sensedsl_wire::ScalarType;
 
     use super::*;
+    use crate::fields::asked;
 
     /// The properties that a kind's `read` asks for.
     fn asked(kind: KindName) -> BTreeSet<String> {
         let mut sources = SourceMap::default();
         let file = sources.add("x.sense", "");
-        let mut all = BTreeSet::new();
-        for direction in kind.spec().directions {
-            let constants = crate::value::constants::Constants::default();
-            let (mut reported, at) = (Vec::new(), Span::new(file, 0..0));
-            let mut fields =
-                Fields::new(std::iter::empty(), file, "a device", at, (&constants, &mut reported));
-            kind.read(&mut fields, *direction, ValueType::scalar(ScalarType::Uint16));
-            all.append(&mut fields.asked);
-        }
-        all
+        let asked = asked::during(|| {
+            for direction in kind.spec().directions {
+                let constants = crate::value::constants::Constants::default();
+                let (mut reported, at) = (Vec::new(), Span::new(file, 0..0));
+                let (none, reported) = (std::iter::empty(), (&constants, &mut reported));
+                let mut fields = Fields::new(none, file, "a device", at, reported);
+                kind.read(&mut fields, *direction, ValueType::scalar(ScalarType::Uint16));
+            }
+        });
+        asked.into_keys().collect()
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::{Codes, Fields};
+use crate::meaning::{Meaning, Takes};
 use sensedsl_board::signal::Function;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -28,6 +29,30 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#B24C00",
     letter: 'P',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("frequency", Takes::Frequency(1, 1_000_000)),
+        "50 Hz",
+        "Pulses per second; the outputs of one timer share it.",
+        "frequency = 20 kHz;",
+    ),
+    Meaning::new(("min", Takes::Pulse), "0", "The pulse of the least value, 0.", "min = 1 ms;"),
+    Meaning::new(
+        ("max", Takes::Pulse),
+        "the period",
+        "The pulse of the greatest value, 10000.",
+        "max = 2 ms;",
+    ),
+    Meaning::new(
+        ("failsafe", Takes::Shown),
+        "keep the last",
+        "What the output becomes when the host falls silent: 0 to 10000, a percentage, or a pulse. The pulses \
+         begin with it at the start.",
+        "failsafe = 1500 us;",
+    ),
+];
 
 /// Pulses per second if the file gives none: the frequency of a model servo.
 const FREQUENCY_DEFAULT_HZ: u32 = 50;

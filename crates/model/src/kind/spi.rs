@@ -1,9 +1,10 @@
 //! `spi`: a device on an SPI bus, with its own chip select.
 
-use super::i2c::{self, ByteOrder};
+use super::i2c::{self, ByteOrder, ORDERS};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes, first};
 use sensedsl_board::signal::{Function, SpiLine};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -31,6 +32,58 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#A09EE9",
     letter: 'S',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("clock", Takes::Frequency(1_000, 100_000_000)),
+        "1 MHz",
+        "The highest clock that the device takes.",
+        "clock = 10 MHz;",
+    ),
+    Meaning::new(
+        ("mode", Takes::Whole(0, 3)),
+        "0",
+        "Polarity and phase of the clock.",
+        "mode = 3;",
+    ),
+    Meaning::new(
+        ("trigger", Takes::Bytes(0, 32)),
+        "none",
+        "Sent to start a measurement.",
+        "trigger = [0x06];",
+    ),
+    Meaning::new(
+        ("wait", Takes::Time(0, 60_000_000)),
+        "0",
+        "From the trigger to the measurement.",
+        "wait = 10 ms;",
+    ),
+    Meaning::new(
+        ("register", Takes::Whole(0, 255)),
+        "none",
+        "Sent before the value is read or written. With `register_size = 2` of a driver it goes up to 65535.",
+        "register = 0x28;",
+    ),
+    Meaning::new(
+        ("read", Takes::Bytes(0, 32)),
+        "none",
+        "Sent before the value is read, where there is no register.",
+        "read = [0x03];",
+    ),
+    Meaning::new(
+        ("length", Takes::Whole(1, 1_024)),
+        "the size of the type",
+        "Bytes of the value.",
+        "length = 2;",
+    ),
+    Meaning::new(
+        ("order", Takes::Words(|| first(&ORDERS))),
+        "`big`",
+        "The order of the bytes of each element: the highest or the lowest one first.",
+        "order = little;",
+    ),
+];
 
 /// Clock if the file gives none.
 const CLOCK_DEFAULT_HZ: u32 = 1_000_000;

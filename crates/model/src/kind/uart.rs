@@ -1,10 +1,11 @@
 //! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
 //! `tx = none` takes only the receiving wire.
 
-use super::i2c::{self, ByteOrder};
+use super::i2c::{self, ByteOrder, ORDERS};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
+use crate::meaning::{Meaning, Takes, first};
 use sensedsl_board::signal::{Function, UartLine};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -41,6 +42,67 @@ pub const SPEC: KindSpec = KindSpec {
     colour_on_dark: "#C07AA5",
     letter: 'U',
 };
+
+/// What its properties mean, besides those that fix wires.
+pub(crate) const MEANINGS: &[Meaning] = &[
+    Meaning::new(
+        ("baud", Takes::Whole(300, 10_000_000)),
+        "9600",
+        "Bits per second.",
+        "baud = 115200;",
+    ),
+    Meaning::new(
+        ("frame", Takes::Words(|| first(&FRAMES))),
+        "`\"8N1\"`",
+        "Data bits, parity and stop bits.",
+        "frame = \"8E1\";",
+    ),
+    Meaning::new(
+        ("invert", Takes::Truth),
+        "`false`",
+        "The wires are low at rest (SBUS).",
+        "invert = true;",
+    ),
+    Meaning::new(
+        ("start", Takes::Bytes(0, 8)),
+        "none",
+        "What a message begins with.",
+        "start = \"$GP\";",
+    ),
+    Meaning::new(
+        ("end", Takes::Bytes(0, 8)),
+        "none",
+        "What a message ends with.",
+        "end = \"\\r\\n\";",
+    ),
+    Meaning::new(
+        ("length", Takes::Whole(1, 1_024)),
+        "the size of the type; with `end` in a driver with readings: up to there",
+        "Bytes of a message between `start` and `end`, without the checksum.",
+        "length = 8;",
+    ),
+    Meaning::new(
+        ("checksum", Takes::Words(|| first(&CHECKSUMS))),
+        "`none`",
+        "What stands before `end`. `sum8`: low byte of the sum; `xor8`: all bytes exclusive or; `ibus`: 0xFFFF \
+         minus the sum, two bytes, low one first; `crc8_dvb_s2`: CRC-8 of polynomial 0xD5; `nmea`: `*` and two \
+         hexadecimal digits.",
+        "checksum = xor8;",
+    ),
+    Meaning::new(
+        ("checksum_from", Takes::Whole(0, 8)),
+        "0",
+        "The first byte that the checksum is of, counted from the first of `start`; the length of `start` at \
+         most.",
+        "checksum_from = 2;",
+    ),
+    Meaning::new(
+        ("order", Takes::Words(|| first(&ORDERS))),
+        "`big`",
+        "The order of the bytes of each element: the highest or the lowest one first.",
+        "order = little;",
+    ),
+];
 
 /// Bits per second if the file gives none.
 pub const BAUD_DEFAULT: u32 = 9_600;
@@ -116,21 +178,33 @@ fn serves(role: Role, function: &Function) -> bool {
     }
 }
 
+/// The words after `frame`: data bits, parity, stop bits.
+const FRAMES: [(&str, (u8, Parity, u8)); 8] = [
+    ("8N1", (8, Parity::None, 1)),
+    ("8N2", (8, Parity::None, 2)),
+    ("8E1", (8, Parity::Even, 1)),
+    ("8E2", (8, Parity::Even, 2)),
+    ("8O1", (8, Parity::Odd, 1)),
+    ("8O2", (8, Parity::Odd, 2)),
+    ("7E1", (7, Parity::Even, 1)),
+    ("7O1", (7, Parity::Odd, 1)),
+];
+
+/// The words after `checksum`.
+const CHECKSUMS: [(&str, MessageChecksum); 6] = [
+    ("none", MessageChecksum::None),
+    ("sum8", MessageChecksum::Sum8),
+    ("xor8", MessageChecksum::Xor8),
+    ("ibus", MessageChecksum::Ibus),
+    ("crc8_dvb_s2", MessageChecksum::Crc8DvbS2),
+    ("nmea", MessageChecksum::Nmea),
+];
+
 impl Properties for Uart {
     fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let rate = fields.integer("baud", 300..=10_000_000);
         let baud = rate.and_then(|n| u32::try_from(n.value).ok());
-        let frames = [
-            ("8N1", (8, Parity::None, 1)),
-            ("8N2", (8, Parity::None, 2)),
-            ("8E1", (8, Parity::Even, 1)),
-            ("8E2", (8, Parity::Even, 2)),
-            ("8O1", (8, Parity::Odd, 1)),
-            ("8O2", (8, Parity::Odd, 2)),
-            ("7E1", (7, Parity::Even, 1)),
-            ("7O1", (7, Parity::Odd, 1)),
-        ];
-        let frame = fields.word("frame", &frames).map(|word| word.value);
+        let frame = fields.word("frame", &FRAMES).map(|word| word.value);
         let (data_bits, parity, stop_bits) = frame.unwrap_or((8, Parity::None, 1));
         let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
         let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
@@ -168,15 +242,7 @@ impl Properties for Uart {
 
 /// The checksum of a message, and the byte that it starts from.
 fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8) {
-    let checksums = [
-        ("none", MessageChecksum::None),
-        ("sum8", MessageChecksum::Sum8),
-        ("xor8", MessageChecksum::Xor8),
-        ("ibus", MessageChecksum::Ibus),
-        ("crc8_dvb_s2", MessageChecksum::Crc8DvbS2),
-        ("nmea", MessageChecksum::Nmea),
-    ];
-    let checksum = fields.word("checksum", &checksums).map(|word| word.value).unwrap_or_default();
+    let checksum = fields.word("checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
     // The bytes that it covers begin within the start bytes, or right after them.
     let most = i64::try_from(start_bytes).unwrap_or(0);
     let from = fields.integer("checksum_from", 0..=most);

@@ -49,9 +49,18 @@ pub(crate) const PROTOCOL: &[&str] = &[
     "parameters",
 ];
 
-/// The words that these properties take as values.
-pub(crate) const WORDS: &[&str] =
-    &["sensirion", "decimal", "degrees", "hex", "bcd", "direction_pins", "two_pwm"];
+/// The words after `crc`.
+pub(crate) const CRCS: [(&str, Crc); 1] = [("sensirion", Crc::Sensirion)];
+/// The words after `format`; `bcd` is the only one that is not of a text.
+pub(crate) const FORMATS: [(&str, Option<Format>); 4] = [
+    ("decimal", Some(Format::Decimal)),
+    ("degrees", Some(Format::Degrees)),
+    ("hex", Some(Format::Hex)),
+    ("bcd", None),
+];
+/// The words after `drive`.
+pub(crate) const DRIVES: [(&str, Drive); 2] =
+    [("direction_pins", Drive::DirectionPins), ("two_pwm", Drive::TwoPwm)];
 
 /// Most raw values or ranges that mean "no measurement".
 const INVALID_MAX: usize = 16;
@@ -65,21 +74,14 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
     let bits = bits.map(|Spanned { value: (high, low), .. }| (high.max(low), high.min(low)));
     let signed = fields.boolean("signed").map(|word| word.value);
     let elements = elements(fields, of);
-    let crc = fields.word("crc", &[("sensirion", Crc::Sensirion)]).map(|word| word.value);
+    let crc = fields.word("crc", &CRCS).map(|word| word.value);
     let packed = fields.integer("packed", 1..=32).and_then(|n| u8::try_from(n.value).ok());
     let byte = fields.integer("byte", 0..=1_023).and_then(|n| u16::try_from(n.value).ok());
-    let formats = [
-        ("decimal", Some(Format::Decimal)),
-        ("degrees", Some(Format::Degrees)),
-        ("hex", Some(Format::Hex)),
-        ("bcd", None),
-    ];
-    let format = fields.word("format", &formats).map(|word| word.value);
+    let format = fields.word("format", &FORMATS).map(|word| word.value);
     let text = text(fields, format.flatten());
     let exchange = fields.bytes("exchange", 1..=255).map(|bytes| bytes.value).unwrap_or_default();
     let output = output(fields, formula);
-    let drives = [("direction_pins", Drive::DirectionPins), ("two_pwm", Drive::TwoPwm)];
-    let drive = fields.word("drive", &drives).map(|word| word.value);
+    let drive = fields.word("drive", &DRIVES).map(|word| word.value);
     Coding {
         reading: None,
         of: Some(of),

@@ -49,7 +49,7 @@ pub(crate) fn read(
     let mut fields = Fields::new(node.properties(), file, &owner, name.span, reported);
     let kind_name = kind_name(&mut fields, direction, known.drivers)?;
     fields.rename_owner(kind_name.value.with_article());
-    let driver = take_driver(&mut fields, kind_name.value, known, &name.value);
+    let driver = take_driver(&mut fields, kind_name, known, &name.value);
     let value = value?;
     accept(&mut fields, kind_name.value, value)?;
     let kind = kind_name.value.read(&mut fields, direction, value.value);
@@ -172,7 +172,11 @@ fn of_driver(
     drivers: &Drivers,
 ) -> Option<Spanned<KindName>> {
     let Some(at) = fields.value_span("driver") else {
-        fields.missing("type", "type = analog;");
+        let example = match direction {
+            Direction::Sensor => "type = analog;",
+            Direction::Actuator => "type = digital;",
+        };
+        fields.missing("type", example);
         return None;
     };
     let wanted = Spanned { value: fields.peek_name("driver")?, span: at };
@@ -208,7 +212,7 @@ fn check_direction(fields: &mut Fields<'_>, written: Spanned<KindName>, directio
 /// Inherits the properties of the driver that the device names, or of the one its address implies.
 fn take_driver(
     fields: &mut Fields<'_>,
-    kind: KindName,
+    kind: Spanned<KindName>,
     known: Known<'_>,
     device: &str,
 ) -> Option<String> {
@@ -218,7 +222,7 @@ fn take_driver(
         let driver = known.drivers.find_for(&wanted, kind, &mut reports);
         reports.into_iter().for_each(|report| fields.say(report));
         driver?
-    } else if kind == KindName::I2c && is_bare_ranger(fields) {
+    } else if kind.value == KindName::I2c && is_bare_ranger(fields) {
         let driver = known.drivers.library(DEFAULT_RANGER)?;
         let at = fields.value_span("address")?;
         fields.say(h0703_default_protocol::default_protocol(at, device, DEFAULT_RANGER));

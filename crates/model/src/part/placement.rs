@@ -11,11 +11,14 @@ use crate::spanned::Spanned;
 use crate::value::Value;
 
 /// The words after `together`.
-const TOGETHER: [(&str, Together); 3] = [
+pub(crate) const TOGETHER: [(&str, Together); 3] = [
     (Together::Unit.name(), Together::Unit),
     (Together::Header.name(), Together::Header),
     (Together::Side.name(), Together::Side),
 ];
+
+/// The words after `sequence`.
+pub(crate) const SEQUENCE: [(&str, ()); 1] = [("header", ())];
 
 /// Reads the placement of a device: one for each set of wires, of which an array has several.
 pub(crate) fn read(
@@ -91,7 +94,7 @@ fn in_common(
     is_array: bool,
 ) -> (Vec<Spanned<Together>>, Option<sensedsl_diagnostics::Span>) {
     let together = fields.word("together", &TOGETHER);
-    let sequence = fields.word("sequence", &[("header", ())]).map(|word| word.span);
+    let sequence = fields.word("sequence", &SEQUENCE).map(|word| word.span);
     if !is_array {
         let written = together.iter().map(|one| (one.span, "together"));
         let written = written.chain(sequence.map(|span| (span, "sequence")));

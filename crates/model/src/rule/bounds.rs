@@ -44,7 +44,10 @@ fn foreign_address(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<
         format!("write `address = 0x{first:02X};` or another of these")
     };
     let has = listed(&bounds.addresses);
-    Some(e0232_address_of_part::address_of_part(at, address, driver, &has, &help))
+    let meant = [address >> 1];
+    let others = if is_eight_bit { meant.as_slice() } else { bounds.addresses.as_slice() };
+    let report = e0232_address_of_part::address_of_part;
+    Some(report(at, address, driver, (&has, &help), others))
 }
 
 /// Formats addresses for people: `0x68 or 0x69`, `0x40 to 0x4F`.

@@ -1,11 +1,10 @@
 //! What the hardware will not do although the file asks for it: a design in, reports out.
 
-use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0506_hardware_limit, w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
 };
-
-use sensedsl_wire::Direction;
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_wire::{Direction, ValueType};
 
 use super::{bounds, ranges};
 use crate::design::{Design, Device};
@@ -37,8 +36,14 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
     let why = "the timer sees every edge by itself";
     let kind = device.kind.name().name();
-    let unused = |(name, at): (&str, Option<_>)| {
-        Some(w0601_unused_property::unused_property(at?, name, kind, why))
+    let unused = |(name, at): (&str, Option<Span>)| {
+        let mut unused = w0601_unused_property::unused_property(at?, name, kind, why);
+        // What a chip or a driver says may count for other devices.
+        let (block, at) = (device.block, unused.primary.span);
+        if at.file != block.file || at.start < block.start || at.end > block.end {
+            unused.fixes.clear();
+        }
+        Some(unused)
     };
     written.into_iter().filter_map(unused).collect()
 }
@@ -50,10 +55,10 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
     }
     let at = device.delay_span.or(i2c.wait_span)?;
     let needs_ms = i2c.wait_us.div_ceil(1_000).to_string();
-    let name = &device.name.value;
+    let asked = (device.name.value.as_str(), device.name.span, device.delay_span);
     let delay_ms = device.delay_ms.to_string();
     let source = i2c.wait_span.filter(|wait| Some(*wait) != Some(at));
-    Some(w0602_slower_than_asked::slower_than_asked(at, name, &needs_ms, &delay_ms, source))
+    Some(w0602_slower_than_asked::slower_than_asked(at, asked, &needs_ms, &delay_ms, source))
 }
 
 /// Reports an I2C device whose bytes are not whole elements that a value can hold.
@@ -88,7 +93,7 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
     }
     let (_, most) = value.scalar.integer_range()?;
     let (bits, wider) = match device.kind.interface() {
-        Interface::Analog(_) => (ADC_BITS, "uint16".to_owned()),
+        Interface::Analog(_) => (ADC_BITS, like(value, "uint16")),
         Interface::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
         // Other bytes are compared with the value's type where their words are read.
         Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
@@ -108,7 +113,13 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         format!("{} bytes", bits / 8)
     };
     let found = value.to_string();
-    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+    let holds = Some(wider.as_str()).filter(|wider| !wider.contains(' '));
+    Some(w0603_narrow_type::narrow_type(device.value.span, (&found, &range), &wider, holds))
+}
+
+/// A type with as many elements as another one.
+pub(super) fn like(value: ValueType, scalar: &str) -> String {
+    value.length.map_or_else(|| scalar.to_owned(), |length| format!("{scalar}[{length}]"))
 }
 
 /// Warns of a value of a chip with fewer bits than its driver's reading.
@@ -121,7 +132,7 @@ fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
     }
     let (found, range) = (own.to_string(), format!("{of_least} to {of_most}"));
     let wider = of.to_string();
-    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+    Some(w0603_narrow_type::narrow_type(device.value.span, (&found, &range), &wider, Some(&wider)))
 }
 
 /// Ranges of more bits than this are reported in bytes.

@@ -28,7 +28,7 @@ use crate::value::constants::Constants;
 const WISHES: [&str; 6] = ["pin", "unit", "side", "header", "together", "sequence"];
 
 /// All properties that can be wished for.
-fn wishes() -> impl Iterator<Item = &'static str> {
+pub(crate) fn wishes() -> impl Iterator<Item = &'static str> {
     let roles = Role::ALL.into_iter().map(Role::property);
     WISHES.into_iter().chain(roles.filter(|name| *name != "pin"))
 }

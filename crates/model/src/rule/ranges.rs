@@ -9,6 +9,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, FileId};
 use sensedsl_wire::{Direction, ScalarType};
 
+use super::checks::like;
 use crate::design::{Bare, Board, Design, Device};
 use crate::part::reach::{of_part, of_type, raw, shown};
 use crate::value::written::{divider, rounded, shown_mv, shown_ohm};
@@ -43,7 +44,10 @@ fn bare_numbers(design: &Design) -> Vec<Diagnostic> {
         };
         let code = bare.code.to_string();
         let more = all.len() - 1;
-        Some(w0612_shown_not_raw::shown_not_raw(bare.span, &shown, &code, more, &write))
+        let raw = format!("raw {}", bare.number);
+        let ways = [bare.with_unit.as_deref(), Some(raw.as_str())];
+        let report = w0612_shown_not_raw::shown_not_raw;
+        Some(report(bare.span, (&shown, &code), more, &write, ways))
     });
     reported.collect()
 }
@@ -67,7 +71,8 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
     let (found, name) = (value.scalar.name(), &device.name.value);
     let words = |(least, most): (f64, f64)| format!("{least} to {most}");
     let narrow = w0611_narrow_command::narrow_command;
-    Some(narrow(device.value.span, (found, &words(held)), (name, &words(takes)), wider))
+    let (found, device_takes) = ((found, &*words(held)), (name.as_str(), &*words(takes)));
+    Some(narrow(device.value.span, found, device_takes, (wider, &like(value, wider))))
 }
 
 /// Reports an analog input's voltage that exceeds the supply, with no divider.

@@ -13,24 +13,12 @@ use crate::design::Design;
 /// devices, that states none; none if all state one. It is not in the canonical layout.
 #[must_use]
 pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<String> {
-    let of_file = design.devices.iter().filter(|device| device.name.span.file == design.file);
-    let mut ids: BTreeMap<usize, u8> = BTreeMap::new();
-    for device in of_file {
-        // All values of a chip that names no devices share the place of the chip's name: the first
-        // one counts.
-        ids.entry(device.name.span.range().start).or_insert(device.id.value);
-    }
     let mut missing: Vec<(Range<usize>, String)> = Vec::new();
-    let boards = tree.boards().flat_map(|board| board.parts().collect::<Vec<_>>());
-    for part in tree.parts().chain(boards) {
-        for (name, block) in blocks_without(&part) {
-            let at: usize = name.range().start().into();
-            let Some(id) = ids.get(&at) else { continue };
-            // A block on one line stays on one line.
-            let is_line = !block.text().contains_char('\n') && !block.text().contains_char('\r');
-            let written = if is_line { format!(" id = {id};") } else { format!("\nid = {id};\n") };
-            missing.extend(place(&block).map(|place| (place, written)));
-        }
+    for (block, id) in blocks_without_ids(design, tree) {
+        // A block on one line stays on one line.
+        let is_line = !block.text().contains_char('\n') && !block.text().contains_char('\r');
+        let written = if is_line { format!(" id = {id};") } else { format!("\nid = {id};\n") };
+        missing.extend(place(&block).map(|place| (place, written)));
     }
     missing.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
     if missing.is_empty() {
@@ -41,6 +29,26 @@ pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<S
         text.replace_range(range, &written);
     }
     Some(text)
+}
+
+/// The devices of the design's own file, and the chips without devices, that state no `id`: their blocks in the tree of
+/// the file, each with the identifier that it has.
+#[must_use]
+pub fn blocks_without_ids(design: &Design, tree: &ast::SourceFile) -> Vec<(SyntaxNode, u8)> {
+    let of_file = design.devices.iter().filter(|device| device.name.span.file == design.file);
+    let mut ids: BTreeMap<usize, u8> = BTreeMap::new();
+    for device in of_file {
+        // All values of a chip that names no devices share the place of the chip's name: the first
+        // one counts.
+        ids.entry(device.name.span.range().start).or_insert(device.id.value);
+    }
+    let boards = tree.boards().flat_map(|board| board.parts().collect::<Vec<_>>());
+    let blocks = tree.parts().chain(boards).flat_map(|part| blocks_without(&part));
+    let with_id = blocks.filter_map(|(name, block)| {
+        let at: usize = name.range().start().into();
+        Some((block, *ids.get(&at)?))
+    });
+    with_id.collect()
 }
 
 /// The blocks of a part that lack an `id`, each with its name.

@@ -110,9 +110,9 @@ fn hyphen(at: Span, name: &str, suggestion: &str, in_value: bool) -> Diagnostic 
         return diagnostic;
     }
     let apart = name.replace('-', " - ");
-    diagnostic.help(format!(
-        "write `{suggestion}` for a name, or `{apart}`, with spaces, for a subtraction"
-    ))
+    let help =
+        format!("write `{suggestion}` for a name, or `{apart}`, with spaces, for a subtraction");
+    diagnostic.help(help).one_of([apart.as_str()])
 }
 
 fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {

@@ -39,6 +39,9 @@ pub(super) struct Placed<'p> {
 #[derive(Debug)]
 pub(super) struct Wire<'p> {
     pub(super) kind: &'p str,
+    /// The pin, and the parts that it is wired to.
+    pub(super) pin: &'p str,
+    pub(super) parts: Vec<&'p str>,
     pub(super) lines: Vec<Vec<Point>>,
     pub(super) dots: Vec<Point>,
 }
@@ -158,7 +161,14 @@ fn one_side<'p>(
     let x = edge + outward * boxes_at(count);
     for ((run, lane), (net, way)) in runs.iter().zip(&lanes).zip(nets) {
         let lane = edge + outward * lanes::lane_at(*lane);
-        picture.wires.push(wire(net.kind, way, run, (lane, x)));
+        let (lines, dots) = lines(way, run, (lane, x));
+        let ends = net.ends.iter().filter_map(|(part, wire)| {
+            let part = parts.get(*part)?;
+            Some((part.name.as_str(), part.wires.get(*wire)?.pin.as_str()))
+        });
+        let pin = ends.clone().next().map_or("", |(_, pin)| pin);
+        let parts = ends.map(|(part, _)| part).collect();
+        picture.wires.push(Wire { kind: net.kind, pin, parts, lines, dots });
     }
     let placed = stacked.into_iter().zip(marks);
     picture.boxes.extend(placed.map(|(part, marks)| Placed { part, x, marks }));
@@ -224,8 +234,9 @@ fn marks(one: &PartBox<'_>, exit_of: impl Fn(usize) -> Option<f64>, exits: &[f64
     marks
 }
 
-/// The lines of a net: along its way to its lane, along the lane, and from there to its ends.
-fn wire<'p>(kind: &'p str, way: &[Point], run: &Run, (lane, x): Point) -> Wire<'p> {
+/// The lines of a net: along its way to its lane, along the lane, and from there to its ends; where lines
+/// meet.
+fn lines(way: &[Point], run: &Run, (lane, x): Point) -> (Vec<Vec<Point>>, Vec<Point>) {
     let mut trunk = way.to_vec();
     let end = |y: f64| (x, y);
     if let [only] = run.to.as_slice() {
@@ -234,14 +245,14 @@ fn wire<'p>(kind: &'p str, way: &[Point], run: &Run, (lane, x): Point) -> Wire<'
         } else {
             trunk.extend([(lane, run.from), (lane, *only), end(*only)]);
         }
-        return Wire { kind, lines: vec![trunk], dots: Vec::new() };
+        return (vec![trunk], Vec::new());
     }
     trunk.push((lane, run.from));
     let mut lines = vec![trunk];
     let mut heights: Vec<f64> = run.to.iter().copied().chain([run.from]).collect();
     heights.sort_by(f64::total_cmp);
     let (Some(top), Some(bottom)) = (heights.first().copied(), heights.last().copied()) else {
-        return Wire { kind, lines, dots: Vec::new() };
+        return (lines, Vec::new());
     };
     lines.push(vec![(lane, top), (lane, bottom)]);
     lines.extend(run.to.iter().map(|y| vec![(lane, *y), end(*y)]));
@@ -251,5 +262,5 @@ fn wire<'p>(kind: &'p str, way: &[Point], run: &Run, (lane, x): Point) -> Wire<'
         ends + usize::from(*y > top + 0.3) + usize::from(*y < bottom - 0.3) >= 3
     };
     let dots = heights.iter().filter(|y| meet(y)).map(|y| (lane, *y)).collect();
-    Wire { kind, lines, dots }
+    (lines, dots)
 }

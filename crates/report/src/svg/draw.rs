@@ -49,7 +49,9 @@ pub(super) fn draw(
     }
     for placed in &picture.boxes {
         let Placed { part, x, marks } = placed;
+        let _ = writeln!(out, "<g data-part=\"{}\">", escaped(&part.part.name));
         room = room.with(&boxes::draw(out, part, *x, marks).grown(PAD));
+        out.push_str("</g>\n");
     }
     room
 }
@@ -87,7 +89,12 @@ fn draw_wire(out: &mut String, wire: &Wire<'_>, room: Area) -> Area {
         }
     }
     let kind = wire.kind;
-    let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\" class=\"sd-wire sd-wire-{kind}\"/>");
+    // By these names a page finds what it shows: of pins and of parts, which have no blank space.
+    let (pin, parts) = (escaped(wire.pin), escaped(&wire.parts.join(" ")));
+    let _ = writeln!(
+        out,
+        "<path d=\"{path}\" fill=\"none\" class=\"sd-wire sd-wire-{kind}\" data-pin=\"{pin}\" data-parts=\"{parts}\"/>"
+    );
     for dot in &wire.dots {
         marks::circle(out, *dot, 3.0, &format!("sd-dot-{kind}"));
     }
@@ -96,7 +103,10 @@ fn draw_wire(out: &mut String, wire: &Wire<'_>, room: Area) -> Area {
 
 fn draw_contact(out: &mut String, contact: &Contact<'_>, use_of: &dyn Fn(&str) -> Option<Use>) {
     let used = contact.pin().and_then(|pin| use_of(pin.name.as_str()));
-    let _ = write!(out, "<g><title>{}</title>", escaped(&title(contact, used.as_ref())));
+    let pin = contact
+        .pin()
+        .map_or(String::new(), |pin| format!(" data-pin=\"{}\"", escaped(&pin.name.to_string())));
+    let _ = write!(out, "<g{pin}><title>{}</title>", escaped(&title(contact, used.as_ref())));
     match used {
         Some(used) => {
             marks::of_kind(out, contact.at, &used.kind);

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
+use sensedsl_sinks::config::ROS_DISTROS;
 
 #[derive(Debug, Args)]
 pub(crate) struct SinkArgs {
@@ -21,6 +23,9 @@ pub(crate) struct SinkArgs {
     /// Send the values to `PlotJuggler`, at 127.0.0.1:9870 unless you say
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, help_heading = "Other programs")]
     pub(crate) plotjuggler: Option<Option<String>>,
+    /// The release of the other programs of ROS 2, in place of `distro` in the file
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(ROS_DISTROS), help_heading = "Other programs")]
+    pub(crate) ros_distro: Option<String>,
 }
 
 impl SinkArgs {

@@ -14,12 +14,12 @@ use sensedsl_wiring::{Cancel, capacity};
 use serde_json::{Value, json};
 
 use super::facts::{Facts, units};
-use super::table::table;
-use super::{diff, input};
+use super::input;
 use crate::cli::{On, PartsArgs, TableFormat};
 use crate::files::read_text;
 use crate::status::Status;
 use crate::terminal::Terminal;
+use sensedsl_report::columns::table;
 
 /// The file's devices on a part or board.
 struct Side {
@@ -117,7 +117,7 @@ fn human([here, there]: [&Side; 2], changes: &[Change]) -> String {
     let heads = ["", &*format!(">{}", here.name), &*format!(">{}", there.name)];
     let moved = match changes {
         [] => "no wire moves\n".to_owned(),
-        some => diff::human(some, there.wires.len()),
+        some => sensedsl_report::diff::human(some, there.wires.len()),
     };
     format!(
         "{}\n{}; room: how many more devices fit while these wires stay, where it differs\n\n{moved}",

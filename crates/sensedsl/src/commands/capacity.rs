@@ -2,21 +2,16 @@
 
 use anyhow::Result;
 use sensedsl_diagnostics::render;
-use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
+use sensedsl_report::capacity as report;
 use sensedsl_session::Ask;
-use sensedsl_wiring::{Cancel, Capacity, capacity};
-use serde_json::{Value, json};
+use sensedsl_wiring::{Cancel, capacity};
 
 use super::deadline::Deadline;
 use super::input;
-use super::table::table;
 use crate::cli::{CapacityArgs, TableFormat};
 use crate::status::Status;
 use crate::terminal::Terminal;
-
-/// The number of blockers named in one line.
-const NAMED_MAX: usize = 8;
 
 pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status> {
     let deadline = Deadline::after(args.timeout);
@@ -26,52 +21,16 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
     let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
     let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
     let found = capacity(design, wiring, args.rearrange, cancel);
-    let capacities = found.all;
     if !found.complete {
         let all = design.boards.len() * KindName::ALL.len();
-        let open = all - capacities.len();
+        let open = all - found.all.len();
         terminal.aside(&format!("stopped: {open} of {all} were not looked at"))?;
     }
     match args.format {
-        TableFormat::Human => terminal.result(&human(design, &capacities))?,
+        TableFormat::Human => terminal.result(&report::human(design, &found))?,
         TableFormat::Json => {
-            let list: Vec<Value> = capacities.iter().map(|one| value(design, one)).collect();
-            let all = json!({ "version": 1, "complete": found.complete, "capacity": list });
-            terminal.result(&render::json_text(&all))?;
+            terminal.result(&render::json_text(&report::value(design, &found)))?;
         }
     }
     Ok(Status::Done)
-}
-
-fn board_name<'a>(design: &'a Design, one: &Capacity) -> &'a str {
-    design.board(one.board).map_or("", |board| board.name.value.as_str())
-}
-
-fn value(design: &Design, one: &Capacity) -> Value {
-    json!({
-        "board": board_name(design, one),
-        "kind": one.kind.name(),
-        "more": one.more,
-        "blocked_by": one.blocked_by,
-    })
-}
-
-fn human(design: &Design, capacities: &[Capacity]) -> String {
-    let rows: Vec<[String; 4]> = capacities
-        .iter()
-        .map(|one| {
-            let mut blockers: Vec<&str> =
-                one.blocked_by.iter().take(NAMED_MAX).map(String::as_str).collect();
-            if one.blocked_by.len() > NAMED_MAX {
-                blockers.push("…");
-            }
-            [
-                board_name(design, one).to_owned(),
-                one.kind.name().to_owned(),
-                one.more.to_string(),
-                blockers.join(" "),
-            ]
-        })
-        .collect();
-    table(["Board", "Kind", ">More", "Next one lacks"], &rows)
 }

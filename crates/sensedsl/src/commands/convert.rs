@@ -12,11 +12,11 @@ use sensedsl_record::summary::{HEADS, Summary};
 use sensedsl_record::{Ending, page, summary};
 
 use super::in_the_way;
-use super::table::table as aligned;
 use crate::cli::{ConvertArgs, ConvertTo};
 use crate::files::{Refused, is_stream, no_record, open_record, write_streamed};
 use crate::status::Status;
 use crate::terminal::Terminal;
+use sensedsl_report::columns::table as aligned;
 
 pub(crate) fn run(args: &ConvertArgs, terminal: &Terminal) -> Result<Status> {
     let form = form(args)?;

@@ -1,18 +1,17 @@
 //! `sensedsl diff`: what changes on the bench from one wiring to another.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::render;
 use sensedsl_model::FileUse;
-use sensedsl_report::diff::{Change, Place, Wire, changes, wires};
+use sensedsl_report::diff as report;
+use sensedsl_report::diff::{Place, Wire, changes, wires};
 use sensedsl_report::json::wired;
 use sensedsl_session::Ask;
-use serde_json::{Value, json};
 
 use super::input;
-use super::table::table;
 use crate::cli::{DiffArgs, On, TableFormat};
 use crate::files::read_text;
 use crate::status::Status;
@@ -26,12 +25,9 @@ pub(crate) fn run(args: &DiffArgs, terminal: &mut Terminal) -> Result<Status> {
     let changes = changes(&old, &new);
     match args.format {
         TableFormat::Json => {
-            let list: Vec<Value> = changes.iter().map(Change::value).collect();
-            let all = json!({ "version": 1, "changes": list });
-            terminal.result(&render::json_text(&all))?;
+            terminal.result(&render::json_text(&report::value(&changes)))?;
         }
-        TableFormat::Human if changes.is_empty() => terminal.result("nothing changes\n")?,
-        TableFormat::Human => terminal.result(&human(&changes, new.len()))?,
+        TableFormat::Human => terminal.result(&report::human(&changes, new.len()))?,
     }
     Ok(Status::Done)
 }
@@ -49,25 +45,4 @@ fn wires_of(path: &Path, on: &On, terminal: &Terminal) -> Result<BTreeMap<Wire, 
     };
     let missing = || input::not_an_answer(path, "boards, devices or wires are missing");
     Ok(wires(&answer).ok_or_else(missing)?)
-}
-
-pub(super) fn human(changes: &[Change], wires: usize) -> String {
-    let places = changes.iter().flat_map(|change| [&change.from, &change.to]).flatten();
-    let boards: BTreeSet<&str> = places.map(|place| place.board.as_str()).collect();
-    let place = |place: &Option<Place>| match place {
-        None => "-".to_owned(),
-        Some(Place { pin, signal, .. }) if boards.len() == 1 => format!("{pin} ({signal})"),
-        Some(Place { board, pin, signal }) => format!("{board} {pin} ({signal})"),
-    };
-    let rows: Vec<[String; 5]> = changes
-        .iter()
-        .map(|change| {
-            let Change { wire, from, to } = change;
-            let (device, role) = (wire.device.clone(), wire.role.clone());
-            [change.name().to_owned(), device, role, place(from), place(to)]
-        })
-        .collect();
-    let heads = ["Change", "Device", "Role", "From", "To"];
-    let text = table(heads, &rows);
-    format!("{text}\n{} of {wires} wires change\n", changes.len())
 }

@@ -6,14 +6,14 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{
     e0111_file_unreadable, e0226_not_an_answer, e0301_unknown_board, e0302_table_unreadable,
-    e0313_unknown_target, e0404_out_of_time, e0505_unknown_host,
+    e0313_unknown_target, e0505_unknown_host,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{FileUse, ReadError};
-use sensedsl_session::{Answer, Ask, Goal, Snapshot, Workspace, has_errors};
+use sensedsl_session::{Answer, Patience, Snapshot, Workspace, has_errors};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Cancel, Keep, Solved};
+use sensedsl_wiring::{Cancel, Keep};
 
 use crate::cli::On;
 use crate::files::{Disk, Refused, read_text, shown};
@@ -21,7 +21,7 @@ use crate::status::{Reported, Status};
 use crate::terminal::Terminal;
 
 /// How long `check` searches for the best wiring.
-const BEST: Duration = Duration::from_secs(2);
+pub(super) const BEST_MAX: Duration = Duration::from_secs(2);
 
 /// Reads a file and everything that it uses. A file that cannot be read becomes a diagnostic like any other.
 pub(crate) fn load(path: &Path, on: &On) -> Snapshot {
@@ -85,16 +85,9 @@ pub(crate) fn not_an_answer(path: &Path, why: &str) -> Refused {
 /// Whether the sound part of the design has a wiring. Warnings are about the best wiring, which `solve` gives, or about
 /// the best one found in time.
 pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
-    let deadline = Instant::now() + BEST;
+    let deadline = Instant::now() + BEST_MAX;
     let late = || Instant::now() >= deadline;
-    let best = Ask { partly: true, cancel: Cancel::when(&late), ..Ask::default() };
-    let answer = snapshot.solve(&best);
-    match &answer.solved {
-        Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => {
-            snapshot.solve(&Ask { goal: Goal::Any, partly: true, ..Ask::default() })
-        }
-        _ => answer,
-    }
+    snapshot.solve_best_or_any(Patience { late: Cancel::when(&late), stop: Cancel::NEVER })
 }
 
 /// The exit status for these diagnostics. It distinguishes a wrong input from a wrong call, such as a target that does

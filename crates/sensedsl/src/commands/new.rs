@@ -5,8 +5,9 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
 use sensedsl_diagnostics::visible;
+use sensedsl_generate::target;
 
-use super::{boards, in_the_way, output, starter};
+use super::{in_the_way, output, starter};
 use crate::cli::NewArgs;
 use crate::files::{files_below, is_part_of, shown, write_together};
 use crate::status::Status;
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
 /// The first files: with firmware for the first system on which the board can have a robot, or only a wiring.
 fn begin(board: &catalog::Entry) -> (&'static str, String) {
     let usual = profile::full_name(profile::DEFAULT);
-    for system in boards::firmware(board) {
+    for system in target::systems_of(board) {
         if let Some(robot) = starter::robot(board, Some(system)) {
             return (if usual == Some(system) { README } else { README_OF_EMBASSY }, robot);
         }

@@ -8,10 +8,10 @@ use serde_json::json;
 use super::against;
 use super::facts::{Facts, Filter, units};
 use super::sweep::sweep;
-use super::table::table;
 use crate::cli::{PartsArgs, PartsOrder, TableFormat};
 use crate::status::Status;
 use crate::terminal::Terminal;
+use sensedsl_report::columns::table;
 
 pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
     if let Some(name) = &args.table {

@@ -17,11 +17,11 @@ use serde_json::json;
 use super::deadline::{Deadline, interruption};
 use super::facts::{Facts, Filter, units};
 use super::parts::{parts, rank};
-use super::table::table;
 use crate::cli::{PartsArgs, TableFormat};
 use crate::files::{Disk, read_text, shown};
 use crate::status::Status;
 use crate::terminal::Terminal;
+use sensedsl_report::columns::table;
 
 /// A part or a board that may carry the devices.
 struct Carrier {

@@ -1,19 +1,24 @@
 //! Who gets which values: a text in TOML in, settings for sinks and names of devices out.
 //!
 //! `spec.rs` has what there is, `reader.rs` reads and tells each mistake with its place, `address.rs` reads addresses,
-//! `sample.rs` prints a complete file.
+//! `sample.rs` prints a complete file, `example.rs` its messages. `message.rs` has the messages that several devices go out in, `units.rs` converts
+//! what they measure.
 
 mod address;
+mod example;
+mod message;
 mod reader;
 mod sample;
 mod spec;
+mod units;
 
 use std::collections::BTreeMap;
 
 pub use address::{Address, AddressError, listening, remote};
+pub use message::{Field, MESSAGES, Message, MessageSpec, Part, Takes};
 pub use reader::{read, without_sink};
 pub use sample::sample;
-pub use spec::{BOARD_KEYS, DEVICE_KEYS, Key, SINKS, Sort, Spec, find};
+pub use spec::{BOARD_KEYS, DEVICE_KEYS, Key, MESSAGE_KEYS, ROS_DISTROS, SINKS, Sort, Spec, find};
 
 /// A value of a key.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,6 +142,8 @@ pub struct Config {
     pub boards: BTreeMap<String, Named>,
     /// What is said of devices, by board and name.
     pub devices: BTreeMap<(String, String), Named>,
+    /// Messages that several devices go out in, for programs that have such.
+    pub messages: Vec<Message>,
 }
 
 impl Config {

@@ -1,5 +1,7 @@
 //! The reader of a configuration: TOML in, settings and mistakes with their places out.
 
+mod messages;
+
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
@@ -79,6 +81,10 @@ impl<'a> Reader<'a> {
     fn tables(&mut self, table: &DeTable<'_>) {
         for (key, value) in table {
             let (name, at) = (key.get_ref().as_ref(), self.span(key));
+            if name == "messages" {
+                // What is said of devices counts for them, so they come last.
+                continue;
+            }
             if name == "boards" {
                 self.named(value, "boards", Self::board);
             } else if name == "devices" {
@@ -97,12 +103,15 @@ impl<'a> Reader<'a> {
                 self.config.sinks.push(settings);
             } else {
                 let mut all: Vec<&str> = SINKS.iter().map(|spec| spec.name).collect();
-                all.extend(["boards", "devices"]);
+                all.extend(["boards", "devices", "messages"]);
                 let near = nearest(name, all.iter().copied());
                 let place = "a configuration";
                 let why = unreadable::unknown_key(at, name, place, near, &all.join(", "));
                 self.reported.push(why);
             }
+        }
+        if let Some(value) = table.get("messages") {
+            self.named(value, "messages", Self::message);
         }
     }
 
@@ -114,8 +123,11 @@ impl<'a> Reader<'a> {
     ) {
         let Some(table) = value.get_ref().as_table() else {
             let at = self.span(value);
-            let example =
-                if name == "boards" { "[boards.Rover]" } else { "[devices.\"Rover/Light\"]" };
+            let example = match name {
+                "boards" => "[boards.Rover]",
+                "devices" => "[devices.\"Rover/Light\"]",
+                _ => "[messages.pad]",
+            };
             self.reported.push(unreadable::wrong_value(at, name, "tables", example));
             return;
         };
@@ -142,12 +154,7 @@ impl<'a> Reader<'a> {
 
     fn device(&mut self, (at, name): (Span, &str), value: &Value<'_>) {
         let Some((board, device)) = self.found(name) else {
-            let of = |board: &'a Board| {
-                board.devices.iter().map(|device| format!("{}/{}", board.name, device.name))
-            };
-            let all: Vec<String> = self.boards.iter().flat_map(of).collect();
-            let all: Vec<&str> = all.iter().map(String::as_str).collect();
-            let why = unknown_name(at, "device", name, &all);
+            let why = self.no_device(at, name);
             return self.reported.push(why);
         };
         let place = format!("`[devices.\"{name}\"]`");
@@ -171,6 +178,16 @@ impl<'a> Reader<'a> {
         self.config.devices.insert(key, named);
     }
 
+    /// That there is no such device.
+    fn no_device(&self, at: Span, name: &str) -> Diagnostic {
+        let of = |board: &'a Board| {
+            board.devices.iter().map(|device| format!("{}/{}", board.name, device.name))
+        };
+        let all: Vec<String> = self.boards.iter().flat_map(of).collect();
+        let all: Vec<&str> = all.iter().map(String::as_str).collect();
+        unknown_name(at, "device", name, &all)
+    }
+
     /// The device of a name with its board, or with a name that only one board has.
     fn found(&self, name: &str) -> Option<(&'a Board, &'a Device)> {
         let boards: &'a [Board] = self.boards;
@@ -189,12 +206,7 @@ impl<'a> Reader<'a> {
         let (Some(topic), Some(value)) = (topic, entry(table, "topic")) else { return };
         let at = self.span(value);
         self.places.insert(key, at);
-        let is_word = |word: &str| {
-            let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-                && word.chars().all(is_letter)
-        };
-        if !topic.split('/').all(is_word) {
+        if !is_topic(topic) {
             self.reported.push(topics::not_a_topic(at, topic));
         }
     }
@@ -234,9 +246,13 @@ impl<'a> Reader<'a> {
         found
     }
 
-    /// Two devices with one topic.
+    /// Two devices, or a device and a message, with one topic.
     fn clashes(&mut self, start: Span) {
         let plan = Plan::new(self.boards, &self.config, None);
+        let messages = self.config.messages.iter().map(|message| {
+            let key = (String::new(), message.topic.clone());
+            (message.topic.as_str(), format!("messages.{}", message.topic), key)
+        });
         let mut seen: BTreeMap<&str, String> = BTreeMap::new();
         let boards = plan.boards.iter().filter(|on| on.routes.iter().any(|one| !one.is_left_out));
         let boards = boards.map(|on| {
@@ -248,7 +264,7 @@ impl<'a> Reader<'a> {
             let key = (board.clone(), device.clone());
             (place.route.topic.as_str(), format!("{board}/{device}"), key)
         });
-        for (topic, name, key) in boards.chain(devices) {
+        for (topic, name, key) in boards.chain(devices).chain(messages) {
             match seen.get(topic) {
                 None => {
                     seen.insert(topic, name);
@@ -260,6 +276,15 @@ impl<'a> Reader<'a> {
             }
         }
     }
+}
+
+/// Whether a text is words with `/` between them, as all programs take them.
+fn is_topic(text: &str) -> bool {
+    text.split('/').all(|word| {
+        let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+            && word.chars().all(is_letter)
+    })
 }
 
 fn entry<'t, 'i>(table: &'t Value<'i>, key: &str) -> Option<&'t Value<'i>> {

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use sensedsl_host::Board;
 
+use super::example::examples;
 use super::{BOARD_KEYS, Config, DEVICE_KEYS, Key, SINKS, Setting, Sort};
 
 const HEAD: &str = "\
@@ -67,6 +68,7 @@ pub fn sample(boards: &[Board], wanted: &Config) -> String {
             });
         }
     }
+    text.push_str(&examples(boards));
     text
 }
 

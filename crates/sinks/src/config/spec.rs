@@ -61,6 +61,9 @@ const RATE: Key = key(
 const COMMANDS: Key =
     key("commands", Sort::Flag(true), "whether other programs may set actuators this way");
 
+/// The releases of ROS 2, the usual one first.
+pub const ROS_DISTROS: &[&str] = &["jazzy", "kilted", "lyrical", "rolling", "iron", "humble"];
+
 /// All ways, in the order of the documentation.
 pub const SINKS: &[Spec] = &[
     Spec {
@@ -174,8 +177,13 @@ pub const SINKS: &[Spec] = &[
         keys: &[
             key(
                 "distro",
-                Sort::Word(&["jazzy", "humble"]),
-                "the messages' layout: \"jazzy\" also for later ones",
+                Sort::Word(ROS_DISTROS),
+                "the release of the others: from \"iron\" on `Range` has a field more",
+            ),
+            key(
+                "rmw",
+                Sort::Word(&["fastrtps", "cyclonedds"]),
+                "the middleware of the others, for parameters: RMW_IMPLEMENTATION without \"rmw_\" and \"_cpp\"",
             ),
             key("domain", Sort::Whole(0, 0, 232), "the domain, ROS_DOMAIN_ID of the others"),
             key("namespace", Sort::Text(""), "the first words of all topics; \"\" for none"),
@@ -229,6 +237,13 @@ pub const DEVICE_KEYS: &[Key] = &[
         "what the shown value is multiplied with; `unit` then is only its name",
     ),
     key("leave_out", Sort::Flag(false), "whether it stays here"),
+];
+
+/// Keys of `[messages.TOPIC]` beside the fields of its type.
+pub const MESSAGE_KEYS: &[Key] = &[
+    key("type", Sort::Text("Joy"), "the message of sensor_msgs, for ROS 2"),
+    key("frame", Sort::Text(""), "its coordinate frame; without it that of its first device"),
+    key("names", Sort::Texts, "the names of joints; without them those of the devices"),
 ];
 
 /// The sink with that table.

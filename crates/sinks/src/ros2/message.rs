@@ -97,7 +97,7 @@ pub(super) struct Imu {
 }
 
 impl Imu {
-    /// With one of both; the other, and the orientation, are not measured.
+    /// With one of both, or both; what is not there, and the orientation, are not measured.
     pub(super) fn new(
         header: Header,
         velocity: Option<Vector3>,
@@ -132,6 +132,56 @@ pub(super) struct JointState {
     pub(super) position: Vec<f64>,
     pub(super) velocity: Vec<f64>,
     pub(super) effort: Vec<f64>,
+}
+
+/// `sensor_msgs/BatteryState`.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct BatteryState {
+    pub(super) header: Header,
+    pub(super) voltage: f32,
+    pub(super) temperature: f32,
+    pub(super) current: f32,
+    pub(super) charge: f32,
+    pub(super) capacity: f32,
+    pub(super) design_capacity: f32,
+    pub(super) percentage: f32,
+    /// 0 is not known in each of the three.
+    pub(super) power_supply_status: u8,
+    pub(super) power_supply_health: u8,
+    pub(super) power_supply_technology: u8,
+    pub(super) present: bool,
+    pub(super) cell_voltage: Vec<f32>,
+    pub(super) cell_temperature: Vec<f32>,
+    pub(super) location: String,
+    pub(super) serial_number: String,
+}
+
+/// `sensor_msgs/Joy`.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Joy {
+    pub(super) header: Header,
+    pub(super) axes: Vec<f32>,
+    pub(super) buttons: Vec<i32>,
+}
+
+/// `sensor_msgs/NavSatStatus`.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct NavSatStatus {
+    pub(super) status: i8,
+    pub(super) service: u16,
+}
+
+/// `sensor_msgs/NavSatFix`.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct NavSatFix {
+    pub(super) header: Header,
+    pub(super) status: NavSatStatus,
+    pub(super) latitude: f64,
+    pub(super) longitude: f64,
+    pub(super) altitude: f64,
+    pub(super) position_covariance: [f64; 9],
+    /// 0 is not known.
+    pub(super) position_covariance_type: u8,
 }
 
 /// `std_msgs/Float64`.

@@ -1,9 +1,11 @@
 //! ROS 2: values in, topics over DDS out, without an installation of ROS, and commands by subscription.
 //!
-//! `shape.rs` says which message a device has, `message.rs` has their fields, `topics.rs` the topics. What a topic is
-//! called, and what is in it, is written down in `docs/sinks/ros2.md`.
+//! `shape.rs` says which message a device has, `message.rs` has their fields, `topics.rs` the topics, and `composed.rs`
+//! the messages of several devices; `parameters.rs` answers for actuators. What a topic is called, and what is in it, is written down in `docs/sinks/ros2.md`.
 
+mod composed;
 mod message;
+mod parameters;
 mod shape;
 mod topics;
 
@@ -11,16 +13,20 @@ use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use ros2_client::{
-    Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher,
+    Context, ContextOptions, Name, Node, NodeName, NodeOptions, ParameterValue, Publisher,
+    ServiceMapping,
 };
+use sensedsl_wire::Scalar;
 
 use crate::command::{self, Command};
 use crate::config::Settings;
 use crate::event::{Event, Inbox, Outbox, Sink};
 use crate::network::{Network, serve};
 use crate::plan::{Place, Plan};
+use composed::Together;
 use message::DiagnosticArray;
-use topics::{Heard, Told, qos};
+use parameters::Parameters;
+use topics::{Heard, Told, publisher};
 
 /// The way to ROS 2.
 #[derive(Debug)]
@@ -31,15 +37,18 @@ pub(crate) struct Ros2 {
     /// Empty, or words with a slash before each.
     namespace: String,
     node: String,
+    mapping: ServiceMapping,
     takes_commands: bool,
 }
 
 /// A node with all its topics.
 pub(crate) struct Joined {
-    /// It holds what it has made.
-    _node: Node,
+    /// It holds what it has made, and the values of parameters.
+    node: Node,
     told: Vec<Vec<Option<Told>>>,
     heard: Vec<(usize, usize, Heard)>,
+    together: Vec<Together>,
+    parameters: Parameters,
     diagnostics: Publisher<DiagnosticArray>,
 }
 
@@ -55,6 +64,10 @@ impl Ros2 {
             domain: u16::try_from(settings.whole("domain")).ok()?,
             namespace,
             node: settings.text("node").to_owned(),
+            mapping: match settings.text("rmw") {
+                "cyclonedds" => ServiceMapping::Cyclone,
+                _ => ServiceMapping::Enhanced,
+            },
             takes_commands: settings.flag("commands"),
         })
     }
@@ -70,6 +83,17 @@ impl Ros2 {
     }
 }
 
+impl Joined {
+    /// An actuator was set: its parameter is what others read of it.
+    fn set(&self, place: &Place<'_>, raw: &[Scalar]) -> Result<(), String> {
+        let (name, value) = parameters::told(place, raw);
+        if self.node.get_parameter(&name).as_ref() == Some(&value) {
+            return Ok(());
+        }
+        self.node.set_parameter(&name, value)
+    }
+}
+
 impl Network for Ros2 {
     type Joined = Joined;
     const HELP: &'static str = "look at the network, or correct `[ros2]`; trying again";
@@ -80,7 +104,11 @@ impl Network for Ros2 {
         let namespace = if self.namespace.is_empty() { "/" } else { &self.namespace };
         let name = NodeName::new(namespace, &self.node)
             .map_err(|why| format!("`{}` is not a valid node name: {why:?}", self.node))?;
-        let options = NodeOptions::new().enable_rosout(false);
+        let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
+        let names = parameters::names(&self.plan);
+        let options = names
+            .iter()
+            .fold(options, |options, name| options.declare_parameter(name, ParameterValue::NotSet));
         let mut node =
             context.new_node(name, options).map_err(|why| format!("no node: {why:?}"))?;
         let mut told = Vec::new();
@@ -97,21 +125,31 @@ impl Network for Ros2 {
             let name = self.name(&format!("{}/set", place.route.topic))?;
             heard.push((place.board, place.index, Heard::new(&mut node, &place, &name)?));
         }
-        let kind = MessageTypeName::new("diagnostic_msgs", "DiagnosticArray");
+        let together = self.plan.messages.iter().map(|message| {
+            let name = self.name(&message.message.topic)?;
+            Together::new(&mut node, message, &name)
+        });
+        let together = together.collect::<Result<_, _>>()?;
         let name = Name::parse("/diagnostics").map_err(|why| format!("{why:?}"))?;
-        let topic = node.create_topic(&name, kind, &qos()).map_err(|why| why.to_string())?;
-        let diagnostics = node.create_publisher(&topic, None).map_err(|why| why.to_string())?;
-        Ok(Joined { _node: node, told, heard, diagnostics })
+        let diagnostics = publisher(&mut node, &name, ("diagnostic_msgs", "DiagnosticArray"))?;
+        let parameters = Parameters::new(&mut node, &self.plan, self.mapping, self.takes_commands)?;
+        Ok(Joined { node, told, heard, together, parameters, diagnostics })
     }
 
     fn tell(&self, joined: &mut Joined, event: &Event) -> Result<(), String> {
         match event {
             Event::Values(values) => {
                 for (place, raw) in self.plan.of(values) {
+                    if place.is_actuator() {
+                        joined.set(&place, raw)?;
+                    }
                     let told = joined.told.get(place.board).and_then(|all| all.get(place.index));
                     if let Some(Some(told)) = told {
                         told.publish(&place, raw, values.taken)?;
                     }
+                }
+                for (together, of) in joined.together.iter_mut().zip(&self.plan.messages) {
+                    together.take(&self.plan, of, values)?;
                 }
                 Ok(())
             }
@@ -138,6 +176,7 @@ impl Network for Ros2 {
                 wanted.map(|value| (place.device.name.clone(), command::of_json(&place, &value))),
             );
         }
+        commands.extend(joined.parameters.serve(&joined.node, &self.plan));
         commands
     }
 

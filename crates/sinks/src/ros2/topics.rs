@@ -45,12 +45,12 @@ enum Topic {
     Numbers(Publisher<Float64MultiArray>),
 }
 
-fn publisher<M: Serialize>(
+/// A topic of a type, by its package and name, to publish on.
+pub(super) fn publisher<M: Serialize>(
     node: &mut Node,
     name: &Name,
-    shape: Shape,
+    (package, kind): (&str, &str),
 ) -> Result<Publisher<M>, String> {
-    let (package, kind) = shape.name();
     let topic = node.create_topic(name, MessageTypeName::new(package, kind), &qos());
     let topic = topic.map_err(|why| why.to_string())?;
     node.create_publisher(&topic, None).map_err(|why| why.to_string())
@@ -64,17 +64,16 @@ impl Told {
         is_humble: bool,
     ) -> Result<Self, String> {
         let shape = Shape::of(place);
+        let kind = shape.name();
         let to = match shape {
-            Shape::Range(_) => Topic::Range(publisher(node, name, shape)?),
-            Shape::Measured(..) => Topic::Measured(publisher(node, name, shape)?),
-            Shape::Acceleration(_) | Shape::Rotation(_) => {
-                Topic::Imu(publisher(node, name, shape)?)
-            }
-            Shape::Magnetic(_) => Topic::Magnetic(publisher(node, name, shape)?),
-            Shape::Joint(_) => Topic::Joint(publisher(node, name, shape)?),
-            Shape::Flag => Topic::Flag(publisher(node, name, shape)?),
-            Shape::Number => Topic::Number(publisher(node, name, shape)?),
-            Shape::Numbers => Topic::Numbers(publisher(node, name, shape)?),
+            Shape::Range(_) => Topic::Range(publisher(node, name, kind)?),
+            Shape::Measured(..) => Topic::Measured(publisher(node, name, kind)?),
+            Shape::Acceleration(_) | Shape::Rotation(_) => Topic::Imu(publisher(node, name, kind)?),
+            Shape::Magnetic(_) => Topic::Magnetic(publisher(node, name, kind)?),
+            Shape::Joint(_) => Topic::Joint(publisher(node, name, kind)?),
+            Shape::Flag => Topic::Flag(publisher(node, name, kind)?),
+            Shape::Number => Topic::Number(publisher(node, name, kind)?),
+            Shape::Numbers => Topic::Numbers(publisher(node, name, kind)?),
         };
         Ok(Self { shape, is_humble, to })
     }
@@ -149,7 +148,7 @@ impl Told {
     }
 }
 
-fn vector(numbers: &[f64]) -> Vector3 {
+pub(super) fn vector(numbers: &[f64]) -> Vector3 {
     match *numbers {
         [x, y, z] => Vector3 { x, y, z },
         _ => Vector3::default(),

@@ -108,5 +108,7 @@ fn frame_word(text: &str) -> Option<usize> {
     let end = run(letters, u8::is_ascii_digit);
     let ends = text.get(end..)?.chars().next().is_none_or(|next| !is_name_continue(next));
     let prefix = text.get(digits..letters)?;
-    (letters > digits && end > letters && ends && !matches!(prefix, "E" | "X" | "B")).then_some(end)
+    // `1E3`, `0B1` and `0XF0` are numbers.
+    let is_number = matches!(prefix, "E" | "B") || text.starts_with("0X");
+    (letters > digits && end > letters && ends && !is_number).then_some(end)
 }

@@ -16,7 +16,7 @@ use sense_rt::{
     ReporterConfig, Schema, Store,
 };
 use sensedsl_job::BoardJob;
-use sensedsl_model::design::Transport;
+use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_wire::Direction;
 
 use crate::bench::Bench;
@@ -204,6 +204,18 @@ impl SoftBoard {
     #[must_use]
     pub fn bench(&self) -> &Bench {
         &self.bench
+    }
+
+    /// Holds an element of a sensor at a value in the sensor's own unit from now on; `None` lets the world have it again.
+    pub fn hold(&mut self, device: DeviceIndex, element: usize, shown: Option<f64>) {
+        let now_ns = self.now_ns();
+        self.bench.hold(device, element, shown, now_ns);
+    }
+
+    /// The bytes of the value that a device of the schema has now; `None` until it has one.
+    #[must_use]
+    pub fn applied(&self, index: usize) -> Option<&[u8]> {
+        self.state.core.store.get(index)
     }
 
     /// The host sends bytes.

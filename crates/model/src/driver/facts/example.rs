@@ -23,6 +23,16 @@ pub fn example(part: &PartFacts) -> String {
     example_on(part, example_board(part))
 }
 
+/// The part of [`example`] that stands in the board's block, as lines without the block's indentation.
+#[must_use]
+pub fn snippet(part: &PartFacts) -> String {
+    let example = example(part);
+    let lines: Vec<&str> = example.lines().collect();
+    let inner = lines.get(1..lines.len().saturating_sub(1)).unwrap_or_default();
+    let inner = inner.iter().map(|line| line.strip_prefix("    ").unwrap_or(line));
+    inner.map(|line| format!("{line}\n")).collect()
+}
+
 /// The board for a part's example.
 #[must_use]
 pub fn example_board(part: &PartFacts) -> &'static str {

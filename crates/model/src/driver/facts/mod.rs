@@ -18,13 +18,14 @@ use crate::driver::library::SEARCH;
 use crate::driver::{Driver, Drivers, bounds, module};
 use crate::fields::Fields;
 use crate::kind::{Kind, KindName, Role, Values};
+use crate::meaning::first;
 use crate::part::block::{Next, ReadPart};
-use crate::part::coding::{self, CODING, PROTOCOL};
+use crate::part::coding::{CODING, CRCS, DRIVES, FORMATS, PROTOCOL};
 use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
 use crate::value::constants::Constants;
 
-pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
+pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
 
 /// A part of the library.
 #[derive(Clone, Debug)]
@@ -169,7 +170,8 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// the words that they take. Those of a kind are listed with the kind.
 pub fn words_of_drivers() -> impl Iterator<Item = &'static str> {
     let properties = CODING.iter().chain(PROTOCOL).chain(properties::ABOUT_PART).copied();
-    properties.chain(coding::WORDS.iter().copied()).chain(Formula::ALL.map(Formula::name))
+    let words = [first(&CRCS), first(&FORMATS), first(&DRIVES)].concat();
+    properties.chain(words).chain(Formula::ALL.map(Formula::name))
 }
 
 /// The part that a driver's name or one of its aliases stands for.

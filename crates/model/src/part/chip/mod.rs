@@ -36,9 +36,12 @@ use sockets::Socket;
 use values::RequestedValue;
 
 /// The properties of a chip, besides those of its connections.
-const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
+pub(crate) const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
-const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
+pub(crate) const OF_DEVICE: &[&str] =
+    &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
+/// The properties that a chip says of its wires.
+pub(crate) const PLACED: &[&str] = &["unit", "level", "divider"];
 
 /// Reads a chip; none when too little of it is understood.
 pub(crate) fn read(
@@ -170,9 +173,8 @@ impl ChipReader<'_> {
     ) {
         let known = || {
             let of_kinds = sockets.iter().flat_map(|socket| socket.kind.spec().properties);
-            let placed = ["unit", "level", "divider"];
             let wires = sockets.iter().filter_map(|socket| socket.name.as_deref());
-            let own = own.iter().chain(PROTOCOL).copied().chain(placed);
+            let own = own.iter().chain(PROTOCOL).chain(PLACED).copied();
             of_kinds.copied().chain(own).chain(wires)
         };
         for property in &self.properties {
@@ -227,7 +229,8 @@ impl ChipReader<'_> {
         if of_driver != Some(written.as_str()) {
             let (at, name) = (span(file, value.range()), &self.driver.name.value);
             let wrong = e0217_driver_of_other_kind::driver_of_other_kind;
-            diagnostics.push(wrong(at, name, &self.driver.what(), &written));
+            let its = self.driver.what();
+            diagnostics.push(wrong(at, name, &its, &written, Some(at)));
         }
     }
 

@@ -61,7 +61,7 @@ pub(super) fn describe(
         if let Some(first) = socket.block.as_ref().and_then(ast::Connection::name) {
             let first = span(whole.file, first.range());
             let twice = e0204_duplicate_name::duplicate_name;
-            diagnostics.push(twice(at, "connection", name.text(), first));
+            diagnostics.push(twice(at, "connection", name.text(), first, None));
             continue;
         }
         socket.block = Some(block);

@@ -8,7 +8,7 @@ use sensedsl_board::signal::Function;
 use sensedsl_board::silicon;
 use sensedsl_board::table::{Pin, Table};
 
-use super::is_free;
+use sensedsl_session::boards::is_free;
 
 /// What is known of a board, to look words up in.
 pub(super) struct Features {

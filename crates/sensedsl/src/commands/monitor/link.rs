@@ -5,13 +5,11 @@
 use std::time::Duration;
 
 use sensedsl_host::{
-    Board, BoardClock, CommandError, Counts, Device, DeviceStats, Event, Moment, Report, Session,
-    State, causes, status,
+    Board, BoardClock, CommandError, Counts, Device, DeviceStats, Event, Faults, Moment, Report,
+    Session, State, keep_alive,
 };
 use sensedsl_record::Past;
-use sensedsl_wire::{
-    Direction, Health, Scalar, Stamp, Status as HealthStatus, encode_hello_request,
-};
+use sensedsl_wire::{Direction, Health, Scalar, Stamp};
 
 use super::source::{BAUD, Source};
 use crate::cli::MonitorArgs;
@@ -69,7 +67,7 @@ pub(super) struct Link<'a> {
     /// What was asked for before the board had time to say who it is.
     early: Vec<(String, String)>,
     is_late: bool,
-    worries: Vec<Option<HealthStatus>>,
+    faults: Faults,
     trouble: Option<String>,
     is_met: bool,
     health_every: Option<Duration>,
@@ -103,7 +101,7 @@ impl<'a> Link<'a> {
             held: Vec::new(),
             early: Vec::new(),
             is_late: false,
-            worries: vec![None; count],
+            faults: Faults::new(board),
             trouble: None,
             is_met: false,
             health_every: super::sinks::health_s(args).map(Duration::from_secs_f64),
@@ -239,14 +237,11 @@ impl<'a> Link<'a> {
 
     /// A question that keeps actuators from their failsafe while something was set.
     fn keep_alive(&self, now: Duration) -> Vec<u8> {
-        let Some(silence) = self.board.silence_ms.filter(|_| !self.held.is_empty()) else {
+        if self.held.is_empty() {
             return Vec::new();
-        };
-        // Several frames may be lost on the way.
-        let is_time =
-            now.saturating_sub(self.sent) >= Duration::from_millis(u64::from(silence) / 4);
-        let is_there = self.session.state() == State::Matched;
-        if is_time && is_there { encode_hello_request(&self.board.schema) } else { Vec::new() }
+        }
+        let quiet = now.saturating_sub(self.sent);
+        keep_alive(self.board, self.session.state(), quiet).unwrap_or_default()
     }
 
     fn take_events(&mut self, now: Duration) {
@@ -346,15 +341,8 @@ impl<'a> Link<'a> {
         if self.args.health.is_some() {
             return;
         }
-        for (index, one) in health.devices.iter().enumerate() {
-            let Some(worry) = self.worries.get_mut(index) else { continue };
-            let is_bad = matches!(one.status, HealthStatus::Failed | HealthStatus::Stale);
-            let last = std::mem::replace(worry, Some(one.status).filter(|_| is_bad));
-            if is_bad && last != Some(one.status) {
-                let why = causes(one.causes.counts());
-                let why = if why.is_empty() { why } else { format!(" ({why})") };
-                self.say(format!("{}: {}{why}", self.name(index), status(one.status)));
-            }
+        for fault in self.faults.news(self.board, health) {
+            self.say(fault);
         }
     }
 

@@ -11,8 +11,8 @@ use super::face::{Ask, Face};
 use super::link::Link;
 use super::words::{health, mark};
 use crate::cli::{MonitorArgs, MonitorFormat};
-use crate::commands::table::table;
 use crate::terminal::Terminal;
+use sensedsl_report::columns::table;
 
 /// The most characters of a value in the table; arrays can be longer.
 const VALUE_CHARS: usize = 40;

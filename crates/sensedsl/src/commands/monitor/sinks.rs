@@ -17,6 +17,9 @@ use crate::files::{read_text, shown, write_whole};
 use crate::status::{Reported, Status};
 use crate::terminal::Terminal;
 
+/// The table of ROS 2.
+const ROS2: &str = "ros2";
+
 /// How often boards are asked for their health while other programs are told of it.
 const HEALTH_EVERY_S: f64 = 5.0;
 
@@ -37,6 +40,12 @@ pub(super) fn read(args: &SinkArgs, terminal: &Terminal, subject: &Subject) -> R
     }
     let at = Span::new(sources.add("monitor", ""), 0..0);
     reported.extend(add_all(&mut config, args, at));
+    let has_ros2 = config.sinks.iter().any(|settings| settings.spec.name == ROS2);
+    if args.ros_distro.is_some() && reported.is_empty() && !has_ros2 {
+        bail!(
+            "`--ros-distro` is for ROS 2: write a table `[ros2]` in a file, and name it with `--config`"
+        );
+    }
     if let (Some(file), true, true) = (file, reported.is_empty(), config.sinks.is_empty()) {
         reported.push(config::without_sink(file));
     }
@@ -60,6 +69,13 @@ fn add_all(config: &mut Config, args: &SinkArgs, at: Span) -> Vec<Diagnostic> {
             && let Err(why) = add(config, at, (name, key), address.as_deref())
         {
             reported.push(*why);
+        }
+    }
+    if let (Some(distro), Some(spec)) = (&args.ros_distro, config::find(ROS2)) {
+        if !spec.is_built {
+            reported.push(e0563_sink_not_built::not_built(at, "--ros-distro", ROS2));
+        } else if let Some(own) = config.sinks.iter_mut().find(|own| own.spec.name == ROS2) {
+            own.set("distro", Setting::Text(distro.clone()));
         }
     }
     reported
@@ -110,6 +126,10 @@ pub(super) fn init(
     let subject = subject::read(args, file, terminal)?;
     let (mut sources, mut wanted) = (SourceMap::default(), Config::default());
     let at = Span::new(sources.add("monitor", ""), 0..0);
+    // What is said of ROS 2 is a wish for it here: there is no file that could have it.
+    if let (Some(_), Some(spec)) = (&args.sinks.ros_distro, config::find(ROS2)) {
+        wanted.add(spec, "distro", None);
+    }
     let reported = add_all(&mut wanted, &args.sinks, at);
     if has_errors(&reported) {
         terminal.diagnostics(&reported, &sources)?;

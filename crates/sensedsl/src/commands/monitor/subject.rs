@@ -9,7 +9,7 @@ use sensedsl_diagnostics::{FileId, SourceMap, Span};
 use sensedsl_host::Board;
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::FileUse;
-use sensedsl_model::design::Design;
+use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_report::schema::schema;
 use sensedsl_session::{Answer, Ask, Snapshot, has_errors};
 use sensedsl_wiring::assignment::Assignment;
@@ -178,10 +178,13 @@ pub(super) fn simulated(
         reach: args.reach.clone(),
         ..SimulateArgs::default()
     };
+    let of = |board: &Board| all.iter().find(|job| job.board.name.value == board.name);
+    let jobs: Vec<_> = wanted.into_iter().filter_map(|board| Some((board, of(board)?))).collect();
+    let devices = jobs.iter().flat_map(|(_, job)| &job.devices);
+    let devices: Vec<DeviceIndex> = devices.map(|one| one.index).collect();
     let mut found = Vec::new();
-    for board in wanted {
-        let Some(job) = all.iter().find(|job| job.board.name.value == board.name) else { continue };
-        let Some(simulated) = Simulated::new(job, &simulation, terminal)? else {
+    for (board, job) in jobs {
+        let Some(simulated) = Simulated::new(job, &devices, &simulation, terminal)? else {
             return Ok(Status::Wrong);
         };
         found.push((board, Source::Simulated(Box::new(simulated))));

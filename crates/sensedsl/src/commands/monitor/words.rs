@@ -3,7 +3,7 @@
 use sensedsl_host::{Board, Device, Overstep, causes, status};
 use sensedsl_wire::{Health, NEVER_MS, Scalar};
 
-use crate::commands::table::table;
+use sensedsl_report::columns::table;
 
 /// What is said behind a value outside of its limits.
 pub(super) fn mark(device: &Device, value: &[Scalar]) -> String {

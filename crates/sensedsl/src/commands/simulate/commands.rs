@@ -6,7 +6,7 @@ use sensedsl_twin::bench::seconds;
 use sensedsl_twin::commands::{ActuatorFindings, WireMismatch};
 
 use super::simulation::Simulation;
-use crate::commands::table::table;
+use sensedsl_report::columns::table;
 
 /// Prints the findings; returns false if there was a failure.
 pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[ActuatorFindings]) -> Result<bool> {

@@ -98,7 +98,7 @@ fn simulate(
     job: &BoardJob<'_>,
     sources: &SourceMap,
 ) -> Result<Status> {
-    let Some(world) = world(args, terminal, job)? else { return Ok(Status::Wrong) };
+    let Some(world) = world(args, terminal, job, &[])? else { return Ok(Status::Wrong) };
     let (at, lasts_ns) = (input::place(job.design), world.lasts_ns);
     let scenery = Simulation { args, terminal, job, at, sources, lasts_ns };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);

@@ -29,9 +29,9 @@ use super::screen::Screen;
 use super::simulation::Simulation;
 #[cfg(unix)]
 use crate::commands::deadline::interruption;
-use crate::commands::table::table;
 use crate::files::write_whole;
 use crate::status::Status;
+use sensedsl_report::columns::table;
 
 pub(super) const MS: u64 = 1_000_000;
 /// The length of a run with a judge or with lines, unless a time is given.

@@ -8,7 +8,7 @@ use sensedsl_model::design::Device;
 use sensedsl_twin::truth::{real, scale_of};
 use sensedsl_wire::{Direction, Scalar, ScalarType};
 
-use crate::commands::table::table;
+use sensedsl_report::columns::table;
 
 /// The most characters shown of a value; arrays can be longer.
 const VALUE_CHARS: usize = 40;

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use sensedsl_job::BoardJob;
+use sensedsl_model::design::DeviceIndex;
 use sensedsl_twin::bench::Bench;
 
 use super::SEED;
@@ -21,13 +22,15 @@ pub(crate) struct Simulated {
 }
 
 impl Simulated {
-    /// A board whose sensors measure a world, or move within their ranges; none if that has an error, which was told.
+    /// A board whose sensors measure a world, which may be that of others `beside` it as well, or move within their
+    /// ranges; none if the world has an error, which was told.
     pub(crate) fn new(
         job: &BoardJob<'_>,
+        beside: &[DeviceIndex],
         args: &SimulateArgs,
         terminal: &Terminal,
     ) -> Result<Option<Self>> {
-        let Some(world) = world(args, terminal, job)? else { return Ok(None) };
+        let Some(world) = world(args, terminal, job, beside)? else { return Ok(None) };
         let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
         let mut board = board::soft(job, bench);
         board.link_open(true);

@@ -8,6 +8,7 @@ use sensedsl_diagnostics::codes::e0568_recorded_otherwise::changed;
 use sensedsl_diagnostics::{SourceMap, Span};
 use sensedsl_job::BoardJob;
 use sensedsl_model::FileUse;
+use sensedsl_model::design::DeviceIndex;
 use sensedsl_record::{Ending, Past};
 use sensedsl_session::has_errors;
 use sensedsl_twin::world::{self, Recorded, Scene, World};
@@ -17,11 +18,13 @@ use crate::cli::SimulateArgs;
 use crate::files::{Disk, Refused, no_record, open_record, read_text, shown};
 use crate::terminal::Terminal;
 
-/// Reads the world; `None` if it has errors, which have been reported.
+/// Reads the world; `None` if it has errors, which have been reported. Its text may speak of the devices of other boards
+/// that are simulated beside this one: their signals are read as well, and the faults left out.
 pub(super) fn world(
     args: &SimulateArgs,
     terminal: &Terminal,
     job: &BoardJob<'_>,
+    beside: &[DeviceIndex],
 ) -> Result<Option<World>> {
     let record =
         args.world.as_deref().filter(|path| path.extension().is_some_and(|end| end == "mcap"));
@@ -38,7 +41,10 @@ pub(super) fn world(
         let bytes = disk.bytes(&path, FileUse::World).map_err(|unread| unread.why())?;
         String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
     };
-    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+    let own: Vec<DeviceIndex> = job.devices.iter().map(|one| one.index).collect();
+    // A record has boards, and of each its own devices.
+    let beside = beside.iter().filter(|one| record.is_none() && !own.contains(one));
+    let devices: Vec<DeviceIndex> = own.iter().chain(beside).copied().collect();
     let scene = Scene {
         design: job.design,
         devices: &devices,
@@ -71,6 +77,8 @@ pub(super) fn world(
         world.signals.extend(own.signals);
         reported.extend(why);
     }
+    // Another board's fault is on wires that this one may have as well.
+    world.faults.retain(|fault| fault.device.is_none_or(|device| own.contains(&device)));
     terminal.diagnostics(&reported, &sources)?;
     Ok((!has_errors(&reported)).then_some(world))
 }

@@ -6,12 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_diagnostics::visible;
-use sensedsl_model::design::Design;
-use sensedsl_wiring::Alternative;
+use sensedsl_diagnostics::{nearest, visible};
+use sensedsl_model::design::{ConnectionIndex, Design};
 use sensedsl_wiring::assignment::{Assignment, Neatness};
+use sensedsl_wiring::{Alternative, Found};
+use serde_json::{Value, json};
 
-use super::table::table;
+use crate::columns::table;
 
 /// The width of a line of pins.
 const WIDTH: usize = 100;
@@ -116,7 +117,8 @@ impl Verdict {
 }
 
 /// The table of every possible pin.
-pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
+#[must_use]
+pub fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
     let row = |one: &Alternative| {
         let why = Verdict::of(wiring, one).long(design, one, is_neat(wiring));
         [one.wire.clone(), pin(design, one), one.signal.clone(), one.usages.to_string(), why]
@@ -126,11 +128,13 @@ pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternat
     table(heads, &rows)
 }
 
-/// The pins of the wiring with the reasons, then the other pins in groups.
-pub(super) fn summary(
+/// The pins of the wiring with the reasons, then the other pins in groups, and below them what `rest` says of the rest.
+#[must_use]
+pub fn summary(
     design: &Design,
     wiring: &Assignment,
     alternatives: &[Alternative],
+    rest: &str,
 ) -> String {
     let mut wires: Vec<Vec<(Verdict, &Alternative)>> = Vec::new();
     for one in alternatives {
@@ -146,7 +150,7 @@ pub(super) fn summary(
     let chosen: Vec<[String; 4]> = chosen.collect();
     let heads = ["Role", "Pin", "Signal", "Why"];
     let mut out = table(heads, &chosen);
-    out.push_str(&others(design, &wires, is_neat));
+    out.push_str(&others(design, &wires, is_neat, rest));
     out.push_str(&neatness(wiring));
     out
 }
@@ -223,11 +227,14 @@ fn reason(design: &Design, wire: &[(Verdict, &Alternative)], is_neat: bool) -> S
 }
 
 /// The pins that were not chosen; wires with the same ones share an entry.
-fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>], is_neat: bool) -> String {
+fn others(
+    design: &Design,
+    wires: &[Vec<(Verdict, &Alternative)>],
+    is_neat: bool,
+    rest: &str,
+) -> String {
     let mut texts: Vec<(Vec<&str>, String)> = Vec::new();
-    let mut count = 0;
     for wire in wires {
-        count += wire.len();
         let text = groups(design, wire, is_neat);
         let name = wire.first().map_or("", |(_, one)| one.wire.as_str());
         match texts.iter_mut().find(|(_, other)| *other == text) {
@@ -240,10 +247,7 @@ fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>], is_neat: bool
         return String::new();
     }
     let blocks = texts.iter().map(|(names, text)| format!("  {}\n{text}", names.join(", ")));
-    format!(
-        "\nOther pins:\n\n{}\n`--all` lists all {count} places, one a line.\n",
-        blocks.collect::<Vec<_>>().join("\n")
-    )
+    format!("\nOther pins:\n\n{}{rest}", blocks.collect::<Vec<_>>().join("\n"))
 }
 
 /// A line for each group of pins of a wire.
@@ -282,6 +286,74 @@ fn listed(pins: &[String]) -> String {
         out.push_str(&text);
     }
     out
+}
+
+/// The connections of the device or chip with that name.
+///
+/// # Errors
+///
+/// There is no such device or chip; the text names the one that was probably meant.
+pub fn connections(design: &Design, name: &str) -> Result<Vec<ConnectionIndex>, String> {
+    if let Some(device) = design.devices.iter().find(|one| one.name.value == name) {
+        return Ok(device.connections.clone());
+    }
+    if let Some(part) = design.parts.iter().position(|one| one.name.value == name) {
+        let all = design.connections.iter().enumerate();
+        let own = all.filter(|(_, one)| one.part.0 == part);
+        return Ok(own.map(|(index, _)| ConnectionIndex(index)).collect());
+    }
+    let devices = design.devices.iter().map(|device| device.name.value.as_str());
+    let names = devices.chain(design.parts.iter().map(|part| part.name.value.as_str()));
+    let meant = nearest(name, names);
+    let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+    Err(format!("the file has no device or chip {name}{meant}"))
+}
+
+/// All pins, as `sensedsl explain wiring --format json` prints them.
+#[must_use]
+pub fn value(name: &str, found: &Found<Alternative>) -> Value {
+    let list: Vec<Value> = found.all.iter().map(alternative).collect();
+    json!({ "version": 1, "device": name, "complete": found.complete, "alternatives": list })
+}
+
+/// All pins, each with the verdict for people and what the whole wiring costs more with it; `null` where it is not a
+/// matter of cost.
+#[must_use]
+pub fn places(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> Value {
+    let place = |one: &Alternative| {
+        let verdict = Verdict::of(wiring, one);
+        let more = one.best.map(|best| i64::from(best.cost) - i64::from(wiring.cost));
+        let is_cost = matches!(
+            verdict,
+            Verdict::Chosen | Verdict::Cheaper | Verdict::AsGood | Verdict::Costs(_)
+        );
+        json!({
+            "wire": one.wire,
+            "board": one.board,
+            "pin": one.pin,
+            "signal": one.signal,
+            "chosen": one.chosen,
+            "possible": one.best.is_some(),
+            "verdict": verdict.long(design, one, is_neat(wiring)),
+            "more": more.filter(|_| is_cost),
+        })
+    };
+    Value::Array(alternatives.iter().map(place).collect())
+}
+
+fn alternative(one: &Alternative) -> Value {
+    json!({
+        "role": one.wire,
+        "board": one.board,
+        "pin": one.pin,
+        "signal": one.signal,
+        "usages": one.usages,
+        "chosen": one.chosen,
+        "violated": one.best.map(|best| best.violated),
+        "shared": one.best.map(|best| best.shared),
+        "shared_with": one.shared_with,
+        "cost": one.best.map(|best| best.cost),
+    })
 }
 
 #[cfg(test)]

@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 const NUMBERS: char = '>';
 
 /// The indentation of every line.
-pub(crate) const INDENT: &str = "  ";
+pub const INDENT: &str = "  ";
 
 /// The rows below their heads, with two spaces between columns.
-pub(crate) fn table<const N: usize>(heads: [&str; N], rows: &[[String; N]]) -> String {
+#[must_use]
+pub fn table<const N: usize>(heads: [&str; N], rows: &[[String; N]]) -> String {
     let names = heads.map(|head| head.trim_start_matches(NUMBERS).to_owned());
     let width = |column: usize| {
         let cells = std::iter::once(&names).chain(rows).filter_map(|row| row.get(column));

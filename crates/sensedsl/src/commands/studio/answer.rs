@@ -1,0 +1,90 @@
+//! Answers of the server, with the headers that all of them have.
+
+use std::io::{self, Cursor};
+
+use serde_json::{Value, json};
+use tiny_http::{Header, Request, Response, StatusCode};
+
+/// What is not the page's own may neither be loaded nor asked.
+const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; \
+    img-src 'self' data: blob:; connect-src 'self'; worker-src 'self' blob:; frame-src 'self' blob:; object-src 'none'; \
+    base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// What a request wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Method {
+    Get,
+    Put,
+    Delete,
+    Other,
+}
+
+impl Method {
+    pub(super) fn of(request: &Request) -> Self {
+        match request.method().as_str() {
+            "GET" | "HEAD" => Self::Get,
+            "PUT" => Self::Put,
+            "DELETE" => Self::Delete,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// The value of a header, if the request has it.
+pub(super) fn header<'r>(request: &'r Request, name: &str) -> Option<&'r str> {
+    let found =
+        request.headers().iter().find(|one| one.field.as_str().as_str().eq_ignore_ascii_case(name));
+    found.map(|one| one.value.as_str())
+}
+
+/// An answer.
+pub(super) struct Answer {
+    status: u16,
+    kind: &'static str,
+    tag: Option<String>,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    /// A file of the page.
+    pub(super) fn file(kind: &'static str, body: Vec<u8>) -> Self {
+        Self { status: 200, kind, tag: None, body }
+    }
+
+    /// An answer for the page's program.
+    pub(super) fn json(status: u16, value: &Value) -> Self {
+        Self { status, kind: "application/json", tag: None, body: value.to_string().into_bytes() }
+    }
+
+    /// A text of the folder with its tag, or only the tag.
+    pub(super) fn text(status: u16, text: String, tag: String) -> Self {
+        Self { status, kind: "text/plain; charset=utf-8", tag: Some(tag), body: text.into_bytes() }
+    }
+
+    /// A request that is not answered: the reason.
+    pub(super) fn refused(status: u16, why: &str) -> Self {
+        Self::json(status, &json!({ "error": why }))
+    }
+
+    /// Sends it.
+    pub(super) fn send(self, request: Request) -> io::Result<()> {
+        let length = self.body.len();
+        let mut headers = vec![
+            ("Content-Type", self.kind.to_owned()),
+            ("Content-Security-Policy", POLICY.to_owned()),
+            ("X-Content-Type-Options", "nosniff".to_owned()),
+            ("Referrer-Policy", "no-referrer".to_owned()),
+            ("Cross-Origin-Opener-Policy", "same-origin".to_owned()),
+            ("Cross-Origin-Resource-Policy", "same-origin".to_owned()),
+            ("Cache-Control", "no-store".to_owned()),
+        ];
+        headers.extend(self.tag.map(|tag| ("ETag", tag)));
+        // None of them has bytes that a header may not have.
+        let headers = headers
+            .iter()
+            .filter_map(|(name, value)| Header::from_bytes(name.as_bytes(), value.as_bytes()).ok());
+        let body = Cursor::new(self.body);
+        let status = StatusCode(self.status);
+        request.respond(Response::new(status, headers.collect(), body, Some(length), None))
+    }
+}

@@ -1,0 +1,122 @@
+//! A simulated board: the job of the firmware, done here in virtual time, with a world on its pins.
+
+use sensedsl_diagnostics::{Diagnostic, SourceMap, render};
+use sensedsl_host::Board;
+use sensedsl_job::{BoardJob, JobConnection};
+use sensedsl_model::design::{ConnectionIndex, DeviceIndex};
+use sensedsl_model::kind::Role;
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::soft::SoftBoard;
+use sensedsl_twin::world::{self, Scene};
+use sensedsl_wire::{Direction, Scalar};
+use serde_json::{Value, json};
+
+const MS_NS: u64 = 1_000_000;
+/// The seed of a world that has none: a page shows the same each time.
+const SEED: u64 = 1;
+
+/// A simulated board.
+pub(super) struct Robot {
+    board: SoftBoard,
+    /// The sensors by name.
+    sensors: Vec<(String, DeviceIndex)>,
+    /// The wires of each actuator, in the order of the schema.
+    wires: Vec<Vec<ConnectionIndex>>,
+}
+
+impl Robot {
+    /// A board whose sensors measure a world, and what is wrong with the world's text; none if that has errors.
+    pub(super) fn new(job: &BoardJob<'_>, text: &str) -> (Option<Self>, Vec<Value>) {
+        let devices: Vec<DeviceIndex> = job.devices.iter().map(|one| one.index).collect();
+        let scene = Scene {
+            design: job.design,
+            devices: &devices,
+            transport: job.board.link.transport,
+            seed: None,
+            samples: &|name| Err(format!("{name}: a page has no files beside its world")),
+        };
+        let mut sources = SourceMap::default();
+        let file = sources.add("world.toml", text);
+        let (world, wrong) = world::read(file, text, &scene);
+        let shown = |one: &Diagnostic| render::json_value(one, &sources);
+        let told: Vec<Value> = wrong.iter().map(shown).collect();
+        if sensedsl_session::has_errors(&wrong) {
+            return (None, told);
+        }
+        let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
+        let mut board = SoftBoard::new(job, bench);
+        board.link_open(true);
+        let is_sensor =
+            |one: &&sensedsl_job::JobDevice<'_>| one.device.direction == Direction::Sensor;
+        let sensors = job.devices.iter().filter(is_sensor);
+        let sensors = sensors.map(|one| (one.name().to_owned(), one.index)).collect();
+        let wires = (0..job.devices.len()).map(|device| wires(job, device)).collect();
+        (Some(Self { board, sensors, wires }), told)
+    }
+
+    pub(super) fn now_ms(&self) -> u64 {
+        self.board.now_ns() / MS_NS
+    }
+
+    /// Runs for a millisecond; the bytes that have arrived at the host.
+    pub(super) fn step(&mut self) -> Vec<u8> {
+        self.board.run_until(self.board.now_ns() + MS_NS);
+        let _ = self.board.received();
+        self.board.link_read()
+    }
+
+    /// The host sends bytes.
+    pub(super) fn write(&mut self, bytes: &[u8]) {
+        if !bytes.is_empty() {
+            self.board.link_write(bytes);
+        }
+    }
+
+    /// Holds a quantity of the world, or gives it back; whether the board has such a sensor.
+    pub(super) fn steer(&mut self, device: &str, element: usize, shown: Option<f64>) -> bool {
+        let found = self.sensors.iter().find(|(name, _)| name == device);
+        if let Some((_, index)) = found {
+            self.board.hold(*index, element, shown);
+        }
+        found.is_some()
+    }
+
+    /// What each actuator is set to, and what its wires do.
+    pub(super) fn outputs(&self, host: &Board) -> Value {
+        let actuators = host.devices.iter().enumerate();
+        let actuators = actuators.filter(|(_, one)| one.direction == Direction::Actuator);
+        let all = actuators.filter_map(|(index, device)| {
+            let bytes = self.board.applied(index)?;
+            let size = device.value.scalar.size_bytes();
+            let value: Option<Vec<Scalar>> =
+                bytes.chunks_exact(size).map(|one| device.value.scalar.read(one)).collect();
+            let numbers: Vec<f64> = value?.into_iter().map(|raw| device.shown(raw)).collect();
+            Some(json!([index, numbers, self.hardware(index)]))
+        });
+        Value::Array(all.collect())
+    }
+
+    /// What the wires of an actuator do, in words.
+    fn hardware(&self, device: usize) -> String {
+        let outputs = self.board.bench().outputs();
+        let wire = |at: &ConnectionIndex| {
+            if let Some((period_ns, width_ns)) = outputs.pulses(*at) {
+                return Some(format!("{} us of {} us", width_ns / 1_000, period_ns / 1_000));
+            }
+            if let Some(millivolts) = outputs.millivolts(*at) {
+                return Some(format!("{millivolts:.0} mV"));
+            }
+            let level = outputs.level(*at, Role::Out)?;
+            Some(if level { "high" } else { "low" }.to_owned())
+        };
+        let all: Vec<String> =
+            self.wires.get(device).into_iter().flatten().filter_map(wire).collect();
+        all.join(", ")
+    }
+}
+
+/// The connections of a device.
+fn wires(job: &BoardJob<'_>, device: usize) -> Vec<ConnectionIndex> {
+    let is_of = |one: &&JobConnection<'_>| one.devices.contains(&device);
+    job.connections.iter().filter(is_of).map(|one| one.index).collect()
+}

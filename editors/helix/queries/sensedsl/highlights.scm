@@ -1,0 +1,37 @@
+; Colours in the words of Helix's themes.
+
+[
+  "use" "const" "spare" "board" "on" "link" "sensor" "returns" "actuator" "accepts" "chip" "connection" "reading"
+  "command" "driver" "for" "prefer" "avoid" "reserve" "release" "allow" "raw"
+] @keyword
+
+(board name: (identifier) @type)
+(chip name: (identifier) @type)
+(driver name: (identifier) @type)
+(connection name: (identifier) @type)
+(device name: (identifier) @function)
+(reading name: (identifier) @function)
+(command name: (identifier) @function)
+(const name: (identifier) @constant)
+
+(on_clause source: (identifier) @constant)
+(type scalar: (identifier) @type.builtin)
+(type length: (identifier) @constant)
+(kind (identifier) @type.builtin)
+
+(property name: (identifier) @variable.other.member)
+(reserve resource: (identifier) @constant)
+(release resource: (identifier) @constant)
+(allow code: (identifier) @constant)
+
+(name_value) @constant
+[(integer) (float)] @constant.numeric
+(unit) @type.builtin
+(string) @string
+(escape_sequence) @constant.character.escape
+
+["+" "-" "*" "/" ".." "="] @operator
+["{" "}" "[" "]" "(" ")"] @punctuation.bracket
+[";" ","] @punctuation.delimiter
+
+[(line_comment) (block_comment)] @comment

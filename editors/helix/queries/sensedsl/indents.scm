@@ -1,0 +1,7 @@
+[
+  (block)
+  (list)
+  (paren)
+] @indent
+
+["}" "]" ")"] @outdent

@@ -1,0 +1,3 @@
+(source_file) @local.scope
+(const name: (identifier) @local.definition.constant)
+(name_value (identifier) @local.reference)

@@ -1,0 +1,2 @@
+" `.sense` files are SenseDSL.
+autocmd BufRead,BufNewFile *.sense setfiletype sensedsl

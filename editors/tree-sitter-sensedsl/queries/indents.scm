@@ -1,0 +1,13 @@
+; In the words of Neovim's nvim-treesitter; Helix and Zed have files of their own beside their settings.
+
+[
+  (block)
+  (list)
+  (paren)
+] @indent.begin
+
+["}" "]" ")"] @indent.branch @indent.end
+
+(ERROR "{") @indent.begin
+
+(block_comment) @indent.ignore

@@ -1,0 +1,132 @@
+// Builds the studio, a static site, into `target/web/studio`.
+//
+//     node build.mjs [--wasm PATH]
+//
+// Unless `--wasm` names the module, the one that `cargo xtask web` has built is taken. Each file is named in the others
+// with the hash of its content, so that a browser never mixes two versions; the service worker has the list of them all.
+
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "..");
+const out = join(root, "target/web/studio");
+const next = `${out}.next`;
+const { values } = parseArgs({ options: { wasm: { type: "string" } } });
+const wasm = resolve(values.wasm ?? join(root, "target/web/wasm32-unknown-unknown/web/sensedsl_wasm.wasm"));
+if (!existsSync(wasm)) {
+    console.error(`there is no ${wasm}: \`cargo xtask web\` builds it`);
+    process.exit(1);
+}
+process.chdir(here);
+
+/** By name in the site: the hash of the content. */
+const hashes = new Map();
+
+function hash(bytes) {
+    return createHash("sha256").update(bytes).digest("hex").slice(0, 12);
+}
+
+function write(name, bytes) {
+    hashes.set(name, hash(bytes));
+    writeFileSync(join(next, name), bytes);
+}
+
+/** A file of the site as the others name it. */
+function named(name) {
+    return `${name}?v=${hashes.get(name)}`;
+}
+
+/**
+ * The page's content security policy allows no style element, as any text could be in one. CodeMirror's rules are put
+ * into a sheet of the document instead, which `style-mod` does by itself only below a shadow root.
+ */
+const sheets = {
+    name: "sheets",
+    setup({ onLoad }) {
+        onLoad({ filter: /style-mod\.js$/ }, ({ path }) => {
+            const text = readFileSync(path, "utf8");
+            const condition = "!root.head && root.adoptedStyleSheets";
+            if (!text.includes(condition)) throw new Error(`style-mod has changed: there is no ${condition}`);
+            return { contents: text.replace(condition, "root.adoptedStyleSheets"), loader: "js" };
+        });
+    },
+};
+
+async function bundle(entry, name, more = {}) {
+    const found = await build({
+        entryPoints: [entry],
+        outfile: join(next, name),
+        absWorkingDir: here,
+        write: false,
+        bundle: true,
+        minify: true,
+        target: "es2022",
+        format: "iife",
+        platform: "browser",
+        logLevel: "warning",
+        legalComments: "none",
+        plugins: [sheets],
+        ...more,
+    });
+    for (const { path, contents } of found.outputFiles) write(path.slice(next.length + 1), contents);
+}
+
+/** The examples, with the first comment of each as its title. */
+function examples() {
+    const folder = join(root, "examples");
+    const names = readdirSync(folder).filter((name) => name.endsWith(".sense"));
+    return names.sort().map((name) => {
+        const text = readFileSync(join(folder, name), "utf8");
+        const lines = text.split("\n");
+        const comment = [];
+        for (const line of lines) {
+            if (!line.startsWith("//")) break;
+            comment.push(line.replace(/^\/\/\s*/, ""));
+        }
+        const title = name.replace(".sense", "").replaceAll("_", " ");
+        const about = comment.join(" ").split(/(?<=\.)\s/)[0] ?? "";
+        return { path: name, title: title[0].toUpperCase() + title.slice(1), about, text };
+    });
+}
+
+/** What is said once for all pages: the licences of what is bundled. */
+function licences() {
+    const packages = JSON.parse(readFileSync("package-lock.json", "utf8")).packages;
+    const bundled = /node_modules\/(@codemirror\/|@lezer\/|@marijn\/|codemirror|fflate|uplot|style-mod|w3c-keyname|crelt)/;
+    const texts = Object.keys(packages)
+        .filter((path) => bundled.test(path) && existsSync(join(path, "LICENSE")))
+        .map((path) => `${path.replace("node_modules/", "")}\n\n${readFileSync(join(path, "LICENSE"), "utf8")}`);
+    return texts.join("\n\n---\n\n");
+}
+
+rmSync(next, { recursive: true, force: true });
+mkdirSync(next, { recursive: true });
+write("sensedsl.wasm", readFileSync(wasm));
+write("examples.json", JSON.stringify(examples()));
+write("licences.txt", licences());
+for (const name of readdirSync("static")) write(name, readFileSync(join("static", name)));
+await bundle("src/worker.ts", "worker.js");
+if (existsSync("src/live/worker.ts")) await bundle("src/live/worker.ts", "live.js");
+else write("live.js", "");
+const define = {
+    WASM_URL: JSON.stringify(named("sensedsl.wasm")),
+    EXAMPLES_URL: JSON.stringify(named("examples.json")),
+    WORKER_URL: JSON.stringify(named("worker.js")),
+    LIVE_WORKER_URL: JSON.stringify(named("live.js")),
+};
+await bundle("src/main.ts", "main.js", { define, loader: { ".css": "text" } });
+await bundle("src/style/studio.css", "studio.css");
+const page = readFileSync("index.html", "utf8").replaceAll(/\{\{(.+?)\}\}/g, (_, name) => named(name));
+write("index.html", page);
+const all = [...hashes].sort();
+const build_hash = hash(JSON.stringify(all));
+await bundle("src/service.ts", "service.js", {
+    define: { BUILD: JSON.stringify(build_hash), FILES: JSON.stringify(all.map(([name]) => name)) },
+});
+rmSync(out, { recursive: true, force: true });
+renameSync(next, out);

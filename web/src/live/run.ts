@@ -1,0 +1,314 @@
+import { Banner } from "./banner.js";
+import { boardNames, boardOf, Choice } from "./choice.js";
+import type { LiveStudio } from "./contract.js";
+import { button, make, mark, shownTime, write } from "./dom.js";
+import type { Design } from "./messages.js";
+import { Speaker } from "./notes.js";
+import { SimulatedBoard } from "./simulated.js";
+import { View } from "./view.js";
+
+const PACES = [0.1, 0.2, 0.5, 1, 2, 5, 10];
+/** How long nobody must have typed before the new text is tried. */
+const TRY_AFTER_MS = 700;
+/** The board is this much slower than it should be when it is told. */
+const LATE = 0.8;
+
+const INTRODUCTION =
+    "This simulates the board in the page: it does the firmware's work in a world that you control. Nothing is sent anywhere.";
+
+/** The panel that runs the design on a simulated board. */
+export class Run {
+    readonly element: HTMLElement;
+    readonly #studio: LiveStudio;
+    readonly #speaker: Speaker;
+    readonly #banner = new Banner();
+    readonly #empty = make("div", { class: "live-empty" });
+    readonly #start: HTMLButtonElement;
+    readonly #pause: HTMLButtonElement;
+    readonly #restart: HTMLButtonElement;
+    readonly #stop: HTMLButtonElement;
+    readonly #slower: HTMLButtonElement;
+    readonly #faster: HTMLButtonElement;
+    readonly #pace: HTMLSelectElement;
+    readonly #boards = new Choice("Board", () => void this.start(this.#same()));
+    readonly #worlds = new Choice("World", () => this.#isRunning && void this.start(this.#same()));
+    readonly #clock = make("span", { class: "live-clock" });
+    #board: SimulatedBoard | null = null;
+    #view: View | null = null;
+    #isDark = false;
+    #isRunning = false;
+    /** What runs now, to know whether the text is another one. */
+    #running = "";
+    /** The search for a board that is under way. */
+    #search: AbortController | null = null;
+    /** A board of the new text, ready to be started. */
+    #next: { board: SimulatedBoard; text: string } | null = null;
+    #timer: ReturnType<typeof setTimeout> | undefined;
+    #written_ms = 0;
+    /** How fast the board really goes. */
+    #measured: number | null = null;
+
+    constructor(studio: LiveStudio) {
+        this.#studio = studio;
+        this.#speaker = new Speaker((text) => studio.announce(text));
+        this.#start = button("Start", () => void this.start(), { class: "live-main" });
+        this.#pause = button("Pause", () => void this.#togglePause());
+        this.#restart = button("Restart", () => void this.start(this.#same()), { title: "From time zero, in a fresh world" });
+        this.#stop = button("Stop", () => this.#end());
+        this.#slower = button("Slower", () => this.#step(-1));
+        this.#faster = button("Faster", () => this.#step(1));
+        const paces = PACES.map((one) => make("option", { value: one }, `${one}×`));
+        this.#pace = make("select", { "aria-label": "Speed", change: () => this.#setPace() }, ...paces);
+        this.#pace.value = "1";
+        const bar = make(
+            "div",
+            { class: "live-bar live-toolbar", role: "group", "aria-label": "Simulated board" },
+            this.#start,
+            this.#pause,
+            this.#restart,
+            this.#stop,
+            this.#slower,
+            this.#pace,
+            this.#faster,
+            this.#boards.element,
+            this.#worlds.element,
+            this.#clock,
+        );
+        this.element = make("section", { class: "live-panel", "aria-label": "Run" }, bar, this.#banner.element, this.#empty);
+        this.#empty.append(make("p", {}, INTRODUCTION), make("p", {}, "Start it to see what the sensors report and to set actuators."));
+        this.#show();
+    }
+
+    /** It is to be seen now. */
+    shown(): void {
+        this.#offerWorlds();
+    }
+
+    /** Starts a board from time zero: that of the text as it is now, unless another design is given. */
+    async start(design = this.#design()): Promise<void> {
+        const text = JSON.stringify(design);
+        const next = this.#takeNext();
+        if (next?.text === text) return this.#run(next.board, text);
+        await next?.board.stop();
+        const search = this.#begin();
+        mark(this.#start, "aria-busy", "true");
+        write(this.#clock, "Looking for a wiring…");
+        try {
+            const { board, diagnostics } = await SimulatedBoard.of(design, await this.#studio.module(), search.signal);
+            if (search.signal.aborted) return void board?.stop();
+            if (board === null) {
+                this.#banner.wrong("The text cannot run as it is.", diagnostics);
+                this.#speaker.say("The text cannot run as it is.");
+            } else await this.#run(board, text);
+        } catch (error) {
+            if (!search.signal.aborted) this.#banner.show("error", `The board cannot be started: ${message(error)}`, "");
+        } finally {
+            if (this.#search === search) {
+                this.#search = null;
+                mark(this.#start, "aria-busy", null);
+                this.#writeClock();
+            }
+        }
+    }
+
+    /** The text has changed: what runs goes on, and the new text is offered once it has a wiring. */
+    changed(): void {
+        this.#offerWorlds();
+        clearTimeout(this.#timer);
+        if (!this.#isRunning) return;
+        this.#timer = setTimeout(() => void this.#tryNext(), TRY_AFTER_MS);
+    }
+
+    frame(now_ms: number): void {
+        this.#view?.frame(now_ms);
+        if (now_ms - this.#written_ms < 100) return;
+        this.#written_ms = now_ms;
+        this.#writeClock();
+    }
+
+    setDark(isDark: boolean): void {
+        this.#isDark = isDark;
+        this.#view?.setDark(isDark);
+    }
+
+    dispose(): void {
+        clearTimeout(this.#timer);
+        this.#search?.abort();
+        void this.#next?.board.stop();
+        this.#end();
+        this.element.remove();
+    }
+
+    #design(): Design {
+        this.#offerWorlds();
+        const { path, files, board } = this.#studio.request();
+        return this.#chosen({ path, files, ...(board === undefined ? {} : { board }) });
+    }
+
+    /** What runs, however the text has changed since. */
+    #same(): Design {
+        const { path, files, board } = JSON.parse(this.#running) as Design;
+        return this.#chosen({ path, files, ...(board === undefined ? {} : { board }) });
+    }
+
+    /** A design with the board and the world that are chosen. */
+    #chosen(design: Design): Design {
+        const name = boardOf(design.files, this.#boards.value);
+        const world = design.files[this.#worlds.value];
+        return { ...design, ...(name === undefined ? {} : { name }), ...(world === undefined ? {} : { world }) };
+    }
+
+    #offerWorlds(): void {
+        const { files } = this.#studio.request();
+        const names = Object.keys(files).filter((one) => one.endsWith(".toml"));
+        this.#worlds.offer([["", "the usual"], ...names.map((one) => [one, one] as const)]);
+    }
+
+    #begin(): AbortController {
+        this.#search?.abort();
+        this.#search = new AbortController();
+        return this.#search;
+    }
+
+    #takeNext(): { board: SimulatedBoard; text: string } | null {
+        const next = this.#next;
+        this.#next = null;
+        return next;
+    }
+
+    async #run(board: SimulatedBoard, text: string): Promise<void> {
+        this.#release();
+        this.#board = board;
+        this.#running = text;
+        this.#isRunning = true;
+        const view = new View(board, {
+            studio: this.#studio,
+            speaker: this.#speaker,
+            steer: (device, element, shown) => board.steer(device, element, shown),
+        });
+        this.#view = view;
+        view.setDark(this.#isDark);
+        board.onSeen = (seen, pace) => {
+            view.take(seen);
+            this.#measured = pace;
+        };
+        board.onClosed = ({ text: why, help }) => {
+            this.#isRunning = false;
+            view.setStale(true);
+            this.#banner.show("error", why, help);
+            this.#speaker.say(why);
+            this.#show();
+        };
+        this.#boards.offer(boardNames(board.info.boards));
+        if (this.#banner.element.contains(document.activeElement)) this.#restart.focus();
+        this.#banner.hide();
+        this.element.append(view.element);
+        await board.setPace(Number(this.#pace.value));
+        await board.start();
+        this.#show();
+        this.#speaker.say(`${board.info.board} runs.`);
+        // The text may be another one by now.
+        this.changed();
+    }
+
+    #release(): void {
+        void this.#board?.stop();
+        this.#view?.dispose();
+        this.#board = null;
+        this.#view = null;
+        this.#isRunning = false;
+        this.#measured = null;
+    }
+
+    #end(): void {
+        this.#release();
+        void this.#takeNext()?.board.stop();
+        this.#search?.abort();
+        this.#banner.hide();
+        this.#show();
+        this.#start.focus();
+    }
+
+    async #togglePause(): Promise<void> {
+        const board = this.#board;
+        if (board === null) return;
+        await board.pause(!board.isPaused);
+        this.#show();
+        this.#speaker.say(board.isPaused ? "Paused." : "Goes on.");
+    }
+
+    #step(by: number): void {
+        const at = PACES.indexOf(Number(this.#pace.value)) + by;
+        const pace = PACES[at];
+        if (pace === undefined) return;
+        this.#pace.value = `${pace}`;
+        this.#setPace();
+        this.#speaker.say(`Speed ${pace}.`);
+    }
+
+    #setPace(): void {
+        const pace = Number(this.#pace.value);
+        this.#slower.disabled = pace === PACES[0];
+        this.#faster.disabled = pace === PACES.at(-1);
+        // A board that has ended has told so.
+        this.#board?.setPace(pace).catch(() => {});
+    }
+
+    async #tryNext(): Promise<void> {
+        const design = this.#design();
+        const text = JSON.stringify(design);
+        if (this.#next?.text === text) return;
+        const old = this.#takeNext();
+        await old?.board.stop();
+        if (text === this.#running) {
+            this.#search?.abort();
+            this.#banner.hide();
+            return;
+        }
+        const search = this.#begin();
+        try {
+            const { board } = await SimulatedBoard.of(design, await this.#studio.module(), search.signal);
+            if (search.signal.aborted) return void board?.stop();
+            if (board === null) {
+                this.#banner.show("info", "The text has changed and cannot run yet.", "The board keeps running the previous text.");
+                return;
+            }
+            this.#next = { board, text };
+            const again = button("Start again with the new text", () => void this.start(), { class: "live-main" });
+            this.#banner.show("info", "The text has changed.", "The board keeps running the previous text.", again);
+        } catch {
+            // A search that was ended, or a tool that has failed: what runs is not concerned.
+        } finally {
+            if (this.#search === search) this.#search = null;
+        }
+    }
+
+    #show(): void {
+        const has = this.#board !== null;
+        const isPaused = this.#board?.isPaused ?? false;
+        const isAtStart = document.activeElement === this.#start;
+        this.#empty.hidden = has;
+        this.#start.hidden = has;
+        for (const one of [this.#pause, this.#restart, this.#stop]) one.hidden = !has;
+        this.#pause.disabled = !this.#isRunning;
+        // Somebody at the keyboard goes on from here.
+        if (has && isAtStart) this.#pause.focus();
+        write(this.#pause, isPaused ? "Go on" : "Pause");
+        mark(this.element, "data-running", `${this.#isRunning && !isPaused}`);
+        this.#writeClock();
+    }
+
+    #writeClock(): void {
+        if (this.#search !== null && this.#view === null) return;
+        if (this.#view === null || this.#board === null) return write(this.#clock, "");
+        const time = shownTime(this.#view.readings.now_ms);
+        const { isPaused, pace } = this.#board;
+        const isLate = this.#measured !== null && this.#measured < pace * LATE && !isPaused;
+        const told = isLate ? `, ${this.#measured?.toFixed(1)}×: as fast as this machine can` : "";
+        write(this.#clock, `${this.#board.info.board}: ${time}${isPaused ? ", paused" : told}`);
+    }
+}
+
+function message(error: unknown): string {
+    return error instanceof Error ? error.message : String(error);
+}
