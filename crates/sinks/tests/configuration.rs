@@ -123,8 +123,8 @@ fn names_rates_and_units_of_devices() {
         ("[1, 2]", "2 values for 1"),
         ("[[1]]", "a list must hold"),
         ("\"a\\u0000\"", "control characters"),
-        ("fast", "`fast` is no value"),
-        ("\"1e999\"", "is no value"),
+        ("fast", "`fast` is not a valid value"),
+        ("\"1e999\"", "is not a valid value"),
     ] {
         let found = set(text);
         assert!(found.as_ref().is_err_and(|found| found.contains(why)), "{text}: {found:?}");
