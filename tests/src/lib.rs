@@ -24,35 +24,13 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rustix::fs::StatVfsMountFlags;
 
+mod depth;
 mod mistakes;
 mod random;
 
+pub use depth::{few, is_drawn, is_exhaustive, is_thorough, is_whole, one_in};
 pub use mistakes::{Mistake, Place, mistakes};
 pub use random::Random;
-
-/// Whether the cases that quick runs leave out are requested as well: `SENSEDSL_THOROUGH=1`, as in
-/// CI.
-#[must_use]
-pub fn is_thorough() -> bool {
-    std::env::var("SENSEDSL_THOROUGH").is_ok_and(|level| level == "1" || level == "2")
-}
-
-/// Whether cases that take many minutes are requested as well: `SENSEDSL_THOROUGH=2`.
-#[must_use]
-pub fn is_exhaustive() -> bool {
-    std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("2")
-}
-
-/// The first `count` items, or all of them in a thorough run.
-#[must_use]
-pub fn few<T>(all: &[T], count: usize) -> &[T] {
-    if is_thorough() { all } else { all.get(..count).unwrap_or(all) }
-}
-
-/// Every `step`-th item, or all of them in a thorough run.
-pub fn one_in<I: IntoIterator>(step: usize, all: I) -> impl Iterator<Item = I::Item> {
-    all.into_iter().step_by(if is_thorough() { 1 } else { step })
-}
 
 /// The root of the repository.
 #[must_use]
@@ -77,6 +55,15 @@ pub fn assert_section(page: &str, heading: &str, wanted: &str) {
     let start = of(0, &format!("\n## {heading}\n\n")).and_then(|at| of(at, "\n|"));
     let start = start.unwrap_or_else(|| panic!("{page} has no table in {heading}")) + 1;
     assert_part(page, start, of(start, "\n## ").unwrap_or(whole.len()), wanted);
+}
+
+/// The rows of a table must be in a page, which has all rows; `assert_section` compares a whole table.
+#[track_caller]
+pub fn assert_rows(page: &str, table: &str) {
+    let whole = text(page);
+    for row in table.lines().filter(|line| line.starts_with("| ")) {
+        assert!(whole.lines().any(|line| line == row), "{page} lacks {row}");
+    }
 }
 
 /// The same from the first line that begins with `mark` to the end of a page.

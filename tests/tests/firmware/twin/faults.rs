@@ -77,7 +77,7 @@ macro_rules! on_both {
                 #[test]
                 fn $name() {
                     let is_always = false $(|| stringify!($always) == "always")?;
-                    if is_always || sensedsl_tests::is_exhaustive() {
+                    if is_always || sensedsl_tests::is_drawn(stringify!($name)) {
                         super::$name(super::System::Embassy);
                     }
                 }

@@ -1,7 +1,7 @@
 //! Images for every MCU that has a model, and development builds, judged through the command that
 //! users run: `simulate --firmware IMAGE --judge`.
 //!
-//! Runs only with `SENSEDSL_THOROUGH=2`: it builds and runs dozens of programs.
+//! A third runs with `SENSEDSL_THOROUGH=2`, all with `SENSEDSL_THOROUGH=3`: it builds and runs dozens of programs.
 
 use sensedsl_tests::is_exhaustive;
 
