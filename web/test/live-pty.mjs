@@ -93,7 +93,8 @@ async function run() {
         await connected(page);
         console.log("values, an actuator, health and closing: as they should be");
         board.end();
-        mount("umount", PORT);
+        // The browser may still be closing it.
+        mount("umount", "--lazy", PORT);
         board = await simulate(folder, DESIGN.replace("Lamp accepts bool", "Lamp accepts uint8").replace("type = digital; }\n}", "driver = servo; }\n}"));
         mount("mount", "--bind", board.name, PORT);
         await page.getByRole("button", { name: "Connect to serial port" }).first().click();
