@@ -4,25 +4,20 @@
 //
 //     node test/live-pty.mjs
 //
-// SENSEDSL names the program; without it the one in `target` is taken.
+// SENSEDSL names the program; without it the one that was built last is taken.
 
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { DESIGN } from "./live-serial.mjs";
-import { launch, missing, open, root, serve } from "./site.mjs";
+import { launch, missing, open, program, serve } from "./site.mjs";
 
 const PORT = "/dev/ttyS0";
 const POLICY = "/etc/chromium/policies/managed/sensedsl-test.json";
 const PATIENCE_MS = 120_000;
 const IN_ITS_MOUNT = "SENSEDSL_TEST_MOUNT";
-
-function program() {
-    const all = [process.env.SENSEDSL, join(root, "target/dist/sensedsl"), join(root, "target/debug/sensedsl")];
-    return all.find((one) => one && existsSync(one)) ?? assert.fail("there is no sensedsl: SENSEDSL names it");
-}
 
 /** Starts a simulated board; its pseudo-terminal. */
 async function simulate(folder, design) {

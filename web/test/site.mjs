@@ -86,3 +86,19 @@ export async function open(browser, url, options = {}) {
     await page.goto(url);
     return { context, page, wrong };
 }
+
+/** Puts a text in place of that of the open file. */
+export async function write(page, text) {
+    await page.locator(".cm-content").click();
+    await page.keyboard.press("Control+a");
+    await paste(page, text);
+}
+
+/** Pastes a text at the cursor. */
+export async function paste(page, text) {
+    await page.locator(".cm-content").evaluate((content, text) => {
+        const clipboardData = new DataTransfer();
+        clipboardData.setData("text/plain", text);
+        content.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+    }, text);
+}

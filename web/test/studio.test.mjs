@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { unzipSync } from "fflate";
 import { load } from "../../crates/wasm/sensedsl.mjs";
-import { example, launch, missing, open, serve, site } from "./site.mjs";
+import { example, launch, missing, open, paste, serve, site, write } from "./site.mjs";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const skip = missing();
@@ -49,21 +49,6 @@ async function kept(page) {
 async function textOf(page) {
     const { files, open } = await kept(page);
     return files[open];
-}
-
-/** Puts a text in place of that of the open file. */
-async function write(page, text) {
-    await page.locator(".cm-content").click();
-    await page.keyboard.press("Control+a");
-    await paste(page, text);
-}
-
-async function paste(page, text) {
-    await page.locator(".cm-content").evaluate((content, text) => {
-        const clipboardData = new DataTransfer();
-        clipboardData.setData("text/plain", text);
-        content.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
-    }, text);
 }
 
 /** The parts that have a wire in the picture. */

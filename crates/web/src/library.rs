@@ -3,9 +3,11 @@
 use sensedsl_board::{catalog, mcu};
 use sensedsl_generate::target::systems_of;
 use sensedsl_model::facts::{PartFacts, snippet};
+use sensedsl_model::kind::KindName;
 use sensedsl_model::part_facts;
 use sensedsl_report::{drivers, svg};
 use sensedsl_session::boards::{free, links, package};
+use sensedsl_wire::Direction;
 use serde_json::{Value, json};
 
 /// All built-in boards, in the order of the catalogue.
@@ -36,9 +38,35 @@ pub(crate) fn picture(name: &str) -> Option<String> {
     svg::of_built_in(board)
 }
 
-/// All parts with drivers, in the order of the library.
+/// A device of each kind, for a part that no driver is needed for or that has none, and all parts with drivers, in the
+/// order of the library.
 pub(crate) fn parts() -> Value {
-    Value::Array(part_facts().iter().map(part).collect())
+    let ways = |kind: KindName| kind.spec().directions.iter().map(move |way| any(kind, *way));
+    let kinds = KindName::ALL.into_iter().flat_map(ways);
+    Value::Array(kinds.chain(part_facts().iter().map(part)).collect())
+}
+
+fn any(kind: KindName, way: Direction) -> Value {
+    let spec = kind.spec();
+    let word = match way {
+        Direction::Sensor => "sensor",
+        Direction::Actuator => "actuator",
+    };
+    let name = spec.name[..1].to_uppercase() + &spec.name[1..];
+    let place = |place, usual: &str| if place == 1 { name.clone() } else { usual.to_owned() };
+    let about = kind.about();
+    let page = format!("# Any {} {word}\n\n{about}\n\nWires: {}.\n", spec.name, spec.wires);
+    json!({
+        "name": spec.name,
+        "title": format!("Any {} {word}", spec.name),
+        "about": about,
+        "field": "any",
+        "kind": spec.name,
+        "quantities": [],
+        "aliases": [word],
+        "snippet": kind.snippet(way, place) + "\n",
+        "page": page,
+    })
 }
 
 fn part(of: &PartFacts) -> Value {

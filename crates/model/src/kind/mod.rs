@@ -22,6 +22,7 @@ pub mod icu;
 mod interface;
 pub mod pwm;
 mod role;
+mod snippet;
 mod spec;
 pub mod spi;
 pub mod uart;

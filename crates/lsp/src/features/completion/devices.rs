@@ -21,23 +21,14 @@ pub(super) fn of_kinds() -> Vec<Item> {
 
 fn device(kind: KindName, way: Direction) -> Item {
     let spec = kind.spec();
-    let (word, verb) = match way {
-        Direction::Sensor => ("sensor", "returns"),
-        Direction::Actuator => ("actuator", "accepts"),
+    let word = match way {
+        Direction::Sensor => "sensor",
+        Direction::Actuator => "actuator",
     };
-    let mut text = format!(
-        "{word} ${{1:Name}} {verb} ${{2:{}}} {{\n    type = {};\n",
-        spec.natural, spec.name
-    );
-    // What it needs, with a value that can be changed.
-    let mut place = 3;
-    for line in spec.example.split_inclusive(';') {
-        if let Some((name, value)) = line.trim().trim_end_matches(';').split_once(" = ") {
-            text.push_str(&format!("    {name} = ${{{place}:{value}}};\n"));
-            place += 1;
-        }
-    }
-    text.push_str("    $0\n}");
+    let text = kind.snippet(way, |place, usual| match place {
+        0 => "    $0\n".to_owned(),
+        _ => format!("${{{place}:{usual}}}"),
+    });
     let about = kind.about();
     Item::new(format!("{word} {}", spec.name), SNIPPET)
         .snippet(text)
