@@ -127,8 +127,8 @@ export interface RobotInfo {
 export interface Seen {
     now_ms: number;
     state: "asking" | "matched" | "playing" | "comparing" | "refused";
-    /** [time in ms, index of the device, shown numbers, text such as "37.98 cm"] */
-    values: [number, number, number[], string][];
+    /** [time in ms, index of the device, shown numbers, text such as "37.98 cm", what the board sent] */
+    values: [number, number, (number | null)[], string, (number | boolean | null)[]][];
     /** For people: "the board is Rover, hash …", "Light has not reported for 1.2 s", differences of another firmware, … */
     notes: { level: "info" | "warning" | "error"; text: string }[];
     /** What the board last told of its health; null if nothing new. */

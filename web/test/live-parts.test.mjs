@@ -167,8 +167,8 @@ test("what was seen in several steps is one", () => {
 async function recorded(format) {
     let text = "";
     const sink = new MemorySink(1 << 20, (bytes) => (text = new TextDecoder().decode(bytes)));
-    const recorder = new Recorder(info(device("A"), device("Pair", { elements: 2, unit: null }), device("Servo", { direction: "actuator", unit: "deg" })), format, sink);
-    recorder.take(seen(1_500, [[1_412, 0, [37.98], "37.98 cm"], [1_412, 1, [1, null], "1, –"]], { outputs: [[2, [90], ""]] }));
+    const recorder = new Recorder(info(device("A"), device("Pair", { elements: 2, type: "uint16[2]", unit: null }), device("Servo", { direction: "actuator", unit: "deg" })), format, sink);
+    recorder.take(seen(1_500, [[1_412, 0, [37.98], "37.98 cm", [3798]], [1_412, 1, [1, null], "1, –", [1, null]]], { outputs: [[2, [90], ""]] }));
     recorder.take(seen(1_600, [], { outputs: [[2, [90], ""]] }));
     recorder.take(seen(1_700, [], { outputs: [[2, [45], ""]] }));
     await recorder.stop();
@@ -178,16 +178,23 @@ async function recorded(format) {
 test("a record has an object a value", async () => {
     const lines = (await recorded("ndjson")).trimEnd().split("\n").map((line) => JSON.parse(line));
     assert.deepEqual(lines, [
-        { t: 1.412, device: "A", value: [37.98], text: "37.98 cm" },
-        { t: 1.412, device: "Pair", value: [1, null], text: "1, –" },
-        { t: 1.5, device: "Servo", value: [90], text: "90 deg" },
-        { t: 1.7, device: "Servo", value: [45], text: "45 deg" },
+        { time_s: 1.412, board: "Rover", device: "A", raw: 3798, value: 37.98, unit: "cm" },
+        { time_s: 1.412, board: "Rover", device: "Pair", raw: [1, null], value: [1, null], unit: null },
+        { time_s: 1.5, board: "Rover", device: "Servo", raw: null, value: 90, unit: "deg" },
+        { time_s: 1.7, board: "Rover", device: "Servo", raw: null, value: 45, unit: "deg" },
     ]);
 });
 
 test("a record as a table has a row an element", async () => {
     const lines = (await recorded("csv")).trimEnd().split("\n");
-    assert.deepEqual(lines, ["time_s,device,element,value,unit", "1.412,A,0,37.98,cm", "1.412,Pair,0,1,", "1.412,Pair,1,,", "1.5,Servo,0,90,deg", "1.7,Servo,0,45,deg"]);
+    assert.deepEqual(lines, [
+        "time_s,device,element,raw,value,unit",
+        "1.412,A,0,3798,37.98,cm",
+        "1.412,Pair,0,1,1,",
+        "1.412,Pair,1,,,",
+        "1.5,Servo,0,,90,deg",
+        "1.7,Servo,0,,45,deg",
+    ]);
 });
 
 test("a record in memory ends at its limit, and keeps what it has", async () => {

@@ -347,9 +347,9 @@ test("what comes is recorded to a file", { skip }, async () => {
     assert.match(download.suggestedFilename(), /^Rover-\d{4}-\d\d-\d\d-\d{6}\.ndjson$/);
     const lines = readFileSync(await download.path(), "utf8").trimEnd().split("\n").map((line) => JSON.parse(line));
     assert.ok(lines.length > 10);
-    const { t, ...first } = lines.find((one) => one.device === "Light");
-    assert.deepEqual(first, { device: "Light", value: [1_000], text: "1000" });
-    assert.ok(t > 0 && lines.every((one, at) => at === 0 || one.t >= lines[at - 1].t));
+    const { time_s, ...first } = lines.find((one) => one.device === "Light");
+    assert.deepEqual(first, { board: "Rover", device: "Light", raw: 1_000, value: 1_000, unit: null });
+    assert.ok(time_s > 0 && lines.every((one, at) => at === 0 || one.time_s >= lines[at - 1].time_s));
     await context.close();
 });
 

@@ -122,8 +122,10 @@ export class Server implements vscode.Disposable {
                 // The commands of the server's code lenses answer with a text.
                 executeCommand: async (command, args, next) => {
                     const text: unknown = await next(command, args);
-                    const title = command === "sensedsl.capacity" ? "Room left on" : "Why";
-                    if (typeof text === "string") await this.show(`${title} ${String(args[1])}`, text);
+                    const isRoom = command === "sensedsl.capacity";
+                    const title = `${isRoom ? "Room left on" : "Why"} ${String(args[1])}`;
+                    // The reasons are columns, which Markdown would run together.
+                    if (typeof text === "string") await this.show(title, isRoom ? text : `\`\`\`text\n${text.trimEnd()}\n\`\`\`\n`);
                     return text;
                 },
             },

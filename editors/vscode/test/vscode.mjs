@@ -86,7 +86,8 @@ export async function open(files, settings = {}) {
         } catch {
             // It has ended.
         }
-        rmSync(scratch, { recursive: true, force: true, maxRetries: 5 });
+        // Shells of terminals write into it until they have ended, too.
+        rmSync(scratch, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
     };
     try {
         await visit(page, `http://127.0.0.1:${port}/`);

@@ -130,7 +130,8 @@ export class Problems {
 
     private show(): void {
         const all = [...this.all].flatMap(([path, problems]) => problems.map((problem) => ({ path, problem })));
-        all.sort((one, other) => one.problem.severity - other.problem.severity || one.problem.range.start.line - other.problem.range.start.line);
+        const rank = ({ path, problem }: (typeof all)[number]) => [problem.severity, Number(path !== this.editor.path), problem.range.start.line] as const;
+        all.sort((one, other) => rank(one).map((part, at) => part - (rank(other)[at] ?? 0)).find((apart) => apart !== 0) ?? 0);
         const count = (severity: number) => all.filter((one) => one.problem.severity === severity).length;
         const counts = [[count(1), "error"], [count(2), "warning"], [count(4), "hint"]] as const;
         const text = counts.filter(([number]) => number > 0).map(([number, word]) => `${number} ${word}${number === 1 ? "" : "s"}`).join(", ") || "No problems";

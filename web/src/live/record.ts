@@ -14,7 +14,7 @@ export const TYPES: Record<Format, string> = { ndjson: "application/x-ndjson", c
 
 const FLUSH_BYTES = 1 << 16;
 
-/** Writes values down as they come. */
+/** Writes values down as they come, as `sensedsl monitor` does. */
 export class Recorder {
     /** How many values were written. */
     values = 0;
@@ -34,35 +34,38 @@ export class Recorder {
         this.#info = info;
         this.#format = format;
         this.#sink = sink;
-        if (format === "csv") this.#text = "time_s,device,element,value,unit\n";
+        if (format === "csv") this.#text = "time_s,device,element,raw,value,unit\n";
     }
 
     /** Writes what was seen; of actuators, what has changed. */
     take(seen: Seen): void {
-        for (const [time_ms, index, numbers, text] of seen.values) this.add(time_ms, index, numbers, text);
+        for (const [time_ms, index, numbers, , raw] of seen.values) this.add(time_ms, index, numbers, raw);
         for (const [index, numbers] of seen.outputs ?? []) {
             const key = numbers.join(" ");
             if (this.#set.get(index) === key) continue;
             this.#set.set(index, key);
-            const device = this.#info.devices[index];
-            const unit = device?.unit == null ? "" : ` ${device.unit}`;
-            this.add(seen.now_ms, index, numbers, `${numbers.join(", ")}${unit}`);
+            this.add(seen.now_ms, index, numbers);
         }
         if (this.#text.length > FLUSH_BYTES) this.flush();
     }
 
-    /** Writes a value. */
-    add(time_ms: number, index: number, numbers: readonly (number | null)[], text: string): void {
+    /** Writes a value: its shown numbers, and what the board sent; of an actuator only what is shown is known. */
+    add(time_ms: number, index: number, numbers: readonly (number | null)[], raw: readonly (number | boolean | null)[] = []): void {
         const device = this.#info.devices[index];
         if (device === undefined) return;
         this.values += 1;
         const time_s = time_ms / 1_000;
         if (this.#format === "ndjson") {
-            this.#text += `${JSON.stringify({ t: time_s, device: device.name, value: numbers, text })}\n`;
+            const { name, unit, is_bool } = device;
+            const shown = numbers.map((one) => (is_bool && one !== null ? one !== 0 : one));
+            const of = <T>(all: readonly T[]) => (device.type.endsWith("]") ? all : (all[0] ?? null));
+            const value = { time_s, board: this.#info.board, device: name, raw: of(raw), value: of(shown), unit };
+            this.#text += `${JSON.stringify(value)}\n`;
             return;
         }
         for (const [element, number] of numbers.entries()) {
-            this.#text += `${time_s},${quoted(device.name)},${element},${number ?? ""},${quoted(device.unit ?? "")}\n`;
+            const cells = [time_s, quoted(device.name), element, raw[element] ?? "", number ?? "", quoted(device.unit ?? "")];
+            this.#text += `${cells.join()}\n`;
         }
     }
 

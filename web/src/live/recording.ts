@@ -40,8 +40,8 @@ export class Recording {
     }
 
     /** An actuator of a real board was set. */
-    sent(time_ms: number, index: number, numbers: readonly (number | null)[], text: string): void {
-        this.#recorder?.add(time_ms, index, numbers, text);
+    sent(time_ms: number, index: number, numbers: readonly (number | null)[]): void {
+        this.#recorder?.add(time_ms, index, numbers);
     }
 
     update(): void {

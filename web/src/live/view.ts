@@ -58,6 +58,7 @@ export class View {
             { class: "live-view" },
             // What is moved stands below what follows it, and beside it where there is room.
             make("div", { class: "live-column" }, section("Values", table.element, this.recording.element)),
+            make("div", { class: "live-column" }, section("Plots", this.#plots.element)),
             make(
                 "div",
                 { class: "live-column live-controls" },
@@ -66,7 +67,6 @@ export class View {
                 section("Notes", notes.element),
                 section("Health", condition.element),
             ),
-            make("div", { class: "live-column" }, section("Plots", this.#plots.element)),
         );
     }
 
@@ -76,7 +76,7 @@ export class View {
             this.readings.sent(device, answered.text);
             const index = this.readings.all.findIndex((one) => one.device.name === device);
             const numbers = this.readings.all[index]?.numbers ?? [];
-            this.recording.sent(this.readings.now_ms, index, numbers, answered.text);
+            this.recording.sent(this.readings.now_ms, index, numbers);
         }
         return answered;
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use sensedsl_host::{
     Board, Event, Faults, Session, State, causes, keep_alive, reset_cause, status,
 };
-use sensedsl_wire::{Health, NEVER_MS};
+use sensedsl_wire::{Health, NEVER_MS, Scalar};
 use serde_json::{Value, json};
 
 /// How often a board is asked how it is.
@@ -131,7 +131,7 @@ impl Watch {
         }
     }
 
-    fn report(&mut self, values: &[(usize, Vec<sensedsl_wire::Scalar>)], now: Duration) {
+    fn report(&mut self, values: &[(usize, Vec<Scalar>)], now: Duration) {
         for (index, value) in values {
             let Some(device) = self.board.devices.get(*index) else { continue };
             if self.values.len() >= WAITING_MAX {
@@ -145,7 +145,8 @@ impl Watch {
                 now.as_millis().min(u128::from(u64::MAX)) as u64,
                 index,
                 numbers,
-                device.brief(value)
+                device.brief(value),
+                value.iter().map(|one| raw(*one)).collect::<Vec<_>>(),
             ]));
         }
     }
@@ -209,6 +210,17 @@ impl Watch {
                 "lost": counts.lost,
             },
         })
+    }
+}
+
+/// What the board sent, as the monitor writes it.
+fn raw(scalar: Scalar) -> Value {
+    match scalar {
+        Scalar::Bool(flag) => flag.into(),
+        Scalar::Unsigned(number) => number.into(),
+        Scalar::Signed(number) => number.into(),
+        Scalar::Float32(number) => number.into(),
+        Scalar::Float64(number) => number.into(),
     }
 }
 
