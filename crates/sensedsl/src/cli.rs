@@ -3,6 +3,7 @@
 mod build;
 mod common;
 mod convert;
+mod doctor;
 mod monitor;
 mod parts;
 mod simulate;
@@ -19,6 +20,7 @@ use sensedsl_model::kind::KindName;
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
 pub(crate) use common::{On, Reach, TableFormat, seconds};
 pub(crate) use convert::{ConvertArgs, ConvertTo};
+pub(crate) use doctor::{DoctorArgs, DoctorFormat, Purpose};
 pub(crate) use monitor::{MonitorArgs, MonitorFormat, Speed};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
@@ -81,6 +83,8 @@ pub(crate) enum Command {
     Lsp,
     /// Show the studio in a browser: text, wiring and a robot that runs in a page, with the files of a folder
     Studio(StudioArgs),
+    /// Say what this machine has of what you want to do, and what to install
+    Doctor(DoctorArgs),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
     /// Print the manual page, or write one for each command into a folder

@@ -76,6 +76,7 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Import(args) => commands::import::run(&args, terminal),
         Command::Fmt(args) => commands::fmt::run(&args, terminal),
         Command::Lsp => commands::lsp::run(),
+        Command::Doctor(args) => commands::doctor::run(&args, terminal),
         Command::Studio(args) => commands::studio::run(&args, terminal),
         Command::Completions(args) => commands::help::completions(&args, terminal),
         Command::Man(args) => commands::help::man(&args, terminal),

@@ -8,6 +8,7 @@ pub(crate) mod check;
 pub(crate) mod convert;
 mod deadline;
 pub(crate) mod diff;
+pub(crate) mod doctor;
 pub(crate) mod drivers;
 pub(crate) mod explain;
 mod facts;

@@ -137,6 +137,24 @@ impl Tool {
     }
 }
 
+/// Each tool by the name of its command, with whether it is installed, and the boards that it writes to.
+pub(crate) fn installed() -> Vec<(&'static str, bool, &'static str)> {
+    let tools = TOOLS.iter().filter(|tool| **tool != Tool::Drive);
+    tools
+        .map(|tool| {
+            let serves = match tool {
+                Tool::StFlash => "STM32, by ST-LINK",
+                Tool::ProbeRs => "STM32, RP2 and nRF52, by any debug probe",
+                Tool::DfuUtil => "STM32, by the MCU's own boot loader on USB",
+                Tool::Picotool => "RP2040 and RP2350, by their boot loader",
+                Tool::Espflash => "ESP32, by its boot loader",
+                Tool::Drive | Tool::Openocd => "STM32, RP2 and nRF52, by ST-LINK or CMSIS-DAP",
+            };
+            (tool.name(), asked(tool.name(), &["--version"]).is_some(), serves)
+        })
+        .collect()
+}
+
 /// Whether the output reports a board: `Found 1 stlink programmers`.
 fn stlink_found(reported: &str) -> bool {
     let count = reported.split("Found ").nth(1).and_then(|rest| rest.split_whitespace().next());

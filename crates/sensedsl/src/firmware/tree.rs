@@ -63,7 +63,7 @@ pub(crate) fn tree(
 }
 
 /// The release of a tree in its own words: `2021.11.5`, or `with kernel 7.0.6`.
-fn release(tree: &Path) -> String {
+pub(crate) fn release(tree: &Path) -> String {
     for (file, name) in RELEASES {
         let text = std::fs::read_to_string(tree.join(file)).unwrap_or_default();
         if let Some(value) = value(&text, name) {

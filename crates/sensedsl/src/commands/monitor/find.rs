@@ -57,7 +57,7 @@ pub(super) fn open(
 }
 
 /// What helps.
-fn cure(why: &OpenError, path: &str, ports: &[String]) -> String {
+pub(crate) fn cure(why: &OpenError, path: &str, ports: &[String]) -> String {
     let instead = match ports {
         [] => "no USB port of this machine has a device: is the board plugged in, and is the cable one for data?".to_owned(),
         ports => format!("these are there: {}", ports.join(", ")),

@@ -35,6 +35,7 @@ use crate::files::Refused;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use face::Face;
+pub(super) use find::cure;
 use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
