@@ -119,6 +119,9 @@ const define = {
     WORKER_URL: JSON.stringify(named("worker.js")),
     LIVE_WORKER_URL: JSON.stringify(named("live.js")),
 };
+// What only a running board needs comes when somebody wants one.
+await bundle("src/live/index.ts", "run.js", { define, format: "esm", loader: { ".css": "text" } });
+define.RUN_URL = JSON.stringify(named("run.js"));
 await bundle("src/main.ts", "main.js", { define, loader: { ".css": "text" } });
 await bundle("src/style/studio.css", "studio.css");
 const page = readFileSync("index.html", "utf8").replaceAll(/\{\{(.+?)\}\}/g, (_, name) => named(name));

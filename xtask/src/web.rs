@@ -12,6 +12,8 @@ use anyhow::{Context as _, Result, bail};
 use crate::say;
 
 const TARGET: &str = "wasm32-unknown-unknown";
+/// A panic ends the module, and a page cannot be told more: no text of one is in it.
+const FLAGS: &str = "-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none";
 /// The path at which Debian installs the compiler.
 const RUSTC: &str = "/usr/bin/rustc";
 
@@ -39,7 +41,8 @@ pub(crate) fn build() -> Result<PathBuf> {
             .env("RUSTC", RUSTC)
             .env("RUSTC_BOOTSTRAP", "1")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker()?)
-            .arg("-Zbuild-std=std,panic_abort"),
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", FLAGS)
+            .args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size"]),
         None => bail!(
             "the standard library's source is missing: install Debian's rustc-web and \
              rust-web-src, or name a compiler with the target {TARGET} in SENSEDSL_WASM_RUSTC"
