@@ -9,6 +9,8 @@ mod lookup;
 mod rates;
 mod types;
 
+use std::sync::OnceLock;
+
 use sensedsl_diagnostics::nearest;
 
 use crate::mcu;
@@ -109,11 +111,16 @@ pub fn usual(mcu: &str) -> &'static str {
     if is_second { SECOND } else { DEFAULT }
 }
 
-/// The file with the profile of an MCU under a target, both by their full names.
-fn entry(target: &str, name: &str) -> Option<&'static Entry> {
-    let covers = |entry: &&Entry| entry.parts.iter().any(|part| starts(name, part));
-    TARGETS.iter().filter(|entry| entry.target == target).find(covers)
+/// The file with the profile of an MCU under a target, both by their full names, and its place.
+fn entry(target: &str, name: &str) -> Option<(usize, &'static Entry)> {
+    let covers = |entry: &Entry| entry.parts.iter().any(|part| starts(name, part));
+    let mut all = TARGETS.iter().enumerate();
+    all.find(|(_, entry)| entry.target == target && covers(entry))
 }
+
+/// What the files say, each read once: editors ask at every letter, and lists of boards for all of them.
+static FILES: [OnceLock<Result<File, String>>; TARGETS.len()] =
+    [const { OnceLock::new() }; TARGETS.len()];
 
 /// Finds the profile of an MCU under a target.
 ///
@@ -130,7 +137,7 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
         return Ok(Target::None);
     }
     let name = mcu::normalise(mcu);
-    let Some(entry) = entry(target, &name) else {
+    let Some((place, entry)) = entry(target, &name) else {
         let entries = || TARGETS.iter().filter(|entry| entry.target == target);
         let family = entries().filter(|entry| name.starts_with(entry.family));
         let mut covered: Vec<String> =
@@ -141,13 +148,16 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
         }
         return Err(NoProfile::UnknownMcu { target: target.to_owned(), covered });
     };
-    read(entry.text, &name).map_err(|message| NoProfile::Broken { message })
+    let read = || File::parse(entry.text);
+    let file = FILES.get(place).map_or_else(read, |file| file.get_or_init(read).clone());
+    let found = file.and_then(|file| of_line(file, &name));
+    found.map_err(|message| NoProfile::Broken { message })
 }
 
 /// The text of the file with the profile of an MCU under a target.
 #[must_use]
 pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
-    entry(full_name(target)?, &mcu::normalise(mcu)).map(|entry| entry.text)
+    entry(full_name(target)?, &mcu::normalise(mcu)).map(|(_, entry)| entry.text)
 }
 
 /// A line of a profile file.
@@ -188,9 +198,11 @@ pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
 ///
 /// Fails if the text is not a profile, or has no line for the MCU.
 pub fn read(text: &str, mcu: &str) -> Result<Target, String> {
-    let file = File::parse(text)?;
-    let line =
-        file.line_of(&mcu::normalise(mcu)).cloned().ok_or_else(|| format!("no line for {mcu}"))?;
+    of_line(File::parse(text)?, &mcu::normalise(mcu))
+}
+
+fn of_line(file: File, mcu: &str) -> Result<Target, String> {
+    let line = file.line_of(mcu).cloned().ok_or_else(|| format!("no line for {mcu}"))?;
     Ok(Target::Profile(Box::new(file.into_profile(&line))))
 }
 

@@ -41,14 +41,14 @@ pub(crate) enum Streams {
 }
 
 /// `[timers]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimerGroup {
     pub(crate) units: Vec<TimerEntry>,
     pub(crate) source: String,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimerEntry {
     name: String,
@@ -88,7 +88,7 @@ impl TimerEntry {
 }
 
 /// `[pios]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PioGroup {
     machines: u8,
@@ -116,7 +116,7 @@ impl PioGroup {
 }
 
 /// `[adcs]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdcGroup {
     pub(crate) rules: AdcRules,
@@ -124,14 +124,14 @@ pub(crate) struct AdcGroup {
     pub(crate) units: Vec<AdcEntry>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdcRules {
     /// The first and the last input that can be a pin.
     inputs: [u8; 2],
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdcEntry {
     name: String,
@@ -162,7 +162,7 @@ fn request(
 }
 
 /// `[i2cs]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct I2cGroup {
     #[serde(default)]
@@ -172,7 +172,7 @@ pub(crate) struct I2cGroup {
 }
 
 /// `[spis]`, `[cans]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BusGroup {
     #[serde(default)]
@@ -185,14 +185,14 @@ pub(crate) struct BusGroup {
 /// `[serials]`
 pub(crate) type SerialGroup = BusGroup;
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnitRules {
     /// The clock.
     clock: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnitEntry {
     name: String,
@@ -226,7 +226,7 @@ impl UnitEntry {
 }
 
 /// `[dacs]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DacGroup {
     pub(crate) facts: Dacs,
@@ -234,7 +234,7 @@ pub(crate) struct DacGroup {
 }
 
 /// A converter, with the number of its outputs.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DacEntry {
     name: String,
@@ -251,14 +251,14 @@ impl DacEntry {
 }
 
 /// `[usbs]`
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UsbGroup {
     pub(crate) units: Vec<UsbEntry>,
     pub(crate) source: String,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UsbEntry {
     name: String,

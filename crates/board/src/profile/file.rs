@@ -16,7 +16,7 @@ use super::rates::Costs;
 use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
 
 /// A file of `targets/`.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct File {
     target: String,
