@@ -56,6 +56,7 @@ mod studio;
 mod tidy;
 mod timing;
 mod traceability;
+mod tutorials;
 mod web;
 mod wiring;
 mod wokwi;
