@@ -43,6 +43,7 @@ mod prolog;
 mod proof;
 mod records;
 mod robots;
+mod schemas;
 mod scripts;
 mod sheet;
 mod shown_values;

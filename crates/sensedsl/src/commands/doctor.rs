@@ -301,5 +301,5 @@ fn json(findings: &[Finding]) -> Value {
             "items": one.items.iter().map(of_item).collect::<Vec<_>>(),
         })
     });
-    json!({ "purposes": all.collect::<Vec<_>>() })
+    json!({ "version": 1, "purposes": all.collect::<Vec<_>>() })
 }
