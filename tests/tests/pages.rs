@@ -38,9 +38,9 @@ fn counts_are_those_of_the_data() {
     assert!(words_of("docs/parts.md").contains(&grouped), "docs/parts.md: there are {grouped}");
 }
 
-/// The README names the families that have firmware in C.
+/// The page of what is missing names the families that have firmware in C.
 #[test]
-fn the_readme_names_the_families() {
+fn what_is_missing_names_the_families() {
     let families: BTreeSet<String> = profile::lines(profile::DEFAULT)
         .unwrap()
         .iter()
@@ -50,7 +50,7 @@ fn the_readme_names_the_families() {
     let mut names: Vec<String> = families.into_iter().collect();
     let last = names.pop().unwrap();
     let wanted = format!("STM32 {} and {last}", names.join(", "));
-    assert!(words_of("README.md").contains(&wanted), "README.md: {wanted}");
+    assert!(words_of("docs/missing.md").contains(&wanted), "docs/missing.md: {wanted}");
 }
 
 /// Prose has at most 120 characters a line, so that it can be read and compared side by side.

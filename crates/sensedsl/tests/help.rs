@@ -1,4 +1,4 @@
-//! Every listed command has help, and is in the table of the README.
+//! Every listed command has help, and is in the table of `docs/commands.md`.
 //!
 //! The other tests of the program are in `tests/` of the repository. Because Cargo builds the
 //! program for this test, they need not build it.
@@ -25,13 +25,13 @@ fn every_command_explains_itself() {
         .filter(|command| *command != "help")
         .collect();
     assert!(named.contains(&"solve") && named.contains(&"generate"), "{named:?}");
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md");
-    let readme = std::fs::read_to_string(path).unwrap();
-    let (_, readme) = readme.split_once("| command | does |").unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/commands.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    let (_, table) = page.split_once("| command | does |").unwrap();
     for command in named {
         let is_described =
-            [' ', '`'].iter().any(|end| readme.contains(&format!("`{command}{end}")));
-        assert!(is_described, "the table of README.md lacks {command}");
+            [' ', '`'].iter().any(|end| table.contains(&format!("`{command}{end}")));
+        assert!(is_described, "docs/commands.md lacks {command}");
         let help = says(&[command, "--help"]);
         assert!(help.contains("Usage: sensedsl"), "{command}: {help}");
     }
