@@ -54,6 +54,7 @@ mod soft_units;
 mod spreadsheets;
 mod strangers;
 mod studio;
+mod teams;
 mod tidy;
 mod timing;
 mod traceability;

@@ -1,6 +1,7 @@
 //! Statements of pages about data agree with the data.
 
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use sensedsl_board::profile;
 use sensedsl_firmware_chibios as chibios;
@@ -80,4 +81,75 @@ fn prose_is_wrapped() {
             assert!(!is_prose || letters <= LETTERS_MAX, "{}:{number}: {letters}", page.display());
         }
     }
+}
+
+/// The pages of the repository: those at its root, and those in the folders that have some.
+fn pages() -> Vec<PathBuf> {
+    let mut all = Vec::new();
+    let mut folders = vec![root()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            let is_foreign =
+                ["target", "build", "node_modules", "golden", "corpus"].contains(&name.as_str());
+            if path.is_dir() && !is_foreign && (!name.starts_with('.') || name == ".github") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "md") {
+                all.push(path);
+            }
+        }
+    }
+    all.sort();
+    all
+}
+
+/// The names of a page's headings, as links have them.
+fn anchors(page: &Path) -> BTreeSet<String> {
+    let text = read(page);
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    let name = |heading: &str| -> String {
+        let plain = heading.trim_start_matches('#').trim().to_lowercase();
+        let letters = plain.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
+        letters.map(|c| if c == ' ' { '-' } else { c }).collect()
+    };
+    headings.map(name).collect()
+}
+
+/// Where the links of a page lead: the path and the heading of each.
+fn links(text: &str) -> Vec<(String, Option<String>)> {
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices("](") {
+        let Some((link, _)) = text.get(at + 2..).and_then(|rest| rest.split_once(')')) else {
+            continue;
+        };
+        if link.contains("://") || link.contains(char::is_whitespace) || link.is_empty() {
+            continue;
+        }
+        let (path, anchor) =
+            link.split_once('#').map_or((link, None), |(path, anchor)| (path, Some(anchor)));
+        found.push((path.to_owned(), anchor.map(str::to_owned)));
+    }
+    found
+}
+
+/// Every link between pages leads to a file that is there, and to a heading in it.
+#[test]
+fn links_lead_somewhere() {
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for page in pages() {
+        for (path, anchor) in links(&read(&page)) {
+            count += 1;
+            let to =
+                if path.is_empty() { page.clone() } else { page.parent().unwrap().join(&path) };
+            let has_heading = |anchor: &String| {
+                to.extension().is_none_or(|end| end != "md") || anchors(&to).contains(anchor)
+            };
+            if !to.exists() || !anchor.as_ref().is_none_or(has_heading) {
+                wrong.push(format!("{}: {path}#{}", page.display(), anchor.unwrap_or_default()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(count > 500, "only {count} links were found");
 }

@@ -29,8 +29,7 @@ fn every_command_explains_itself() {
     let page = std::fs::read_to_string(path).unwrap();
     let (_, table) = page.split_once("| command | does |").unwrap();
     for command in named {
-        let is_described =
-            [' ', '`'].iter().any(|end| table.contains(&format!("`{command}{end}")));
+        let is_described = [' ', '`'].iter().any(|end| table.contains(&format!("`{command}{end}")));
         assert!(is_described, "docs/commands.md lacks {command}");
         let help = says(&[command, "--help"]);
         assert!(help.contains("Usage: sensedsl"), "{command}: {help}");

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# What the action does once the program is installed: each check that is asked for runs on all files, and the status tells
+# whether all passed.
+#
+# FILES has the designs, a pattern each, CHECKS the names of the checks; SARIF names a file for the findings, or nothing.
+set -euo pipefail
+
+shopt -s globstar nullglob
+# Patterns are meant to be expanded.
+# shellcheck disable=SC2206
+files=(${FILES:-**/*.sense})
+if ((${#files[@]} == 0)); then
+    echo "::error::no file fits ${FILES:-**/*.sense}"
+    exit 2
+fi
+status=0
+
+# checked NAME COMMAND...: runs it, and goes on.
+checked() {
+    local name=$1
+    shift
+    echo "::group::$name"
+    "$@" || {
+        status=1
+        echo "::error::$name failed"
+    }
+    echo "::endgroup::"
+}
+
+if [[ -n ${SARIF:-} ]]; then
+    sensedsl check --format sarif "${files[@]}" > "$SARIF" || true
+fi
+for check in ${CHECKS:-check fmt}; do
+    case $check in
+        check) checked check sensedsl check --format github "${files[@]}" ;;
+        fmt) checked fmt sensedsl fmt --check "${files[@]}" ;;
+        simulate)
+            for file in "${files[@]}"; do
+                checked "simulate $file" sensedsl simulate "$file" --judge
+            done
+            ;;
+        generate)
+            for file in "${files[@]}"; do
+                checked "generate $file" sensedsl generate "$file" -o "${file%.sense}" --check
+            done
+            ;;
+        *)
+            echo "::error::there is no check $check: check, fmt, simulate, generate"
+            exit 2
+            ;;
+    esac
+done
+exit "$status"
