@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use sensedsl_tests::{TempDir, files, has, root};
+use sensedsl_tests::{TempDir, files, has, root, sensedsl};
 
 const VECTORS: &str = "tests/vectors/drivers";
 
@@ -49,5 +49,20 @@ fn what_disagrees_is_told() {
     assert_eq!(ran.status.code(), Some(1), "{log}");
     for driver in ["adxl345:", "as5047p:", "srf02: no vectors"] {
         assert!(log.contains(driver), "{driver} in {log}");
+    }
+}
+
+/// A driver to begin with is laid out, has a wiring, and runs.
+#[test]
+fn drivers_to_begin_with_run() {
+    let folder = TempDir::new("begin");
+    for kind in ["i2c", "spi", "uart", "analog"] {
+        let text = sensedsl(["drivers", "--new", "my_part", "--kind", kind]).run().exits(0).stdout;
+        let file = folder.write(&format!("{kind}.sense"), &text).display().to_string();
+        let ran = sensedsl(["check", &file]).run().exits(0);
+        assert!(!ran.stderr.contains("error") && !ran.stderr.contains("warning"), "{}", ran.stderr);
+        let _ = sensedsl(["fmt", "--check", &file]).run().exits(0);
+        let ran = sensedsl(["simulate", &file, "--judge", "--seconds", "2"]).run().exits(0);
+        assert!(format!("{}{}", ran.stdout, ran.stderr).contains("agree with the world"));
     }
 }

@@ -346,6 +346,10 @@ pub(crate) struct DriversArgs {
     /// A driver, or what else its part is called: mpu6050, GY-521
     #[arg(value_parser = DRIVER, hide_possible_values = true)]
     pub(crate) name: Option<String>,
+    /// Print a driver to begin with, for a part that the library does not have, with a board to try it on;
+    /// `--kind` says how the part is connected: i2c unless you say, spi, uart or analog
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["name", "search"])]
+    pub(crate) new: Option<String>,
     /// Only drivers of this kind: i2c, uart, pwm
     #[arg(long, value_parser = kind(), conflicts_with = "name", hide_possible_values = true)]
     pub(crate) kind: Option<KindName>,

@@ -1,8 +1,9 @@
-//! `sensedsl drivers`: the library of drivers, or everything that is known about one part.
+//! `sensedsl drivers`: the library of drivers, everything that is known about one part, or a driver to begin with.
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::{render, visible};
 use sensedsl_model::facts::{self, PartFacts};
+use sensedsl_model::kind::KindName;
 use sensedsl_report::drivers;
 
 use crate::cli::{DriversArgs, TableFormat};
@@ -10,11 +11,44 @@ use crate::status::Status;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &DriversArgs, terminal: &Terminal) -> Result<Status> {
-    match &args.name {
-        Some(name) => one(name, args.format, terminal)?,
-        None => list(args, terminal)?,
+    match (&args.new, &args.name) {
+        (Some(name), _) => begin(name, args.kind.unwrap_or(KindName::I2c), terminal)?,
+        (None, Some(name)) => one(name, args.format, terminal)?,
+        (None, None) => list(args, terminal)?,
     }
     Ok(Status::Done)
+}
+
+/// The kinds that there is a driver to begin with for.
+const BEGINNINGS: [(KindName, &str); 4] = [
+    (KindName::I2c, include_str!("../../templates/drivers/i2c.sense")),
+    (KindName::Spi, include_str!("../../templates/drivers/spi.sense")),
+    (KindName::Uart, include_str!("../../templates/drivers/uart.sense")),
+    (KindName::Analog, include_str!("../../templates/drivers/analog.sense")),
+];
+
+/// Prints a driver to begin with.
+fn begin(name: &str, kind: KindName, terminal: &Terminal) -> Result<()> {
+    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !is_name {
+        bail!(
+            "`{}` cannot be a name: use letters, digits and `_`, and begin with no digit",
+            visible(name)
+        );
+    }
+    let Some((_, text)) = BEGINNINGS.iter().find(|(one, _)| *one == kind) else {
+        let kind = kind.spec().name;
+        bail!(
+            "there is no driver to begin with for {kind}: `sensedsl drivers --kind {kind}` lists some to copy from"
+        );
+    };
+    if let Some(part) = facts::find(name) {
+        terminal
+            .aside(&format!("the library has `{}` for {}; yours wins", part.name, part.part))?;
+    }
+    terminal.result(&text.replace("NAME", name))?;
+    Ok(())
 }
 
 fn one(name: &str, format: TableFormat, terminal: &Terminal) -> Result<()> {
@@ -34,7 +68,7 @@ fn one(name: &str, format: TableFormat, terminal: &Terminal) -> Result<()> {
     Ok(())
 }
 
-fn found(parts: &[PartFacts], kind: Option<sensedsl_model::kind::KindName>, words: &str) -> usize {
+fn found(parts: &[PartFacts], kind: Option<KindName>, words: &str) -> usize {
     parts.iter().filter(|part| drivers::is_wanted(part, kind, words)).count()
 }
 
