@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use sensedsl_tests::{TempDir, binary, has, missing, root};
+use sensedsl_tests::{TempDir, binary, has, root};
 
 const RIGHT: &str = "board Rover on NUCLEO_F401RE {\n    sensor Light returns uint16 { id = 1; type = analog; }\n}\n";
 
@@ -19,7 +19,6 @@ fn checks(folder: &TempDir, checks: &str) -> (i32, String) {
 #[test]
 fn changes_are_checked() {
     if !has("bash") {
-        missing("bash");
         return;
     }
     let folder = TempDir::new("teams");
