@@ -2,12 +2,13 @@
 //! what the page shows.
 //!
 //! A block `sense NAME` (or another language and a name) is a file. A block `sh` is typed into a shell in the folder of the
-//! files; `status=1` says how it ends if not with 0. A block `output` is what the block before it printed, where a line
+//! files; `status=1` says how it ends if not with 0, and `board` that it needs a board or installs something: its lines must
+//! be commands of the program, and are not run. A block `output` is what the block before it printed, where a line
 //! `…` stands for any lines.
 
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{TempDir, binary, has, read, root};
+use sensedsl_tests::{TempDir, binary, has, read, root, sensedsl};
 
 /// A fenced block: what stands behind the fence, and its lines.
 struct Block<'a> {
@@ -56,6 +57,14 @@ fn typed(folder: &TempDir, block: &Block<'_>) -> String {
     text
 }
 
+/// What cannot be run here must at least be a command of the program, where it is one.
+fn known(block: &Block<'_>) {
+    let calls = block.text.lines().filter_map(|line| line.strip_prefix("sensedsl "));
+    for command in calls.filter_map(|line| line.split_whitespace().next()) {
+        let _ = sensedsl([command, "--help"]).run().exits(0);
+    }
+}
+
 fn follow(name: &str) {
     if !has("python3") {
         return;
@@ -64,6 +73,7 @@ fn follow(name: &str) {
     let (folder, mut printed) = (TempDir::new("tutorial"), String::new());
     for block in blocks(&page) {
         match block.info.split_whitespace().collect::<Vec<_>>().as_slice() {
+            ["sh", "board"] => known(&block),
             ["sh", ..] => printed = typed(&folder, &block),
             ["output"] => {
                 let (shown, text): (Vec<_>, Vec<_>) =
@@ -83,7 +93,24 @@ fn every_page_is_followed() {
     let mut names: Vec<String> =
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, ["without-a-board.md"]);
+    let wanted =
+        ["with-a-blue-pill.md", "with-a-nucleo.md", "with-a-pico.md", "without-a-board.md"];
+    assert_eq!(names, wanted);
+}
+
+#[test]
+fn with_a_blue_pill() {
+    follow("with-a-blue-pill.md");
+}
+
+#[test]
+fn with_a_nucleo() {
+    follow("with-a-nucleo.md");
+}
+
+#[test]
+fn with_a_pico() {
+    follow("with-a-pico.md");
 }
 
 #[test]
