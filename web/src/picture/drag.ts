@@ -25,6 +25,8 @@ interface Moving {
     answer: Promise<Place[]>;
     target: Place | undefined;
     isByKey: boolean;
+    /** Where the pointer was last, if one moves the wire. */
+    pointer: PointerEvent | undefined;
 }
 
 /** What the badge of a pin shows. */
@@ -130,6 +132,7 @@ export class Drag {
         const at = inside(own, event);
         moving.line.setAttribute("x2", String(at.x));
         moving.line.setAttribute("y2", String(at.y));
+        moving.pointer = event;
         this.aim(this.near(moving, event));
     }
 
@@ -213,7 +216,7 @@ export class Drag {
         layer.append(line);
         own.append(layer);
         const answer = this.ask(wire);
-        const moving: Moving = { wire, from, start, layer, line, groups, places: undefined, answer, target: undefined, isByKey };
+        const moving: Moving = { wire, from, start, layer, line, groups, places: undefined, answer, target: undefined, isByKey, pointer: undefined };
         this.moving = moving;
         this.host.classList.add("is-moving");
         this.say(`${wire.role} of ${wire.part}: asking what is possible …`);
@@ -222,6 +225,8 @@ export class Drag {
                 if (this.moving !== moving) return;
                 moving.places = places;
                 this.show(moving, places);
+                // The pointer may be there already.
+                if (moving.pointer) this.aim(this.near(moving, moving.pointer));
             },
             (why: unknown) => {
                 if (this.moving !== moving || why instanceof Superseded) return;
