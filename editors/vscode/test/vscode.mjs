@@ -86,8 +86,7 @@ export async function open(files, settings = {}) {
         } catch {
             // It has ended.
         }
-        // Shells of terminals write into it until they have ended, too.
-        rmSync(scratch, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+        await forgotten(scratch);
     };
     try {
         await visit(page, `http://127.0.0.1:${port}/`);
@@ -96,6 +95,18 @@ export async function open(files, settings = {}) {
         throw error;
     }
     return { page, outside, folder, end };
+}
+
+/** Removes a folder into which processes that were just ended still write: shells of terminals, for example. */
+async function forgotten(folder) {
+    for (let left = 40; left > 0; left -= 1) {
+        try {
+            rmSync(folder, { recursive: true, force: true });
+            return;
+        } catch {
+            await new Promise((resolve) => setTimeout(resolve, 250));
+        }
+    }
 }
 
 async function visit(page, url) {
