@@ -28,7 +28,13 @@ checked() {
 }
 
 if [[ -n ${SARIF:-} ]]; then
-    sensedsl check --format sarif "${files[@]}" > "$SARIF" || true
+    # 1 means that there are findings, which are what is wanted here; 2 that it was called wrongly.
+    found=0
+    sensedsl check --format sarif "${files[@]}" > "$SARIF" || found=$?
+    if ((found > 1)) || [[ ! -s $SARIF ]]; then
+        echo "::error::the findings could not be written to $SARIF"
+        exit 2
+    fi
 fi
 for check in ${CHECKS:-check fmt}; do
     case $check in

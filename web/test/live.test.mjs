@@ -3,40 +3,28 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { board, DESIGN, fakeSerial, SCHEMA } from "./live-serial.mjs";
-import { example, launch, missing, open, serve } from "./site.mjs";
+import { example, missing, open, shared } from "./site.mjs";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const skip = missing();
 /** What is slow here is the machine. */
 const PATIENCE_MS = 60_000;
 
-let browser;
-let server;
-
-before(async () => {
-    if (skip) return;
-    browser = await launch();
-    server = await serve();
-});
-
-after(async () => {
-    await browser?.close();
-    await server?.close();
-});
+const chromium = shared(skip);
 
 /** A page with a text, at a panel. */
 async function at(panel, text, { serial, ...options } = {}) {
     // Plots that move seldom leave more of a slow machine to what is tested.
-    const opened = await open(browser, "about:blank", { reducedMotion: "reduce", ...options });
+    const opened = await open(chromium.browser, "about:blank", { reducedMotion: "reduce", ...options });
     const { page } = opened;
     page.setDefaultTimeout(PATIENCE_MS);
     if (serial !== undefined) await page.addInitScript(fakeSerial, serial);
     if (serial === null) await page.addInitScript(() => Object.defineProperty(navigator, "serial", { value: undefined }));
     // Tests have nobody who chooses a file.
     await page.addInitScript(() => Object.defineProperty(window, "showSaveFilePicker", { value: undefined }));
-    await page.goto(server.url);
+    await page.goto(chromium.server.url);
     await write(page, text);
     await page.getByRole("tab", { name: panel }).click();
     return opened;
@@ -121,7 +109,7 @@ test("the car runs, and a quantity of its world is held by a slider", { skip }, 
 
 /** Requests to other hosts, and errors of scripts. */
 function isForeign(text) {
-    return /^(request|error)/.test(text) && text !== `request to ${new URL(server.url).host}`;
+    return /^(request|error)/.test(text) && text !== `request to ${new URL(chromium.server.url).host}`;
 }
 
 test("time stops, goes faster and slower, and begins again", { skip }, async () => {

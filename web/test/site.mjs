@@ -4,6 +4,7 @@ import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { after, before } from "node:test";
 import { chromium } from "playwright-core";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -101,4 +102,19 @@ export async function paste(page, text) {
         clipboardData.setData("text/plain", text);
         content.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
     }, text);
+}
+
+/** Chromium and a server of the site for all tests of a file, unless they are skipped. */
+export function shared(skip) {
+    const all = {};
+    before(async () => {
+        if (skip) return;
+        all.browser = await launch();
+        all.server = await serve();
+    });
+    after(async () => {
+        await all.browser?.close();
+        await all.server?.close();
+    });
+    return all;
 }

@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { unzipSync } from "fflate";
 import { load } from "../../crates/wasm/sensedsl.mjs";
-import { example, launch, missing, open, paste, serve, site, write } from "./site.mjs";
+import { example, missing, open, paste, serve, shared, site, write } from "./site.mjs";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const skip = missing();
@@ -26,19 +26,7 @@ const FIGHT = `board STM32F4DiscoveryBoard {
 }
 `;
 
-let browser;
-let server;
-
-before(async () => {
-    if (skip) return;
-    browser = await launch();
-    server = await serve();
-});
-
-after(async () => {
-    await browser?.close();
-    await server?.close();
-});
+const chromium = shared(skip);
 
 /** The texts of the editor, as the browser keeps them. */
 async function kept(page) {
@@ -80,7 +68,7 @@ async function tab(page, name) {
 const FOUR = ["IRFront", "IRFrontRight", "USRear", "WheelEncoder"];
 
 test("what is typed is wired as it grows", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await page.locator(".cm-content").click();
     await page.keyboard.press("Control+a");
@@ -106,7 +94,7 @@ test("what is typed is wired as it grows", { skip }, async () => {
 });
 
 test("the picture and the text know each other", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await page.locator('.picture [data-part="USRear"]').click();
     assert.equal(await page.evaluate(() => getSelection().toString()), "USRear");
@@ -116,7 +104,7 @@ test("the picture and the text know each other", { skip }, async () => {
 });
 
 test("a conflict is shown with its repairs, and one of them repairs it", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await write(page, FIGHT);
     const conflict = page.getByRole("region", { name: "Conflict" });
@@ -139,7 +127,7 @@ test("a conflict is shown with its repairs, and one of them repairs it", { skip 
 });
 
 test("a mistake is underlined, and its fix is a key away", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await write(page, FIG2.replace("type = icu", "type = icuu"));
     await page.locator(".cm-lintRange-error").waitFor();
@@ -155,7 +143,7 @@ test("a mistake is underlined, and its fix is a key away", { skip }, async () =>
 });
 
 test("a name is completed, told about and changed", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await page.locator(".cm-line", { hasText: "type = icu" }).click();
     await page.keyboard.press("End");
@@ -184,7 +172,7 @@ async function pinAt(page, name) {
 }
 
 test("a wire is dragged to another pin, as one step", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     const from = await pinAt(page, "PB0");
     const to = await pinAt(page, "PA2");
@@ -207,7 +195,7 @@ test("a wire is dragged to another pin, as one step", { skip }, async () => {
 });
 
 test("a wire is moved by keys alone", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await page.locator('.picture g.is-wired[data-pin="PB4"]').focus();
     await page.keyboard.press("Enter");
@@ -222,7 +210,7 @@ test("a wire is moved by keys alone", { skip }, async () => {
 });
 
 test("parts and boards come from the library", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await tab(page, "Parts");
     await page.getByLabel("Search").fill("lm75");
@@ -237,7 +225,7 @@ test("parts and boards come from the library", { skip }, async () => {
 });
 
 test("reports, reasons, changes and the sheet", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     const panel = page.locator("#view-panels > :not([hidden])");
     await tab(page, "Reports");
@@ -262,7 +250,7 @@ test("reports, reasons, changes and the sheet", { skip }, async () => {
 });
 
 test("the download is what generate writes", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     const bytes = [];
     for (let time = 0; time < 2; time += 1) {
@@ -282,7 +270,7 @@ test("the download is what generate writes", { skip }, async () => {
 });
 
 test("a shared address has the whole project", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await write(page, 'use "legs.sense";\nboard B on STM32F4DiscoveryBoard {\n}\n');
     await page.getByRole("button", { name: "Change the list of files" }).click();
@@ -295,13 +283,13 @@ test("a shared address has the whole project", { skip }, async () => {
     await page.getByRole("button", { name: "Share" }).click();
     const address = await page.getByLabel("Address").inputValue();
     await context.close();
-    const other = await open(browser, address);
+    const other = await open(chromium.browser, address);
     await untilWired(other.page, ["Leg"]);
     assert.deepEqual(await other.page.locator("#files [role=tab]").allInnerTexts(), ["fig2.sense", "legs.sense"]);
     assert.deepEqual([...wrong, ...other.wrong], []);
     await other.context.close();
     // Half an address is said to be one, and the studio works all the same.
-    const half = await open(browser, address.slice(0, address.indexOf("#") + 60));
+    const half = await open(chromium.browser, address.slice(0, address.indexOf("#") + 60));
     await half.page.getByText(/damaged/).first().waitFor();
     await untilWired(half.page, FOUR);
     await half.context.close();
@@ -309,7 +297,7 @@ test("a shared address has the whole project", { skip }, async () => {
 
 test("it works without a network, and keeps the project", { skip }, async () => {
     const own = await serve();
-    const { page, context, wrong } = await open(browser, own.url);
+    const { page, context, wrong } = await open(chromium.browser, own.url);
     await untilWired(page, FOUR);
     await write(page, FIG2.replace("WheelEncoder", "Wheel"));
     await untilWired(page, ["IRFront", "IRFrontRight", "USRear", "Wheel"]);
@@ -338,7 +326,7 @@ const SLOW = `{
 
 test("a search that is overtaken is ended, and the page never waits for one", { skip }, async () => {
     const own = await serve({ change: (name, bytes) => (name === "worker.js" ? SLOW + bytes : bytes) });
-    const context = await browser.newContext();
+    const context = await chromium.browser.newContext();
     await context.addInitScript(() => {
         window.started_ms = [];
         const { postMessage } = Worker.prototype;
@@ -389,7 +377,7 @@ for (const colorScheme of ["light", "dark"]) {
     test(`nothing keeps anybody out, ${colorScheme}`, { skip }, async () => {
         const axe = readFileSync(AXE, "utf8");
         // The policy of the page lets no script of others in; the debugger of the browser is not asked.
-        const { page, context, wrong } = await open(browser, server.url, { colorScheme, reducedMotion: "reduce" });
+        const { page, context, wrong } = await open(chromium.browser, chromium.server.url, { colorScheme, reducedMotion: "reduce" });
         await untilWired(page, FOUR);
         await page.evaluate(axe);
         assert.deepEqual(await violations(page), [], "wiring");
@@ -411,7 +399,7 @@ for (const colorScheme of ["light", "dark"]) {
 }
 
 test("it fits into 360 pixels", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url, { viewport: { width: 360, height: 740 } });
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url, { viewport: { width: 360, height: 740 } });
     await untilWired(page, FOUR);
     for (const name of ["Wiring", "Parts", "Why", "Reports", "Changes", "Sheet", "Run", "Connect"]) {
         await tab(page, name);
@@ -423,7 +411,7 @@ test("it fits into 360 pixels", { skip }, async () => {
 });
 
 test("the picture follows the keys in the car", { skip }, async () => {
-    const { page, context, wrong } = await open(browser, server.url);
+    const { page, context, wrong } = await open(chromium.browser, chromium.server.url);
     await untilWired(page, FOUR);
     await write(page, example("miniature_car"));
     await page.waitForFunction(() => document.querySelectorAll(".picture [data-part]").length === 13);

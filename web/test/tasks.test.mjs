@@ -1,27 +1,15 @@
 // The tasks of `docs/tasks.md` in the studio: each is done, and takes as many actions as the page says.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { example, launch, missing, open, serve, write } from "./site.mjs";
+import { test } from "node:test";
+import { example, missing, open, shared, write } from "./site.mjs";
 import { counts, User } from "./tasks.mjs";
 
 const skip = missing();
 const FIG2 = example("fig2");
 const FIGHT = FIG2.replace("id = 17;", "id = 17; pin = PA1;").replace("id = 18;", "id = 18; pin = PA1;");
 
-let browser;
-let server;
-
-before(async () => {
-    if (skip) return;
-    browser = await launch();
-    server = await serve();
-});
-
-after(async () => {
-    await browser?.close();
-    await server?.close();
-});
+const chromium = shared(skip);
 
 const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 const panel = (page) => page.locator("#view-panels > :not([hidden])");
@@ -165,7 +153,7 @@ test("the page has these tasks", { skip }, () => assert.equal(rows.length, TASKS
 
 for (const [at, { task, actions }] of rows.entries()) {
     test(`task ${at + 1}: ${task}`, { skip }, async () => {
-        const { page, context, wrong } = await open(browser, server.url, { reducedMotion: "reduce" });
+        const { page, context, wrong } = await open(chromium.browser, chromium.server.url, { reducedMotion: "reduce" });
         await box(page, "USRear").waitFor();
         const steps = TASKS[at];
         if (steps.text !== undefined) await write(page, steps.text);

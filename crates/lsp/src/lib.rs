@@ -1,7 +1,7 @@
 //! The language server: messages of an editor in, answers out.
 //!
-//! It does no I/O and has no thread and no clock, so that a program on a machine and a module in a page are thin shells
-//! around it. A shell gives it messages with [`Server::handle`] and, once none waits, time with [`Server::settle`]; it
+//! It does no I/O and uses neither threads nor a clock, so the command-line program and the WebAssembly module are both
+//! thin shells around it. A shell gives it messages with [`Server::handle`] and, once none waits, time with [`Server::settle`]; it
 //! ends long searches through [`Cancel`](sensedsl_wiring::Cancel).
 //!
 //! `server.rs` keeps what is open, `analysis.rs` what is known of it, `features/` has a file for each thing that an

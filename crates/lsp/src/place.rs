@@ -162,7 +162,7 @@ mod tests {
             let lines = Lines::new(text, encoding);
             for (offset, character) in text.char_indices() {
                 let at = lines.position(text, offset);
-                // What ends a line has no column of its own.
+                // A line terminator has no column of its own.
                 if !"\r\n".contains(character) {
                     assert_eq!(lines.offset(text, at), offset, "{encoding:?} {at:?}");
                 }

@@ -126,7 +126,7 @@ pub(super) fn init(
     let subject = subject::read(args, file, terminal)?;
     let (mut sources, mut wanted) = (SourceMap::default(), Config::default());
     let at = Span::new(sources.add("monitor", ""), 0..0);
-    // What is said of ROS 2 is a wish for it here: there is no file that could have it.
+    // `--ros-distro` asks for ROS 2 here, because no configuration exists yet that could.
     if let (Some(_), Some(spec)) = (&args.sinks.ros_distro, config::find(ROS2)) {
         wanted.add(spec, "distro", None);
     }
