@@ -7,7 +7,6 @@ use std::process::{Command, Stdio};
 
 use anyhow::Result;
 use sensedsl_board::profile::full_name;
-use sensedsl_diagnostics::codes::e0512_no_tree::no_tree;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
 use sensedsl_host::port::{OpenError, Port, usb_ports};
 use serde_json::{Value, json};
@@ -112,15 +111,10 @@ fn chibios() -> Vec<Item> {
         Err(why) => missing(&why),
     };
     let named = std::env::var_os("CHIBIOS").filter(|path| !path.is_empty()).map(PathBuf::from);
-    let tree = match &named {
-        None => {
-            let release = full_name("chibios").and_then(|name| name.strip_prefix("chibios-"));
-            missing(&no_tree(at, release.unwrap_or_default()))
-        }
-        Some(named) => match firmware::tree(Some(named), &[], at) {
-            Ok(tree) => State::There(format!("{} at {}", firmware::release(&tree), tree.display())),
-            Err(why) => missing(&why),
-        },
+    let wanted = full_name("chibios").and_then(|name| name.strip_prefix("chibios-"));
+    let tree = match firmware::tree_of(named.as_deref(), wanted.unwrap_or_default(), at) {
+        Ok(tree) => State::There(format!("{} at {}", firmware::release(&tree), tree.display())),
+        Err(why) => missing(&why),
     };
     vec![item("make, compiler", tools), item("ChibiOS", tree)]
 }

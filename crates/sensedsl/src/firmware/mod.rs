@@ -19,7 +19,7 @@ use std::process::{Command, ExitStatus, Stdio};
 
 pub(crate) use program::{Build, Program, Wants, in_folder};
 pub(crate) use tools::{Make, tools};
-pub(crate) use tree::{release, tree};
+pub(crate) use tree::{release, tree, tree_of};
 
 /// The output of a program, both streams; `None` if there is no such program.
 fn asked(program: &str, arguments: &[&str]) -> Option<String> {

@@ -26,6 +26,24 @@ pub(crate) fn tree(
     at: Span,
 ) -> Result<PathBuf, Box<Diagnostic>> {
     let version = programs.first().map_or("", |(_, wants)| wants.version.as_str());
+    let tree = tree_of(named, version, at)?;
+    let shown = named.map(|named| named.display().to_string()).unwrap_or_default();
+    for (program, wants) in programs {
+        let missing = missing(&tree, wants);
+        if !missing.is_empty() {
+            let board = &program.board;
+            return Err(e0515_tree_incomplete::tree_incomplete(at, &shown, board, &missing).into());
+        }
+    }
+    Ok(tree)
+}
+
+/// The full path of the named tree, once it is known to be of that release; of any release if none is wanted.
+pub(crate) fn tree_of(
+    named: Option<&Path>,
+    version: &str,
+    at: Span,
+) -> Result<PathBuf, Box<Diagnostic>> {
     let Some(named) = named.filter(|named| !named.as_os_str().is_empty()) else {
         return Err(e0512_no_tree::no_tree(at, version).into());
     };
@@ -51,13 +69,6 @@ pub(crate) fn tree(
     let found = release(&tree);
     if !version.is_empty() && !is_of(&found, version) {
         return Err(e0514_other_tree::other_tree(at, &shown, &found, version).into());
-    }
-    for (program, wants) in programs {
-        let missing = missing(&tree, wants);
-        if !missing.is_empty() {
-            let board = &program.board;
-            return Err(e0515_tree_incomplete::tree_incomplete(at, &shown, board, &missing).into());
-        }
     }
     Ok(tree)
 }
