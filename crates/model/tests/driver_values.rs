@@ -69,3 +69,19 @@ fn pulse_trains_are_readings() {
     assert!(resolved.design.is_none());
     assert!(resolved.diagnostics[0].message.contains("driver = ppm"), "{:?}", resolved.diagnostics);
 }
+
+/// Two resistors make a voltage less, not the time of a pulse.
+#[test]
+fn a_divider_scales_what_a_converter_samples() {
+    let scale = |device: &str| {
+        let text = format!("board STM32F407G_DISC1 {{ sensor A returns uint16 {{ {device} }} }}");
+        let request = Request { path: "x.sense", text: &text, ..Request::default() };
+        let design = resolve(&request, &NoFiles).design.unwrap();
+        design.devices.first().unwrap().shown.scale
+    };
+    let divider = "level = 5 V; divider = [1 kOhm, 1 kOhm];";
+    assert_eq!(scale(&format!("type = analog; {divider}")), Some(2.0));
+    assert_eq!(scale(&format!("driver = battery_divider; {divider} scale = 1;")), Some(2.0));
+    assert_eq!(scale(&format!("type = icu; mode = width; {divider}")), None);
+    assert_eq!(scale(&format!("driver = hcsr04; {divider}")), scale("driver = hcsr04;"));
+}

@@ -89,8 +89,8 @@ pub(super) const COMMON: &[Meaning] = &[
     Meaning::new(
         ("divider", Takes::Resistances),
         "none",
-        "Resistors in between: from the device to the pin, and from there to ground. They need a `level`, and are part \
-         of the shown `scale`.",
+        "Resistors in between: from the device to the pin, and from there to ground. They need a `level`. Of an `analog` \
+         device they are part of the shown `scale`.",
         "divider = [33 kOhm, 10 kOhm];",
     ),
 ];

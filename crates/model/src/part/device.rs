@@ -59,7 +59,7 @@ pub(crate) fn read(
     let range = reach::of_codes(kind_name.value, &coding, value.value);
     coding.failsafe = coding::failsafe(&mut fields, direction, value.value, range);
     let level = level(&mut fields);
-    let mut shown = divided(own.shown, level.as_ref());
+    let mut shown = divided(own.shown, &kind, level.as_ref());
     shown.bare = fields.take_bare();
     if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
         fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));

@@ -9,6 +9,7 @@ use super::coding;
 use crate::design::protocol::Filter;
 use crate::design::{Group, Level, Presentation};
 use crate::fields::Fields;
+use crate::kind::Kind;
 use crate::spanned::Spanned;
 
 /// The properties of every device, except those that show its value.
@@ -86,9 +87,11 @@ pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
     }
 }
 
-/// Adjusts the scale so that the host undoes the voltage divider.
-pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Presentation {
-    if let Some([upper, lower]) = level.and_then(|level| level.divider) {
+/// Adjusts the scale so that the host undoes the voltage divider. Only what a converter samples becomes less by it: the
+/// time of an echo is the same behind two resistors.
+pub(crate) fn divided(mut shown: Presentation, kind: &Kind, level: Option<&Level>) -> Presentation {
+    let divider = level.filter(|_| kind.is_sampled()).and_then(|level| level.divider);
+    if let Some([upper, lower]) = divider {
         let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
         shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
     }

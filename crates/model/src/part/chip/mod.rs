@@ -303,10 +303,11 @@ impl ChipReader<'_> {
         let kind = (main.kind, of_bus.as_ref());
         coding::commanded(&mut fields, &mut coding, direction, value.value, kind);
         let level = properties::level(&mut fields);
-        let mut shown = properties::divided(own.shown, level.as_ref());
-        shown.bare = fields.take_bare();
+        let bare = fields.take_bare();
         drop(fields);
         let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);
+        let mut shown = properties::divided(own.shown, &kind, level.as_ref());
+        shown.bare = bare;
         if let Err(message) = words::check(&kind, &coding, value.value, &self.protocol) {
             let driver = &self.driver.name.value;
             let message = format!("`{}` of `{driver}`: {message}", given.name);
