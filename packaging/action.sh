@@ -2,7 +2,8 @@
 # What the action does once the program is installed: each check that is asked for runs on all files, and the status tells
 # whether all passed.
 #
-# FILES has the designs, a pattern each, CHECKS the names of the checks; SARIF names a file for the findings, or nothing.
+# FILES has the designs, a pattern each, CHECKS the names of the checks; SARIF names a file for the findings, JUNIT a
+# folder for what was checked, or nothing.
 set -euo pipefail
 
 shopt -s globstar nullglob
@@ -36,13 +37,27 @@ if [[ -n ${SARIF:-} ]]; then
         exit 2
     fi
 fi
+if [[ -n ${JUNIT:-} ]]; then
+    mkdir -p "$JUNIT"
+    found=0
+    sensedsl check --format junit "${files[@]}" > "$JUNIT/check.xml" || found=$?
+    if ((found > 1)) || [[ ! -s $JUNIT/check.xml ]]; then
+        echo "::error::the results could not be written to $JUNIT"
+        exit 2
+    fi
+fi
 for check in ${CHECKS:-check fmt}; do
     case $check in
         check) checked check sensedsl check --format github "${files[@]}" ;;
         fmt) checked fmt sensedsl fmt --check "${files[@]}" ;;
         simulate)
             for file in "${files[@]}"; do
-                checked "simulate $file" sensedsl simulate "$file" --judge
+                results=()
+                if [[ -n ${JUNIT:-} ]]; then
+                    name=${file%.sense}
+                    results=(--junit "$JUNIT/simulate-${name//\//-}.xml")
+                fi
+                checked "simulate $file" sensedsl simulate "$file" --judge "${results[@]}"
             done
             ;;
         generate)

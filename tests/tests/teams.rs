@@ -12,7 +12,8 @@ fn checks_into(folder: &TempDir, checks: &str, findings: &str) -> (i32, String) 
     let path = format!("{tools}:{}", std::env::var("PATH").unwrap_or_default());
     let mut bash = Command::new("bash");
     bash.arg(root().join("packaging/action.sh")).current_dir(folder.path()).env("PATH", path);
-    let output = bash.env("CHECKS", checks).env("SARIF", findings).output().unwrap();
+    let output =
+        bash.env("CHECKS", checks).env("SARIF", findings).env("JUNIT", "results").output().unwrap();
     (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
 }
 
@@ -50,4 +51,32 @@ fn changes_are_checked() {
     }
     let findings = std::fs::read_to_string(folder.join("findings.sarif")).unwrap();
     assert!(findings.contains("rover.sense") && findings.contains("\"2.1.0\""), "{findings}");
+}
+
+/// What a build server reads is XML, with a case for each file and each device, and the failures that the program tells.
+#[test]
+fn build_servers_read_what_was_checked() {
+    if !has("bash") {
+        return;
+    }
+    let folder = TempDir::new("junit");
+    let _ = folder.write("robots/rover.sense", RIGHT);
+    let _ = folder.write("wrong.sense", RIGHT.replace("analog", "analogue"));
+    assert_eq!(checks(&folder, "check simulate").0, 1);
+    let cases = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let cases = document.descendants().filter(|one| one.has_tag_name("testcase"));
+        let of = |one: roxmltree::Node<'_, '_>| {
+            let failure = one.children().find(|one| one.has_tag_name("failure"));
+            let code = failure.map(|one| one.attribute("type").unwrap().to_owned());
+            (one.attribute("name").unwrap().to_owned(), code)
+        };
+        cases.map(of).collect::<Vec<_>>()
+    };
+    let (rover, wrong) = ("robots/rover.sense".to_owned(), "wrong.sense".to_owned());
+    assert_eq!(cases("results/check.xml"), [(rover, None), (wrong, Some("E0207".to_owned()))]);
+    let simulated = cases("results/simulate-robots-rover.xml");
+    assert_eq!(simulated, [("run".to_owned(), None), ("Light".to_owned(), None)]);
+    assert!(!folder.join("results/simulate-wrong.xml").exists());
 }

@@ -28,6 +28,7 @@ pub mod diff;
 pub mod drivers;
 pub mod human;
 pub mod json;
+pub mod junit;
 mod markup;
 mod place;
 mod rows;

@@ -98,6 +98,10 @@ pub(crate) struct NewArgs {
     /// A built-in board
     #[arg(long, default_value = "STM32F407G-DISC1", value_parser = BOARD, hide_possible_values = true)]
     pub(crate) board: String,
+    /// A whole robot with a simulated world, instead of a few sensors: arm, `line_follower`, quadcopter,
+    /// rover or `weather_station`
+    #[arg(long, value_name = "NAME", value_parser = TEMPLATE, hide_possible_values = true)]
+    pub(crate) template: Option<String>,
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]
     pub(crate) force: bool,
@@ -145,6 +149,8 @@ pub(crate) enum CheckFormat {
     Sarif,
     /// Annotations of GitHub Actions
     Github,
+    /// `JUnit` XML, a case for each file, for build servers
+    Junit,
 }
 
 #[derive(Debug, Args)]
@@ -456,6 +462,7 @@ pub(crate) struct ManArgs {
 struct Name(fn() -> Vec<&'static str>);
 
 const BOARD: Name = Name(|| sensedsl_board::catalog::all().iter().map(|one| one.name).collect());
+const TEMPLATE: Name = Name(crate::commands::template::names);
 const DRIVER: Name = Name(|| sensedsl_model::facts::names().collect());
 
 impl TypedValueParser for Name {

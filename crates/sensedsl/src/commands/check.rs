@@ -1,8 +1,9 @@
 //! `sensedsl check`: the errors, and whether there is a wiring.
 
 use anyhow::Result;
-use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render, visible};
 use sensedsl_generate::target;
+use sensedsl_report::junit::{Case, Failure, Suite, junit};
 use sensedsl_session::Answer;
 use sensedsl_wiring::Solved;
 
@@ -19,6 +20,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut values = Vec::new();
     let mut plain = String::new();
     let mut logs = Vec::new();
+    let mut cases = Vec::new();
     for path in &args.files {
         let snapshot = input::load(path, &args.on);
         let sources = snapshot.sources();
@@ -42,6 +44,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
             }
             CheckFormat::Sarif => logs.push(render::sarif(diagnostics, sources, VERSION)),
             CheckFormat::Github => plain.push_str(&render::github(diagnostics, sources)),
+            CheckFormat::Junit => cases.push(case(shown(path), diagnostics, sources)),
         }
     }
     match args.format {
@@ -52,8 +55,23 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         }
         CheckFormat::Sarif => terminal.result(&merged_sarif(&logs))?,
         CheckFormat::Github => terminal.result(&plain)?,
+        CheckFormat::Junit => {
+            terminal.result(&junit(&[Suite { name: "check".to_owned(), cases }]))?;
+        }
     }
     Ok(status)
+}
+
+/// A file as a case: it fails with its first error, and the text has all of them.
+fn case(file: String, diagnostics: &[Diagnostic], sources: &SourceMap) -> Case {
+    let (errors, others): (Vec<Diagnostic>, Vec<Diagnostic>) =
+        diagnostics.iter().cloned().partition(|one| one.severity == Severity::Error);
+    let failure = errors.first().map(|first| Failure {
+        code: first.code.name().to_owned(),
+        message: first.message.clone(),
+        text: render::human(&errors, sources, false),
+    });
+    Case { name: file.clone(), file, failure, output: render::human(&others, sources, false) }
 }
 
 /// A line for each file. It tells whether there is a wiring only if one was searched for.

@@ -29,5 +29,6 @@ pub(crate) mod solve;
 mod starter;
 pub(crate) mod studio;
 mod sweep;
+pub(crate) mod template;
 mod timing;
 mod typecheck;

@@ -7,6 +7,7 @@ use sensedsl_board::{catalog, profile};
 use sensedsl_diagnostics::visible;
 use sensedsl_generate::target;
 
+use super::template::{self, Template};
 use super::{in_the_way, output, starter};
 use crate::cli::NewArgs;
 use crate::files::{files_below, is_part_of, shown, write_together};
@@ -16,6 +17,7 @@ use crate::terminal::Terminal;
 const README: &str = include_str!("../../templates/project-readme.md");
 const README_OF_EMBASSY: &str = include_str!("../../templates/project-readme-embassy.md");
 const README_OF_WIRING: &str = include_str!("../../templates/project-readme-wiring.md");
+const README_OF_WORLD: &str = include_str!("../../templates/project-readme-world.md");
 const IGNORED: &str = "/build/\n";
 
 pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -27,9 +29,12 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
         let folder = output::typed(&folder, "");
         bail!("`new` makes a folder with a file robot.sense in it: sensedsl new {folder}");
     }
-    let (readme, robot) = begin(board);
-    let texts = [(".gitignore", IGNORED), ("README.md", readme), ("robot.sense", &robot)];
-    let paths = texts.map(|(name, text)| (args.dir.join(name), text.as_bytes()));
+    let texts = match &args.template {
+        None => begin(board),
+        Some(name) => robot_of(template::find(name)?, board)?,
+    };
+    let paths = texts.iter().map(|(name, text)| (args.dir.join(name), text.as_bytes()));
+    let paths: Vec<_> = paths.collect();
     let files: Vec<_> = paths.iter().map(|(path, bytes)| (path.as_path(), *bytes)).collect();
     if !args.force {
         if in_the_way::refuse(&files, "the new project", terminal)? {
@@ -55,14 +60,37 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(Status::Done)
 }
 
+/// Names and texts of the files of a project.
+type Texts = Vec<(&'static str, String)>;
+
 /// The first files: with firmware for the first system on which the board can have a robot, or only a wiring.
-fn begin(board: &catalog::Entry) -> (&'static str, String) {
-    let usual = profile::full_name(profile::DEFAULT);
+fn begin(board: &catalog::Entry) -> Texts {
     for system in target::systems_of(board) {
         if let Some(robot) = starter::robot(board, Some(system)) {
-            return (if usual == Some(system) { README } else { README_OF_EMBASSY }, robot);
+            return project(readme_of(Some(system)).to_owned(), robot);
         }
     }
     let empty = || format!("board Robot on {} {{}}\n", board.name.replace('-', "_"));
-    (README_OF_WIRING, starter::robot(board, None).unwrap_or_else(empty))
+    project(readme_of(None).to_owned(), starter::robot(board, None).unwrap_or_else(empty))
+}
+
+/// The files of a template, with its world.
+fn robot_of(template: &Template, board: &catalog::Entry) -> Result<Texts> {
+    let (robot, system) = template.on(board)?;
+    let mut texts = project(format!("{}{README_OF_WORLD}", readme_of(system)), robot);
+    texts.push(("world.toml", template.world.to_owned()));
+    Ok(texts)
+}
+
+fn project(readme: String, robot: String) -> Texts {
+    vec![(".gitignore", IGNORED.to_owned()), ("README.md", readme), ("robot.sense", robot)]
+}
+
+/// What a project has to be told about itself, with firmware for that system or without any.
+fn readme_of(system: Option<&str>) -> &'static str {
+    match system {
+        None => README_OF_WIRING,
+        Some(_) if system == profile::full_name(profile::DEFAULT) => README,
+        Some(_) => README_OF_EMBASSY,
+    }
 }

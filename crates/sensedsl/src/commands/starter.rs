@@ -24,12 +24,7 @@ pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<Stri
     let mut sections = template.split("\n\n");
     let (head, first) = sections.next()?.split_once("{\n")?;
     let mut text = format!("{head}{{\n");
-    let is_usual = |system: &str| profile::full_name(profile::usual(board.mcu)) == Some(system);
-    if let Some((name, _)) =
-        system.filter(|one| !is_usual(one)).and_then(|one| one.rsplit_once('-'))
-    {
-        text.push_str(&format!("    target = {name};\n"));
-    }
+    text.push_str(&system.map_or(String::new(), |system| target_line(board, system)));
     let mut count = 0;
     for device in [first].into_iter().chain(sections) {
         let more = format!("{text}{device}\n");
@@ -41,8 +36,17 @@ pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<Stri
     (count > 0).then(|| text + "}\n")
 }
 
+/// The line that asks for a system, where the board would take another one without it.
+pub(crate) fn target_line(board: &catalog::Entry, system: &str) -> String {
+    let is_usual = profile::full_name(profile::usual(board.mcu)) == Some(system);
+    match system.rsplit_once('-').filter(|_| !is_usual) {
+        Some((name, _)) => format!("    target = {name};\n"),
+        None => String::new(),
+    }
+}
+
 /// Whether a file has a wiring, and firmware if that is required.
-fn is_made(text: &str, has_firmware: bool) -> bool {
+pub(crate) fn is_made(text: &str, has_firmware: bool) -> bool {
     const NAME: &str = "robot.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);

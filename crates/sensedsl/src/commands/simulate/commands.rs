@@ -18,6 +18,8 @@ pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[ActuatorFindings]) -> R
     let mut text = format!("\n{}", table(heads, &rows));
     let mut mismatch = Vec::new();
     for one in tried {
+        let failure = one.first.as_ref().map(|first| (not_done::CODE.name(), words(first)));
+        scenery.case(&one.name, failure);
         if let Some(first) = &one.first {
             text.push_str(&format!("  {}\n", words(first)));
             mismatch.push((one, first));

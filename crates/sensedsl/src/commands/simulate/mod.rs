@@ -15,6 +15,7 @@ mod simulated;
 mod simulation;
 #[cfg(unix)]
 mod slcan;
+mod verdict;
 mod world;
 
 use std::path::Path;
@@ -100,7 +101,8 @@ fn simulate(
 ) -> Result<Status> {
     let Some(world) = world(args, terminal, job, &[])? else { return Ok(Status::Wrong) };
     let (at, lasts_ns) = (input::place(job.design), world.lasts_ns);
-    let scenery = Simulation { args, terminal, job, at, sources, lasts_ns };
+    let (said, cases) = Default::default();
+    let scenery = Simulation { args, terminal, job, at, sources, lasts_ns, said, cases };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
     let peer = args.can.then(|| bench.open_can(job));

@@ -5,14 +5,11 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
-use sensedsl_diagnostics::codes::e0555_identity_not_asked::not_asked;
-use sensedsl_diagnostics::codes::{
-    e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
-};
+use sensedsl_diagnostics::codes::{e0546_image_refused, e0548_locked_up};
 use sensedsl_model::design::Transport;
-use sensedsl_twin::bench::{Bench, Peer, UncheckedIdentity, seconds};
+use sensedsl_twin::bench::{Bench, Peer, seconds};
 use sensedsl_twin::commands::Commands;
-use sensedsl_twin::judge::{DeviceFindings, Judge};
+use sensedsl_twin::judge::Judge;
 use sensedsl_wire::{
     Decoder, Direction, Event, Health, NEVER_MS, Scalar, Status as HealthStatus,
     encode_health_request, encode_hello_request,
@@ -22,11 +19,11 @@ use super::back::Reporters;
 use super::board::Board;
 #[cfg(unix)]
 use super::can::Adapters;
-use super::commands;
 #[cfg(unix)]
 use super::pty::Pty;
 use super::screen::Screen;
 use super::simulation::Simulation;
+use super::verdict::{verdict, write_junit};
 #[cfg(unix)]
 use crate::commands::deadline::interruption;
 use crate::files::write_whole;
@@ -79,11 +76,13 @@ pub(super) fn run(
     if let Some((path, log)) = args.wires.as_ref().zip(session.board.log()) {
         write_whole(path, log.as_bytes())?;
     }
-    match status {
-        Status::Done if args.judge => session.verdict(judged_ns),
-        Status::Done if session.is_wrong => Ok(Status::Wrong),
-        other @ (Status::Done | Status::Wrong | Status::Misused) => Ok(other),
-    }
+    let status = match status {
+        Status::Done if args.judge => verdict(session, judged_ns)?,
+        Status::Done if session.is_wrong => Status::Wrong,
+        other @ (Status::Done | Status::Wrong | Status::Misused) => other,
+    };
+    write_junit(scenery, status)?;
+    Ok(status)
 }
 
 /// A board, and everything that listens to it.
@@ -98,7 +97,7 @@ pub(super) struct Session<'a> {
     pub(super) is_disturbed: bool,
     pub(super) reporters: Reporters,
     /// The host that sets actuators, in a run with a judge.
-    commands: Option<Commands<'a>>,
+    pub(super) commands: Option<Commands<'a>>,
     screen: Screen,
     /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
@@ -113,9 +112,9 @@ pub(super) struct Session<'a> {
     is_other_design: bool,
     /// The last health, and the number of reports before it.
     last: Option<(Health, u64)>,
-    reports: u64,
+    pub(super) reports: u64,
     /// Whether the firmware has done something that is not in the plan.
-    is_wrong: bool,
+    pub(super) is_wrong: bool,
 }
 
 impl<'a> Session<'a> {
@@ -406,68 +405,6 @@ impl<'a> Session<'a> {
         let heads = ["Device", "Status", ">Age ms", ">Faults"];
         Ok(self.scenery.terminal.result(&format!("{text}{}", table(heads, &rows)))?)
     }
-
-    /// Prints the judge's findings.
-    fn verdict(self, now_ns: u64) -> Result<Status> {
-        let Self { scenery, board, mut judge, commands, reports, is_wrong, .. } = self;
-        judge.transfers(now_ns, &board.odd_transfers());
-        let judged = judge.finish(now_ns);
-        let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
-        let heads = ["Device", ">Reports", ">Excused", ">Wrong", ">Every", ">May be old"];
-        let mut text = table(heads, &rows);
-        for one in judged.iter().filter(|one| one.wrong > 0) {
-            text.push_str(&format!("  {}: {}\n", one.name, one.words()));
-        }
-        scenery.terminal.result(&text)?;
-        let tried = commands.map(Commands::finish).unwrap_or_default();
-        let is_done = commands::verdict(scenery, &tried)?;
-        let is_asked = identities(scenery, &board.unasked())?;
-        let all: u64 = judged.iter().map(|one| one.reports).sum();
-        let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
-        let off = |one: &&DeviceFindings| one.worst.as_ref().map_or(0.0, |worst| worst.off);
-        let worst = judged.iter().filter(|one| one.wrong > 0);
-        let worst = worst.max_by(|one, other| off(one).total_cmp(&off(other)));
-        if let Some(worst) = worst {
-            let what = worst.words();
-            scenery.say(judged_wrong::disagrees(scenery.at, &worst.name, &what, wrong, all))?;
-            return Ok(Status::Wrong);
-        }
-        if all == 0 && !judged.is_empty() {
-            scenery.say(judged_wrong::silent(scenery.at))?;
-            return Ok(Status::Wrong);
-        }
-        if !judged.is_empty() {
-            let span = seconds(now_ns);
-            let text = format!("\nall {all} values of {span:.1} s agree with the world\n");
-            scenery.terminal.note(&text)?;
-        }
-        if let Some(instructions) = board.instructions() {
-            let each = instructions / reports.max(1);
-            let text = format!(
-                "{reports} reports, {each} instructions for each, with all that is measured\n"
-            );
-            scenery.terminal.note(&text)?;
-        }
-        Ok(if is_wrong || !is_done || !is_asked { Status::Wrong } else { Status::Done })
-    }
-}
-
-/// Names the parts whose identity the board has not read; returns false if it should have read one.
-fn identities(scenery: &Simulation<'_>, unasked: &[UncheckedIdentity]) -> Result<bool> {
-    let names = |is_known: bool| -> Vec<&str> {
-        let own = unasked.iter().filter(|one| one.is_known == is_known);
-        own.map(|one| one.name.as_str()).collect()
-    };
-    let unknown = names(false);
-    if !unknown.is_empty() {
-        let all = unknown.join(", ");
-        let why = "another part at the same address would not be noticed";
-        scenery.terminal.aside(&format!("no driver reads the identity of {all}: {why}"))?;
-    }
-    for name in names(true) {
-        scenery.say(not_asked(scenery.at, name))?;
-    }
-    Ok(names(true).is_empty())
 }
 
 fn status(of: HealthStatus) -> &'static str {
@@ -479,12 +416,4 @@ fn status(of: HealthStatus) -> &'static str {
         HealthStatus::Invalid => "invalid",
         HealthStatus::Other(_) => "unknown",
     }
-}
-
-fn cells(one: &DeviceFindings) -> [String; 6] {
-    let age = format!("{} ms", one.age_ns / MS);
-    let every = one.every_ns.map_or_else(|| "-".to_owned(), |every| format!("{} ms", every / MS));
-    let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());
-    let [reports, excused, wrong] = counts;
-    [one.name.clone(), reports, excused, wrong, every, age]
 }

@@ -1,10 +1,14 @@
 //! What a simulation runs with: its arguments, the board's job and the terminal in, diagnostics in their place out.
 
+use std::cell::RefCell;
+
 use anyhow::Result;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_job::BoardJob;
+use sensedsl_report::junit::{Case, Failure};
 
 use crate::cli::SimulateArgs;
+use crate::files::shown;
 use crate::terminal::Terminal;
 
 /// The context of the simulation.
@@ -17,10 +21,33 @@ pub(super) struct Simulation<'a> {
     pub(super) sources: &'a SourceMap,
     /// The length of the recorded run that is its world.
     pub(super) lasts_ns: Option<u64>,
+    /// What was said of the run so far.
+    pub(super) said: RefCell<Vec<Diagnostic>>,
+    /// What was checked so far, for `--junit`.
+    pub(super) cases: RefCell<Vec<Case>>,
 }
 
 impl Simulation<'_> {
     pub(super) fn say(&self, why: Diagnostic) -> Result<()> {
-        Ok(self.terminal.diagnostics(&[why], self.sources)?)
+        self.terminal.diagnostics(std::slice::from_ref(&why), self.sources)?;
+        self.said.borrow_mut().push(why);
+        Ok(())
+    }
+
+    /// Notes that something was checked: what it is, and the code and the words of what is wrong with it.
+    pub(super) fn case(&self, name: &str, failure: Option<(&str, String)>) {
+        let failure = failure.map(|(code, message)| Failure {
+            code: code.to_owned(),
+            message,
+            text: String::new(),
+        });
+        let name = name.to_owned();
+        let case = Case { name, file: self.file(), failure, output: String::new() };
+        self.cases.borrow_mut().push(case);
+    }
+
+    /// The design, as it is shown.
+    pub(super) fn file(&self) -> String {
+        shown(&self.args.file)
     }
 }
