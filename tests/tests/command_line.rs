@@ -3,7 +3,7 @@
 
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{TempDir, binary, files, is_exhaustive, one_in, read, root, sensedsl, text};
+use sensedsl_tests::{TempDir, binary, files, has, is_exhaustive, one_in, read, root, sensedsl, text};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";
@@ -107,6 +107,41 @@ fn what_new_makes_works_at_once() {
         let _ = sensedsl(["solve", &file]).run().exits(0);
         let build = dir.join("build").display().to_string();
         let _ = sensedsl(["generate", &file, "-o", &build]).run().exits(0);
+    }
+}
+
+/// A shell that has read the script is given boards, drivers, MCU parts, targets, codes and files, and nothing else.
+#[test]
+fn shells_complete_names() {
+    if !has("bash") {
+        return;
+    }
+    let tools = binary().parent().unwrap().display().to_string();
+    let path = format!("{tools}:{}", std::env::var("PATH").unwrap_or_default());
+    let completed = |line: &str| {
+        let typed = line.rsplit(' ').next().unwrap();
+        let script = format!(
+            "source <(sensedsl completions bash); COMP_WORDS=({} '{typed}'); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+             _clap_complete_sensedsl sensedsl '{typed}'; printf '%s\\n' \"${{COMPREPLY[@]}}\"",
+            line.strip_suffix(typed).unwrap()
+        );
+        let mut bash = Command::new("bash");
+        bash.args(["-c", &script]).current_dir(root()).env("PATH", &path);
+        let output = bash.output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        text.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>()
+    };
+    for (line, wanted) in [
+        ("sensedsl drivers mpu6050_", "mpu6050_acceleration mpu6050_rate"),
+        ("sensedsl boards NUCLEO-F40", "NUCLEO-F401RE"),
+        ("sensedsl new car --template r", "rover"),
+        ("sensedsl parts --table stm32f407vg", "STM32F407VGT6"),
+        ("sensedsl parts x.sense --against STM32F407G-D", "STM32F407G-DISC1"),
+        ("sensedsl solve x.sense --target emb", "embassy embassy-0.6"),
+        ("sensedsl explain E0203", "E0203"),
+        ("sensedsl solve examples/mini", "examples/miniature_car.sense"),
+    ] {
+        assert_eq!(completed(line).join(" "), wanted, "{line}");
     }
 }
 

@@ -5,14 +5,14 @@ mod common;
 mod convert;
 mod doctor;
 mod monitor;
+mod names;
 mod parts;
 mod simulate;
 mod sinks;
 
-use std::ffi::OsStr;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use sensedsl_generate::host::HOSTS;
 use sensedsl_model::kind::KindName;
@@ -22,6 +22,7 @@ pub(crate) use common::{On, Reach, TableFormat, seconds};
 pub(crate) use convert::{ConvertArgs, ConvertTo};
 pub(crate) use doctor::{DoctorArgs, DoctorFormat, Purpose};
 pub(crate) use monitor::{MonitorArgs, MonitorFormat, Speed};
+use names::{BOARD, DRIVER, TEMPLATE};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 pub(crate) use sinks::SinkArgs;
@@ -273,6 +274,7 @@ pub(crate) enum LeftOut {
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
     /// A code such as E0203, or the word `wiring` or `timing`; none lists all codes
+    #[arg(add = names::subjects())]
     pub(crate) subject: Option<String>,
     /// With `wiring` and `timing`: the file
     pub(crate) file: Option<PathBuf>,
@@ -454,32 +456,6 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The folder for one page a command
     pub(crate) dir: Option<PathBuf>,
-}
-
-/// A name: any text; shells complete the known ones. The code that looks a name up reports one that does not exist, with
-/// the nearest one.
-#[derive(Clone)]
-struct Name(fn() -> Vec<&'static str>);
-
-const BOARD: Name = Name(|| sensedsl_board::catalog::all().iter().map(|one| one.name).collect());
-const TEMPLATE: Name = Name(crate::commands::template::names);
-const DRIVER: Name = Name(|| sensedsl_model::facts::names().collect());
-
-impl TypedValueParser for Name {
-    type Value = String;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<String, clap::Error> {
-        StringValueParser::new().parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new((self.0)().into_iter().map(PossibleValue::new)))
-    }
 }
 
 /// The name of a kind.

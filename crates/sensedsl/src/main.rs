@@ -14,7 +14,7 @@ mod terminal;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 
 use sensedsl_diagnostics::visible;
 
@@ -24,6 +24,8 @@ use status::{Reported, Status};
 use terminal::Terminal;
 
 fn main() -> ExitCode {
+    // A shell that completes a line runs the program with this variable; then the program prints names and ends.
+    clap_complete::CompleteEnv::with_factory(Cli::command).complete();
     let cli = Cli::try_parse().unwrap_or_else(|error| refused(&error));
     let mut terminal = Terminal::new(cli.quiet, cli.verbose);
     match run(cli.command, &mut terminal) {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::names;
+
 /// Which files may be read beside the one that is named.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct Reach {
@@ -16,10 +18,10 @@ pub(crate) struct Reach {
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct On {
     /// A board table or built-in board that wins over what the file says
-    #[arg(long, value_name = "TABLE")]
+    #[arg(long, value_name = "TABLE", add = names::boards_and_tables())]
     pub(crate) board: Option<String>,
     /// What the wiring is for: chibios, embassy, one with its version, or none for the pins alone
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", add = names::targets())]
     pub(crate) target: Option<String>,
     #[command(flatten)]
     pub(crate) reach: Reach,

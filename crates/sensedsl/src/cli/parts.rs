@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::common::{Reach, TableFormat, seconds};
+use super::names;
 
 #[derive(Debug, Args)]
 pub(crate) struct PartsArgs {
@@ -12,17 +13,17 @@ pub(crate) struct PartsArgs {
     #[arg(conflicts_with_all = ["list", "table"])]
     pub(crate) file: Option<PathBuf>,
     /// List the parts instead, or those with these words in their numbers or package
-    #[arg(long, value_name = "SEARCH", num_args = 0..=1)]
+    #[arg(long, value_name = "SEARCH", num_args = 0..=1, add = names::parts())]
     pub(crate) list: Option<Option<String>>,
     /// Print the table of a part as CSV instead
-    #[arg(long, value_name = "PART", conflicts_with = "list")]
+    #[arg(long, value_name = "PART", conflicts_with = "list", add = names::parts())]
     pub(crate) table: Option<String>,
     /// Print the target profile of a part instead, with the other parts of its family
-    #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"])]
+    #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"], add = names::parts())]
     pub(crate) profile: Option<String>,
     /// Compare with this part or board instead: which wires move, and what there is more or less room for
     #[arg(long, value_name = "PART", requires = "file", conflicts_with_all = ["list", "table",
-        "family", "package", "max_pins", "core", "min_flash", "min_ram", "sort", "limit", "timeout"])]
+        "family", "package", "max_pins", "core", "min_flash", "min_ram", "sort", "limit", "timeout"], add = names::boards_and_parts())]
     pub(crate) against: Option<String>,
     /// Only parts of this family: STM32F4, G0, RP2040
     #[arg(long)]
@@ -53,7 +54,7 @@ pub(crate) struct PartsArgs {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "file")]
     pub(crate) timeout: Option<f64>,
     /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", add = names::targets())]
     pub(crate) target: Option<String>,
     #[command(flatten)]
     pub(crate) reach: Reach,

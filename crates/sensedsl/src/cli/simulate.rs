@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::common::{Reach, seconds};
+use super::names;
 
 #[derive(Debug, Default, Args)]
 pub(crate) struct SimulateArgs {
@@ -25,7 +26,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) board: Option<String>,
     /// What the image was generated for: chibios or embassy; as the file says unless you do
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", add = names::targets())]
     pub(crate) target: Option<String>,
     /// Compare every report with the world, as fast as possible; exit 1 where they disagree
     #[arg(long)]

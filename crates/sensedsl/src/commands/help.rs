@@ -1,6 +1,7 @@
-//! Shell completions and manual pages, generated from the definitions of the arguments.
+//! Shell completions and manual pages, of the definitions of the arguments. A script of completions asks the program
+//! what fits, so that it knows names of the version that is installed.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::CommandFactory as _;
 
 use crate::cli::{Cli, CompletionsArgs, ManArgs};
@@ -10,7 +11,10 @@ use crate::terminal::Terminal;
 
 pub(crate) fn completions(args: &CompletionsArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "sensedsl", &mut script);
+    let shells = clap_complete::env::Shells::builtins();
+    let shell = args.shell.to_string();
+    let Some(completer) = shells.completer(&shell) else { bail!("{shell} has no completions") };
+    completer.write_registration("COMPLETE", "sensedsl", "sensedsl", "sensedsl", &mut script)?;
     terminal.result(&String::from_utf8_lossy(&script))?;
     Ok(Status::Done)
 }
