@@ -6,11 +6,17 @@
 mod node;
 mod parts;
 mod rules;
+mod steps;
 mod values;
 
 pub use node::AstNode;
 pub use parts::{Chip, ChipItem, Command, Connection, Driver, DriverItem, Reading};
 pub use rules::{Allow, Avoid, Prefer, Release, Reserve, Rule};
+pub use steps::{
+    AlwaysRule, Call, Clause, Compare, Comparison, Condition, Controller, EventuallyRule,
+    FaultStep, Index, Inside, Logic, Member, NeverRule, Not, Operation, SetStep, Step, Test,
+    WhenRule,
+};
 pub use values::{
     Binary, List, Magnitude, Name, NameValue, Number, Operator, Paren, Property, Range, Sign,
     Signed, StringLiteral, StringValue, Value,
@@ -67,6 +73,8 @@ nodes! {
         constants: Constant,
         /// The drivers.
         drivers: Driver,
+        /// The tests.
+        tests: Test,
     };
     /// `use "FILE";`
     Use = Use;
@@ -88,6 +96,8 @@ nodes! {
         properties: Property,
         /// The links; the grammar allows several.
         links: Link,
+        /// The controllers.
+        controllers: Controller,
     };
     /// `link { ... }`
     Link = Link {
@@ -121,6 +131,8 @@ choice!(
         Chip(Chip),
         /// A reusable protocol.
         Driver(Driver),
+        /// What must hold in a run.
+        Test(Test),
     }
 );
 choice!(
@@ -136,6 +148,8 @@ choice!(
         Property(Property),
         /// The link to the host.
         Link(Link),
+        /// Code of the user's.
+        Controller(Controller),
     }
 );
 choice!(

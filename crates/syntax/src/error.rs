@@ -112,6 +112,10 @@ pub enum SyntaxErrorKind {
         /// The name of the property.
         property: String,
     },
+    /// `=` between the sides of a comparison.
+    SingleEquals,
+    /// `==` after the name of a property.
+    DoubledEquals,
     /// A property without a value: `id = ;`.
     MissingValue {
         /// The name of the property.
@@ -224,6 +228,12 @@ pub enum Expected {
     EndOfValue,
     /// The value after `..`.
     RangeEnd,
+    /// A time, after `at`, `every`, `within` and the like.
+    Time,
+    /// The kind of a fault.
+    Fault,
+    /// Something that is true or false.
+    Condition,
     /// A `)`.
     CloseParen,
     /// A `{`.
@@ -283,6 +293,9 @@ words!(
         Sensor = "sensor",
         Actuator = "actuator",
         Link = "link",
+        Controller = "controller",
+        Test = "test",
+        Step = "step of a test",
         Rule = "rule",
         Property = "property",
     }
@@ -300,6 +313,8 @@ words!(
         Reading = "reading",
         Command = "command",
         Link = "link",
+        Controller = "controller",
+        Test = "test",
     }
 );
 
@@ -320,6 +335,9 @@ impl fmt::Display for Expected {
             Self::Value => f.write_str("a value"),
             Self::EndOfValue => f.write_str("the end of the value"),
             Self::RangeEnd => f.write_str("the end of the range"),
+            Self::Time => f.write_str("a time, such as `5 ms`"),
+            Self::Fault => f.write_str("a fault, such as `no_answer`"),
+            Self::Condition => f.write_str("a condition, such as `Front < 20 cm`"),
             Self::CloseParen => f.write_str("`)`"),
             Self::OpenBrace => f.write_str("`{`"),
             Self::Semicolon => f.write_str("`;`"),

@@ -53,15 +53,22 @@ fn sides(token: &SyntaxToken) -> Sides {
     let parent = token.parent();
     let within = |kind| parent.as_ref().is_some_and(|node| node.kind() == kind);
     let kind = token.kind();
+    if kind == SyntaxKind::Dot {
+        return Sides { before: false, after: false };
+    }
     if kind == SyntaxKind::DotDot {
         let is_operation = |node: SyntaxNode| node.kind() == SyntaxKind::Binary;
-        let spaced = parent.is_some_and(|node| node.children().any(is_operation));
+        let is_condition =
+            |node: &SyntaxNode| node.parent().is_some_and(|of| of.kind() == SyntaxKind::Inside);
+        let spaced =
+            parent.is_some_and(|node| is_condition(&node) || node.children().any(is_operation));
         return Sides { before: spaced, after: spaced };
     }
     // A sign has no space before its operand; an operator does.
     let is_sign = matches!(kind, Plus | Minus) && !within(SyntaxKind::Binary);
-    let is_array = kind == LBracket && within(SyntaxKind::Type);
-    let before = !matches!(kind, Semicolon | Comma | RBracket | RParen) && !is_array;
+    let is_array = kind == LBracket && (within(SyntaxKind::Type) || within(SyntaxKind::Index));
+    let is_call = kind == LParen && within(SyntaxKind::Call);
+    let before = !matches!(kind, Semicolon | Comma | RBracket | RParen) && !is_array && !is_call;
     Sides { before, after: !matches!(kind, LBracket | LParen) && !is_sign }
 }
 

@@ -50,6 +50,14 @@ kinds! {
     Star,
     Slash,
     DotDot,
+    Lt,
+    LtEq,
+    Gt,
+    GtEq,
+    EqEq,
+    NotEq,
+    /// Between two names: `Follow.overruns`.
+    Dot,
     /// The unit after a number; an identifier to the lexer.
     Unit,
 
@@ -77,6 +85,25 @@ kinds! {
     AllowKw = "allow",
     /// Before a number: marks it as a code, not a shown value.
     RawKw = "raw",
+    ControllerKw = "controller",
+    EveryKw = "every",
+    TestKw = "test",
+    AtKw = "at",
+    SetKw = "set",
+    FaultKw = "fault",
+    OfKw = "of",
+    AlwaysKw = "always",
+    NeverKw = "never",
+    EventuallyKw = "eventually",
+    WhenKw = "when",
+    ThenKw = "then",
+    WithinKw = "within",
+    FromKw = "from",
+    ToKw = "to",
+    AndKw = "and",
+    OrKw = "or",
+    NotKw = "not",
+    InKw = "in",
 
     // Nodes.
     SourceFile,
@@ -108,6 +135,24 @@ kinds! {
     Paren,
     Binary,
     Range,
+    Controller,
+    Test,
+    SetStep,
+    FaultStep,
+    AlwaysRule,
+    NeverRule,
+    EventuallyRule,
+    WhenRule,
+    /// `within TIME`, `from TIME`, `to TIME` after a rule.
+    Clause,
+    Compare,
+    /// `VALUE in FIRST .. LAST`
+    Inside,
+    Logic,
+    Not,
+    Index,
+    Call,
+    Member,
     /// Tokens that fit nowhere; always accompanied by an error.
     Error,
 }

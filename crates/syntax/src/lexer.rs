@@ -57,6 +57,10 @@ struct Lexer<'a> {
     errors: Errors,
 }
 
+/// Words that go on with a step of a test, so that they are neither an operand nor the unit of a number before them.
+pub(crate) const JOINTS: &[&str] =
+    &["and", "or", "in", "then", "within", "from", "to", "for", "at", "of", "set"];
+
 impl<'a> Lexer<'a> {
     fn rest(&self) -> &'a str {
         self.text.get(self.position..).unwrap_or_default()
@@ -123,6 +127,16 @@ impl<'a> Lexer<'a> {
                 self.number_of_pin(start);
                 SyntaxKind::Ident
             }
+            '<' | '>' | '!' | '=' if self.peek() == Some('=') => {
+                self.bump();
+                match first {
+                    '<' => SyntaxKind::LtEq,
+                    '>' => SyntaxKind::GtEq,
+                    '!' => SyntaxKind::NotEq,
+                    _ => SyntaxKind::EqEq,
+                }
+            }
+            '.' if self.is_between_names(start) => SyntaxKind::Dot,
             '%' if self.is_behind_a_number(start) => SyntaxKind::Ident,
             _ => punctuation(first).unwrap_or_else(|| self.unknown(start, first)),
         }
@@ -143,12 +157,20 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// Whether the dot there joins two names.
+    fn is_between_names(&self, start: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default();
+        before.ends_with(is_name_continue) && self.peek().is_some_and(is_name_start)
+    }
+
     /// Whether what begins there can be the unit of a number: `50 %`.
     fn is_behind_a_number(&self, start: usize) -> bool {
         let before = self.text.get(..start).unwrap_or_default().trim_end_matches(' ');
         // Before an operand it was meant as an operator that does not exist.
         let behind = self.rest().trim_start_matches(' ');
-        let is_operator = behind.starts_with(|next: char| next.is_alphanumeric() || next == '(');
+        let word = behind.split(|next: char| !is_name_continue(next)).next().unwrap_or_default();
+        let is_operator = behind.starts_with(|next: char| next.is_alphanumeric() || next == '(')
+            && !JOINTS.contains(&word);
         before.ends_with(|last: char| last.is_ascii_digit()) && !is_operator
     }
 
@@ -247,6 +269,8 @@ fn punctuation(character: char) -> Option<SyntaxKind> {
         '-' => SyntaxKind::Minus,
         '*' => SyntaxKind::Star,
         '/' => SyntaxKind::Slash,
+        '<' => SyntaxKind::Lt,
+        '>' => SyntaxKind::Gt,
         _ => return None,
     })
 }

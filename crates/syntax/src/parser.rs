@@ -1,18 +1,20 @@
 //! From tokens to the tree: recursive descent that never stops at a mistake.
 //!
 //! This file has the machinery (look-ahead, building the tree, reporting). The grammar is in
-//! [`items`], [`heads`], [`statements`], [`names`] and [`expressions`]. Every token ends up in the
+//! [`items`], [`heads`], [`statements`], [`steps`], [`names`], [`expressions`] and [`conditions`]. Every token ends up in the
 //! tree exactly once. A mistake is reported where it is, tokens that cannot be understood go into
 //! an `Error` node, and parsing continues at the next statement.
 //!
 //! Two rules keep a mistake from being reported twice: there is no second report before another
 //! token has been consumed, and none right after unknown characters that the lexer has reported.
 
+mod conditions;
 mod expressions;
 mod heads;
 mod items;
 mod names;
 mod statements;
+mod steps;
 
 use crate::error::{Block, Errors, Expected, Found, SyntaxError, SyntaxErrorKind};
 use crate::kind::{SenseDsl, SyntaxKind};

@@ -7,10 +7,11 @@ mod invariants;
 
 use std::thread;
 
-const SAMPLES: [(&str, &str); 4] = [
+const SAMPLES: [(&str, &str); 5] = [
     ("line_follower", include_str!("samples/line_follower.sense")),
     ("quadcopter", include_str!("samples/quadcopter.sense")),
     ("gearmotor", include_str!("samples/gearmotor.sense")),
+    ("thermostat", include_str!("samples/thermostat.sense")),
     ("fig2", include_str!("../../../examples/fig2.sense")),
 ];
 
@@ -36,6 +37,10 @@ const HEADS: &[&str] = &[
     "command w accepts bool {",
     "sensor S returns uint8 {",
     "board B {",
+    "controller K every 5 ms {",
+    "test T {",
+    "always A in 0 .. 1 and not B;",
+    "when A < 1 then B == 2 within 5 ms;",
     "prefer a = 1;",
     "id = 1;",
 ];

@@ -184,7 +184,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    const ALL: [(SyntaxKind, Self); 4] = [
+    pub(super) const ALL: [(SyntaxKind, Self); 4] = [
         (SyntaxKind::Plus, Self::Add),
         (SyntaxKind::Minus, Self::Subtract),
         (SyntaxKind::Star, Self::Multiply),
@@ -255,12 +255,12 @@ impl Range {
 }
 
 /// The value on one side of a token. The value on the other side may be missing.
-fn operand(node: &SyntaxNode, middle: &SyntaxToken, before: bool) -> Option<Value> {
+pub(super) fn operand(node: &SyntaxNode, middle: &SyntaxToken, before: bool) -> Option<Value> {
     let start = middle.text_range().start();
     children(node).find(|value: &Value| (value.range().start() < start) == before)
 }
 
-fn sign(node: &SyntaxNode) -> Option<Sign> {
+pub(super) fn sign(node: &SyntaxNode) -> Option<Sign> {
     let plus = token(node, SyntaxKind::Plus).map(|_| Sign::Plus);
     plus.or_else(|| token(node, SyntaxKind::Minus).map(|_| Sign::Minus))
 }

@@ -11,7 +11,7 @@ use crate::unit::Unit;
 use rowan::{Checkpoint, Language, TextRange};
 
 /// Builds an operand and returns its height.
-type Operand<'a> = fn(&mut Parser<'a>) -> usize;
+pub(super) type Operand<'a> = fn(&mut Parser<'a>) -> usize;
 
 impl<'a> Parser<'a> {
     pub(super) fn at_value(&self) -> bool {
@@ -57,7 +57,7 @@ impl<'a> Parser<'a> {
         height + 1
     }
 
-    fn expression(&mut self) -> usize {
+    pub(super) fn expression(&mut self) -> usize {
         self.chain([SyntaxKind::Plus, SyntaxKind::Minus], Self::term)
     }
 
@@ -66,7 +66,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Operands separated by operators of one precedence.
-    fn chain(&mut self, operators: [SyntaxKind; 2], operand: Operand<'a>) -> usize {
+    pub(super) fn chain(&mut self, operators: [SyntaxKind; 2], operand: Operand<'a>) -> usize {
         let start = self.checkpoint();
         let mut height = operand(self);
         while self.kind().is_some_and(|kind| operators.contains(&kind)) {
@@ -86,7 +86,7 @@ impl<'a> Parser<'a> {
 
     /// The operand that must follow an operator, a sign, a `(` or a `..`. The next statement is not
     /// taken for one.
-    fn operand(&mut self, parse: Operand<'a>, expected: Expected) -> usize {
+    pub(super) fn operand(&mut self, parse: Operand<'a>, expected: Expected) -> usize {
         let begins = self.at_value() && !self.at(SyntaxKind::DotDot);
         if begins && !(self.begins_line() && self.at_item()) {
             return parse(self);
@@ -138,14 +138,14 @@ impl<'a> Parser<'a> {
     }
 
     /// Whether a code follows: `raw 307`, `raw -20`.
-    fn at_raw(&self) -> bool {
+    pub(super) fn at_raw(&self) -> bool {
         let is_number = |n| self.nth_at(n, SyntaxKind::Int) || self.nth_at(n, SyntaxKind::Float);
         let is_sign = self.nth_at(1, SyntaxKind::Plus) || self.nth_at(1, SyntaxKind::Minus);
         self.nth_word(0, "raw") && (is_number(1) || (is_sign && self.touches(2) && is_number(2)))
     }
 
     /// A number, at its `raw`, its sign or its digits.
-    fn number(&mut self) {
+    pub(super) fn number(&mut self) {
         self.start(SyntaxKind::Number);
         if self.at(SyntaxKind::Ident) {
             self.bump_as(SyntaxKind::RawKw);
@@ -169,7 +169,7 @@ impl<'a> Parser<'a> {
 
     /// A node that begins with this token and contains expressions. `inside` gets the token, and
     /// returns their height.
-    fn nested(
+    pub(super) fn nested(
         &mut self,
         kind: SyntaxKind,
         inside: impl FnOnce(&mut Self, TextRange) -> usize,
@@ -234,7 +234,8 @@ impl<'a> Parser<'a> {
 
     /// Takes the word after a number on its line as its unit, unless it begins the next statement.
     fn unit(&mut self) {
-        let begins_next = self.begins_line() || (!self.touches(0) && self.at_item());
+        let begins_next =
+            self.begins_line() || (!self.touches(0) && (self.at_item() || self.at_joint()));
         if !self.at(SyntaxKind::Ident) || begins_next {
             return;
         }
@@ -249,7 +250,7 @@ impl<'a> Parser<'a> {
     /// Whether a unit follows on the same line, after something that is not a number.
     fn at_unit(&self) -> bool {
         let is_unit = self.at(SyntaxKind::Ident) && Unit::from_name(self.nth_text(0)).is_some();
-        is_unit && !self.begins_line() && !self.at_item()
+        is_unit && !self.begins_line() && !self.at_item() && !self.at_joint()
     }
 
     fn unit_alone(&mut self) {
@@ -309,7 +310,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Skips the rest of a value that nests too deeply, without recursion.
-    fn too_deep(&mut self) {
+    pub(super) fn too_deep(&mut self) {
         self.complain(SyntaxErrorKind::NestingTooDeep { limit: NESTING_LIMIT }, self.here());
         self.skip_value();
     }
@@ -338,12 +339,12 @@ impl<'a> Parser<'a> {
     }
 
     /// A place where a node may begin later; the trivia before it stays outside.
-    fn checkpoint(&mut self) -> Checkpoint {
+    pub(super) fn checkpoint(&mut self) -> Checkpoint {
         self.build_trivia();
         self.builder.checkpoint()
     }
 
-    fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
+    pub(super) fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
         self.builder.start_node_at(checkpoint, SenseDsl::kind_to_raw(kind));
     }
 }

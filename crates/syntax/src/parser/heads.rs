@@ -130,8 +130,32 @@ impl Parser<'_> {
         self.finish();
     }
 
+    /// `controller NAME every TIME { ... }`
+    pub(super) fn controller(&mut self) {
+        self.start(SyntaxKind::Controller);
+        self.bump_as(SyntaxKind::ControllerKw);
+        if self.at_word("every") && !self.nth_word(1, "every") {
+            self.expected(Expected::NameOf(Item::Controller));
+        } else {
+            self.name(Expected::NameOf(Item::Controller));
+        }
+        self.keyword("every", SyntaxKind::EveryKw);
+        self.time();
+        self.body(Block::Controller);
+        self.finish();
+    }
+
+    /// `test NAME { ... }`
+    pub(super) fn test(&mut self) {
+        self.start(SyntaxKind::Test);
+        self.bump_as(SyntaxKind::TestKw);
+        self.name(Expected::NameOf(Item::Test));
+        self.body(Block::Test);
+        self.finish();
+    }
+
     /// A keyword within a head. Another word in its place is skipped.
-    fn keyword(&mut self, word: &'static str, kind: SyntaxKind) {
+    pub(super) fn keyword(&mut self, word: &'static str, kind: SyntaxKind) {
         if self.at_word(word) {
             self.bump_as(kind);
             return;

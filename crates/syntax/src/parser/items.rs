@@ -22,6 +22,9 @@ pub(super) enum Keyword {
     Reading,
     Command,
     Link,
+    Controller,
+    Test,
+    Step(StepKeyword),
     Rule(RuleKeyword),
 }
 
@@ -35,7 +38,18 @@ pub(super) enum RuleKeyword {
     Allow,
 }
 
-const KEYWORDS: [(&str, Keyword); 17] = [
+/// A word that begins a step of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StepKeyword {
+    At,
+    Fault,
+    Always,
+    Never,
+    Eventually,
+    When,
+}
+
+const KEYWORDS: [(&str, Keyword); 25] = [
     ("use", Keyword::Use),
     ("const", Keyword::Const),
     ("spare", Keyword::Spare),
@@ -48,6 +62,14 @@ const KEYWORDS: [(&str, Keyword); 17] = [
     ("reading", Keyword::Reading),
     ("command", Keyword::Command),
     ("link", Keyword::Link),
+    ("controller", Keyword::Controller),
+    ("test", Keyword::Test),
+    ("at", Keyword::Step(StepKeyword::At)),
+    ("fault", Keyword::Step(StepKeyword::Fault)),
+    ("always", Keyword::Step(StepKeyword::Always)),
+    ("never", Keyword::Step(StepKeyword::Never)),
+    ("eventually", Keyword::Step(StepKeyword::Eventually)),
+    ("when", Keyword::Step(StepKeyword::When)),
     ("prefer", Keyword::Rule(RuleKeyword::Prefer)),
     ("avoid", Keyword::Rule(RuleKeyword::Avoid)),
     ("reserve", Keyword::Rule(RuleKeyword::Reserve)),
@@ -74,6 +96,9 @@ impl Keyword {
             Self::Actuator => Item::Actuator,
             Self::Driver => Item::Driver,
             Self::Link => Item::Link,
+            Self::Controller => Item::Controller,
+            Self::Test => Item::Test,
+            Self::Step(_) => Item::Step,
             Self::Rule(_) => Item::Rule,
         }
     }
@@ -92,6 +117,7 @@ fn allows(block: Block, item: Item) -> bool {
                     | Item::Chip
                     | Item::Sensor
                     | Item::Actuator
+                    | Item::Test
             )
         }
         Block::Board => {
@@ -103,6 +129,7 @@ fn allows(block: Block, item: Item) -> bool {
                     | Item::Rule
                     | Item::Property
                     | Item::Link
+                    | Item::Controller
             )
         }
         Block::Chip => {
@@ -111,7 +138,10 @@ fn allows(block: Block, item: Item) -> bool {
                 Item::Sensor | Item::Actuator | Item::Connection | Item::Rule | Item::Property
             )
         }
-        Block::Sensor | Block::Actuator => matches!(item, Item::Rule | Item::Property),
+        Block::Sensor | Block::Actuator | Block::Controller => {
+            matches!(item, Item::Rule | Item::Property)
+        }
+        Block::Test => matches!(item, Item::Step | Item::Property),
         Block::Driver => {
             matches!(item, Item::Connection | Item::Reading | Item::Command | Item::Property)
         }
@@ -251,6 +281,9 @@ impl Parser<'_> {
                 ident(1) && (self.nth_at(end, SyntaxKind::LBrace) || self.nth_word(end, "for"))
             }
             Keyword::Link => self.nth_at(1, SyntaxKind::LBrace),
+            Keyword::Controller => ident(1) && self.nth_word(self.name_end(1), "every"),
+            Keyword::Test => ident(1) && self.nth_at(self.name_end(1), SyntaxKind::LBrace),
+            Keyword::Step(_) => self.block == Block::Test && !self.nth_at(1, SyntaxKind::Eq),
             Keyword::Rule(RuleKeyword::Prefer | RuleKeyword::Avoid) => {
                 ident(1) && self.nth_at(2, SyntaxKind::Eq)
             }
@@ -272,7 +305,7 @@ impl Parser<'_> {
     fn keyword_item(&mut self, keyword: Keyword) -> bool {
         let (item, block) = (keyword.item(), self.block);
         if !allows(block, item) {
-            let is_block = item != Item::Rule;
+            let is_block = !matches!(item, Item::Rule | Item::Step);
             if is_block && block != Block::File && self.unclosed > 0 {
                 return false;
             }
@@ -295,6 +328,9 @@ impl Parser<'_> {
             Keyword::Reading => self.valued(Block::Reading),
             Keyword::Command => self.valued(Block::Command),
             Keyword::Link => self.link(),
+            Keyword::Controller => self.controller(),
+            Keyword::Test => self.test(),
+            Keyword::Step(step) => self.step(step),
             Keyword::Rule(rule) => self.rule(rule),
         }
     }

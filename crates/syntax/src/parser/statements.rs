@@ -41,7 +41,10 @@ impl Parser<'_> {
     }
 
     pub(super) fn at_property(&self) -> bool {
-        self.at(SyntaxKind::Ident) && self.nth_at(self.name_end(0), SyntaxKind::Eq)
+        // In a test `==` compares; elsewhere it is a slip for `=`.
+        let end = self.name_end(0);
+        let is_slip = || self.block != Block::Test && self.nth_at(end, SyntaxKind::EqEq);
+        self.at(SyntaxKind::Ident) && (self.nth_at(end, SyntaxKind::Eq) || is_slip())
     }
 
     /// `NAME = VALUE;`, at the name.
@@ -53,11 +56,15 @@ impl Parser<'_> {
     }
 
     /// `NAME = VALUE`, at the name.
-    fn assignment(&mut self, expected: Expected) {
+    pub(super) fn assignment(&mut self, expected: Expected) {
         let property = self.nth_text(0).to_owned();
         self.name(expected);
-        let equals = self.eat(SyntaxKind::Eq);
-        if equals && self.at(SyntaxKind::Eq) {
+        let mut equals = self.eat(SyntaxKind::Eq);
+        if !equals && self.at(SyntaxKind::EqEq) {
+            self.report(SyntaxErrorKind::DoubledEquals, self.here());
+            self.bump_error();
+            equals = true;
+        } else if equals && self.at(SyntaxKind::Eq) {
             self.expected(Expected::Value);
             self.bump_error();
         }
@@ -98,7 +105,7 @@ impl Parser<'_> {
 
     /// `->` and `+=` instead of `=`.
     fn other_assignment(&mut self, property: &str) {
-        use SyntaxKind::{Minus, Plus, Slash, Star, Unknown};
+        use SyntaxKind::{Gt, Minus, Plus, Slash, Star, Unknown};
         if !matches!(self.kind(), Some(Plus | Minus | Star | Slash)) || self.begins_line() {
             return;
         }
@@ -110,6 +117,11 @@ impl Parser<'_> {
             self.bump();
             self.finish();
             self.complained = Some(self.consumed);
+        } else if self.nth_at(1, Gt) && self.touches(1) {
+            self.start(SyntaxKind::Error);
+            self.bump();
+            self.bump();
+            self.finish();
         } else if self.trivia_before(1).iter().any(|token| token.kind == Unknown) {
             self.bump_error();
         }
