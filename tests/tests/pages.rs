@@ -64,7 +64,8 @@ fn prose_is_wrapped() {
         .collect();
     let docs = std::fs::read_dir(root().join("docs")).unwrap();
     pages.extend(docs.map(|entry| entry.unwrap().path()));
-    for folder in ["docs/drivers", "docs/sinks", "docs/start"] {
+    let folders = ["drivers", "guides", "hosts", "migrate", "sinks", "start", "tutorials"];
+    for folder in folders.map(|name| format!("docs/{name}")) {
         let entries = std::fs::read_dir(root().join(folder)).unwrap();
         pages.extend(entries.map(|entry| entry.unwrap().path()));
     }
