@@ -143,6 +143,10 @@ impl Book<'_> {
             if self.root.join(&readme).is_file() {
                 to = readme;
             }
+            // The list is beside every page, and the page of all pages says more of them.
+            if to == SUMMARY {
+                to = "docs/README.md".to_owned();
+            }
             self.want(to.clone());
             let from = if page == SUMMARY { "SUMMARY.md".to_owned() } else { self.place(page) };
             let mut way = links::relative(&from, &self.place(&to));
@@ -242,4 +246,41 @@ fn shown(path: &str, end: &str, text: &str) -> String {
 fn anchored(line: &str) -> String {
     let code = line.strip_prefix("### ").and_then(|line| line.split_once(':'));
     code.map_or(line.to_owned(), |(code, _)| format!("<a id=\"{code}\"></a>\n\n{line}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_have_their_places() {
+        let all = [
+            "README.md",
+            "docs/README.md",
+            "docs/drivers/README.md",
+            "docs/wire.md",
+            "fuzz/README.md",
+        ];
+        let places =
+            ["index.md", "pages.md", "drivers/index.md", "wire.md", "repository/fuzz/index.md"];
+        assert_eq!(all.map(placed), places);
+    }
+
+    /// The whole book, as the repository has it.
+    #[test]
+    fn the_book_has_what_its_pages_link_to() {
+        let tree = book(&crate::web::root().unwrap()).unwrap();
+        let page = |path: &str| String::from_utf8(tree[path].clone()).unwrap();
+        let list = page("SUMMARY.md");
+        assert!(list.starts_with("# Summary\n\n[SenseDSL](index.md)\n"), "{list}");
+        assert!(list.contains("\n  - [check.json](schemas/check.json.md)\n"), "{list}");
+        assert!(list.contains("\n  - [NUCLEO-F401RE](boards/NUCLEO-F401RE.md)\n"), "{list}");
+        assert!(page("index.md").contains("](start/without-a-board.html)"));
+        assert!(page("diagnostics.md").contains("<a id=\"E0401\"></a>\n\n### E0401: "));
+        assert!(page("repository/tests/robots/rover.sense.md").contains("class=\"sense\""));
+        for line in list.lines().filter_map(|line| line.rsplit_once("](")) {
+            let path = line.1.trim_end_matches(')');
+            assert!(tree.contains_key(path), "{path} is listed, and is not there");
+        }
+    }
 }
