@@ -7,6 +7,9 @@ import { button, el } from "../ui/dom";
 /** The themes of the book that are light. */
 const LIGHT = ["light", "rust"];
 
+/** By how much more room a larger picture has at least. */
+const LARGER = 1.5;
+
 function isDark(): boolean {
     return !LIGHT.some((one) => document.documentElement.classList.contains(one));
 }
@@ -52,7 +55,8 @@ export class Drawing {
     private resize(isLarge: boolean): void {
         this.isLarge = isLarge;
         this.size.setAttribute("aria-pressed", String(isLarge));
-        const width = this.inside.shadowRoot?.querySelector("svg")?.viewBox.baseVal.width ?? 0;
+        const own = this.inside.shadowRoot?.querySelector("svg")?.viewBox.baseVal.width ?? 0;
+        const width = Math.max(own, this.frame.clientWidth * LARGER);
         this.inside.style.width = isLarge ? `${width}px` : "";
     }
 
