@@ -187,6 +187,7 @@ codes! {
     h0703_default_protocol,
     h0704_printed_elsewhere,
     h0707_of_ten_thousand,
+    h0708_drivers_alone,
     e0801_import_unreadable,
     e0802_import_no_table,
     e0803_import_no_sheet,
