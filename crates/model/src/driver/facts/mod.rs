@@ -25,6 +25,7 @@ use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
 use crate::value::constants::Constants;
 
+pub use crate::driver::near::{Near, identifier};
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
 
 /// A part of the library.
@@ -183,10 +184,10 @@ pub fn find(name: &str) -> Option<PartFacts> {
     found.and_then(|(field, driver)| library.facts(field, driver, &mut Vec::new()))
 }
 
-/// The name that a misspelled one may stand for.
+/// What a name may stand for that no driver has.
 #[must_use]
-pub fn nearest_name(name: &str) -> Option<String> {
-    Library::open().drivers.meant(name).map(str::to_owned)
+pub fn near(name: &str) -> Near {
+    Library::open().drivers.near(name)
 }
 
 /// The mistakes in the library; each driver is read as a part that uses everything the driver has.
