@@ -30,10 +30,10 @@ static size_t drive_pin(up_drive_write_t *writes, bool is_turning, int8_t direct
 
   if (is_turning) {
     put(writes, &count, 0U, 0U);
+    put(writes, &count, 1U, (direction < 0) ? 1U : 0U);
     if (direction == 0) {
       return count;
     }
-    put(writes, &count, 1U, (direction < 0) ? 1U : 0U);
   }
   put(writes, &count, 0U, magnitude);
   return count;

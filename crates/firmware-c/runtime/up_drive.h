@@ -37,7 +37,7 @@ typedef struct {
 
 /* Gives the writes for an element of this type (integers, bool or float32; NaN is 0), in order. With direction pins,
  * a new direction first writes the magnitude 0, then the pin that goes low, then the one that goes high, then the
- * magnitude; both pins are low at 0. With one pin, the magnitude is 0 while the pin changes; at 0 the pin stays. With
+ * magnitude; both pins are low at 0. With one pin, the magnitude is 0 while the pin changes; the pin is low at 0. With
  * two PWM outputs, the one that goes to 0 is written first. Returns their
  * number. */
 size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,

@@ -189,7 +189,7 @@ fn parts_that_are_not_there_lead_to_similar_ones() {
     for (asked, first) in [
         ("bme688", "bme280"),
         ("ina233", "ina228"),
-        ("max31856", "max31855"),
+        ("max31850", "max31855"),
         ("lsm6dsl", "lsm6ds3"),
         ("barometer", "bmp280"),
         ("color_sensor", "tcs34725"),

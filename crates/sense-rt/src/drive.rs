@@ -73,7 +73,7 @@ impl Bridge {
     /// The writes for an element (NaN is 0). With direction pins, a new direction first writes the
     /// magnitude 0, then the pin that goes low, then the one that goes high, then the magnitude;
     /// both pins are low at 0. With one
-    /// pin, the magnitude is 0 while the pin changes; at 0 the pin stays. With two PWM outputs, the one that goes to 0 is written first.
+    /// pin, the magnitude is 0 while the pin changes; the pin is low at 0. With two PWM outputs, the one that goes to 0 is written first.
     #[must_use]
     pub fn drive(&self, state: &mut BridgeState, scalar: Scalar, element: &[u8]) -> Writes {
         let (asked, is_negative) = load_magnitude(scalar, element);
@@ -112,10 +112,10 @@ fn direction_pin(is_turning: bool, direction: i8, magnitude: u32) -> Writes {
     let mut writes = Writes::default();
     if is_turning {
         writes.put(0, 0);
+        writes.put(1, u32::from(direction < 0));
         if direction == 0 {
             return writes;
         }
-        writes.put(1, u32::from(direction < 0));
     }
     writes.put(0, magnitude);
     writes

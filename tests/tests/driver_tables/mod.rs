@@ -6,6 +6,7 @@
 
 mod examples;
 mod gaps;
+mod judged;
 mod library;
 mod program;
 mod rust;

@@ -6,7 +6,7 @@ pub mod facts;
 pub(crate) mod known;
 pub(crate) mod library;
 pub(crate) mod module;
-pub mod near;
+pub(crate) mod near;
 
 use std::cell::OnceCell;
 
