@@ -42,7 +42,9 @@ fn every_driver_is_judged_in_the_simulator() {
     // Two parts need a port that inverts.
     let plain = examples(facts::EXAMPLE_BOARD);
     let inverting = examples("NUCLEO_F303RE");
-    let is_inverted = |name: &str| facts::find(name).is_some_and(|part| facts::example_board(&part) != facts::EXAMPLE_BOARD);
+    let is_inverted = |name: &str| {
+        facts::find(name).is_some_and(|part| facts::example_board(&part) != facts::EXAMPLE_BOARD)
+    };
     let boards = plain.into_iter().zip(inverting);
     let all = boards.map(|(plain, other)| if is_inverted(&plain.0) { other } else { plain });
     let wrong = judged(&one_in(3, all).collect::<Vec<_>>());

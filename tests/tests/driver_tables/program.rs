@@ -116,10 +116,10 @@ fn frame_coding(device: &Device, part: &str) -> Option<String> {
     device.kind.can()?;
     let how = ValuePlan::new(&Words::of(device)?);
     assert!(how.elements.is_empty() && how.crc.is_none(), "no driver in a frame has that yet");
-    assert_eq!(how.code, Code::Integer, "no driver in a frame has that yet");
     let (size, low, bits) = (how.word_bytes, how.low, how.bits);
+    let code = c::words::code(&how.code);
     Some(format!(
-        "static const up_value_t can_{part}_{} = {{.word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
+        "static const up_value_t can_{part}_{} = {{.code = {code}, .word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
         device.name.value, how.is_signed, how.is_little_endian
     ))
 }

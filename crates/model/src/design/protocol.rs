@@ -73,8 +73,7 @@ pub enum Formula {
 
 impl Formula {
     /// All variants.
-    pub const ALL: [Self; 5] =
-        [Self::Bmp280, Self::Bme280, Self::Ntc, Self::Tsl2561, Self::Hx711];
+    pub const ALL: [Self; 5] = [Self::Bmp280, Self::Bme280, Self::Ntc, Self::Tsl2561, Self::Hx711];
 
     /// The word after `compensate`.
     #[must_use]

@@ -6,10 +6,7 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/environment.sense", include_str!("../../drivers/environment.sense")),
     ("drivers/expanders.sense", include_str!("../../drivers/expanders.sense")),
     ("drivers/field_bus.sense", include_str!("../../drivers/field_bus.sense")),
-    (
-        "drivers/force_pressure_flow.sense",
-        include_str!("../../drivers/force_pressure_flow.sense"),
-    ),
+    ("drivers/force_pressure_flow.sense", include_str!("../../drivers/force_pressure_flow.sense")),
     ("drivers/input.sense", include_str!("../../drivers/input.sense")),
     ("drivers/light.sense", include_str!("../../drivers/light.sense")),
     ("drivers/magnetic.sense", include_str!("../../drivers/magnetic.sense")),

@@ -18,7 +18,8 @@ const TELLING_MIN: usize = 5;
 /// Most parts that are proposed.
 const SIMILAR_MAX: usize = 4;
 /// Words that are in the names of parts of all sorts.
-const COMMON_WORDS: &[&str] = &["sensor", "driver", "module", "controller", "digital", "analog", "board"];
+const COMMON_WORDS: &[&str] =
+    &["sensor", "driver", "module", "controller", "digital", "analog", "board"];
 /// A name with so many digits of the family's in common needs no common purpose.
 const DIGITS_SHARED: usize = 2;
 
@@ -47,7 +48,8 @@ impl Drivers {
     /// the nearest alias.
     pub(crate) fn meant(&self, name: &str) -> Option<&str> {
         let is_it = |other: &&str| is_misspelled(name, other);
-        let near_name = || nearest(name, self.all().map(|one| one.name.value.as_str()).filter(is_it));
+        let near_name =
+            || nearest(name, self.all().map(|one| one.name.value.as_str()).filter(is_it));
         // A word that begins with another letter is a different word (barometer, tachometer).
         let first = name.chars().next().map(|letter| letter.to_ascii_lowercase());
         let begins_so = |alias: &&str| alias.chars().next() == first;
@@ -69,7 +71,8 @@ impl Drivers {
             // Another digit makes another part: an ADXL3450 is not an ADXL345.
             let goes_on = wanted.strip_prefix(name.as_str()).and_then(|rest| rest.chars().next());
             // A word such as `led` begins names of quite other parts.
-            let is_telling = name.len() >= TELLING_MIN || name.contains(|c: char| c.is_ascii_digit());
+            let is_telling =
+                name.len() >= TELLING_MIN || name.contains(|c: char| c.is_ascii_digit());
             let is_long = name.len() >= BEGINNING_MIN && is_telling;
             is_long && goes_on.is_some_and(|next| !next.is_ascii_digit())
         };
@@ -164,7 +167,12 @@ fn sort(name: &str) -> Vec<String> {
 /// A name as a block can have it, for a driver to begin with.
 #[must_use]
 pub fn identifier(name: &str) -> String {
-    let letter = |one: char| if one.is_ascii_alphanumeric() { one.to_ascii_lowercase() } else { '_' };
+    let letter =
+        |one: char| if one.is_ascii_alphanumeric() { one.to_ascii_lowercase() } else { '_' };
     let plain: String = name.chars().take(40).map(letter).collect();
-    if plain.starts_with(|one: char| one.is_ascii_alphabetic()) { plain } else { format!("my_{plain}") }
+    if plain.starts_with(|one: char| one.is_ascii_alphabetic()) {
+        plain
+    } else {
+        format!("my_{plain}")
+    }
 }

@@ -78,7 +78,9 @@ fn missing(name: &str) -> String {
 /// How to write a driver of that name.
 fn begun(name: &str) -> String {
     let new = facts::identifier(name);
-    format!("`sensedsl drivers --new {new}` begins one; docs/driver-language.md says what can stand in it")
+    format!(
+        "`sensedsl drivers --new {new}` begins one; docs/driver-language.md says what can stand in it"
+    )
 }
 
 fn found(parts: &[PartFacts], kind: Option<KindName>, words: &str) -> usize {
