@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use sensedsl_firmware_c::{self as c, Wiring};
 use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
-use sensedsl_model::words::{Code, Words};
+use sensedsl_model::words::Words;
 use sensedsl_tests::{fed, files, has, is_thorough, root, run};
 use sensedsl_wire::{Direction, ScalarType};
 
