@@ -32,6 +32,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "filter/real.rs",
     "filter/smooth.rs",
     "formula/bosch.rs",
+    "formula/hx711.rs",
     "formula/mod.rs",
     "formula/ntc.rs",
     "formula/tsl2561.rs",

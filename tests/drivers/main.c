@@ -336,10 +336,15 @@ static void print_value(const up_field_t *field, const uint8_t *value) {
   const size_t size = up_type_bytes(field->type);
   size_t i;
 
-  check(field->type != UP_TYPE_FLOAT32 && field->type != UP_TYPE_FLOAT64, "a float");
+  check(field->type != UP_TYPE_FLOAT64, "a float of 64 bits");
   for (i = 0U; i < field->count; i++) {
     uint64_t bits = up_element_load(field->type, &value[i * size]);
-    if (is_signed(field->type)) {
+    if (field->type == UP_TYPE_FLOAT32) {
+      float number;
+      memcpy(&number, &value[i * size], sizeof number);
+      check(number == (float)(int32_t)number, "a float with a fraction");
+      printf(" %" PRId32, (int32_t)number);
+    } else if (is_signed(field->type)) {
       const uint64_t sign = (uint64_t)1U << (8U * size - 1U);
       printf(" %" PRId64, (int64_t)((bits ^ sign) - sign));
     } else {
@@ -357,6 +362,11 @@ static const up_field_t *ask_field(uint16_t *index) {
 static void store(const up_field_t *field, size_t element, int64_t number, uint64_t *value) {
   uint8_t *memory = (uint8_t *)value;
 
+  if (field->type == UP_TYPE_FLOAT32) {
+    const float real = (float)number;
+    memcpy(&memory[element * sizeof real], &real, sizeof real);
+    return;
+  }
   up_store_signed(field->type, number, &memory[element * up_type_bytes(field->type)]);
 }
 

@@ -5,6 +5,7 @@
 #include "up_checksum.h"
 
 #define DVB_S2_POLYNOMIAL 0xD5U
+#define LD06_POLYNOMIAL 0x4DU
 #define IBUS_START 0xFFFFU
 #define CHECKSUM_BYTES_MAX 3U
 
@@ -27,6 +28,14 @@ static size_t put_checksum(const up_compose_t *how, uint8_t *bytes, size_t at) {
   case UP_CHECKSUM_CRC8_DVB_S2:
     bytes[at] = up_crc8(DVB_S2_POLYNOMIAL, 0U, &bytes[from], at - from);
     return 1U;
+  case UP_CHECKSUM_CRC8_LD06:
+    bytes[at] = up_crc8(LD06_POLYNOMIAL, 0U, &bytes[from], at - from);
+    return 1U;
+  case UP_CHECKSUM_SUM16:
+    sum = up_sum16(&bytes[from], at - from);
+    bytes[at] = (uint8_t)(sum >> 8);
+    bytes[at + 1U] = (uint8_t)sum;
+    return 2U;
   case UP_CHECKSUM_IBUS:
     sum = (uint16_t)(IBUS_START - up_sum16(&bytes[from], at - from));
     bytes[at] = (uint8_t)sum;

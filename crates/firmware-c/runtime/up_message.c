@@ -6,11 +6,12 @@
 #include "up_parse.h"
 
 #define DVB_S2_POLYNOMIAL 0xD5U
+#define LD06_POLYNOMIAL 0x4DU
 #define IBUS_START 0xFFFFU
 
 static const uint8_t checksum_bytes[] = {
-    [UP_CHECKSUM_NONE] = 0U, [UP_CHECKSUM_SUM8] = 1U,        [UP_CHECKSUM_XOR8] = 1U,
-    [UP_CHECKSUM_IBUS] = 2U, [UP_CHECKSUM_CRC8_DVB_S2] = 1U, [UP_CHECKSUM_NMEA] = 3U,
+    [UP_CHECKSUM_NONE] = 0U,         [UP_CHECKSUM_SUM8] = 1U,      [UP_CHECKSUM_XOR8] = 1U,  [UP_CHECKSUM_IBUS] = 2U,
+    [UP_CHECKSUM_CRC8_DVB_S2] = 1U, [UP_CHECKSUM_CRC8_LD06] = 1U, [UP_CHECKSUM_SUM16] = 2U, [UP_CHECKSUM_NMEA] = 3U,
 };
 
 static size_t checksum_size(const up_message_t *message) {
@@ -71,6 +72,11 @@ static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t
     return up_xor8(summed, count) == bytes[at];
   case UP_CHECKSUM_CRC8_DVB_S2:
     return up_crc8(DVB_S2_POLYNOMIAL, 0U, summed, count) == bytes[at];
+  case UP_CHECKSUM_CRC8_LD06:
+    return up_crc8(LD06_POLYNOMIAL, 0U, summed, count) == bytes[at];
+  case UP_CHECKSUM_SUM16:
+    sum = up_sum16(summed, count);
+    return bytes[at] == (uint8_t)(sum >> 8) && bytes[at + 1U] == (uint8_t)sum;
   case UP_CHECKSUM_IBUS:
     sum = (uint16_t)(IBUS_START - up_sum16(summed, count));
     return bytes[at] == (uint8_t)sum && bytes[at + 1U] == (uint8_t)(sum >> 8);

@@ -17,6 +17,8 @@ typedef enum {
   UP_CHECKSUM_XOR8,        /* 1 byte: exclusive or */
   UP_CHECKSUM_IBUS,        /* 2 bytes, low byte first: 0xFFFF minus the sum of the bytes */
   UP_CHECKSUM_CRC8_DVB_S2, /* 1 byte: CRC-8 with polynomial 0xD5 and start value 0 */
+  UP_CHECKSUM_CRC8_LD06,   /* 1 byte: CRC-8 with polynomial 0x4D and start value 0 */
+  UP_CHECKSUM_SUM16,       /* 2 bytes, high byte first: the low 16 bits of the sum */
   UP_CHECKSUM_NMEA         /* 3 bytes: `*` and two hex digits, exclusive or of the bytes between `start` and `*` */
 } up_checksum_t;
 

@@ -32,6 +32,7 @@ pub const BASE: &[File] = files![
     "up_filter_double.c",
     "up_formula.c",
     "up_formula.h",
+    "up_formula_hx711.c",
     "up_formula_ntc.c",
     "up_formula_tsl2561.c",
     "up_health.c",

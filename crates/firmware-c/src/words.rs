@@ -76,6 +76,8 @@ pub(crate) const fn checksum(checksum: &MessageChecksum) -> &'static str {
         MessageChecksum::Xor8 => "UP_CHECKSUM_XOR8",
         MessageChecksum::Ibus => "UP_CHECKSUM_IBUS",
         MessageChecksum::Crc8DvbS2 => "UP_CHECKSUM_CRC8_DVB_S2",
+        MessageChecksum::Crc8Ld06 => "UP_CHECKSUM_CRC8_LD06",
+        MessageChecksum::Sum16 => "UP_CHECKSUM_SUM16",
         MessageChecksum::Nmea => "UP_CHECKSUM_NMEA",
     }
 }
@@ -94,6 +96,7 @@ pub(crate) const fn format(how: &FieldCoding) -> &'static str {
 pub(crate) const fn drive(drive: &Drive) -> &'static str {
     match drive {
         Drive::DirectionPins => "UP_DRIVE_DIRECTION_PINS",
+        Drive::DirectionPin => "UP_DRIVE_DIRECTION_PIN",
         Drive::TwoPwm => "UP_DRIVE_TWO_PWM",
     }
 }
@@ -104,6 +107,7 @@ pub const fn formula(formula: &Formula) -> &'static str {
     match formula {
         Formula::Bmp280 => "up_formula_bmp280",
         Formula::Bme280 => "up_formula_bme280",
+        Formula::Hx711 => "up_formula_hx711",
         Formula::Ntc => "up_formula_ntc",
         Formula::Tsl2561 => "up_formula_tsl2561",
     }

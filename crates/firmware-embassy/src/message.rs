@@ -68,6 +68,8 @@ const fn checksum(checksum: MessageChecksum) -> &'static str {
         MessageChecksum::Xor8 => "MessageChecksum::Xor8",
         MessageChecksum::Ibus => "MessageChecksum::Ibus",
         MessageChecksum::Crc8DvbS2 => "MessageChecksum::Crc8DvbS2",
+        MessageChecksum::Crc8Ld06 => "MessageChecksum::Crc8Ld06",
+        MessageChecksum::Sum16 => "MessageChecksum::Sum16",
         MessageChecksum::Nmea => "MessageChecksum::Nmea",
     }
 }

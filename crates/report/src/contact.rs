@@ -42,7 +42,9 @@ impl<'a> Wires<'a> {
         let known = names_of(self.kind, role).iter().filter(|_| own.is_empty());
         let names = own.iter().map(String::as_str).chain(known.copied());
         names.into_iter().find_map(|wanted| {
-            let mut found = called(module, wanted);
+            // What the driver states for another wire is not this one's: the clock of an HX711 is at MOSI.
+            let is_free = |entry: &&str| module.contacts.iter().all(|(_, other)| other != entry);
+            let mut found = called(module, wanted).filter(is_free);
             let first = found.next()?;
             found.next().is_none().then_some(first)
         })

@@ -101,7 +101,7 @@ pub use encode::{
     Stamp, encode_health, encode_health_request, encode_hello, encode_hello_request, encode_values,
 };
 pub use filter::{Filter, FilterTable, Number, Range, WIDE, Wide, decay};
-pub use formula::{BME280, BMP280, Formula, NTC, OUTPUTS_MAX, Outputs, TSL2561};
+pub use formula::{BME280, BMP280, Formula, HX711, NTC, OUTPUTS_MAX, Outputs, TSL2561};
 pub use health::{
     AGE_LONG, AGE_NEVER, BoardHealth, Cause, Fault, Health, HealthRow, LOAD_UNKNOWN, Record,
     STACK_UNKNOWN, Status,

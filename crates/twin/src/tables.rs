@@ -77,6 +77,7 @@ pub const fn formula(of: protocol::Formula) -> Formula {
     match of {
         protocol::Formula::Bmp280 => sense_rt::BMP280,
         protocol::Formula::Bme280 => sense_rt::BME280,
+        protocol::Formula::Hx711 => sense_rt::HX711,
         protocol::Formula::Ntc => sense_rt::NTC,
         protocol::Formula::Tsl2561 => sense_rt::TSL2561,
     }
@@ -217,6 +218,8 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
         uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
         uart::MessageChecksum::Ibus => MessageChecksum::Ibus,
         uart::MessageChecksum::Crc8DvbS2 => MessageChecksum::Crc8DvbS2,
+        uart::MessageChecksum::Crc8Ld06 => MessageChecksum::Crc8Ld06,
+        uart::MessageChecksum::Sum16 => MessageChecksum::Sum16,
         uart::MessageChecksum::Nmea => MessageChecksum::Nmea,
     }
 }
@@ -271,6 +274,7 @@ fn number(number: part::Number) -> Number {
 pub const fn bridge(plan: &BridgePlan) -> Bridge {
     let mode = match plan.drive {
         Drive::DirectionPins => BridgeMode::DirectionPins,
+        Drive::DirectionPin => BridgeMode::DirectionPin,
         Drive::TwoPwm => BridgeMode::TwoPwm,
     };
     Bridge { mode, full: plan.full }

@@ -6,6 +6,7 @@
 
 mod examples;
 mod gaps;
+mod judged;
 mod library;
 mod program;
 mod rust;
@@ -198,11 +199,18 @@ fn given_line(unit: &Unit, given: &Given) -> String {
         Given::Exchange(sent, received) => format!("exchange {} {}", hex(sent), hex(received)),
         Given::Stream(bytes) => format!("feed {}", hex(bytes)),
         Given::Raw(what, number) => {
-            // The only sensor that is on no bus.
-            let mut sensors =
-                unit.devices().enumerate().filter(|(_, one)| one.direction == Direction::Sensor);
-            let (field, device) = sensors.next().unwrap();
-            format!("raw {field} {}", measured(device, what, *number))
+            // All sensors of the kind that measures this; none of them is on a bus.
+            let is_it = |device: &Device| match what.as_str() {
+                "analog" => matches!(device.kind, Kind::Analog(_)),
+                "level" => matches!(device.kind, Kind::Digital(_)),
+                "counts" => matches!(device.kind, Kind::Encoder(_)),
+                _ => matches!(device.kind, Kind::Icu(_)),
+            };
+            let is_sensor = |device: &Device| device.direction == Direction::Sensor;
+            let sensors = unit.devices().enumerate();
+            let sensors = sensors.filter(|(_, device)| is_sensor(device) && is_it(device));
+            let line = |(field, device)| format!("raw {field} {}", measured(device, what, *number));
+            sensors.map(line).collect::<Vec<_>>().join("\n")
         }
         Given::Frame(name, bytes) => {
             let fits = |can: &Can| frame_name(can) == *name && usize::from(can.byte) < bytes.len();

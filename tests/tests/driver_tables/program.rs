@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use sensedsl_firmware_c::{self as c, Wiring};
 use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
-use sensedsl_model::words::{Code, Words};
+use sensedsl_model::words::Words;
 use sensedsl_tests::{fed, files, has, is_thorough, root, run};
 use sensedsl_wire::{Direction, ScalarType};
 
@@ -116,10 +116,10 @@ fn frame_coding(device: &Device, part: &str) -> Option<String> {
     device.kind.can()?;
     let how = ValuePlan::new(&Words::of(device)?);
     assert!(how.elements.is_empty() && how.crc.is_none(), "no driver in a frame has that yet");
-    assert_eq!(how.code, Code::Integer, "no driver in a frame has that yet");
     let (size, low, bits) = (how.word_bytes, how.low, how.bits);
+    let code = c::words::code(&how.code);
     Some(format!(
-        "static const up_value_t can_{part}_{} = {{.word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
+        "static const up_value_t can_{part}_{} = {{.code = {code}, .word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
         device.name.value, how.is_signed, how.is_little_endian
     ))
 }

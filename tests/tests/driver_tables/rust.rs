@@ -384,7 +384,11 @@ impl Run<'_> {
     fn command(&mut self, index: usize, numbers: Vec<i64>) {
         let (scalar, mut value) = self.empty(index);
         for (element, number) in value.chunks_mut(scalar.bytes()).zip(numbers) {
-            store_signed(scalar, number, element);
+            if scalar == Scalar::Float32 {
+                element.copy_from_slice(&(number as f32).to_be_bytes());
+            } else {
+                store_signed(scalar, number, element);
+            }
         }
         if let Some(bridge) = self.tables.own[index].bridge {
             for write in bridge.drive(&mut self.bridges[index], scalar, &value).as_slice() {
@@ -431,9 +435,12 @@ impl Run<'_> {
                 Outcome::Fresh => {
                     write!(self.out, "value {index}").unwrap();
                     for element in 0..usize::from(item.count) {
-                        assert!(!item.scalar.is_real(), "a float");
                         let bits = item.scalar.load_at(value, element);
-                        if item.scalar.is_signed() {
+                        if item.scalar == Scalar::Float32 {
+                            let number = f32::from_bits(bits as u32);
+                            assert_eq!(number.fract(), 0.0, "a float with a fraction");
+                            write!(self.out, " {number}").unwrap();
+                        } else if item.scalar.is_signed() {
                             write!(self.out, " {}", item.scalar.extend(bits)).unwrap();
                         } else {
                             write!(self.out, " {bits}").unwrap();

@@ -10,7 +10,8 @@ import struct
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1, "Hz": 1, "kHz": 1e3, "MHz": 1e6, "V": 1, "mV": 1e-3, "Ohm": 1, "kOhm": 1e3}
 TOKEN = re.compile(r"//[^\n]*|\s+|\.\.|0x[0-9A-Fa-f]+|0b[01]+|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
                    r"|[A-Za-z]\w*|\"(?:[^\"\\]|\\.)*\"|[{}\[\]()=;,+*/-]")
-SIZES = {"bool": 1, "uint8": 1, "int8": 1, "uint16": 2, "int16": 2, "uint32": 4, "int32": 4, "uint64": 8, "int64": 8}
+SIZES = {"bool": 1, "uint8": 1, "int8": 1, "uint16": 2, "int16": 2, "uint32": 4, "int32": 4, "uint64": 8, "int64": 8,
+         "float32": 4}
 NOTHING = object()
 
 
@@ -146,6 +147,13 @@ def bytes_of(value):
     return b"".join(bytes_of(one) for one in value)
 
 
+def unfractional(value):
+    """A floating-point number of a vector, which has no fraction."""
+    if value != int(value):
+        raise ValueError(f"{value} is not whole")
+    return int(value)
+
+
 def signed(value, bits):
     return value - (1 << bits) if value >> (bits - 1) & 1 else value
 
@@ -190,7 +198,9 @@ def decode(part, driver, data):
         if span:
             high, low = span
             word, bits = word >> low & (1 << (high - low + 1)) - 1, high - low + 1
-        if get(part, driver, "format") == "bcd":
+        if part["type"] == "float32":
+            word = unfractional(struct.unpack(">f", word.to_bytes(4, "big"))[0])
+        elif get(part, driver, "format") == "bcd":
             word = int(f"{word:x}")
         elif is_signed:
             word = signed(word, bits)
@@ -263,6 +273,14 @@ def tsl2561(raw):
     return {"illuminance": max(0, both * b - infrared * m) * 1000 >> 14}
 
 
+def hx711(raw):
+    """Two bits a clock, the second of which counts; ready before them, high after them."""
+    bits = f"{int.from_bytes(raw, 'big'):064b}"
+    if "1" in bits[:8] or "0" in bits[57:]:
+        return {}
+    return {"load": signed(int(bits[9:56:2], 2), 24)}
+
+
 # Messages on a serial port.
 
 def checksum(kind, body):
@@ -271,11 +289,13 @@ def checksum(kind, body):
         return bytes([sum(body) & 0xFF])
     if kind == "ibus":
         return (0xFFFF - sum(body)).to_bytes(2, "little")
-    value = 0
+    if kind == "sum16":
+        return (sum(body) & 0xFFFF).to_bytes(2, "big")
+    value, polynomial = 0, {"crc8_dvb_s2": 0xD5, "crc8_ld06": 0x4D}.get(kind)
     for byte in body:
         value ^= byte
-        for _ in range(8 if kind == "crc8_dvb_s2" else 0):
-            value = (value << 1 ^ 0xD5) & 0xFF if value & 0x80 else value << 1
+        for _ in range(8 if polynomial else 0):
+            value = (value << 1 ^ polynomial) & 0xFF if value & 0x80 else value << 1
     return bytes([value]) if kind != "nmea" else b"%02X" % value
 
 
@@ -287,7 +307,7 @@ def messages(driver, stream):
     at = 0
     while (at := stream.find(start, at)) >= 0:
         first = at + len(start)
-        if end:
+        if end and (kind == "nmea" or "length" not in driver["properties"]):
             last = stream.find(end, first)
             if last < 0:
                 return
@@ -310,7 +330,10 @@ def messages(driver, stream):
                 at += 1
                 continue
             last += len(wanted)
-        at = last
+        if stream[last:last + len(end)] != end:
+            at += 1
+            continue
+        at = last + len(end)
         yield body
 
 

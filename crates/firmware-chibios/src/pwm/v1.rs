@@ -232,7 +232,7 @@ impl Pulses {
     ) -> (Vec<Output>, Vec<BridgeInput>) {
         let wanted = match drive {
             Bridged::DirectionPins => 3,
-            Bridged::TwoPwm => 2,
+            Bridged::DirectionPin | Bridged::TwoPwm => 2,
         };
         let (mut outputs, mut inputs) = (Vec::new(), Vec::new());
         for wired in wires.iter().take(wanted) {

@@ -144,8 +144,11 @@ fn init(steps: &[InitStep], baud: u32) -> Vec<InitPlan> {
 const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
     match checksum {
         MessageChecksum::None => 0,
-        MessageChecksum::Sum8 | MessageChecksum::Xor8 | MessageChecksum::Crc8DvbS2 => 1,
-        MessageChecksum::Ibus => 2,
+        MessageChecksum::Sum8
+        | MessageChecksum::Xor8
+        | MessageChecksum::Crc8DvbS2
+        | MessageChecksum::Crc8Ld06 => 1,
+        MessageChecksum::Ibus | MessageChecksum::Sum16 => 2,
         MessageChecksum::Nmea => 3,
     }
 }

@@ -85,7 +85,8 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         ("checksum", Takes::Words(|| first(&CHECKSUMS))),
         "`none`",
         "What stands before `end`. `sum8`: low byte of the sum; `xor8`: all bytes exclusive or; `ibus`: 0xFFFF \
-         minus the sum, two bytes, low one first; `crc8_dvb_s2`: CRC-8 of polynomial 0xD5; `nmea`: `*` and two \
+         minus the sum, two bytes, low one first; `crc8_dvb_s2`: CRC-8 of polynomial 0xD5; `crc8_ld06`: CRC-8 of polynomial 0x4D; `sum16`: the sum, two \
+         bytes, high one first; `nmea`: `*` and two \
          hexadecimal digits.",
         "checksum = xor8;",
     ),
@@ -133,6 +134,10 @@ pub enum MessageChecksum {
     Ibus,
     /// A CRC-8 with polynomial 0xD5 and initial value 0.
     Crc8DvbS2,
+    /// A CRC-8 with polynomial 0x4D and initial value 0.
+    Crc8Ld06,
+    /// The low 16 bits of the sum; two bytes, the high one first.
+    Sum16,
     /// `*` and two hexadecimal digits: the exclusive or of the bytes between the start and `*`.
     Nmea,
 }
@@ -191,12 +196,14 @@ const FRAMES: [(&str, (u8, Parity, u8)); 8] = [
 ];
 
 /// The words after `checksum`.
-const CHECKSUMS: [(&str, MessageChecksum); 6] = [
+const CHECKSUMS: [(&str, MessageChecksum); 8] = [
     ("none", MessageChecksum::None),
     ("sum8", MessageChecksum::Sum8),
     ("xor8", MessageChecksum::Xor8),
     ("ibus", MessageChecksum::Ibus),
     ("crc8_dvb_s2", MessageChecksum::Crc8DvbS2),
+    ("crc8_ld06", MessageChecksum::Crc8Ld06),
+    ("sum16", MessageChecksum::Sum16),
     ("nmea", MessageChecksum::Nmea),
 ];
 
@@ -249,7 +256,7 @@ fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8
     if let Some(from) = from
         && matches!(checksum, MessageChecksum::None | MessageChecksum::Nmea)
     {
-        let why = "`checksum_from` is for `sum8`, `xor8`, `ibus` and `crc8_dvb_s2` only";
+        let why = "`checksum_from` is not for `none` and `nmea`";
         fields.contradiction(from.span, "checksum", why);
     }
     (checksum, from.and_then(|n| u8::try_from(n.value).ok()).unwrap_or(0))

@@ -97,8 +97,8 @@ pub(super) const CODING: &[Meaning] = &[
     Meaning::new(
         ("drive", Takes::Words(|| first(&DRIVES))),
         "none",
-        "How one signed value becomes a motor's wires: a pulse width and two levels, or one pulse width for each \
-         direction.",
+        "How one signed value becomes a motor's wires: a pulse width and two levels, a pulse width and \
+         one level (on for a negative value), or one pulse width for each direction.",
         "drive = direction_pins;",
     )
     .only(Direction::Actuator),

@@ -59,8 +59,11 @@ pub(crate) const FORMATS: [(&str, Option<Format>); 4] = [
     ("bcd", None),
 ];
 /// The words after `drive`.
-pub(crate) const DRIVES: [(&str, Drive); 2] =
-    [("direction_pins", Drive::DirectionPins), ("two_pwm", Drive::TwoPwm)];
+pub(crate) const DRIVES: [(&str, Drive); 3] = [
+    ("direction_pins", Drive::DirectionPins),
+    ("direction_pin", Drive::DirectionPin),
+    ("two_pwm", Drive::TwoPwm),
+];
 
 /// Most raw values or ranges that mean "no measurement".
 const INVALID_MAX: usize = 16;

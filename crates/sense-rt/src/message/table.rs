@@ -9,6 +9,7 @@ use crate::scalar::Scalar;
 use crate::schema::{Item, Schema};
 
 const DVB_S2_POLYNOMIAL: u8 = 0xD5;
+const LD06_POLYNOMIAL: u8 = 0x4D;
 const IBUS_START: u16 = 0xFFFF;
 
 /// The checksum after the body.
@@ -24,6 +25,10 @@ pub enum MessageChecksum {
     Ibus,
     /// 1 byte: CRC-8 with polynomial 0xD5 and start value 0.
     Crc8DvbS2,
+    /// 1 byte: CRC-8 with polynomial 0x4D and start value 0.
+    Crc8Ld06,
+    /// 2 bytes, high byte first: the low 16 bits of the sum.
+    Sum16,
     /// 3 bytes: `*` and two hex digits, the exclusive or of the bytes between `start` and `*`.
     Nmea,
 }
@@ -34,8 +39,8 @@ impl MessageChecksum {
     pub const fn bytes(self) -> usize {
         match self {
             Self::None => 0,
-            Self::Sum8 | Self::Xor8 | Self::Crc8DvbS2 => 1,
-            Self::Ibus => 2,
+            Self::Sum8 | Self::Xor8 | Self::Crc8DvbS2 | Self::Crc8Ld06 => 1,
+            Self::Ibus | Self::Sum16 => 2,
             Self::Nmea => 3,
         }
     }
@@ -49,6 +54,11 @@ impl MessageChecksum {
             Self::Sum8 => [sum8(summed), 0, 0],
             Self::Xor8 => [xor8(summed), 0, 0],
             Self::Crc8DvbS2 => [crc8(DVB_S2_POLYNOMIAL, 0, summed), 0, 0],
+            Self::Crc8Ld06 => [crc8(LD06_POLYNOMIAL, 0, summed), 0, 0],
+            Self::Sum16 => {
+                let [high, low] = sum16(summed).to_be_bytes();
+                [high, low, 0]
+            }
             Self::Ibus => {
                 let [low, high] = IBUS_START.wrapping_sub(sum16(summed)).to_le_bytes();
                 [low, high, 0]

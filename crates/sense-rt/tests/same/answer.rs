@@ -156,7 +156,8 @@ impl Desk {
             }
             "see" => self.see(&mut words, &mut out),
             "bridge" => {
-                let mode = [BridgeMode::DirectionPins, BridgeMode::TwoPwm][words.number() as usize];
+                use BridgeMode::{DirectionPin, DirectionPins, TwoPwm};
+                let mode = [DirectionPins, TwoPwm, DirectionPin][words.number() as usize];
                 self.bridge = (Bridge { mode, full: words.small() }, BridgeState::NEW);
             }
             "drive" => {
@@ -302,8 +303,8 @@ fn encode(words: &mut Words<'_>, out: &mut String) {
 fn compose(words: &mut Words<'_>, out: &mut String) {
     let (item, value) = (words.item(), words.coding());
     let (start, end) = (words.bytes().leak(), words.bytes().leak());
-    use MessageChecksum::{Crc8DvbS2, Ibus, Nmea, Sum8, Xor8};
-    let all = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
+    use MessageChecksum::{Crc8DvbS2, Crc8Ld06, Ibus, Nmea, Sum8, Sum16, Xor8};
+    let all = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Crc8Ld06, Sum16, Nmea];
     let checksum = all[words.number() as usize];
     let compose = Compose { start, end, value, checksum, checksum_from: words.byte() };
     let value = words.value(&item);
@@ -328,7 +329,8 @@ fn parse(words: &mut Words<'_>, out: &mut String) {
 }
 
 fn formula(words: &mut Words<'_>, out: &mut String) {
-    let all = [sense_rt::BMP280, sense_rt::BME280, sense_rt::NTC, sense_rt::TSL2561];
+    let all =
+        [sense_rt::BMP280, sense_rt::BME280, sense_rt::NTC, sense_rt::TSL2561, sense_rt::HX711];
     let formula = all[words.number() as usize];
     let parameters = [(); 3].map(|()| words.small().cast_signed());
     let (calibration, raw) = (words.bytes(), words.bytes());

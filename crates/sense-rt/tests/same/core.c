@@ -230,8 +230,9 @@ static void parse(void) {
 }
 
 static void formula(void) {
-  const up_formula_t *all[] = {&up_formula_bmp280, &up_formula_bme280, &up_formula_ntc, &up_formula_tsl2561};
-  const up_formula_t *one = all[ask() % 4U];
+  const up_formula_t *all[] = {&up_formula_bmp280, &up_formula_bme280, &up_formula_ntc, &up_formula_tsl2561,
+                                  &up_formula_hx711};
+  const up_formula_t *one = all[ask() % 5U];
   int32_t parameters[3];
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX] = {0};
   block_t calibration, raw;

@@ -142,7 +142,7 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("encode {one} {count} {how}{}", elements(random, one, count)));
     let (start, end) = (random.below(4), random.below(3));
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
-    let (sum, from) = (random.below(6), random.below(5));
+    let (sum, from) = (random.below(8), random.below(5));
     let values = elements(random, one, count);
     all.push(format!("compose {one} {count} {how} {start} {end} {sum} {from}{values}"));
     let (first, way) = (text(random), random.below(3));
@@ -158,7 +158,7 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
         0x00, 0xF9, 0xFF, 0x8C, 0x3C, 0xF8, 0xC6, 0x70, 0x17, 0x4B, 0x6C, 0x01, 0x00, 0x13, 0x29,
         0x03, 0x1E,
     ];
-    let which = random.below(4);
+    let which = random.below(5);
     let mut calibration = SOUND.to_vec();
     if random.below(3) == 0 {
         let at = random.below(32);
@@ -171,6 +171,7 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
             let near = |random: &mut Random| 0x40 + random.below(0x60) as u8;
             (0..8).map(|_| near(random)).collect()
         }
+        4 if random.below(5) > 0 => load_cell(random),
         2 => (random.below(4100) as u16).to_be_bytes().to_vec(),
         _ => bytes(random, 8),
     };
@@ -185,6 +186,18 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
         ),
     };
     all.push(format!("formula {which} {parameters} {} {}", hex(&calibration), hex(&raw)));
+}
+
+/// What an HX711 answers, ready or not.
+fn load_cell(random: &mut Random) -> Vec<u8> {
+    let code = random.next() as u32;
+    let mut all = vec![if random.below(6) > 0 { 0 } else { 1 }];
+    all.extend((0..6).map(|at| {
+        let pairs = (0..4).map(|bit| (code >> (23 - 4 * at - bit) & 1) * 3 << (6 - 2 * bit));
+        pairs.sum::<u32>() as u8
+    }));
+    all.push(if random.below(6) > 0 { 0xFF } else { 0xFE });
+    all
 }
 
 fn filters(random: &mut Random, all: &mut Vec<String>) {
@@ -231,7 +244,7 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
         all.push(format!("see {} {} {now}", random.below(4), random.below(2)));
         now = now.wrapping_add(random.below(20) as u32);
     }
-    all.push(format!("bridge {} {}", random.below(2), random.below(20_000)));
+    all.push(format!("bridge {} {}", random.below(3), random.below(20_000)));
     for _ in 0..6 {
         all.push(format!("drive {one}{}", elements(random, one, 1)));
     }

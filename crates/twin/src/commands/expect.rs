@@ -165,6 +165,7 @@ fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Ve
     let (forward, backward) = (raw.max(0.0), (-raw).max(0.0));
     let inputs = match drive {
         Drive::DirectionPins => vec![raw.abs(), forward, backward],
+        Drive::DirectionPin => vec![raw.abs(), backward],
         Drive::TwoPwm => vec![forward, backward],
     };
     let each = |(index, input): (&ConnectionIndex, f64)| {

@@ -178,6 +178,8 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
         MessageChecksum::Xor8 => vec![xor(summed)],
         MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
         MessageChecksum::Crc8DvbS2 => vec![crc8(summed, 0xD5, 0)],
+        MessageChecksum::Crc8Ld06 => vec![crc8(summed, 0x4D, 0)],
+        MessageChecksum::Sum16 => sum.to_be_bytes().to_vec(),
         MessageChecksum::Nmea => format!("*{:02X}", xor(body)).into_bytes(),
     };
     all.extend(checksum);

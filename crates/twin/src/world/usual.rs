@@ -141,11 +141,12 @@ fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
         (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
     }
     let shown = [device.shown.min, device.shown.max].map(|end| end.map(|end| scale.raw(end)));
-    if let [Some(one), Some(other)] = shown
-        && one.min(other) < high
-        && one.max(other) > low
-    {
-        (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
+    if let [Some(one), Some(other)] = shown {
+        let (least, greatest) = (one.min(other), one.max(other));
+        let overlaps = least < high && greatest > low;
+        // What the part says of itself is worth more than what is usual.
+        (low, high) =
+            if overlaps { (low.max(least), high.min(greatest)) } else { (least, greatest) };
     }
     largest_piece((low, high), &device.filter.invalid)
 }

@@ -102,13 +102,14 @@ fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
     same_way && longer && outer.0 <= inner.0 && inner.1 <= outer.1
 }
 
-/// A cycle time that suits the part; none if the part sends on its own, or is sent to.
+/// A cycle time that suits the part; none if the part sends on its own or is sent to, or if
+/// its driver states one.
 fn delay_ms(part: &PartFacts) -> Option<u32> {
     let asked = |one: &&ValueFacts| {
         one.direction == Direction::Sensor && !matches!(one.kind.interface(), Interface::Uart(_))
     };
     let asked: Vec<&ValueFacts> = part.values.iter().filter(asked).collect();
-    if asked.iter().any(|one| one.kind.measures_itself()) {
+    if part.has_own_delay || asked.iter().any(|one| one.kind.measures_itself()) {
         return None;
     }
     // All values on a bus are measured one after the other.
