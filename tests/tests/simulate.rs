@@ -126,7 +126,8 @@ fn hosts_read_a_port_of_tcp() {
     let name = name.unwrap();
     assert!(name.starts_with("tcp:127.0.0.1:"), "{name}");
     for _ in 0..2 {
-        let call = ["monitor", &name, FIG2, "--seconds", "3", "--format", "lines", "--no-reconnect"];
+        let call =
+            ["monitor", &name, FIG2, "--seconds", "3", "--format", "lines", "--no-reconnect"];
         let ran = sensedsl(call).run().exits(0);
         assert!(ran.stderr.contains("firmware and design agree"), "{}", ran.stderr);
         assert!(ran.stdout.contains("USRear"), "{}{}", ran.stdout, ran.stderr);
