@@ -16,7 +16,7 @@ cargo_deb=3.7.0
 
 cargo build --locked --profile "$profile" -p sensedsl
 sh packaging/share.sh "$target/$profile/sensedsl" packaging/wheel/data/share
-sh packaging/changelog.sh > "$target/changelog"
+sh packaging/changelog.sh > packaging/changelog.Debian
 [ "$(cargo deb --version 2>/dev/null)" = "$cargo_deb" ] ||
     cargo install --locked --quiet --debug --version "$cargo_deb" cargo-deb
 rm -rf "$target/debian"
