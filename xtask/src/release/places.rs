@@ -11,7 +11,7 @@ pub(super) struct Place {
     /// What stands before the version in its line, and after it.
     around: [&'static str; 2],
     /// How often; none where every line counts that has it.
-    times: Option<usize>,
+    pub(super) times: Option<usize>,
 }
 
 const fn once(path: &'static str, around: [&'static str; 2]) -> Place {

@@ -46,8 +46,12 @@ fn a_copy_is_released() {
     let own = manifest.lines().filter(|line| line.contains("path = \"crates/")).count();
     assert_eq!(manifest.matches("\"7.1.3\"").count(), own + 1);
     for place in places::PLACES {
-        assert!(text(&copy, place.path).contains("7.1.3"), "{}", place.path);
-        assert!(place.renewed(&text(&copy, place.path), &old, "8.0.0").is_err(), "{}", place.path);
+        let text = text(&copy, place.path);
+        match place.times {
+            // A lock file of npm has its own version first; that of another package may be the same.
+            Some(times) => assert_eq!(text.matches("7.1.3").count(), times, "{}", place.path),
+            None => assert!(place.renewed(&text, &old, "8.0.0").is_err(), "{}", place.path),
+        }
     }
     let cited = text(&copy, places::CITATION);
     assert_eq!(
