@@ -3,6 +3,7 @@
 //! A tree is written only through [`Ops`], so that a test can stop after any single change, as a
 //! kill does, or let any single one fail, as a full disk does.
 
+use crate::files::shown;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -105,7 +106,7 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> io::Error {
     move |error| {
         let kind =
             if is_unsupported_call(&error) { io::ErrorKind::Unsupported } else { error.kind() };
-        io::Error::new(kind, format!("{}: {error}", path.display()))
+        io::Error::new(kind, format!("{}: {error}", shown(&path)))
     }
 }
 
