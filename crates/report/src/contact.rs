@@ -107,6 +107,7 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::Cs => &["CS", "CSN", "NCS"],
         Role::A => &["A"],
         Role::B => &["B"],
+        Role::Direction => &["DE", "DIR", "EN"],
         Role::Trigger => &["TRIG"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]

@@ -275,7 +275,8 @@ impl Properties for Uart {
 fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8) {
     let checksum = fields.word("checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
     // The bytes that it covers begin within the start bytes, or right after them.
-    let most = i64::try_from(start_bytes).unwrap_or(0);
+    // Where each reading and command has a `start` of its own, it is read with them.
+    let most = if start_bytes == 0 { 16 } else { i64::try_from(start_bytes).unwrap_or(16) };
     let from = fields.integer("checksum_from", 0..=most);
     if let Some(from) = from
         && !checksum.has_from()
