@@ -267,9 +267,9 @@ static void set_up(const up_line_t *line, const up_line_part_t *part) {
   }
 }
 
-static bool is_due(const up_line_part_t *part) {
+/* Whether the turn of a part is nearer to this cycle of its line than to the next one. */
+static bool is_due(const up_line_part_t *part, uint32_t now_ms) {
   up_line_part_state_t *state = part->state;
-  const uint32_t now_ms = up_now_ms();
 
   if (state->has_begun && now_ms - state->due_ms >= 0x80000000U) {
     return false;
@@ -309,7 +309,7 @@ void up_line_cycle(const void *work) {
 
   for (i = 0U; i < line->parts_count; i++) {
     const up_line_part_t *part = &line->parts[i];
-    const bool is_its_turn = is_due(part);
+    const bool is_its_turn = is_due(part, begin_ms + line->cycle_ms / 2U);
 
     if (is_its_turn) {
       set_up(line, part);

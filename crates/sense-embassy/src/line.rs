@@ -131,9 +131,9 @@ struct Progress {
 }
 
 impl Progress {
-    /// Whether its cycle begins.
-    fn is_due(&mut self, cycle_ms: u32) -> bool {
-        let now_ms = now_ms();
+    /// Whether its turn is nearer to this cycle of its line, half of which is over at `now_ms`, than
+    /// to the next one.
+    fn is_due(&mut self, cycle_ms: u32, now_ms: u32) -> bool {
         let late_ms = self.due_ms.map(|due| now_ms.wrapping_sub(due));
         if late_ms.is_some_and(|late| late >= 0x8000_0000) {
             return false;
@@ -252,8 +252,10 @@ impl<const MEMORY: usize, const SENT: usize, const RX: usize, const TX: usize, c
     /// Asks the parts that are due, and tells them what they are owed, up to `until`. `give` has the
     /// wire for the direction.
     pub async fn cycle(&mut self, until: Instant, give: &mut dyn FnMut(bool), sink: &mut Sink<'_>) {
+        let fastest_ms = self.stations.iter().map(|one| one.cycle_ms).min().unwrap_or(0);
+        let middle_ms = now_ms().wrapping_add(fastest_ms / 2);
         for (station, progress) in self.stations.iter().zip(&mut self.progress) {
-            let is_due = progress.is_due(station.cycle_ms);
+            let is_due = progress.is_due(station.cycle_ms, middle_ms);
             if is_due {
                 set_up(&self.wires, station, progress, give).await;
                 let asked =
