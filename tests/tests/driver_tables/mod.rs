@@ -197,6 +197,7 @@ fn given_line(unit: &Unit, given: &Given) -> String {
         }
         Given::Exchange(sent, received) => format!("exchange {} {}", hex(sent), hex(received)),
         Given::Stream(bytes) => format!("feed {}", hex(bytes)),
+        Given::Asked(request, answer) => format!("asked {} {}", hex(request), hex(answer)),
         Given::Raw(what, number) => {
             // The only sensor that is on no bus.
             let mut sensors =
