@@ -23,7 +23,9 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     for wired in &context.elements {
         let Some(unit) = wired.wiring.unit.as_deref() else { continue };
         match wired.device.kind.interface() {
-            Interface::Uart(uart) if uart.exchange.is_dialogue() || is_of_dialogue(context, wired) => {
+            Interface::Uart(uart)
+                if uart.exchange.is_dialogue() || is_of_dialogue(context, wired) =>
+            {
                 lines.entry(UnitName::new(unit)).or_default().push((wired, uart));
             }
             Interface::Uart(uart) => rows.push(port(context, wired, unit, uart)),

@@ -163,8 +163,11 @@ fn entry(unit: &Unit) -> String {
     if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
         let prefix = &message.prefix;
         if !message.fields.is_empty() {
-            write!(text, ", .message = &{prefix}_message, .message_state = &{prefix}_message_state")
-                .unwrap();
+            write!(
+                text,
+                ", .message = &{prefix}_message, .message_state = &{prefix}_message_state"
+            )
+            .unwrap();
         }
         if !message.exchanges.is_empty() {
             let count = message.exchanges.len();

@@ -2,7 +2,8 @@
 //! from.
 
 use sense_rt::{
-    Bridge, ChipTable, Compose, FilterTable, Formula, Item, MessageField, MessageTable, Schema, TrainConfig,
+    Bridge, ChipTable, Compose, FilterTable, Formula, Item, MessageField, MessageTable, Schema,
+    TrainConfig,
 };
 use sensedsl_job::part::{PartPlan, TrainPlan};
 use sensedsl_twin::tables::{self, kept};
