@@ -70,7 +70,7 @@ size_t up_compose(const up_compose_t *how, const up_field_t *field, const void *
   const size_t around =
       (size_t)how->start_count + how->behind_count + how->end_count + up_checksum_bytes(how->checksum);
   uint8_t sum[UP_CHECKSUM_BYTES_MAX];
-  size_t size, value_bytes;
+  size_t size, value_bytes, sum_bytes;
 
   if (room < around) {
     return 0U;
@@ -86,6 +86,7 @@ size_t up_compose(const up_compose_t *how, const up_field_t *field, const void *
   }
   size += value_bytes;
   size += put(how->behind, how->behind_count, &bytes[size]);
-  size += put(sum, up_checksum_put(how->checksum, how->checksum_from, how->start_count, bytes, size, sum), &bytes[size]);
+  sum_bytes = up_checksum_put(how->checksum, how->checksum_from, how->start_count, bytes, size, sum);
+  size += put(sum, sum_bytes, &bytes[size]);
   return size + put(how->end, how->end_count, &bytes[size]);
 }
