@@ -27,6 +27,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "esp/uart.rs",
     "esp/watchdog.rs",
     "lib.rs",
+    "line.rs",
     "link.rs",
     "link_stream.rs",
     "link_uart.rs",

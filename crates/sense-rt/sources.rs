@@ -28,6 +28,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "drive.rs",
     "elements.rs",
     "encode.rs",
+    "exchange.rs",
     "filter.rs",
     "filter/real.rs",
     "filter/smooth.rs",

@@ -21,4 +21,7 @@ uint16_t up_sum16(const uint8_t *bytes, size_t count);
  * from 0: LD06. */
 uint8_t up_crc8(uint8_t polynomial, uint8_t start, const uint8_t *bytes, size_t count);
 
+/* CRC-16 from 0, most significant bit first, not reflected, no final XOR. Polynomial 0x8005: UMTS; 0x1021: XMODEM. */
+uint16_t up_crc16_of(uint16_t polynomial, const uint8_t *bytes, size_t count);
+
 #endif

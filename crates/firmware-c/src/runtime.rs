@@ -27,6 +27,8 @@ pub const BASE: &[File] = files![
     "up_drive.h",
     "up_encode.c",
     "up_encode.h",
+    "up_exchange.c",
+    "up_exchange.h",
     "up_filter.c",
     "up_filter.h",
     "up_filter_double.c",

@@ -1,7 +1,7 @@
 //! How a plan is spelled in C, for the templates of this crate and of systems in C.
 
 use sensedsl_model::kind::uart::MessageChecksum;
-use sensedsl_model::protocol::{Crc, Drive, Format, Formula};
+use sensedsl_model::protocol::{Crc, Drive, Format, Formula, TextField};
 use sensedsl_model::words::Code;
 
 use sensedsl_job::part::{FieldCoding, Number};
@@ -79,17 +79,27 @@ pub(crate) const fn checksum(checksum: &MessageChecksum) -> &'static str {
         MessageChecksum::Crc8Ld06 => "UP_CHECKSUM_CRC8_LD06",
         MessageChecksum::Sum16 => "UP_CHECKSUM_SUM16",
         MessageChecksum::Nmea => "UP_CHECKSUM_NMEA",
+        MessageChecksum::Sum7 => "UP_CHECKSUM_SUM7",
+        MessageChecksum::NotSum8 => "UP_CHECKSUM_NOT_SUM8",
+        MessageChecksum::NegSum8 => "UP_CHECKSUM_NEG_SUM8",
+        MessageChecksum::NegSum16 => "UP_CHECKSUM_NEG_SUM16",
+        MessageChecksum::Crc16Umts => "UP_CHECKSUM_CRC16_UMTS",
+        MessageChecksum::Crc16Xmodem => "UP_CHECKSUM_CRC16_XMODEM",
     }
 }
 
 pub(crate) const fn format(how: &FieldCoding) -> &'static str {
     match how {
         FieldCoding::Binary { .. } => "UP_FORMAT_BINARY",
-        FieldCoding::Text(text) => match text.format {
-            Format::Decimal => "UP_FORMAT_DECIMAL",
-            Format::Degrees => "UP_FORMAT_DEGREES",
-            Format::Hex => "UP_FORMAT_HEX",
-        },
+        FieldCoding::Text(text) => text_format(text),
+    }
+}
+
+pub(crate) const fn text_format(text: &TextField) -> &'static str {
+    match text.format {
+        Format::Decimal => "UP_FORMAT_DECIMAL",
+        Format::Degrees => "UP_FORMAT_DEGREES",
+        Format::Hex => "UP_FORMAT_HEX",
     }
 }
 

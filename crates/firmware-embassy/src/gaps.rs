@@ -1,5 +1,6 @@
 //! What Embassy firmware cannot do yet. Every gap is reported; no device is left out in silence.
 
+use sensedsl_model::kind::uart::Duplex;
 use sensedsl_model::kind::{Kind, KindName};
 
 use super::hal::contract::Drivers;
@@ -52,6 +53,12 @@ pub(super) fn lacks(
         Kind::I2c(_) | Kind::Spi(_) => job.lacks_on_buses(connection),
         Kind::Digital(own) if own.edge.is_some() && drivers.edges().is_none() => {
             Some("edges of digital inputs on this MCU")
+        }
+        Kind::Uart(own)
+            if own.exchange.duplex == Duplex::Half
+                && !drivers.serial().is_some_and(|serial| serial.has_one_wire()) =>
+        {
+            Some("both directions of a serial port on one wire")
         }
         Kind::Analog(_)
         | Kind::Icu(_)

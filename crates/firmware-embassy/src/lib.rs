@@ -47,6 +47,7 @@ mod icu;
 mod inputs;
 mod item;
 mod levels;
+mod line;
 mod link;
 mod lock;
 mod message;

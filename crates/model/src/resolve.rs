@@ -16,7 +16,7 @@ use crate::design::{Board, BoardIndex, Design};
 use crate::driver::Drivers;
 use crate::driver::known::Known;
 use crate::part::block::{Next, ReadPart, assemble};
-use crate::part::{chip, device, frames, ids, registers};
+use crate::part::{chip, device, frames, ids, registers, serial};
 use crate::request::Request;
 use crate::rule::{checks, names};
 use crate::sound::{Partial, broken_drivers};
@@ -87,6 +87,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     check_places(&design, &mut diagnostics);
     frames::settle(&mut design, &mut diagnostics);
     registers::settle(&mut design, &mut diagnostics);
+    serial::check(&design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
     link::settle_silence(&mut design, &mut diagnostics);
     if items.broken {

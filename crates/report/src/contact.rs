@@ -109,6 +109,7 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::Cs => &["CS", "CSN", "NCS"],
         Role::A => &["A"],
         Role::B => &["B"],
+        Role::Direction => &["DE", "DIR", "EN"],
         Role::Trigger => &["TRIG"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
@@ -130,10 +131,26 @@ mod tests {
     }
 
     /// Wires of the MCU's port that these parts have no use for.
-    const NOT_AT_THE_PART: [&str; 2] = ["hc595_pins miso", "mt6701_ssi mosi"];
+    const NOT_AT_THE_PART: [&str; 3] = ["hc595_pins miso", "mt6701_ssi mosi", "sabertooth rx"];
 
     /// Parts that get their supply from elsewhere: over a resistor, from a pin, from the robot's battery.
-    const WITHOUT_SUPPLY: [&str; 5] = ["ntc", "buzzer", "vesc", "vesc_duty", "vesc_current"];
+    const WITHOUT_SUPPLY: [&str; 15] = [
+        "ntc",
+        "buzzer",
+        "vesc",
+        "vesc_duty",
+        "vesc_current",
+        "vesc_uart",
+        "roboclaw",
+        "sabertooth",
+        "kangaroo",
+        "xl330",
+        "xl430",
+        "xl430_wheel",
+        "ax12",
+        "sts3215",
+        "lx16a",
+    ];
 
     /// Every wire of every driver of the library has a contact, and so have supply and ground where the part has them.
     #[test]

@@ -47,6 +47,8 @@ pub mod contact;
 #[cfg(feature = "runtime")]
 pub mod devices;
 #[cfg(feature = "runtime")]
+pub mod line;
+#[cfg(feature = "runtime")]
 pub mod link;
 #[cfg(feature = "runtime")]
 pub mod link_stream;

@@ -58,6 +58,7 @@ mod decode;
 mod drive;
 mod elements;
 mod encode;
+mod exchange;
 mod filter;
 mod formula;
 mod health;
@@ -82,7 +83,7 @@ pub mod sources;
 
 pub use bits::Bits;
 pub use capture::{Capture, CaptureConfig, CaptureMode, Captured};
-pub use checksum::{Checksum, crc8, crc16, crc32, sum8, sum16, xor8};
+pub use checksum::{Checksum, crc8, crc16, crc16_of, crc32, sum8, sum16, xor8};
 pub use chip::{
     Calibration, Chip, ChipCounts, ChipTable, Command, Identity, InitStep, Reading, Step, Transfer,
 };
@@ -100,6 +101,7 @@ pub use elements::Elements;
 pub use encode::{
     Stamp, encode_health, encode_health_request, encode_hello, encode_hello_request, encode_values,
 };
+pub use exchange::{Echo, Exchange, Heard, Reply};
 pub use filter::{Filter, FilterTable, Number, Range, WIDE, Wide, decay};
 pub use formula::{BME280, BMP280, Formula, HX711, NTC, OUTPUTS_MAX, Outputs, TSL2561};
 pub use health::{

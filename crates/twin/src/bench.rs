@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_job::kinds::serial;
 use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, Device, DeviceIndex, PartIndex};
 use sensedsl_model::kind::{Interface, Kind, Role};
@@ -15,7 +16,7 @@ use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
-use crate::parts::{can, formula, message};
+use crate::parts::{can, dialogue, formula, message};
 use crate::range::is_counter;
 use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
@@ -27,6 +28,7 @@ mod log;
 mod mcu;
 mod peer;
 mod recorded;
+mod stations;
 mod units;
 
 use chips::Chip;
@@ -49,6 +51,7 @@ pub struct Bench {
     pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
     chips: Vec<Chip>,
     talkers: BTreeMap<u8, ConnectedSender>,
+    lines: BTreeMap<u8, dialogue::Line>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
@@ -104,6 +107,7 @@ impl Bench {
             pads: BTreeMap::new(),
             chips: Vec::new(),
             talkers: BTreeMap::new(),
+            lines: BTreeMap::new(),
             senders: BTreeMap::new(),
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
@@ -144,7 +148,8 @@ impl Bench {
         let of_part =
             |(of, sender): &(PartIndex, can::Sender)| (*of == part).then(|| sender.round_ns());
         let senders = || self.senders.values().flatten().filter_map(of_part).max();
-        talker.map(|one| one.talker.period_ns()).or_else(senders)
+        let round_ns = self.lines.values().find_map(|line| line.round_ns(part));
+        round_ns.or_else(|| talker.map(|one| one.talker.period_ns())).or_else(senders)
     }
 
     /// The times, from start to end, at which a fault may keep a device from reporting.
@@ -280,6 +285,11 @@ impl Bench {
             chip.is_selected = is_selected;
             self.recorder.select(connection, is_selected, now_ns);
         }
+        if role == Role::Direction
+            && let Some(line) = self.lines.values_mut().find(|line| line.is_at(connection))
+        {
+            line.give(level == Some(true));
+        }
         if role == Role::Trigger
             && level == Some(false)
             && let Some((line, _)) =
@@ -331,6 +341,11 @@ impl Bench {
         match (one.connection.kind.interface(), unit) {
             (Interface::I2c(_) | Interface::Spi(_), Some(unit)) => {
                 self.chips.push(self.chip(job, one, unit));
+            }
+            (Interface::Uart(uart), Some(unit)) if serial::is_dialogue(job, one) => {
+                let station = self.station(job, one);
+                let fresh = || dialogue::Line::new(uart.clone());
+                self.lines.entry(unit).or_insert_with(fresh).add(station);
             }
             (Interface::Uart(uart), Some(unit)) if !devices.is_empty() => {
                 let fields = devices.iter().filter_map(|of| self.field(of)).collect();

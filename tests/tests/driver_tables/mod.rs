@@ -198,6 +198,7 @@ fn given_line(unit: &Unit, given: &Given) -> String {
         }
         Given::Exchange(sent, received) => format!("exchange {} {}", hex(sent), hex(received)),
         Given::Stream(bytes) => format!("feed {}", hex(bytes)),
+        Given::Asked(request, answer) => format!("asked {} {}", hex(request), hex(answer)),
         Given::Raw(what, number) => {
             // All sensors of the kind that measures this; none of them is on a bus.
             let is_it = |device: &Device| match what.as_str() {

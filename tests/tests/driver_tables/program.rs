@@ -99,11 +99,15 @@ fn unit_fields(unit: &Unit) -> String {
     let one = |device: &Device| match &plan {
         Some(plan) => {
             let (own, can) = (unit_field(plan, &device.name.value), in_frame(device, part));
-            format!("  {{{own}, {can}}},\n")
+            let message = plan.message.iter().flat_map(|plan| &plan.commands);
+            let name = &device.name.value;
+            let is_told = message.filter(|one| one.field == *name).count() > 0;
+            let compose = if is_told { format!("&compose_{name}") } else { "NULL".to_owned() };
+            format!("  {{{own}, {can}, {compose}}},\n")
         }
         None => {
             let can = in_frame(device, part);
-            format!("  {{NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL, {can}}},\n")
+            format!("  {{NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL, {can}, NULL}},\n")
         }
     };
     let all: String = unit.devices().map(one).collect();
@@ -158,8 +162,17 @@ fn entry(unit: &Unit) -> String {
     }
     if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
         let prefix = &message.prefix;
-        write!(text, ", .message = &{prefix}_message, .message_state = &{prefix}_message_state")
+        if !message.fields.is_empty() {
+            write!(
+                text,
+                ", .message = &{prefix}_message, .message_state = &{prefix}_message_state"
+            )
             .unwrap();
+        }
+        if !message.exchanges.is_empty() {
+            let count = message.exchanges.len();
+            write!(text, ", .exchanges = {prefix}_exchanges, .exchanges_count = {count}U").unwrap();
+        }
         if !message.init.is_empty() {
             write!(text, ", .message_init = {prefix}_init").unwrap();
         }

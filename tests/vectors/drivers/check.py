@@ -12,7 +12,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from language import (  # noqa: E402
-    NOTHING, SIZES, Parser, bosch, bytes_of, decode, field, get, hx711, judged, messages, ntc, sensirion, tsl2561)
+    NOTHING, SIZES, Parser, answered, asked, bosch, bytes_of, decode, field, get, hx711, judged, messages, ntc, number, sensirion, told, tsl2561)
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
@@ -26,7 +26,7 @@ class Case:
     def __init__(self, driver, name, lines):
         self.driver, self.name = driver, name
         self.image, self.after, self.plain, self.exchanges = {}, {}, None, {}
-        self.frames = {}
+        self.frames, self.asked = {}, {}
         self.stream, self.input, self.wrong, self.type = None, None, None, None
         self.expects, self.shown, self.commands, self.seen = [], [], [], set()
         self.kept = {}
@@ -53,6 +53,11 @@ class Case:
             self.plain = bytes.fromhex(rest)
         elif words[0] == "exchange":
             self.exchanges[bytes.fromhex("".join(words[1:]))] = bytes.fromhex(rest)
+        elif words[0] == "asked":
+            self.asked[bytes.fromhex("".join(words[1:]))] = bytes.fromhex(rest)
+        elif words[0] == "asked_text":
+            texts = [one.encode().decode("unicode_escape").encode("latin-1") for one in re.findall(r'"((?:[^"\\]|\\.)*)"', line)]
+            self.asked[texts[0]] = texts[1]
         elif words[0] == "bytes":
             self.stream = (self.stream or b"") + bytes.fromhex("".join(words[1:]))
         elif words[0] == "frame" and not self.commands:
@@ -140,6 +145,8 @@ class Case:
         driver = self.driver
         if not self.identity():
             return "wrong identity"
+        if "request" in part["properties"]:
+            return self.answer(part)
         if self.stream is not None:
             value = "nothing"
             for body in messages(driver, self.stream):
@@ -170,6 +177,23 @@ class Case:
             value = self.output(part, hx711(raw))
             return value if value == "invalid" else judged(part, driver, value)
         return judged(part, driver, decode(part, driver, raw))
+
+    def answer(self, part):
+        """A reading that is asked for: silence is a fault, as is an answer that is damaged."""
+        request = asked(part, self.driver)[0]
+        if request not in self.asked:
+            return "nothing"
+        body = answered(part, self.driver, self.asked[request])
+        if body is NOTHING:
+            return "wrong identity"
+        if body is None:
+            return "invalid"
+        if str(get(part, self.driver, "format")) == "decimal":
+            value = number(body.decode("latin-1"), get(part, self.driver, "decimals", 0))
+            return "invalid" if value is None else [value]
+        first = part["properties"].get("byte", 0)
+        length = part["properties"].get("length", part["count"] * SIZES[part["type"]])
+        return judged(part, self.driver, decode(part, self.driver, body[first:first + length]))
 
     @staticmethod
     def output(part, values):
@@ -262,11 +286,15 @@ class Case:
             return [f"width us {round((low + (high - low) * values[0] / 10000) * 1e6)}"]
         if kind == "digital":
             return [f"pin = {values[0] ^ (properties.get('active') == 'low')}"]
+        if driver["kind"] == "uart" and str(get(part, driver, "format")) == "decimal":
+            return [f"written {told(part, driver, str(values[0]).encode()).hex(' ').upper()}"]
         length = get(part, driver, "length", part["count"] * SIZES[part["type"]])
         width = length // part["count"]
         high, low = get(part, driver, "bits", (8 * width - 1, 0))
         order = "little" if get(part, driver, "order") == "little" else "big"
         data = b"".join(((v & (1 << high - low + 1) - 1) << low).to_bytes(width, order) for v in values)
+        if driver["kind"] == "uart":
+            return [f"written {told(part, driver, data).hex(' ').upper()}"]
         register = get(part, driver, "register")
         size = driver["properties"].get("register_size", 1)
         head = b"" if register is None else register.to_bytes(size, "big")

@@ -287,6 +287,22 @@ def checksum(kind, body):
     """The bytes of the checksum over `body`."""
     if kind == "sum8":
         return bytes([sum(body) & 0xFF])
+    if kind == "sum7":
+        return bytes([sum(body) & 0x7F])
+    if kind == "not_sum8":
+        return bytes([~sum(body) & 0xFF])
+    if kind == "neg_sum8":
+        return bytes([-sum(body) & 0xFF])
+    if kind == "neg_sum16":
+        return (-sum(body) & 0xFFFF).to_bytes(2, "big")
+    if kind in ("crc16_umts", "crc16_xmodem"):
+        rest = int.from_bytes(body + bytes(2), "big")
+        polynomial = 0x18005 if kind == "crc16_umts" else 0x11021
+        for bit in range(8 * len(body) + 15, 15, -1):
+            rest ^= (rest >> bit & 1) * polynomial << bit - 16
+        return rest.to_bytes(2, "little" if kind == "crc16_umts" else "big")
+    if kind == "none":
+        return b""
     if kind == "ibus":
         return (0xFFFF - sum(body)).to_bytes(2, "little")
     if kind == "sum16":
@@ -335,6 +351,50 @@ def messages(driver, stream):
             continue
         at = last + len(end)
         yield body
+
+
+def with_address(value, address):
+    """The bytes of a list in which the word `address` stands for the part's own."""
+    if isinstance(value, list):
+        return bytes(address if str(one) == "address" else one for one in value)
+    return bytes_of(value)
+
+
+def asked(part, driver):
+    """The bytes that ask for a reading, the message that its answer must be, and how it is bounded."""
+    give = lambda name, default: get(part, driver, name, default)
+    address = give("address", None)
+    first = give("checksum_from", 0)
+    request = with_address(part["properties"]["request"], address)
+    kind = str(give("checksum", "none"))
+    request += checksum(str(give("request_checksum", kind)), request[first:]) + bytes_of(give("request_end", []))
+    start = with_address(part["properties"].get("start", []), address)
+    return request, start, kind, first
+
+
+def answered(part, driver, answer):
+    """The body of an answer: None where it is damaged, NOTHING where it is none."""
+    request, start, kind, first = asked(part, driver)
+    end = bytes_of(get(part, driver, "end", []))
+    body = part["properties"].get("body")
+    if not answer.startswith(start):
+        return NOTHING
+    if body is None:
+        return answer[len(start):-len(end)] if answer.endswith(end) else NOTHING
+    last = len(start) + body
+    before = (request if str(get(part, driver, "sums_request", "false")) == "true" else b"") + answer[:last]
+    if len(answer) < last + len(checksum(kind, before)) + len(end):
+        return NOTHING
+    return answer[len(start):last] if answer[last:] == checksum(kind, before[first:]) + end else None
+
+
+def told(part, driver, data):
+    """The message of a command."""
+    give = lambda name, default: get(part, driver, name, default)
+    address = give("address", None)
+    message = with_address(give("start", []), address) + data + with_address(give("behind", []), address)
+    message += checksum(str(give("checksum", "none")), message[give("checksum_from", 0):])
+    return message + bytes_of(give("end", []))
 
 
 def number(text, decimals):

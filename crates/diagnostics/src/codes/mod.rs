@@ -71,6 +71,8 @@ codes! {
     e0238_frame_clash,
     e0239_outside_frame,
     e0240_overlap_in_register,
+    e0243_one_address,
+    e0244_asked_and_listened,
     e0301_unknown_board,
     e0302_table_unreadable,
     e0303_table_empty,

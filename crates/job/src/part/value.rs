@@ -47,6 +47,21 @@ impl ValuePlan {
         }
     }
 
+    /// The coding of what is no words but a text.
+    pub(super) const fn none() -> Self {
+        Self {
+            elements: Vec::new(),
+            words: 0,
+            code: Code::Integer,
+            crc: None,
+            word_bytes: 1,
+            low: 0,
+            bits: 0,
+            is_signed: false,
+            is_little_endian: false,
+        }
+    }
+
     /// The coding of a device, as [`Self::new`] gives it; `None` if the device has no words.
     pub(super) fn of(device: &Device) -> Option<Self> {
         Words::of(device).as_ref().map(Self::new)

@@ -3,6 +3,7 @@
 /// The files of the library: name and text.
 pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/air_quality.sense", include_str!("../../drivers/air_quality.sense")),
+    ("drivers/bus_servos.sense", include_str!("../../drivers/bus_servos.sense")),
     ("drivers/environment.sense", include_str!("../../drivers/environment.sense")),
     ("drivers/expanders.sense", include_str!("../../drivers/expanders.sense")),
     ("drivers/field_bus.sense", include_str!("../../drivers/field_bus.sense")),
@@ -11,6 +12,7 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/light.sense", include_str!("../../drivers/light.sense")),
     ("drivers/magnetic.sense", include_str!("../../drivers/magnetic.sense")),
     ("drivers/motion.sense", include_str!("../../drivers/motion.sense")),
+    ("drivers/motor_controllers.sense", include_str!("../../drivers/motor_controllers.sense")),
     ("drivers/motors.sense", include_str!("../../drivers/motors.sense")),
     ("drivers/navigation.sense", include_str!("../../drivers/navigation.sense")),
     ("drivers/output.sense", include_str!("../../drivers/output.sense")),

@@ -206,6 +206,7 @@ impl Kind {
     /// The time after which a command is sent again; 0 for never.
     #[must_use]
     pub fn resend_ms(&self) -> u32 {
-        self.can().map_or(0, |can| can.resend_ms)
+        let of_port = self.uart().map_or(0, |uart| uart.exchange.resend_ms);
+        self.can().map_or(of_port, |can| can.resend_ms)
     }
 }

@@ -70,6 +70,8 @@ roles! {
     Tx("tx", pin: "tx", driven by Mcu, on Interface);
     /// Reception by the board.
     Rx("rx", pin: "rx", driven by Device, on Interface);
+    /// Which end of a half-duplex line speaks: high while the board does.
+    Direction("direction", pin: "direction", driven by Mcu, on AnyPin);
     /// SPI clock.
     Sck("sck", pin: "sck", driven by Mcu, on Interface);
     /// SPI data from the device.

@@ -203,6 +203,11 @@ pub(super) const WIRES: &[Meaning] = &[
         "tx = PA2;",
     ),
     wire("rx", "Fixes the pin on which the board receives.", "rx = PA3;"),
+    wire(
+        "direction",
+        "Fixes the pin that is high while the board sends, with `duplex = direction`; any pin can be it.",
+        "direction = PA1;",
+    ),
     wire("sck", "Fixes the pin of the SPI clock.", "sck = PA5;"),
     wire("miso", "Fixes the pin of the SPI data from the device.", "miso = PA6;"),
     wire("mosi", "Fixes the pin of the SPI data to the device.", "mosi = PA7;"),

@@ -5,6 +5,7 @@ use sensedsl_wire::Direction;
 use super::takes::{RESISTANCE, TIME, VOLTAGE};
 use super::{Meaning, Takes, first};
 use crate::design::protocol::Formula;
+use crate::kind::uart::CHECKSUMS;
 use crate::part::coding::{CRCS, DRIVES, FORMATS};
 
 /// Where a value stands, in a reading or command or in the driver for all of them.
@@ -132,6 +133,12 @@ pub(super) const PROTOCOL: &[Meaning] = &[
         "Written one after the other at the start, and again after a failed transfer; a time is a pause. Up to 128 \
          steps.",
         "init = [[0x6B, 0x80], 100 ms, [0x6B, 0x01]];",
+    ),
+    Meaning::new(
+        ("init_checksum", Takes::Words(|| first(&CHECKSUMS))),
+        "`none`",
+        "On a serial line, what stands after each list of bytes in `init`; of its bytes from `checksum_from` on.",
+        "init_checksum = crc16_umts;",
     ),
     Meaning::new(
         (

@@ -8,7 +8,10 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::design::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Output, Protocol, TextField,
 };
-use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number, points};
+use crate::fields::{
+    Codes, Fields, name_or_text, plain_integer, plain_number, points, with_address,
+};
+use crate::kind::uart::{CHECKSUMS, exchange::ADDRESS};
 use crate::kind::{Kind, KindName};
 use crate::part::reach;
 use crate::spanned::Spanned;
@@ -39,6 +42,7 @@ pub(crate) const CODING: &[&str] = &[
 /// The properties of a chip's protocol.
 pub(crate) const PROTOCOL: &[&str] = &[
     "init",
+    "init_checksum",
     "identity",
     "identity_mask",
     "register_size",
@@ -348,12 +352,20 @@ pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
 
 fn init(fields: &mut Fields<'_>) -> Vec<InitStep> {
     const TAKES: &str = "a list of byte lists and times such as [[0x6B, 0x80], 100 ms]";
+    let sum = fields.word("init_checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
     let Some(field) = fields.take("init") else { return Vec::new() };
+    let address = fields.peek_integer(ADDRESS).and_then(|number| u8::try_from(number).ok());
+    let from = fields.peek_integer("checksum_from").and_then(|from| usize::try_from(from).ok());
+    let framed = |mut bytes: Vec<u8>| {
+        bytes.extend(sum.of(&bytes, from.unwrap_or(0)));
+        InitStep::Write(bytes)
+    };
     let step = |value: &Value| match value {
-        Value::List(bytes) => {
+        Value::List(_) => {
+            let value = with_address(value, address);
             let byte = |one: &Spanned<Value>| u8::try_from(plain_integer(&one.value)?).ok();
-            let bytes: Option<Vec<u8>> = bytes.iter().map(byte).collect();
-            bytes.filter(|bytes| (1..=255).contains(&bytes.len())).map(InitStep::Write)
+            let bytes: Option<Vec<u8>> = value.list()?.iter().map(byte).collect();
+            bytes.filter(|bytes| (1..=252).contains(&bytes.len())).map(framed)
         }
         Value::Text(text) if !text.is_empty() && text.len() <= 255 => {
             Some(InitStep::Write(text.bytes().collect()))

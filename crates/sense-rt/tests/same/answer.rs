@@ -5,9 +5,9 @@ use std::str::SplitWhitespace;
 
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
-    Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, Filter,
-    FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE, decay,
-    load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
+    Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, FieldFormat,
+    Filter, FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE,
+    decay, load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
     store_signed, store_signed_ratio, store_unsigned,
 };
 
@@ -302,15 +302,25 @@ fn encode(words: &mut Words<'_>, out: &mut String) {
 
 fn compose(words: &mut Words<'_>, out: &mut String) {
     let (item, value) = (words.item(), words.coding());
-    let (start, end) = (words.bytes().leak(), words.bytes().leak());
-    use MessageChecksum::{Crc8DvbS2, Crc8Ld06, Ibus, Nmea, Sum8, Sum16, Xor8};
-    let all = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Crc8Ld06, Sum16, Nmea];
+    let (start, behind) = (words.bytes().leak(), words.bytes().leak());
+    let end = words.bytes().leak();
+    let formats =
+        [FieldFormat::Binary, FieldFormat::Decimal, FieldFormat::Degrees, FieldFormat::Hex];
+    let format = formats[words.number() as usize];
+    let (separator, decimals) = (words.byte(), words.byte());
+    use MessageChecksum::{Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea};
+    use MessageChecksum::{NotSum8, Sum7, Sum8, Sum16, Xor8};
+    let first = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
+    let second = [Sum7, NotSum8, NegSum8, NegSum16, Crc16Umts, Crc16Xmodem];
+    let all = [&first[..], &second, &[Crc8Ld06, Sum16]].concat();
     let checksum = all[words.number() as usize];
-    let compose = Compose { start, end, value, checksum, checksum_from: words.byte() };
+    let checksum_from = words.byte();
+    let compose =
+        Compose { start, behind, end, format, value, separator, decimals, checksum, checksum_from };
     let value = words.value(&item);
     let mut message = vec![0xEE; compose.bytes(&item)];
     let size = compose.write(&item, &value, &mut message);
-    assert!(size == 0 || size == message.len());
+    assert!(size == 0 || size == message.len() || format != FieldFormat::Binary);
     out.push(' ');
     say_bytes(out, &message[..size]);
 }

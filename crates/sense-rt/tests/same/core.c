@@ -188,10 +188,16 @@ static void compose(void) {
   up_compose_t how = {.value = ask_coding()};
   uint64_t value[ELEMENTS_MAX] = {0};
   uint8_t bytes[BYTES_MAX];
-  block_t start, end;
+  block_t start, behind, end;
 
   ask_block(&start);
+  ask_block(&behind);
   ask_block(&end);
+  how.behind = behind.bytes;
+  how.behind_count = (uint8_t)behind.count;
+  how.format = (uint8_t)ask();
+  how.separator = (char)ask();
+  how.decimals = (uint8_t)ask();
   how.start = start.bytes;
   how.start_count = (uint8_t)start.count;
   how.end = end.bytes;

@@ -142,9 +142,14 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("encode {one} {count} {how}{}", elements(random, one, count)));
     let (start, end) = (random.below(4), random.below(3));
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
-    let (sum, from) = (random.below(8), random.below(5));
+    let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
+    let behind = hex(&bytes(random, behind));
+    let text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
+    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { text };
     let values = elements(random, one, count);
-    all.push(format!("compose {one} {count} {how} {start} {end} {sum} {from}{values}"));
+    all.push(format!(
+        "compose {one} {count} {how} {start} {behind} {end} {format} {separator} {decimals} {sum} {from}{values}"
+    ));
     let (first, way) = (text(random), random.below(3));
     let place = *random.pick(&["4e", "53", "45", "57", "204e", "-", "5858"]).unwrap();
     let first = if way == 1 && random.below(4) > 0 { degrees(random) } else { first };

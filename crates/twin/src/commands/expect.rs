@@ -99,9 +99,15 @@ pub(super) fn reported(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> 
             }
             Interface::I2c(_) | Interface::Spi(_) => write(job, wire, one, raw),
             Interface::Uart(own) => {
-                let body = words::bytes(&Words::of(one.device)?, raw);
+                let text = one.device.coding.text.as_ref();
+                let value = match text {
+                    Some(text) => message::told(text, raw),
+                    None => words::bytes(&Words::of(one.device)?, raw),
+                };
+                let of_device = one.device.kind.uart().unwrap_or(own);
+                let body = [value, of_device.exchange.behind.clone()].concat();
                 let unit = number(job, wire)?;
-                let what = Expectation::Message(unit, message::framed(own, &body));
+                let what = Expectation::Message(unit, message::framed(of_device, &body));
                 Some(expected(wire, 0, what))
             }
             Interface::Can(_) => frame(job, wire, one, raw),

@@ -39,6 +39,8 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
             delay_ns.min(50 * MS) + 3_000 * u64::from(own.debounce_us) + 20 * MS
         }
         Interface::Digital(_) => delay_ns.min(50 * MS),
+        // An answer has what the part measures then.
+        Interface::Uart(own) if !own.exchange.request.is_empty() => period_ns + 10 * MS,
         Interface::Uart(_) | Interface::Can(_) => period_ns + delay_ns.min(SECOND),
         Interface::Encoder(_) => 20 * MS,
         Interface::Icu(icu) => {

@@ -64,6 +64,10 @@ impl Pace {
                 let (least_ns, most_ns) = of_chip(job, one, cycle_ns);
                 (least_ns, most_ns, 0)
             }
+            // The round of a line may begin with another part.
+            Interface::Uart(own) if !own.exchange.request.is_empty() => {
+                (cycle_ns, cycle_ns, bench.period_ns(device.part)?)
+            }
             Interface::Uart(_) | Interface::Can(_) => {
                 let period_ns = bench.period_ns(device.part)?;
                 (cycle_ns.max(period_ns), cycle_ns.max(period_ns), 2 * period_ns + cycle_ns)

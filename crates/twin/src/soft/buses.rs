@@ -3,6 +3,7 @@
 use sense_rt::{
     Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
 };
+use sensedsl_job::kinds::serial;
 use sensedsl_job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
@@ -280,6 +281,9 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             continue;
         };
         let Some(plan) = tables.message.as_ref() else { continue };
+        if serial::is_dialogue(job, one) {
+            continue;
+        }
         let table: &'static MessageTable = kept(tables::message(plan, |name| place(job, name)));
         all.push(Port {
             table,

@@ -6,6 +6,7 @@
 //! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod dialogue;
 mod outputs;
 mod sensors;
 
@@ -22,6 +23,7 @@ use sensedsl_wire::Direction;
 use crate::bench::Bench;
 use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
+use dialogue::Dialogue;
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
 
@@ -60,6 +62,7 @@ struct Shape {
     has_link: bool,
     buses: Vec<Bus>,
     ports: Vec<Port>,
+    lines: Vec<Dialogue>,
     stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
@@ -74,6 +77,7 @@ struct State {
     reporter: Box<Reporter<[u8; 65_536]>>,
     buses: Vec<Bus>,
     ports: Vec<Port>,
+    lines: Vec<Dialogue>,
     stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
@@ -143,6 +147,7 @@ impl Channel for Link {
 struct Side<'a> {
     core: &'a mut Core,
     buses: &'a mut Vec<Bus>,
+    lines: &'a mut Vec<Dialogue>,
     outputs: &'a mut Outputs,
     owed: &'a mut Vec<(usize, Vec<u8>)>,
     received: &'a mut Vec<(u64, usize, Vec<u8>)>,
@@ -156,6 +161,9 @@ impl Side<'_> {
         self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
         for bus in self.buses.iter_mut() {
             bus.set(index, value);
+        }
+        for line in self.lines.iter_mut() {
+            line.set(index, value);
         }
         self.owed.push((index, value.to_vec()));
     }
@@ -173,6 +181,7 @@ impl Host for Side<'_> {
 
     fn failsafe(&mut self) {
         self.outputs.hush();
+        self.lines.iter_mut().for_each(Dialogue::hush);
         let safe: Vec<_> = self.outputs.safe().map(|(index, of)| (index, of.to_vec())).collect();
         for (index, value) in safe {
             self.put(index, &value);
@@ -277,12 +286,22 @@ impl SoftBoard {
     /// Runs all threads but the reporter.
     fn serve(&mut self, since_ms: u64, now_ns: u64) {
         let State {
-            core, buses, ports, stations, converters, captures, contacts, encoders, ..
+            core,
+            buses,
+            ports,
+            lines,
+            stations,
+            converters,
+            captures,
+            contacts,
+            encoders,
+            ..
         } = &mut self.state;
         core.now_ms = wrapped(since_ms);
         let bench = &mut self.bench;
         buses.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         ports.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        lines.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         stations.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         converters.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
@@ -295,8 +314,8 @@ impl SoftBoard {
             return;
         }
         let (received, starts, now_ms) = (&mut self.received, self.starts, self.now_ms);
-        let State { core, buses, reporter, outputs, owed, .. } = &mut self.state;
-        let mut side = Side { core, buses, outputs, owed, received, now_ms, starts };
+        let State { core, buses, lines, reporter, outputs, owed, .. } = &mut self.state;
+        let mut side = Side { core, buses, lines, outputs, owed, received, now_ms, starts };
         reporter.cycle(since_ms * 1_000, &mut self.link, &mut side);
         for (index, value) in std::mem::take(owed) {
             outputs.set(index, &value, &mut self.bench, now_ms * MS_NS);
@@ -350,6 +369,7 @@ impl Shape {
             has_link: link.transport != Transport::None,
             buses: buses::buses(job, schema),
             ports: buses::ports(job, schema),
+            lines: dialogue::dialogues(job, schema),
             stations: buses::stations(job),
             converters: sensors::converters(job),
             captures: sensors::captures(job),
@@ -375,6 +395,7 @@ impl State {
             reporter: Box::new(Reporter::new(shape.config)),
             buses: shape.buses.iter().map(Bus::anew).collect(),
             ports: shape.ports.iter().map(Port::anew).collect(),
+            lines: shape.lines.clone(),
             stations: shape.stations.clone(),
             converters: shape.converters.clone(),
             captures: shape.captures.clone(),

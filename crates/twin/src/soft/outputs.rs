@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sense_rt::{
     Bridge, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
 };
-use sensedsl_job::kinds::can;
+use sensedsl_job::kinds::{can, serial};
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
@@ -245,6 +245,10 @@ fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
     let tables = job.parts.iter().find(|part| part.index == one.device.part).map(|part| &part.plan);
     let own = job.wires_of(one.device);
     if one.device.kind.uart().is_some() {
+        // What a part is told in a dialogue goes out when the line is free.
+        if own.iter().any(|wire| serial::is_dialogue(job, wire)) {
+            return None;
+        }
         let plan = tables?.message.as_ref()?.commands.iter().find(|of| of.field == one.name())?;
         let unit = one.unit.and_then(|name| Units::new(job).number(name))?;
         return Some(Sink::Message(unit, tables::compose(plan)));

@@ -44,7 +44,11 @@ impl Maker<'_, '_> {
                 Need::Gpio | Need::Interrupt => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
-                        made.push(self.bare(role, index, pin, interrupt));
+                        let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
+                        if let Some((unit, group)) = bus {
+                            self.share(&mut candidate, role, index, (unit, group));
+                        }
+                        made.push((candidate, chosen));
                     }
                 }
             }
@@ -84,6 +88,21 @@ impl Maker<'_, '_> {
         let violates = self.violates(role, pin, Some(usage));
         let candidate = Candidate { holder, claims, violates, ..own };
         (candidate, Chosen { pin: index, usage: Some(at) })
+    }
+
+    /// Lets all devices of a bus have a wire without a signal, at one pin.
+    fn share(
+        &mut self,
+        candidate: &mut Candidate,
+        role: Role,
+        pin: usize,
+        (unit, group): (&str, &Group),
+    ) {
+        let board = self.offer.index;
+        let wire = Resource::BusWire(board, unit.to_owned(), role);
+        let on = Group::Pin(board, unit.to_owned(), role, pin, 0);
+        candidate.holder = self.builder.names.group(group.clone());
+        candidate.claims.push(self.builder.names.shared(wire, on));
     }
 
     /// A signal that any number of pins may have at once.

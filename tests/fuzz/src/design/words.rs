@@ -144,6 +144,8 @@ pub(super) const KINDS: &[Kind] = &[
             ("start", BYTES, BAD_BYTES),
             ("end", BYTES, BAD_BYTES),
             ("length", &["2", "1024"], &["0", "1025"]),
+            ("behind", BYTES, BAD_BYTES),
+            ("wait", &["5 ms", "1 s"], &["0 ms", "2 s"]),
             ("tx", &["none"], &["5"]),
         ],
         roles: &["tx", "rx"],

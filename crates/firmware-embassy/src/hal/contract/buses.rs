@@ -61,6 +61,11 @@ pub(crate) trait Serial {
         true
     }
 
+    /// Whether a port can have both directions at TX.
+    fn has_one_wire(&self) -> bool {
+        false
+    }
+
     /// The type of a port or of one of its directions.
     fn half_type(&self, half: Half) -> String;
 
