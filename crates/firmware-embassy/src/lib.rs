@@ -52,6 +52,7 @@ mod lock;
 mod message;
 mod missing;
 mod names;
+mod onewire;
 mod outputs;
 mod plan;
 mod pulse;

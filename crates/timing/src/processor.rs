@@ -142,7 +142,8 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => load.is_unknown = true,
+            | Interface::Can(_)
+            | Interface::OneWire(_) => load.is_unknown = true,
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()

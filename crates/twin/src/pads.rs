@@ -83,6 +83,7 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
             },
         ),
         Interface::I2c(_) => led(Some(true), BUS),
+        Interface::OneWire(_) => plain(Mode::Output, Some(true), BUS),
         Interface::Uart(own) if pad.role == Role::Rx => {
             led(None, if own.is_inverted { DOWN } else { UP })
         }

@@ -71,6 +71,8 @@ codes! {
     e0238_frame_clash,
     e0239_outside_frame,
     e0240_overlap_in_register,
+    e0241_asked_too_often,
+    e0242_same_rom,
     e0301_unknown_board,
     e0302_table_unreadable,
     e0303_table_empty,

@@ -41,10 +41,15 @@ impl Maker<'_, '_> {
                         made.push(self.reached(role, (index, pin), usage));
                     }
                 }
-                Need::Gpio | Need::Interrupt => {
+                Need::Gpio | Need::Interrupt | Need::SharedGpio => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
-                        made.push(self.bare(role, index, pin, interrupt));
+                        let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
+                        if matches!(need, Need::SharedGpio) {
+                            let group = Group::Wire(offer.index, index);
+                            candidate.holder = self.builder.names.group(group);
+                        }
+                        made.push((candidate, chosen));
                     }
                 }
             }
@@ -174,6 +179,8 @@ pub(super) enum Need<'n> {
     Gpio,
     /// Any pin that has a digital circuit, and the interrupt line of its number.
     Interrupt,
+    /// Any pin that has a digital circuit, together with others that share the wire.
+    SharedGpio,
 }
 
 /// Whether the pin is where the device must be.
