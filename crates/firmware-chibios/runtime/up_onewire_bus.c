@@ -213,6 +213,8 @@ static up_bus_result_t burst(const up_onewire_port_t *port, const up_onewire_par
   pull(port);
   rest_us(part->pulse_us);
   state->falls_count = 0U;
+  /* The driver forgets the function when the event is disabled. */
+  palSetLineCallback(port->line, on_fall, state);
   palEnableLineEvent(port->line, PAL_EVENT_MODE_FALLING_EDGE);
   release(port);
   chThdSleep(UP_MS2I(BURST_MS) + 1U);
@@ -224,12 +226,6 @@ static up_bus_result_t burst(const up_onewire_port_t *port, const up_onewire_par
   return up_burst_decode(state->falls, state->falls_count, bytes);
 }
 
-void up_onewire_start(const up_onewire_port_t *port) {
-  chMtxObjectInit(&port->state->mutex);
-  up_ticks_start();
-  palSetLineCallback(port->line, on_fall, port->state);
-}
-
 #else
 
 static up_bus_result_t burst(const up_onewire_port_t *port, const up_onewire_part_t *part, uint8_t *bytes) {
@@ -239,14 +235,14 @@ static up_bus_result_t burst(const up_onewire_port_t *port, const up_onewire_par
   return UP_BUS_ERROR;
 }
 
+#endif
+
+/* ---- the bus ---- */
+
 void up_onewire_start(const up_onewire_port_t *port) {
   chMtxObjectInit(&port->state->mutex);
   up_ticks_start();
 }
-
-#endif
-
-/* ---- the bus ---- */
 
 static up_bus_result_t transfer(const up_onewire_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count,
                                 uint8_t *rx, size_t rx_count) {

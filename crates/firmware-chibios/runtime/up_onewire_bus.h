@@ -7,7 +7,7 @@
 #include "ch.h"
 #include "hal.h"
 
-#include "up_bus.h"
+#include "up_chips.h"
 #include "up_onewire.h"
 
 /* A part on a wire. */

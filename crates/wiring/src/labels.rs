@@ -90,7 +90,6 @@ impl Namer<'_> {
         | Group::Program(board, ..)
         | Group::Pin(board, ..)
         | Group::Pad(board, ..)
-        | Group::Wire(board, ..)
         | Group::Blocks(board, ..)
         | Group::Tie(board, ..)) = group;
         let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
@@ -102,7 +101,7 @@ impl Namer<'_> {
             Group::Pin(_, unit, role, at, _) => {
                 format!("{} of {unit} on {}", role.name(), pin(*at).unwrap_or_default())
             }
-            Group::Pad(_, at) | Group::Wire(_, at) => pin(*at).unwrap_or_default(),
+            Group::Pad(_, at) => pin(*at).unwrap_or_default(),
             Group::Blocks(_, unit, blocks) => format!("{unit} in {blocks}"),
             Group::Tie(_, what) => format!("those {what}"),
         };

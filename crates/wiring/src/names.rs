@@ -178,8 +178,6 @@ pub(crate) enum Group {
     Pin(BoardIndex, String, Role, usize, usize),
     /// The devices that use a pin, for the contact that it shares with other pins.
     Pad(BoardIndex, usize),
-    /// The parts that share a pin as their only wire.
-    Wire(BoardIndex, usize),
     /// The devices whose signals of a peripheral are in these remap blocks.
     Blocks(BoardIndex, String, Blocks),
     /// The connections of a part that have this in common.

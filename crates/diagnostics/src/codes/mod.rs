@@ -183,6 +183,7 @@ codes! {
     w0623_nearly_busy,
     e0624_no_turns,
     w0625_no_turns_by_default,
+    w0627_locked_too_long,
     e0626_memory_full,
     h0701_eight_bit_address,
     h0702_target_none,

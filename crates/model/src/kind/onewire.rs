@@ -28,7 +28,7 @@ pub const SPEC: KindSpec = KindSpec {
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],
-    of_part: &["protocol", "family", "rom", "pulse"],
+    of_part: &[],
     serves: Serves::AnyPin,
     wires: "one GPIO with a resistor to the supply; with `rom` shared by 1-Wire parts. ChibiOS also takes the \
             interrupt line of its number with `protocol = dht`",

@@ -41,13 +41,12 @@ impl Maker<'_, '_> {
                         made.push(self.reached(role, (index, pin), usage));
                     }
                 }
-                Need::Gpio | Need::Interrupt | Need::SharedGpio => {
+                Need::Gpio | Need::Interrupt | Need::Shared(_) => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
                         let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
-                        if matches!(need, Need::SharedGpio) {
-                            let group = Group::Wire(offer.index, index);
-                            candidate.holder = self.builder.names.group(group);
+                        if let Need::Shared(wire) = need {
+                            self.share(&mut candidate, wire, role, index);
                         }
                         made.push((candidate, chosen));
                     }
@@ -126,6 +125,15 @@ impl Maker<'_, '_> {
         (candidate, Chosen { pin: index, usage: None })
     }
 
+    /// Makes the pin one that all who share a wire have together.
+    fn share(&mut self, candidate: &mut Candidate, wire: &str, role: Role, index: usize) {
+        let (board, kind) = (self.offer.index, self.wanted.kind.name());
+        let names = &mut self.builder.names;
+        candidate.holder = names.group(Group::Bus(board, wire.to_owned(), kind, 0));
+        let on = Group::Pin(board, wire.to_owned(), role, index, 0);
+        candidate.claims.push(names.shared(Resource::BusWire(board, wire.to_owned(), role), on));
+    }
+
     /// The claim of a contact that the pin shares with others: only one of them can be in use.
     pub(super) fn pad(&mut self, pin: usize) -> Option<Claim> {
         let board = self.offer.index;
@@ -179,8 +187,8 @@ pub(super) enum Need<'n> {
     Gpio,
     /// Any pin that has a digital circuit, and the interrupt line of its number.
     Interrupt,
-    /// Any pin that has a digital circuit, together with others that share the wire.
-    SharedGpio,
+    /// Any pin that has a digital circuit, the same for all who share the wire of that name.
+    Shared(&'n str),
 }
 
 /// Whether the pin is where the device must be.

@@ -54,7 +54,7 @@ impl I2c for Settings {
 impl OneWire for Settings {
     fn feature(&self) -> Option<&'static str> {
         // An output of F1 has no resistor.
-        (!self.file.afio).then_some("gpio-v2")
+        self.has_pulls().then_some("gpio-v2")
     }
 }
 
