@@ -15,6 +15,7 @@ mod hosted;
 mod images;
 mod kinds;
 mod mcus;
+mod onewire;
 mod seeded;
 mod seeded_profiles;
 mod seeded_rust;
