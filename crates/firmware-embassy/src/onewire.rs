@@ -74,7 +74,8 @@ fn part(own: &OneWire) -> String {
     if own.protocol == OneWireProtocol::Dht {
         return format!("rt::onewire::Part::Burst {{ pulse_us: {} }}", own.pulse_us);
     }
-    let rom = own.rom.map(|rom| format!("Some({})", chip::bytes(&rom.bytes).trim_start_matches('&')));
+    let rom =
+        own.rom.map(|rom| format!("Some({})", chip::bytes(&rom.bytes).trim_start_matches('&')));
     let trigger = own.trigger.first().map(|first| format!("Some({})", chip::byte(*first)));
     let none = || "None".to_owned();
     let (rom, trigger) = (rom.unwrap_or_else(none), trigger.unwrap_or_else(none));

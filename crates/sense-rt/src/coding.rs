@@ -97,7 +97,9 @@ impl Coding {
         let words = self.words_of(count);
         let data = match self.code() {
             Code::Packed => (words * self.bits as usize).div_ceil(8),
-            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => words * self.word_bytes as usize,
+            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => {
+                words * self.word_bytes as usize
+            }
         };
         match self.crc() {
             Crc::None => data,

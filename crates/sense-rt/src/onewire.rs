@@ -113,11 +113,20 @@ mod tests {
             for bit in 0..39 {
                 let shifted = |at: usize, is_one: bool| {
                     let us = usual(at, is_one);
-                    if at == bit { us + late_us } else if at == bit + 1 { us.saturating_sub(late_us) } else { us }
+                    if at == bit {
+                        us + late_us
+                    } else if at == bit + 1 {
+                        us.saturating_sub(late_us)
+                    } else {
+                        us
+                    }
                 };
                 let mut bytes = [0; 5];
                 let outcome = burst(&falls(SHEET, shifted), &mut bytes);
-                assert!(outcome != Outcome::Fresh || bytes == SHEET, "{late_us} us at bit {bit}: {bytes:x?}");
+                assert!(
+                    outcome != Outcome::Fresh || bytes == SHEET,
+                    "{late_us} us at bit {bit}: {bytes:x?}"
+                );
                 assert!(late_us > 13 || outcome == Outcome::Fresh, "{late_us} us at bit {bit}");
             }
         }

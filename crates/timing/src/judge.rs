@@ -52,7 +52,10 @@ fn of_locks(design: &Design, timing: &BoardTiming) -> Option<Diagnostic> {
     let locked_ns = wire.locked_ns?;
     let is_short = |row: &&Row| {
         let is_port = matches!(row.part, Part::Port | Part::Link);
-        is_port && row.clock_hz.is_some_and(|hz| BYTE_BITS * SECOND_NS / u64::from(hz.max(1)) < locked_ns)
+        is_port
+            && row
+                .clock_hz
+                .is_some_and(|hz| BYTE_BITS * SECOND_NS / u64::from(hz.max(1)) < locked_ns)
     };
     let port = timing.rows.iter().find(is_short)?;
     let device = design.device(*wire.devices.first()?)?;

@@ -56,12 +56,14 @@ fn taken_ns(own: &OneWire) -> u64 {
 pub(crate) fn read<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = &'c Wired<'a>> {
     let is_first = |at: usize, wired: &Wired<'_>| {
         let before = context.elements.iter().take(at);
-        before.filter(|other| other.device.part == wired.device.part).all(|other| {
-            context.cycle(other) != context.cycle(wired)
-        })
+        before
+            .filter(|other| other.device.part == wired.device.part)
+            .all(|other| context.cycle(other) != context.cycle(wired))
     };
     let wires = context.elements.iter().enumerate();
-    wires.filter(move |(at, wired)| wired.device.kind.onewire().is_some() && is_first(*at, wired)).map(|(_, one)| one)
+    wires
+        .filter(move |(at, wired)| wired.device.kind.onewire().is_some() && is_first(*at, wired))
+        .map(|(_, one)| one)
 }
 
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {

@@ -73,9 +73,7 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
         | Interface::Spi(_)
         | Interface::Uart(_)
         | Interface::Can(_)
-        | Interface::OneWire(_) => {
-            Words::of(device).as_ref().and_then(words::range)
-        }
+        | Interface::OneWire(_) => Words::of(device).as_ref().and_then(words::range),
         Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) => None,
     }
 }

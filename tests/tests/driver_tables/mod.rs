@@ -18,8 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::kind::can::Can;
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_tests::hex;
 use sensedsl_wire::Direction;
 
@@ -161,9 +161,9 @@ fn the_tables_are_the_same_each_time() {
 fn request(index: usize, unit: &Unit, case: &Case) -> String {
     let mut lines = vec![format!("unit {index}")];
     let protocol = unit.protocol();
-    let is_bus = unit.devices().any(|device| {
-        matches!(device.kind, Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_))
-    });
+    let is_bus = unit
+        .devices()
+        .any(|device| matches!(device.kind, Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_)));
     let wire = wire(unit);
     if let Some(protocol) = protocol.filter(|_| is_bus) {
         let (size, mask) = (protocol.register_bytes, protocol.read_mask);

@@ -8,8 +8,8 @@ use crate::context::{Context, PadPlan};
 use crate::names::Setting;
 use crate::section::Section;
 use sensedsl_files::{block, templates};
-use sensedsl_job::snake;
 use sensedsl_job::kinds::onewire::{Wire, wires};
+use sensedsl_job::snake;
 
 templates! {
     w: Port;

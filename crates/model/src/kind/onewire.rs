@@ -179,7 +179,8 @@ impl OneWire {
 
 impl Properties for OneWire {
     fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
-        let spans = ["family", "rom", "trigger", "read", "pulse"].map(|name| fields.value_span(name));
+        let spans =
+            ["family", "rom", "trigger", "read", "pulse"].map(|name| fields.value_span(name));
         let [family_at, rom_at, trigger_at, read_at, pulse_at] = spans;
         let protocol = fields.word("protocol", &PROTOCOLS);
         if protocol.is_none() && !fields.has("protocol") {
@@ -197,7 +198,8 @@ impl Properties for OneWire {
         let length = fields.integer("length", 1..=8).map_or(size_bytes, |n| n.value);
         let order = i2c::order(fields, length == i64::from(value.length.unwrap_or(1)));
         let is_w1 = protocol == OneWireProtocol::W1;
-        let of_w1 = [("family", family_at), ("rom", rom_at), ("trigger", trigger_at), ("read", read_at)];
+        let of_w1 =
+            [("family", family_at), ("rom", rom_at), ("trigger", trigger_at), ("read", read_at)];
         for (name, at) in of_w1.into_iter().filter(|_| !is_w1) {
             let Some(at) = at else { continue };
             fields.contradiction(at, "type", &format!("`{name}` is for `protocol = w1`"));

@@ -127,7 +127,9 @@ pub(crate) fn check(
         && coding.byte.saturating_add(length) > bytes
     {
         let end = coding.byte.saturating_add(length);
-        return Err(format!("the part gives {bytes} bytes and their checksum, and the value ends at byte {end}"));
+        return Err(format!(
+            "the part gives {bytes} bytes and their checksum, and the value ends at byte {end}"
+        ));
     }
     // E0506 reports those.
     if kind.i2c().is_some() && coding.is_plain() {
@@ -224,8 +226,11 @@ fn in_frame(
     }
     let BitField { word_bytes, low, bits } = field;
     let is_whole = usize::from(bits) == 8 * of.size_bytes() && bits == 8 * word_bytes;
-    let code =
-        if is_whole || coding.bcd || coding.is_magnitude { code(coding, of, value, word_bytes)? } else { Code::Integer };
+    let code = if is_whole || coding.bcd || coding.is_magnitude {
+        code(coding, of, value, word_bytes)?
+    } else {
+        Code::Integer
+    };
     Ok(Words {
         code,
         word_bytes,

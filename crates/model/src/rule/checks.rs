@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
-    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
+    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, w0601_unused_property,
+    w0602_slower_than_asked, w0603_narrow_type,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{Direction, ValueType};
@@ -23,7 +24,9 @@ const ELEMENT_BYTES_MAX: usize = 8;
 pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
         diagnostics.extend(unused_pace(device));
-        diagnostics.extend(too_slow(device));
+        // The values of a chip are asked together.
+        let slow = too_slow(design, device).filter(|one| diagnostics.last() != Some(one));
+        diagnostics.extend(slow);
         diagnostics.extend(narrow(device));
         diagnostics.extend(impossible_length(device));
     }
@@ -52,7 +55,7 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     written.into_iter().filter_map(unused).collect()
 }
 
-fn too_slow(device: &Device) -> Option<Diagnostic> {
+fn too_slow(design: &Design, device: &Device) -> Option<Diagnostic> {
     let (wait_us, wait_span) = match device.kind.interface() {
         Interface::I2c(own) => (own.wait_us, own.wait_span),
         Interface::OneWire(own) => (own.wait_us.max(own.rest_us), own.wait_span),
@@ -72,7 +75,9 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
     let must_rest = device.kind.onewire().is_some_and(|own| own.rest_us > 0);
     let at = device.delay_span.or(wait_span).or(must_rest.then_some(device.name.span))?;
     let needs_ms = wait_us.div_ceil(1_000).to_string();
-    let asked = (device.name.value.as_str(), device.name.span, device.delay_span);
+    let part = design.part(device.part).filter(|_| must_rest);
+    let part = part.map_or(&device.name, |part| &part.name);
+    let asked = (part.value.as_str(), part.span, device.delay_span);
     let delay_ms = device.delay_ms.to_string();
     let source = wait_span.filter(|wait| *wait != at);
     let report = if must_rest {

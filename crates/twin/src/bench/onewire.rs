@@ -62,12 +62,21 @@ impl Bench {
     }
 
     /// The next edge that a part makes.
-    pub(super) fn line_edge(&self, connection: ConnectionIndex, after_ns: u64) -> Option<(u64, bool)> {
+    pub(super) fn line_edge(
+        &self,
+        connection: ConnectionIndex,
+        after_ns: u64,
+    ) -> Option<(u64, bool)> {
         self.lines.get(*self.on_wire.get(&connection)?)?.next_edge(after_ns)
     }
 
     /// The board drives a wire.
-    pub(super) fn drive_line(&mut self, connection: ConnectionIndex, level: Option<bool>, now_ns: u64) {
+    pub(super) fn drive_line(
+        &mut self,
+        connection: ConnectionIndex,
+        level: Option<bool>,
+        now_ns: u64,
+    ) {
         if self.line_of(connection, now_ns).is_none() {
             return;
         }

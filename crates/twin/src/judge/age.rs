@@ -36,7 +36,8 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         Interface::OneWire(own) => {
             // A bit-banged reading lasts some milliseconds, and is repeated where something disturbed it.
             let read_ns = delay_ns.min(50 * MS) + 40 * MS;
-            read_ns + (delay_ns + 1_000 * u64::from(own.wait_us)) * u64::from(!own.trigger.is_empty())
+            read_ns
+                + (delay_ns + 1_000 * u64::from(own.wait_us)) * u64::from(!own.trigger.is_empty())
         }
         Interface::Analog(_) | Interface::I2c(_) | Interface::Spi(_) => delay_ns.min(50 * MS),
         // A spike restarts a contact's debounce, and without interrupts each sample is a cycle late.

@@ -102,7 +102,8 @@ impl Part {
         let pulse_ns = 1_000 * u64::from(self.own.pulse_us);
         // One that was asked a moment ago, or has just got its power, does not answer.
         let rest_ns = 1_000 * u64::from(self.own.rest_us);
-        let is_rested = self.read_ns.is_none_or(|read_ns| now_ns >= read_ns + rest_ns - rest_ns / 20);
+        let is_rested =
+            self.read_ns.is_none_or(|read_ns| now_ns >= read_ns + rest_ns - rest_ns / 20);
         let is_awake = now_ns >= self.powered_ns + WAKE_NS.min(rest_ns / 2);
         low_ns >= pulse_ns - pulse_ns / 5 && is_rested && is_awake
     }
@@ -170,7 +171,12 @@ impl Part {
     }
 
     /// What a whole transfer gives, for a board that makes no slots; `None` if nothing answers.
-    pub(crate) fn transfer(&mut self, sent: &[u8], subjects: &[Subject], now_ns: u64) -> Option<Vec<u8>> {
+    pub(crate) fn transfer(
+        &mut self,
+        sent: &[u8],
+        subjects: &[Subject],
+        now_ns: u64,
+    ) -> Option<Vec<u8>> {
         let Ailment { is_gone, is_late, .. } = self.ailment;
         if is_gone || is_late {
             return None;

@@ -1,7 +1,8 @@
 //! Chips on I2C and SPI, serial parts, stations on CAN: the runtime determines the transfers, the bench answers them.
 
 use sense_rt::{
-    onewire, Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+    Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+    onewire,
 };
 use sensedsl_job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
@@ -118,16 +119,16 @@ fn transfer(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: 
         Way::I2c { address, unit } => (address, unit),
         Way::Wire(connection) => return on_wire(bench, connection, out, answer, now_ns),
         Way::Spi { unit, connection } => {
-        bench.drive_at(connection, Role::Cs, Some(false), now_ns);
-        for byte in out {
-            bench.spi(unit, *byte, now_ns);
+            bench.drive_at(connection, Role::Cs, Some(false), now_ns);
+            for byte in out {
+                bench.spi(unit, *byte, now_ns);
+            }
+            for place in answer {
+                *place = bench.spi(unit, 0, now_ns);
+            }
+            bench.drive_at(connection, Role::Cs, Some(true), now_ns);
+            return Outcome::Fresh;
         }
-        for place in answer {
-            *place = bench.spi(unit, 0, now_ns);
-        }
-        bench.drive_at(connection, Role::Cs, Some(true), now_ns);
-        return Outcome::Fresh;
-    }
     };
     let outcome = i2c(bench, unit, address, out, answer, now_ns);
     if !matches!(outcome, Outcome::TimedOut) {

@@ -211,9 +211,7 @@ fn likely_range(device: &Device) -> (f64, f64) {
         | Interface::Spi(_)
         | Interface::Uart(_)
         | Interface::Can(_)
-        | Interface::OneWire(_) => {
-            of_words(device)
-        }
+        | Interface::OneWire(_) => of_words(device),
         Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) => (0.0, 1.0),
     }
 }

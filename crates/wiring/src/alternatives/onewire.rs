@@ -29,7 +29,8 @@ fn wire(maker: &Maker<'_, '_>) -> String {
     let board = maker.offer.index;
     let own = maker.wanted.fixed(Role::Data).and_then(|pin| pin.on(board));
     let connections = maker.builder.design.connections.iter().filter(|one| {
-        one.kind.name() == KindName::OneWire && one.kind.onewire().is_some_and(|one| one.rom.is_some())
+        one.kind.name() == KindName::OneWire
+            && one.kind.onewire().is_some_and(|one| one.rom.is_some())
     });
     let fixed = connections.flat_map(|one| &one.placement.pins);
     let mut fixed = fixed.filter_map(|(_, pin)| pin.value.on(board));

@@ -80,7 +80,9 @@ fn is_right(system: System) {
         assert!(trial.reports_of(id, 8_000, 11_000) > 0, "{name} after");
     }
     // None reports anything while it is broken, once what was measured before has come.
-    for (name, from_ms, to_ms) in [("Outside", 4_300, 5_500), ("Cellar", 5_300, 6_500), ("AirHumidity", 4_600, 6_500)] {
+    for (name, from_ms, to_ms) in
+        [("Outside", 4_300, 5_500), ("Cellar", 5_300, 6_500), ("AirHumidity", 4_600, 6_500)]
+    {
         assert_eq!(trial.reports_of(id(&trial, name), from_ms, to_ms), 0, "{name}");
     }
 }

@@ -6,7 +6,8 @@ use crate::fields::Fields;
 use crate::spanned::Spanned;
 
 /// The forms of an address, for messages.
-const TAKES: &str = "family and serial number such as \"28-0000055f311a\", or 16 digits in the order of the wire";
+const TAKES: &str =
+    "family and serial number such as \"28-0000055f311a\", or 16 digits in the order of the wire";
 
 /// The address of a 1-Wire part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -41,7 +42,8 @@ impl Rom {
     /// The address that a text gives; what is wrong with it otherwise.
     fn parse(text: &str) -> Result<Self, String> {
         let not_one = || TAKES.to_owned();
-        if let Some((family, serial)) = text.split_once('-').filter(|(family, _)| family.len() == 2) {
+        if let Some((family, serial)) = text.split_once('-').filter(|(family, _)| family.len() == 2)
+        {
             let is_hex = |text: &str| text.bytes().all(|byte| byte.is_ascii_hexdigit());
             if serial.len() != 12 || !is_hex(serial) || !is_hex(family) {
                 return Err(not_one());
@@ -52,13 +54,16 @@ impl Rom {
         }
         let digits: String = text.chars().filter(|one| !matches!(one, ' ' | ':' | '-')).collect();
         let is_number = digits.len() == 16 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-        let all = u64::from_str_radix(&digits, 16).ok().filter(|_| is_number).ok_or_else(not_one)?;
+        let all =
+            u64::from_str_radix(&digits, 16).ok().filter(|_| is_number).ok_or_else(not_one)?;
         let bytes @ [a, b, c, d, e, f, g, check] = all.to_be_bytes();
         let right = crc8(&[a, b, c, d, e, f, g]);
         if right == check {
             Ok(Self { bytes })
         } else {
-            Err(format!("an address whose last byte is the checksum of the others, here {right:02X}"))
+            Err(format!(
+                "an address whose last byte is the checksum of the others, here {right:02X}"
+            ))
         }
     }
 }
@@ -93,7 +98,12 @@ mod tests {
     fn both_forms_are_one_address() {
         // The example of Maxim's application note 27: 02 1C B8 01 00 00 00 has the checksum A2.
         let note = Rom { bytes: [0x02, 0x1C, 0xB8, 0x01, 0x00, 0x00, 0x00, 0xA2] };
-        for text in ["02-00000001b81c", "021CB801000000A2", "02 1C B8 01 00 00 00 A2", "02:1c:b8:01:00:00:00:a2"] {
+        for text in [
+            "02-00000001b81c",
+            "021CB801000000A2",
+            "02 1C B8 01 00 00 00 A2",
+            "02:1c:b8:01:00:00:00:a2",
+        ] {
             assert_eq!(Rom::parse(text), Ok(note), "{text}");
         }
         assert_eq!(note.shown(), "02-00000001b81c");
@@ -101,7 +111,16 @@ mod tests {
 
     #[test]
     fn what_is_not_an_address_is_refused() {
-        for text in ["", "28", "28-1234", "28-0000055f31zz", "+8-0000055f311a", "021CB801000000A", "Ü28-00", "28-Ü"] {
+        for text in [
+            "",
+            "28",
+            "28-1234",
+            "28-0000055f31zz",
+            "+8-0000055f311a",
+            "021CB801000000A",
+            "Ü28-00",
+            "28-Ü",
+        ] {
             assert_eq!(Rom::parse(text), Err(TAKES.to_owned()), "{text}");
         }
         assert!(Rom::parse("021CB801000000A3").unwrap_err().contains("here A2"));
