@@ -32,6 +32,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "link_stream.rs",
     "link_uart.rs",
     "link_usb.rs",
+    "onewire.rs",
     "nrf/converter.rs",
     "nrf/edges.rs",
     "nrf/i2c.rs",
@@ -53,6 +54,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "rp/spi.rs",
     "rp/uart.rs",
     "rp/watchdog.rs",
+    "rp/wire.rs",
     "serial.rs",
     "status.rs",
     "stm32/can/banks.rs",
@@ -71,5 +73,6 @@ pub const SOURCES: &[(&str, &str)] = files![
     "stm32/usart/v1.rs",
     "stm32/usart/v3.rs",
     "stm32/usb.rs",
+    "stm32/wire.rs",
     "time.rs",
 ];

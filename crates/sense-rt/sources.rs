@@ -43,6 +43,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "message.rs",
     "message/start.rs",
     "message/table.rs",
+    "onewire.rs",
     "outcome.rs",
     "parse.rs",
     "pulse_width.rs",

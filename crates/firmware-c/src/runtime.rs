@@ -77,5 +77,8 @@ pub const DEBOUNCE: &[File] = files!["up_debounce.c", "up_debounce.h",];
 /// Values with one element per wire.
 pub const ELEMENTS: &[File] = files!["up_elements.c", "up_elements.h",];
 
+/// Answers on one wire.
+pub const ONEWIRE: &[File] = files!["up_onewire.c", "up_onewire.h",];
+
 /// Widths of pulses in timer ticks.
 pub const PULSE_WIDTH: &[File] = files!["up_pulse_width.c", "up_pulse_width.h",];

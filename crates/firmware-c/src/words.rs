@@ -35,7 +35,7 @@ pub(crate) fn separator(separator: &Option<u8>) -> String {
     byte(&separator.unwrap_or(0))
 }
 
-/// A part's address, or the number of its chip select.
+/// A part's address, or the number of its chip select or on its wire.
 pub(crate) fn address(address: &u8, wiring: &Wiring) -> String {
     wiring.select.map_or_else(|| byte(address), |number| format!("{number}U"))
 }
@@ -56,6 +56,7 @@ pub const fn code(code: &Code) -> &'static str {
         Code::Integer => "UP_CODE_INTEGER",
         Code::Float => "UP_CODE_FLOAT",
         Code::Bcd => "UP_CODE_BCD",
+        Code::Magnitude => "UP_CODE_MAGNITUDE",
         Code::Packed => "UP_CODE_PACKED",
     }
 }

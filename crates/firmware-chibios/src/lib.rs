@@ -45,6 +45,7 @@ mod icu;
 mod link;
 mod missed;
 mod names;
+mod onewire;
 mod parts;
 mod peripherals;
 mod plan;

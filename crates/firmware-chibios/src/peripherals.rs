@@ -9,7 +9,7 @@ use sensedsl_model::kind::KindName;
 use super::context::Context;
 use super::names::Drivers;
 use super::section::{Peripheral, Section, Version};
-use super::{adc, can, dac, digital, encoder, gpio, i2c, icu, pulse, pwm, spi, uart};
+use super::{adc, can, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, uart};
 
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
 pub(super) const PERIPHERALS: &[&Peripheral] = &[
@@ -18,6 +18,7 @@ pub(super) const PERIPHERALS: &[&Peripheral] = &[
     &dac::PERIPHERAL,
     &i2c::PERIPHERAL,
     &spi::PERIPHERAL,
+    &onewire::PERIPHERAL,
     &uart::PERIPHERAL,
     &can::PERIPHERAL,
     &icu::PERIPHERAL,

@@ -116,6 +116,7 @@ pub(super) fn coding(plan: &ValuePlan) -> String {
         Code::Integer => "Code::Integer",
         Code::Float => "Code::Float",
         Code::Bcd => "Code::Bcd",
+        Code::Magnitude => "Code::Magnitude",
         Code::Packed => "Code::Packed",
     };
     let crc = match plan.crc {

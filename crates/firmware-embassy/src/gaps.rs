@@ -7,7 +7,7 @@ use super::hal::contract::Drivers;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
-pub(super) const KINDS: [KindName; 10] = [
+pub(super) const KINDS: [KindName; 11] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -18,6 +18,7 @@ pub(super) const KINDS: [KindName; 10] = [
     KindName::Uart,
     KindName::Spi,
     KindName::Can,
+    KindName::OneWire,
 ];
 
 /// The kinds that a HAL has drivers for.
@@ -37,6 +38,7 @@ fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
         KindName::Uart => drivers.serial().is_some(),
         KindName::Spi => drivers.spi().is_some(),
         KindName::Can => drivers.can().is_some(),
+        KindName::OneWire => drivers.onewire().is_some(),
     }
 }
 
@@ -50,7 +52,7 @@ pub(super) fn lacks(
         return Some(gap);
     }
     match &connection.connection.kind {
-        Kind::I2c(_) | Kind::Spi(_) => job.lacks_on_buses(connection),
+        Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_) => job.lacks_on_buses(connection),
         Kind::Digital(own) if own.edge.is_some() && drivers.edges().is_none() => {
             Some("edges of digital inputs on this MCU")
         }

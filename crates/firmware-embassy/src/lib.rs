@@ -53,6 +53,7 @@ mod lock;
 mod message;
 mod missing;
 mod names;
+mod onewire;
 mod outputs;
 mod plan;
 mod pulse;

@@ -14,7 +14,8 @@ use super::item::{Constant, Item};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, onewire, outputs, pulse,
+    serial, spi,
 };
 
 /// What a kind adds to a project.
@@ -27,6 +28,7 @@ const PERIPHERALS: &[Peripheral] = &[
     analog::plan,
     i2c::plan,
     spi::plan,
+    onewire::plan,
     serial::plan,
     can::plan,
     icu::plan,

@@ -111,6 +111,7 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::B => &["B"],
         Role::Direction => &["DE", "DIR", "EN"],
         Role::Trigger => &["TRIG"],
+        Role::Data => &["DATA", "DQ", "OUT", "SIGNAL", "S", "PIN"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
         }

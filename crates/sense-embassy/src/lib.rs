@@ -57,6 +57,8 @@ pub mod link_uart;
 #[cfg(feature = "runtime")]
 pub mod link_usb;
 #[cfg(feature = "runtime")]
+pub mod onewire;
+#[cfg(feature = "runtime")]
 pub mod serial;
 #[cfg(all(
     any(feature = "esp", feature = "nrf", feature = "rp", feature = "stm32"),

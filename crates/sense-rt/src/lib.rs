@@ -64,6 +64,7 @@ mod formula;
 mod health;
 mod listener;
 mod message;
+pub mod onewire;
 mod outcome;
 mod parse;
 mod pulse_width;

@@ -40,6 +40,7 @@ mod limits;
 mod link;
 mod load;
 mod memory;
+mod onewire;
 mod ports;
 mod processor;
 mod rows;
@@ -69,6 +70,7 @@ pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
         let work = processor::Work::of(&context);
         let mut rows = converters::rows(&context, &work);
         rows.extend(buses::rows(&context, &work));
+        rows.extend(onewire::rows(&context));
         rows.extend(ports::rows(&context));
         rows.extend(link::rows(&context));
         rows.extend(captures::rows(&context));

@@ -43,6 +43,8 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
             // Kinds that share their unit are checked per bus, below.
             Interface::I2c(_) | Interface::Spi(_) | Interface::Can(_) => None,
             Interface::Encoder(_) | Interface::Digital(_) | Interface::Dac(_) => None,
+            // The processor makes its bits.
+            Interface::OneWire(_) => None,
         });
         if let (true, Some(unit)) = (kind.name().spec().sharing != Sharing::Own, unit) {
             shared.entry(UnitName::new(unit)).or_default().push(wired);
@@ -169,7 +171,8 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Pwm(_)
-        | Interface::Dac(_) => return None,
+        | Interface::Dac(_)
+        | Interface::OneWire(_) => return None,
     };
     // Without facts about its dividers, nothing is known about the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;

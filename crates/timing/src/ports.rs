@@ -47,7 +47,8 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Digital(_)
             | Interface::Spi(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => {}
+            | Interface::Can(_)
+            | Interface::OneWire(_) => {}
         }
     }
     rows.extend(lines.iter().flat_map(|(unit, on_line)| line(context, unit.as_str(), on_line)));

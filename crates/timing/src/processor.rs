@@ -6,12 +6,14 @@ use sensedsl_board::profile::Costs;
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_model::kind::analog::Analog;
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::kind::{Interface, Kind};
 
 use crate::buses::script;
 use crate::captures::interrupts;
-use crate::context::Context;
+use crate::context::{Context, Wired};
 use crate::link::reports;
+use crate::onewire;
 use crate::rows::{Count, Cycle, Part, Row, clocks_ns};
 use crate::units::MILLISECOND_NS;
 
@@ -113,6 +115,8 @@ struct Load {
     transfers: Vec<(Transfers, u32)>,
     /// The lengths of the pulses.
     pulses_us: Vec<u32>,
+    /// The time in which the bits of wires are made.
+    bits_ns: u64,
     /// True if the runtime has no thread for some of the work.
     is_unknown: bool,
 }
@@ -125,6 +129,8 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             continue;
         }
         let of_kind = || wired.wiring.unit.as_deref().unwrap_or(kind.name().name());
+        let pin = onewire::wire(context, wired);
+        let of_kind = || pin.as_ref().map_or_else(of_kind, UnitName::as_str);
         let unit = if kind.pulse_us().is_some() { "pulse" } else { of_kind() };
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
@@ -143,9 +149,22 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_) => load.is_unknown = true,
+            Interface::OneWire(own) => {
+                load.transfers.push((of_wire(wired, own), wired.device.delay_ms));
+                let is_read = onewire::read(context).any(|other| other.index == wired.index);
+                load.bits_ns += if is_read { onewire::held_ns(own) } else { 0 };
+            }
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()
+}
+
+/// What a part on one wire costs besides its bits: as much as one on a bus.
+fn of_wire(wired: &Wired<'_>, own: &OneWire) -> Transfers {
+    let count = 1 + u64::from(!own.trigger.is_empty());
+    let elements = wired.device.value.value.count() as u64;
+    let bytes = u64::from(own.answer_bytes());
+    Transfers { count, phases: count + 1, bytes, elements, value_bytes: own.length_bytes.into() }
 }
 
 impl Load {
@@ -183,7 +202,7 @@ impl Load {
             devices: self.devices,
             cycle_instructions: instructions.map(|(cycle, _)| cycle),
             instructions: instructions.map(|(_, second)| second),
-            held_ns: ns(&held_us),
+            held_ns: ns(&held_us) + self.bits_ns,
             slept_ns: ns(&slept_us),
             has_pulses: !self.pulses_us.is_empty(),
         }

@@ -16,7 +16,7 @@ use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
-use crate::parts::{can, dialogue, formula, message};
+use crate::parts::{can, dialogue, formula, message, onewire as onewire_part};
 use crate::range::is_counter;
 use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
@@ -26,6 +26,7 @@ mod chips;
 mod held;
 mod log;
 mod mcu;
+mod onewire;
 mod peer;
 mod recorded;
 mod stations;
@@ -50,6 +51,9 @@ pub struct Bench {
     wires: BTreeMap<ConnectionIndex, Wired>,
     pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
     chips: Vec<Chip>,
+    /// The wires that both ends pull low, and which of them a connection is on.
+    lines: Vec<onewire_part::Wire>,
+    on_wire: BTreeMap<ConnectionIndex, usize>,
     talkers: BTreeMap<u8, ConnectedSender>,
     lines: BTreeMap<u8, dialogue::Line>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
@@ -106,6 +110,8 @@ impl Bench {
             wires: BTreeMap::new(),
             pads: BTreeMap::new(),
             chips: Vec::new(),
+            lines: Vec::new(),
+            on_wire: BTreeMap::new(),
             talkers: BTreeMap::new(),
             lines: BTreeMap::new(),
             senders: BTreeMap::new(),
@@ -197,7 +203,10 @@ impl Bench {
     }
 
     /// The supply is back: parts have lost what was written to them.
-    pub fn power_up(&mut self) {
+    pub fn power_up(&mut self, now_ns: u64) {
+        for part in self.lines.iter_mut().flat_map(|wire| &mut wire.parts) {
+            part.reset(now_ns);
+        }
         for chip in &mut self.chips {
             chip.registers.reset();
         }
@@ -234,6 +243,9 @@ impl Bench {
         if self.is_cut(connection, now_ns) {
             return None;
         }
+        if role == Role::Data {
+            return self.line_level(connection, now_ns);
+        }
         let wired = self.wires.get_mut(&connection)?;
         let (first, second) = wired.line.as_mut()?;
         let line = if role == Role::B { second.as_mut()? } else { first };
@@ -247,6 +259,9 @@ impl Bench {
         role: Role,
         after_ns: u64,
     ) -> Option<(u64, bool)> {
+        if role == Role::Data {
+            return self.line_edge(connection, after_ns);
+        }
         let wired = self.wires.get_mut(&connection)?;
         let (first, second) = wired.line.as_mut()?;
         let line = if role == Role::B { second.as_mut()? } else { first };
@@ -273,6 +288,9 @@ impl Bench {
         now_ns: u64,
     ) {
         self.recorder.level(connection, role, level);
+        if role == Role::Data {
+            self.drive_line(connection, level, now_ns);
+        }
         if role == Role::Cs
             && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
         {
@@ -354,6 +372,7 @@ impl Bench {
                     message::MessageSender::new(uart.clone(), fields, delay_ns, &self.subjects);
                 self.talkers.insert(unit, ConnectedSender { part, talker });
             }
+            (Interface::OneWire(own), _) => self.hang(job, one, own),
             (Interface::Can(_), Some(unit)) => self.stations(unit, part, &devices),
             // Nothing is sent without a unit, or by a part that is only written.
             (Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_), _) => {
@@ -436,7 +455,8 @@ impl Bench {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => return None,
+            | Interface::Can(_)
+            | Interface::OneWire(_) => return None,
         })
     }
 

@@ -86,6 +86,7 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
         Interface::I2c(_) => led(Some(true), BUS),
         // Each end of a wire with both directions pulls it low, or lets it go.
         Interface::Uart(own) if own.exchange.duplex == Duplex::Half => led(Some(true), BUS),
+        Interface::OneWire(_) => plain(Mode::Output, Some(true), BUS),
         Interface::Uart(own) if pad.role == Role::Rx => {
             led(None, if own.is_inverted { DOWN } else { UP })
         }

@@ -143,6 +143,7 @@ pub fn coding(plan: &ValuePlan) -> Coding {
             words::Code::Integer => Code::Integer,
             words::Code::Float => Code::Float,
             words::Code::Bcd => Code::Bcd,
+            words::Code::Magnitude => Code::Magnitude,
             words::Code::Packed => Code::Packed,
         },
         crc: match plan.crc {

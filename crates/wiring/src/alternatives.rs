@@ -15,6 +15,7 @@ mod digital;
 mod encoder;
 mod i2c;
 mod icu;
+mod onewire;
 mod pwm;
 mod spi;
 mod uart;
@@ -121,6 +122,7 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
         Kind::Pwm(pwm) => pwm,
         Kind::Dac(dac) => dac,
         Kind::Can(can) => can,
+        Kind::OneWire(onewire) => onewire,
     }
 }
 

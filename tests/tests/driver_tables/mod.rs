@@ -20,6 +20,7 @@ use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_tests::hex;
 use sensedsl_wire::Direction;
 
@@ -161,13 +162,20 @@ fn the_tables_are_the_same_each_time() {
 fn request(index: usize, unit: &Unit, case: &Case) -> String {
     let mut lines = vec![format!("unit {index}")];
     let protocol = unit.protocol();
-    let is_bus = unit.devices().any(|device| matches!(device.kind, Kind::I2c(_) | Kind::Spi(_)));
+    let is_bus = unit
+        .devices()
+        .any(|device| matches!(device.kind, Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_)));
+    let wire = wire(unit);
     if let Some(protocol) = protocol.filter(|_| is_bus) {
         let (size, mask) = (protocol.register_bytes, protocol.read_mask);
         lines.push(format!("registers {size} {mask} {}", u8::from(protocol.is_one_by_one)));
         if let Some(identity) = &protocol.identity {
             let (at, bytes) = (identity.register, hex(&identity.expected));
             lines.push(format!("register {at} {bytes}"));
+        }
+        // The first byte of its address, which is read as a register of 1-Wire.
+        if let Some(family) = wire.and_then(|wire| wire.family) {
+            lines.push(format!("register {READ_ROM} {}", hex(&[family, 0, 0, 0, 0, 0, 0, 0])));
         }
     }
     lines.extend(case.given.iter().map(|given| given_line(unit, given)));
@@ -185,8 +193,21 @@ fn request(index: usize, unit: &Unit, case: &Case) -> String {
     lines.join("\n")
 }
 
+/// Asks a part on 1-Wire for its address.
+const READ_ROM: u8 = 0x33;
+
+/// The wire of a part that has only one.
+fn wire(unit: &Unit) -> Option<&OneWire> {
+    unit.devices().find_map(|device| device.kind.onewire())
+}
+
 fn given_line(unit: &Unit, given: &Given) -> String {
     match given {
+        // What a command selects is to the program's bus what a register's number does.
+        Given::Answer(Some(trigger), bytes) if wire(unit).is_some() => {
+            let select = wire(unit).and_then(|wire| wire.read.first()).unwrap();
+            format!("after {} {select} {}", hex(trigger), hex(bytes))
+        }
         Given::Registers(None, at, bytes) | Given::WrongIdentity(at, bytes) => {
             format!("register {at} {}", hex(bytes))
         }

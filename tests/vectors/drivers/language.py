@@ -202,6 +202,8 @@ def decode(part, driver, data):
             word = unfractional(struct.unpack(">f", word.to_bytes(4, "big"))[0])
         elif get(part, driver, "format") == "bcd":
             word = int(f"{word:x}")
+        elif get(part, driver, "format") == "sign_magnitude":
+            word = -(word & (1 << bits - 1) - 1) if word >> bits - 1 else word
         elif is_signed:
             word = signed(word, bits)
         values.append(int(word != 0) if part["type"] == "bool" else word)

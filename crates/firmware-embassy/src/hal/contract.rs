@@ -20,7 +20,7 @@ use sensedsl_job::{BoardJob, JobConnection};
 
 use crate::context::Context;
 use crate::names::{Chip, Names};
-use buses::{Can, I2c, Serial, Spi};
+use buses::{Can, I2c, OneWire, Serial, Spi};
 use inputs::{Analog, Capture, Edges, Encoder};
 use link::Link;
 use outputs::{Dac, Pins, Pulses};
@@ -161,6 +161,10 @@ pub(crate) trait Drivers {
     }
     /// SPI buses.
     fn spi(&self) -> Option<&dyn Spi> {
+        None
+    }
+    /// Wires that both ends pull low.
+    fn onewire(&self) -> Option<&dyn OneWire> {
         None
     }
     /// Serial ports.

@@ -134,12 +134,8 @@ fn wanted(device: &Device) -> Option<NeededBytes> {
         has_crc: words.is_some_and(|words| words.crc.is_some()),
         select,
     };
-    Some(NeededBytes {
-        key,
-        register: first,
-        end: first + u32::from(byte) + u32::from(length),
-        byte,
-    })
+    let bytes = byte.saturating_add(length).max(device.kind.answer_bytes().unwrap_or(0));
+    Some(NeededBytes { key, register: first, end: first + u32::from(bytes), byte })
 }
 
 impl CombinedRead {

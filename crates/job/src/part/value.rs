@@ -42,7 +42,7 @@ impl ValuePlan {
             word_bytes: words.word_bytes,
             low: words.low,
             bits: if is_whole { 0 } else { words.bits },
-            is_signed: words.is_signed && words.code != Code::Float && words.code != Code::Bcd,
+            is_signed: words.is_signed && matches!(words.code, Code::Integer | Code::Packed),
             is_little_endian: words.order == ByteOrder::Little && words.code != Code::Packed,
         }
     }

@@ -145,6 +145,8 @@ pub struct Coding {
     pub text: Option<TextField>,
     /// True if each byte holds two decimal digits.
     pub bcd: bool,
+    /// True if the highest bit is a sign, and the others are the magnitude.
+    pub is_magnitude: bool,
     /// Bytes sent on SPI while as many bytes, which are the value's, are received.
     pub exchange: Vec<u8>,
     /// The output of the chip's formula that the value is.

@@ -13,6 +13,7 @@ use super::digital::Digital;
 use super::encoder::Encoder;
 use super::i2c::{ByteOrder, I2c};
 use super::icu::{Icu, Mode};
+use super::onewire::OneWire;
 use super::pwm::Pwm;
 use super::spi::Spi;
 use super::uart::Uart;
@@ -59,6 +60,8 @@ interfaces! {
     Dac as dac;
     /// Frames with identifiers.
     Can as can;
+    /// Bytes of a part on one wire that both ends pull low.
+    OneWire as onewire;
 }
 
 /// What is sent and waited for before the bytes of a part with registers come, and their number.
@@ -102,6 +105,7 @@ impl Kind {
             Self::Pwm(own) => Interface::Pwm(own),
             Self::Dac(own) => Interface::Dac(own),
             Self::Can(own) => Interface::Can(own),
+            Self::OneWire(own) => Interface::OneWire(own),
         }
     }
 
@@ -125,6 +129,14 @@ impl Kind {
                 length_bytes: own.length_bytes,
                 address: None,
             }),
+            Interface::OneWire(own) => Some(RegisterAccess {
+                trigger: &own.trigger,
+                wait_us: own.wait_us,
+                register: None,
+                read: &own.read,
+                length_bytes: own.length_bytes,
+                address: None,
+            }),
             Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
@@ -136,6 +148,13 @@ impl Kind {
         }
     }
 
+    /// The bytes of an answer that a part always gives as a whole, its checksum at the end; none if it gives as many
+    /// as are asked for.
+    #[must_use]
+    pub fn answer_bytes(&self) -> Option<u16> {
+        self.onewire().map(OneWire::answer_bytes)
+    }
+
     /// How the bytes of a value are sent; none if it is not sent in bytes.
     #[must_use]
     pub fn bytes(&self) -> Option<Bytes> {
@@ -144,6 +163,7 @@ impl Kind {
             Interface::I2c(own) => of(Some(own.length_bytes), own.order),
             Interface::Spi(own) => of(Some(own.length_bytes), own.order),
             Interface::Uart(own) => of(Some(own.length_bytes), own.order),
+            Interface::OneWire(own) => of(Some(own.length_bytes), own.order),
             Interface::Can(own) => of(own.field.map(|field| field.word_bytes.into()), own.order),
             Interface::Analog(_)
             | Interface::Icu(_)
@@ -199,7 +219,8 @@ impl Kind {
             | Interface::Digital(_)
             | Interface::Uart(_)
             | Interface::Spi(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::OneWire(_) => None,
         }
     }
 

@@ -20,6 +20,7 @@ pub mod encoder;
 pub mod i2c;
 pub mod icu;
 mod interface;
+pub mod onewire;
 pub mod pwm;
 mod role;
 mod snippet;
@@ -128,6 +129,8 @@ kinds! {
     Dac in dac;
     /// Frames on a CAN bus.
     Can in can;
+    /// A part with one data wire, such as a DS18B20 or a DHT22.
+    OneWire in onewire;
 }
 
 impl KindName {

@@ -86,6 +86,8 @@ roles! {
     B("b", pin: "b", driven by Device, on Interface);
     /// The pulse that makes an icu device measure (HC-SR04).
     Trigger("trigger", pin: "trigger", driven by Mcu, on AnyPin);
+    /// The only wire of a part that both ends pull low.
+    Data("data", pin: "pin", driven by Device, on Interface);
 }
 
 impl Role {

@@ -62,7 +62,7 @@ pub(super) const CODING: &[Meaning] = &[
         ("format", Takes::Words(|| first(&FORMATS))),
         "a binary number",
         "`decimal` and `hex` are numbers in a text; `degrees` is degrees and minutes as ten-millionths of a degree; \
-         `bcd` is two decimal digits a byte.",
+         `bcd` is two decimal digits a byte, `sign_magnitude` a number whose highest bit is its sign.",
         "format = decimal;",
     ),
     Meaning::new(

@@ -55,12 +55,24 @@ pub(crate) const PROTOCOL: &[&str] = &[
 
 /// The words after `crc`.
 pub(crate) const CRCS: [(&str, Crc); 1] = [("sensirion", Crc::Sensirion)];
-/// The words after `format`; `bcd` is the only one that is not of a text.
-pub(crate) const FORMATS: [(&str, Option<Format>); 4] = [
-    ("decimal", Some(Format::Decimal)),
-    ("degrees", Some(Format::Degrees)),
-    ("hex", Some(Format::Hex)),
-    ("bcd", None),
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Written {
+    /// In a text.
+    Text(Format),
+    /// Two decimal digits a byte.
+    Bcd,
+    /// A sign and a magnitude in place of the two's complement.
+    Magnitude,
+}
+
+/// The words after `format`.
+pub(crate) const FORMATS: [(&str, Written); 5] = [
+    ("decimal", Written::Text(Format::Decimal)),
+    ("degrees", Written::Text(Format::Degrees)),
+    ("hex", Written::Text(Format::Hex)),
+    ("bcd", Written::Bcd),
+    ("sign_magnitude", Written::Magnitude),
 ];
 /// The words after `drive`.
 pub(crate) const DRIVES: [(&str, Drive); 3] = [
@@ -85,7 +97,11 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
     let packed = fields.integer("packed", 1..=32).and_then(|n| u8::try_from(n.value).ok());
     let byte = fields.integer("byte", 0..=1_023).and_then(|n| u16::try_from(n.value).ok());
     let format = fields.word("format", &FORMATS).map(|word| word.value);
-    let text = text(fields, format.flatten());
+    let of_text = match format {
+        Some(Written::Text(format)) => Some(format),
+        Some(Written::Bcd | Written::Magnitude) | None => None,
+    };
+    let text = text(fields, of_text);
     let exchange = fields.bytes("exchange", 1..=255).map(|bytes| bytes.value).unwrap_or_default();
     let output = output(fields, formula);
     let drive = fields.word("drive", &DRIVES).map(|word| word.value);
@@ -99,7 +115,8 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
         packed_bits: packed,
         byte: byte.unwrap_or(0),
         text,
-        bcd: format == Some(None),
+        bcd: format == Some(Written::Bcd),
+        is_magnitude: format == Some(Written::Magnitude),
         exchange,
         output,
         drive,

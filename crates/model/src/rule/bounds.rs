@@ -85,6 +85,7 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
         | Interface::Digital(_)
         | Interface::Encoder(_)
         | Interface::Icu(_)
+        | Interface::OneWire(_)
         | Interface::Pwm(_)
         | Interface::Uart(_) => return None,
     };

@@ -14,6 +14,7 @@ pub mod timer;
 pub mod usart;
 #[cfg(feature = "otg")]
 pub mod usb;
+pub mod wire;
 
 use embassy_stm32::gpio::{Input, Output};
 

@@ -79,7 +79,8 @@ impl<'a> Words<'a> {
         Coding {
             elements: self.bytes().leak(),
             words: self.number() as u16,
-            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed][self.number() as usize],
+            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed, Code::Magnitude]
+                [self.number() as usize],
             crc: [Crc::None, Crc::Sensirion][self.number() as usize],
             word_bytes: self.byte(),
             low: self.byte(),

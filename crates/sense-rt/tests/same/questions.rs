@@ -58,7 +58,7 @@ fn elements(random: &mut Random, scalar: usize, count: usize) -> String {
 /// What the language allows, and a little more: a coding, the number of its words, and the bytes
 /// that they take.
 fn coding(random: &mut Random, scalar: usize, count: usize) -> (String, usize) {
-    let code = random.below(4);
+    let code = random.below(5);
     let size = SCALARS[scalar].bytes();
     let word_bytes = if code == 1 && random.below(8) > 0 { size } else { 1 + random.below(8) };
     let has_elements = random.below(4) == 0;

@@ -111,7 +111,10 @@ pub(super) fn reported(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> 
                 Some(expected(wire, 0, what))
             }
             Interface::Can(_) => frame(job, wire, one, raw),
-            Interface::Analog(_) | Interface::Icu(_) | Interface::Encoder(_) => None,
+            Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::OneWire(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -134,7 +137,8 @@ pub(super) fn unreported(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -
             | Interface::Can(_)
             | Interface::Analog(_)
             | Interface::Icu(_)
-            | Interface::Encoder(_) => None,
+            | Interface::Encoder(_)
+            | Interface::OneWire(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -186,7 +190,8 @@ fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Ve
             | Interface::Uart(_)
             | Interface::Spi(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::OneWire(_) => None,
         }
     };
     one.device.connections.iter().zip(inputs).filter_map(each).collect()

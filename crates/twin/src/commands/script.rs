@@ -116,6 +116,7 @@ fn range(one: &JobDevice<'_>) -> (f64, f64) {
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Spi(_)
+        | Interface::OneWire(_)
         | Interface::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
     };
     let held = one.device.value.value.scalar.integer_range();

@@ -344,7 +344,9 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
         // A new width takes effect at the next period.
         Interface::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
         // A bus serves its chips in turn, and waits for those that measure.
-        Interface::I2c(_) | Interface::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
+        Interface::I2c(_) | Interface::Spi(_) | Interface::OneWire(_) => {
+            cycle_ns + cycle_ns / 2 + measuring_ns(job, one)
+        }
         Interface::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
         Interface::Analog(_)
         | Interface::Icu(_)

@@ -48,6 +48,7 @@ impl Counted {
             | Interface::Analog(_)
             | Interface::I2c(_)
             | Interface::Spi(_)
+            | Interface::OneWire(_)
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)

@@ -60,7 +60,7 @@ impl Pace {
             Interface::Icu(icu) if icu.mode == Mode::Count => (0, REPEAT_NS, 0),
             Interface::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
             Interface::Digital(_) | Interface::Analog(_) => (cycle_ns, cycle_ns, 0),
-            Interface::I2c(_) | Interface::Spi(_) => {
+            Interface::I2c(_) | Interface::Spi(_) | Interface::OneWire(_) => {
                 let (least_ns, most_ns) = of_chip(job, one, cycle_ns);
                 (least_ns, most_ns, 0)
             }
@@ -91,6 +91,8 @@ impl Pace {
         let first_ns = match device.kind.interface() {
             Interface::Analog(_) => Some(MEASURING_NS),
             Interface::I2c(_) | Interface::Spi(_) => Some(of_chip(job, one, MS).1),
+            // Its parts need a pause once they have power.
+            Interface::OneWire(_) => None,
             Interface::Icu(_)
             | Interface::Encoder(_)
             | Interface::Digital(_)

@@ -36,7 +36,11 @@ pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subje
         Interface::Encoder(_) => 3.0,
         Interface::Digital(_) if subject.scalar != ScalarType::Bool => 2.0,
         Interface::Digital(_) => 0.0,
-        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => 0.51,
+        Interface::I2c(_)
+        | Interface::Spi(_)
+        | Interface::Uart(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_) => 0.51,
         Interface::Pwm(_) | Interface::Dac(_) => 0.0,
     }
 }

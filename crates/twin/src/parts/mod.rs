@@ -5,6 +5,7 @@ pub(crate) mod dialogue;
 pub(crate) mod formula;
 pub(crate) mod line;
 pub(crate) mod message;
+pub(crate) mod onewire;
 pub(crate) mod pulses;
 pub(crate) mod ranges;
 pub(crate) mod registers;

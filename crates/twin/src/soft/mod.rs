@@ -270,7 +270,7 @@ impl SoftBoard {
             return;
         }
         if self.state.began_ms == u64::MAX {
-            self.bench.power_up();
+            self.bench.power_up(now_ns);
             self.state = State::new(&self.shape, self.now_ms - 1);
             self.starts += 1;
         }

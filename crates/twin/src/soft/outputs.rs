@@ -280,6 +280,7 @@ fn pin(wire: &JobConnection<'_>) -> Option<Pin> {
         | Interface::Encoder(_)
         | Interface::Uart(_)
         | Interface::Spi(_)
+        | Interface::OneWire(_)
         | Interface::Can(_) => return None,
     };
     Some(Pin { at: wire.index, element: usize::from(wire.element()), what })

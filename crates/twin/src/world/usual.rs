@@ -208,9 +208,11 @@ fn likely_range(device: &Device) -> (f64, f64) {
         }
         Interface::Encoder(_) => (-2_000.0, 2_000.0),
         Interface::Analog(_) => (400.0, 3_700.0),
-        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
-            of_words(device)
-        }
+        Interface::I2c(_)
+        | Interface::Spi(_)
+        | Interface::Uart(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_) => of_words(device),
         Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) => (0.0, 1.0),
     }
 }
@@ -218,6 +220,8 @@ fn likely_range(device: &Device) -> (f64, f64) {
 fn of_words(device: &Device) -> (f64, f64) {
     let Some(words) = Words::of(device) else { return (0.0, 100.0) };
     match (words.code, crate::parts::words::range(&words)) {
+        // A temperature or the like.
+        (Code::Magnitude, _) => (-200.0, 400.0),
         // A month, a weekday, an hour.
         (Code::Bcd, _) => (1.0, 7.0),
         (_, None) => (-100.0, 100.0),

@@ -41,11 +41,19 @@ impl Maker<'_, '_> {
                         made.push(self.reached(role, (index, pin), usage));
                     }
                 }
-                Need::Gpio | Need::Interrupt => {
+                Need::Gpio | Need::Interrupt | Need::Shared(_) => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
                         let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
-                        if let Some((unit, group)) = bus {
+                        let shared = match (need, bus) {
+                            (Need::Shared(wire), _) => {
+                                let kind = wanted.kind.name().spec().name;
+                                Some((*wire, Group::Bus(offer.index, (*wire).to_owned(), kind, 0)))
+                            }
+                            (_, Some((unit, group))) => Some((unit, group.clone())),
+                            (_, None) => None,
+                        };
+                        if let Some((unit, group)) = shared {
                             self.share(&mut candidate, role, index, (unit, group));
                         }
                         made.push((candidate, chosen));
@@ -96,12 +104,12 @@ impl Maker<'_, '_> {
         candidate: &mut Candidate,
         role: Role,
         pin: usize,
-        (unit, group): (&str, &Group),
+        (unit, group): (&str, Group),
     ) {
         let board = self.offer.index;
         let wire = Resource::BusWire(board, unit.to_owned(), role);
         let on = Group::Pin(board, unit.to_owned(), role, pin, 0);
-        candidate.holder = self.builder.names.group(group.clone());
+        candidate.holder = self.builder.names.group(group);
         candidate.claims.push(self.builder.names.shared(wire, on));
     }
 
@@ -193,6 +201,8 @@ pub(super) enum Need<'n> {
     Gpio,
     /// Any pin that has a digital circuit, and the interrupt line of its number.
     Interrupt,
+    /// Any pin that has a digital circuit, the same for all who share the wire of that name.
+    Shared(&'n str),
 }
 
 /// Whether the pin is where the device must be.

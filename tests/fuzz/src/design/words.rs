@@ -186,6 +186,26 @@ pub(super) const KINDS: &[Kind] = &[
         roles: &["tx", "rx"],
         ..both("can", ANY)
     },
+    Kind {
+        needs: &[("protocol", &["w1", "dht"], &["i2c", "1"])],
+        may: &[
+            ("family", &["0x28", "1", "255"], &["0", "256"]),
+            (
+                "rom",
+                &["\"28-0000055f311a\"", "\"02 1C B8 01 00 00 00 A2\""],
+                &["\"28\"", "\"021CB801000000A3\""],
+            ),
+            ("pulse", &["1 ms", "18 ms"], &["0", "1 s"]),
+            ("trigger", &["[0x44]", "[]"], BAD_BYTES),
+            ("read", &["[0xBE]"], &["[]"]),
+            ("wait", &["750 ms", "0", "1 s"], &["-1", "61 s"]),
+            ("length", &["2", "1"], &["0", "9"]),
+            ("order", &["big", "little"], &["middle"]),
+        ],
+        roles: &["pin"],
+        drivers: &["driver = ds18b20;", "driver = dht22; delay = 2 s;"],
+        ..sensor("onewire", ANY)
+    },
 ];
 
 /// Kinds with firmware: the first ones of [`KINDS`].

@@ -79,7 +79,8 @@ on_both! {
 
 #[test]
 fn every_kind_is_here() {
-    let here: BTreeSet<&str> = KINDS.iter().copied().collect();
+    // Parts on one wire are judged by their world, in a file of their own.
+    let here: BTreeSet<&str> = KINDS.iter().copied().chain(["onewire"]).collect();
     let all: BTreeSet<&str> = KindName::ALL.map(KindName::name).into();
     assert_eq!(here, all, "a test in {}", file!());
 }

@@ -16,6 +16,7 @@ mod images;
 mod kinds;
 mod lines;
 mod mcus;
+mod onewire;
 mod seeded;
 mod seeded_profiles;
 mod seeded_rust;

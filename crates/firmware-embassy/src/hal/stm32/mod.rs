@@ -15,7 +15,7 @@ mod serial;
 mod settings;
 mod types;
 
-use super::contract::buses::{Can, I2c, Serial, Spi};
+use super::contract::buses::{Can, I2c, OneWire, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::{Dac, Pulses};
 use super::contract::types::Types;
@@ -75,6 +75,7 @@ drivers! {
     dac: Dac,
     i2c: I2c,
     spi: Spi,
+    onewire: OneWire,
     serial: Serial,
     can: Can,
     types: Types,

@@ -133,7 +133,7 @@ impl ValueFacts {
         }
         let (least, most) = self.value.scalar.integer_range()?;
         let bits = self.coding.bits.map(|(high, low)| high - low + 1);
-        let signed = self.coding.signed.unwrap_or(least < 0);
+        let signed = self.coding.signed.unwrap_or(least < 0) || self.coding.is_magnitude;
         match bits.or(self.coding.packed_bits) {
             Some(1) => None,
             Some(bits) if bits <= 32 && signed => {
