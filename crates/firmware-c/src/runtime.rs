@@ -76,3 +76,6 @@ pub const ELEMENTS: &[File] = files!["up_elements.c", "up_elements.h",];
 
 /// Widths of pulses in timer ticks.
 pub const PULSE_WIDTH: &[File] = files!["up_pulse_width.c", "up_pulse_width.h",];
+
+/// Steps of motors.
+pub const STEPPER: &[File] = files!["up_stepper.c", "up_stepper.h",];

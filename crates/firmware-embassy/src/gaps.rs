@@ -6,7 +6,7 @@ use super::hal::contract::Drivers;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
-pub(super) const KINDS: [KindName; 10] = [
+pub(super) const KINDS: [KindName; 11] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -17,6 +17,7 @@ pub(super) const KINDS: [KindName; 10] = [
     KindName::Uart,
     KindName::Spi,
     KindName::Can,
+    KindName::Stepper,
 ];
 
 /// The kinds that a HAL has drivers for.
@@ -36,6 +37,7 @@ fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
         KindName::Uart => drivers.serial().is_some(),
         KindName::Spi => drivers.spi().is_some(),
         KindName::Can => drivers.can().is_some(),
+        KindName::Stepper => drivers.motors().is_some(),
     }
 }
 
@@ -60,7 +62,8 @@ pub(super) fn lacks(
         | Kind::Uart(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

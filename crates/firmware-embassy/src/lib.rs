@@ -60,6 +60,7 @@ mod render;
 mod section;
 mod serial;
 mod spi;
+mod stepper;
 #[cfg(test)]
 mod tests;
 mod typed;

@@ -15,6 +15,7 @@ use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
     analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+    stepper,
 };
 
 /// What a kind adds to a project.
@@ -33,6 +34,7 @@ const PERIPHERALS: &[Peripheral] = &[
     pulse::plan,
     contacts::plan,
     inputs::plan,
+    stepper::plan,
 ];
 
 /// The cycle of the reporter if nothing asks for a shorter one.

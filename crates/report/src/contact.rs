@@ -108,6 +108,9 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::A => &["A"],
         Role::B => &["B"],
         Role::Trigger => &["TRIG"],
+        Role::Step => &["STEP", "STP", "PUL", "PUL+"],
+        Role::Dir => &["DIR", "DIR+"],
+        Role::Enable => &["EN", "ENABLE", "ENA", "ENA+"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
         }

@@ -36,7 +36,8 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Digital(_)
             | Interface::Spi(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => {}
+            | Interface::Can(_)
+            | Interface::Stepper(_) => {}
         }
     }
     rows.extend(outputs.into_values());

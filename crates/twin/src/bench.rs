@@ -14,11 +14,12 @@ use sensedsl_wire::Direction;
 use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
+use crate::commands::track::Track;
 use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
-use crate::truth::Subject;
-use crate::world::{Fault, FaultKind, World, usual};
+use crate::truth::{Subject, scale_of};
+use crate::world::{Fault, FaultKind, Shape, Signal, World, usual};
 use sensedsl_surroundings::{Pad, TimerOutput};
 
 mod chips;
@@ -119,6 +120,7 @@ impl Bench {
         for one in &job.connections {
             bench.add(job, one);
         }
+        bench.motors(job);
         bench
     }
 
@@ -197,6 +199,7 @@ impl Bench {
             chip.registers.reset();
         }
         self.talked_to.clear();
+        self.recorder.power_up();
     }
 
     /// The voltage at a connection.
@@ -267,7 +270,7 @@ impl Bench {
         level: Option<bool>,
         now_ns: u64,
     ) {
-        self.recorder.level(connection, role, level);
+        self.recorder.level(connection, role, level, now_ns);
         if role == Role::Cs
             && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
         {
@@ -287,6 +290,11 @@ impl Bench {
         {
             line.triggered(&self.subjects, now_ns);
         }
+    }
+
+    /// A board that knows no timers makes a step of a motor.
+    pub(crate) fn step_at(&mut self, connection: ConnectionIndex, from_ns: u64, width_ns: u64) {
+        self.recorder.step(connection, from_ns, width_ns);
     }
 
     fn has(&self, kind: FaultKind, part: PartIndex, now_ns: u64) -> bool {
@@ -349,7 +357,8 @@ impl Bench {
                 | Interface::Encoder(_)
                 | Interface::Digital(_)
                 | Interface::Pwm(_)
-                | Interface::Dac(_),
+                | Interface::Dac(_)
+                | Interface::Stepper(_),
                 _,
             ) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
@@ -357,6 +366,22 @@ impl Bench {
             }
         }
         self.wires.insert(one.index, wired);
+    }
+
+    /// Motors count their steps; a sensor of one tells where its own is.
+    fn motors(&mut self, job: &BoardJob<'_>) {
+        for one in &job.connections {
+            let Some(motor) = one.connection.kind.stepper() else { continue };
+            let over = one.devices.iter().filter_map(|at| job.devices.get(*at));
+            let sensor = over.map(|of| of.device).find(|of| of.direction == Direction::Sensor);
+            let scale = sensor.map(|of| scale_of(&of.shown)).unwrap_or_default();
+            let track = Track::new(motor.clone(), scale);
+            let subject = sensor.and_then(|of| self.subject(of));
+            if let Some(subject) = subject.and_then(|place| self.subjects.get_mut(place)) {
+                subject.signals = vec![Signal::of(Shape::Walked(track.clone()))];
+            }
+            self.recorder.follow(one.index, track);
+        }
     }
 
     /// Adds the frames that a part sends on a CAN bus.
@@ -421,7 +446,8 @@ impl Bench {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => return None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => return None,
         })
     }
 

@@ -25,7 +25,8 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => false,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => false,
     }
 }
 
@@ -71,7 +72,10 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
         Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
             Words::of(device).as_ref().and_then(words::range)
         }
-        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) => None,
+        Interface::Encoder(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Stepper(_) => None,
     }
 }
 

@@ -17,6 +17,7 @@ mod i2c;
 mod icu;
 mod pwm;
 mod spi;
+mod stepper;
 mod uart;
 
 use sensedsl_board::profile::TargetProfile;
@@ -121,6 +122,7 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
         Kind::Pwm(pwm) => pwm,
         Kind::Dac(dac) => dac,
         Kind::Can(can) => can,
+        Kind::Stepper(stepper) => stepper,
     }
 }
 

@@ -182,6 +182,7 @@ codes! {
     e0624_no_turns,
     w0625_no_turns_by_default,
     e0626_memory_full,
+    e0627_too_many_steps,
     h0701_eight_bit_address,
     h0702_target_none,
     h0703_default_protocol,

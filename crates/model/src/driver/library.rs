@@ -17,6 +17,7 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/radio_control.sense", include_str!("../../drivers/radio_control.sense")),
     ("drivers/rangers.sense", include_str!("../../drivers/rangers.sense")),
     ("drivers/ranging_optical.sense", include_str!("../../drivers/ranging_optical.sense")),
+    ("drivers/steppers.sense", include_str!("../../drivers/steppers.sense")),
 ];
 
 /// Search terms, and the drivers that they mean: lines of words and names.

@@ -15,6 +15,7 @@ use super::i2c::{ByteOrder, I2c};
 use super::icu::{Icu, Mode};
 use super::pwm::Pwm;
 use super::spi::Spi;
+use super::stepper::Stepper;
 use super::uart::Uart;
 
 /// Generates the type, and a question for each interface, from the table below.
@@ -59,6 +60,8 @@ interfaces! {
     Dac as dac;
     /// Frames with identifiers.
     Can as can;
+    /// Pulses of a timer that are counted, and a level for the direction.
+    Stepper as stepper;
 }
 
 /// What is sent and waited for before the bytes of a part with registers come, and their number.
@@ -102,6 +105,7 @@ impl Kind {
             Self::Pwm(own) => Interface::Pwm(own),
             Self::Dac(own) => Interface::Dac(own),
             Self::Can(own) => Interface::Can(own),
+            Self::Stepper(own) => Interface::Stepper(own),
         }
     }
 
@@ -132,7 +136,8 @@ impl Kind {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
@@ -150,7 +155,8 @@ impl Kind {
             | Interface::Encoder(_)
             | Interface::Digital(_)
             | Interface::Pwm(_)
-            | Interface::Dac(_) => None,
+            | Interface::Dac(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
@@ -199,7 +205,8 @@ impl Kind {
             | Interface::Digital(_)
             | Interface::Uart(_)
             | Interface::Spi(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         }
     }
 

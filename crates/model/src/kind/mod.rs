@@ -25,6 +25,7 @@ mod role;
 mod snippet;
 mod spec;
 pub mod spi;
+pub mod stepper;
 pub mod uart;
 
 pub use interface::{Bytes, Interface, RegisterAccess};
@@ -128,6 +129,8 @@ kinds! {
     Dac in dac;
     /// Frames on a CAN bus.
     Can in can;
+    /// A stepper motor behind a driver with step and direction.
+    Stepper in stepper;
 }
 
 impl KindName {

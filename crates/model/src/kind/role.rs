@@ -84,6 +84,12 @@ roles! {
     B("b", pin: "b", driven by Device, on Interface);
     /// The pulse that makes an icu device measure (HC-SR04).
     Trigger("trigger", pin: "trigger", driven by Mcu, on AnyPin);
+    /// A pulse for each step of a motor.
+    Step("step", pin: "step", driven by Mcu, on Interface);
+    /// The direction of a motor's steps.
+    Dir("dir", pin: "dir", driven by Mcu, on AnyPin);
+    /// Lets current into a motor.
+    Enable("enable", pin: "enable", driven by Mcu, on AnyPin);
 }
 
 impl Role {

@@ -6,8 +6,8 @@ use std::str::SplitWhitespace;
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
     Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, Filter,
-    FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE, decay,
-    load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
+    FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range, Scalar, Stepper, WIDE,
+    decay, load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
     store_signed, store_signed_ratio, store_unsigned,
 };
 
@@ -100,6 +100,9 @@ pub(crate) fn say_bytes(out: &mut String, bytes: &[u8]) {
     bytes.iter().for_each(|byte| write!(out, "{byte:02x}").unwrap());
 }
 
+const MOTOR: MotorConfig =
+    MotorConfig { tick_hz: 1, speed: 1, acceleration: 1, is_velocity: false };
+
 /// The state that is kept from question to question.
 pub(crate) struct Desk {
     item: Item,
@@ -109,6 +112,7 @@ pub(crate) struct Desk {
     bridge: (Bridge, BridgeState),
     counter: Counter,
     elements: Elements,
+    motor: (MotorConfig, Stepper),
     link: Link,
 }
 
@@ -124,6 +128,7 @@ impl Default for Desk {
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
             elements: Elements::NEW,
+            motor: (MOTOR, Stepper::NEW),
             link: Link::default(),
         }
     }
@@ -175,9 +180,36 @@ impl Desk {
                 self.elements.note(words.number() as usize);
                 write!(out, " {}", u8::from(self.elements.are_due(8, words.flag()))).unwrap();
             }
+            "motor" | "target" | "halt" | "advance" => self.motor(word, &mut words, &mut out),
             _ => self.link.answer(word, &mut words, &mut out),
         }
         out
+    }
+
+    fn motor(&mut self, word: &str, words: &mut Words<'_>, out: &mut String) {
+        let (config, stepper) = &mut self.motor;
+        match word {
+            "motor" => {
+                *config = MotorConfig {
+                    tick_hz: words.small(),
+                    speed: words.small(),
+                    acceleration: words.small(),
+                    is_velocity: words.flag(),
+                };
+                *stepper = Stepper::NEW;
+            }
+            "target" => {
+                let scalar = words.scalar();
+                stepper.command(config, scalar, &words.element(scalar));
+            }
+            "halt" => stepper.stop(),
+            _ => {
+                let ticks = stepper.advance(config);
+                let (step, back) = (stepper.is_step(), stepper.is_backward());
+                let (step, back) = (u8::from(step), u8::from(back));
+                write!(out, " {ticks} {step} {back} {}", stepper.position()).unwrap();
+            }
+        }
     }
 
     fn begin_filter(&mut self, words: &mut Words<'_>) {

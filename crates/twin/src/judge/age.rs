@@ -40,7 +40,7 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         }
         Interface::Digital(_) => delay_ns.min(50 * MS),
         Interface::Uart(_) | Interface::Can(_) => period_ns + delay_ns.min(SECOND),
-        Interface::Encoder(_) => 20 * MS,
+        Interface::Encoder(_) | Interface::Stepper(_) => 20 * MS,
         Interface::Icu(icu) => {
             pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some())
         }

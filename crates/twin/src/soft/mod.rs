@@ -6,6 +6,7 @@
 //! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod motors;
 mod outputs;
 mod sensors;
 
@@ -277,7 +278,16 @@ impl SoftBoard {
     /// Runs all threads but the reporter.
     fn serve(&mut self, since_ms: u64, now_ns: u64) {
         let State {
-            core, buses, ports, stations, converters, captures, contacts, encoders, ..
+            core,
+            buses,
+            ports,
+            stations,
+            converters,
+            captures,
+            contacts,
+            encoders,
+            outputs,
+            ..
         } = &mut self.state;
         core.now_ms = wrapped(since_ms);
         let bench = &mut self.bench;
@@ -288,6 +298,7 @@ impl SoftBoard {
         captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         contacts.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         encoders.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        outputs.motors.step(core, bench, since_ms, now_ns);
     }
 
     fn report(&mut self, since_ms: u64) {

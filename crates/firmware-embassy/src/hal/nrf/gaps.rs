@@ -34,7 +34,8 @@ pub(super) fn lacks(
         | Kind::Spi(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::Stepper(_) => None,
     }
 }
 
