@@ -7,13 +7,13 @@ use sensedsl_wire::Direction;
 
 use super::actuators::element;
 use super::context::{Context, Wired, scalar};
+use super::filter;
 use super::hal::contract::Drivers;
 use super::hal::contract::motors::{MotorTimer, Motors};
 use super::hal::contract::outputs::{Pins, Speed};
 use super::item::{Handler, Item};
 use super::missing::{self, Printed};
 use super::section::{Field, Section};
-use super::filter;
 use sensedsl_job::JobConnection;
 
 /// How often a motor that stands is reported.
@@ -71,9 +71,9 @@ fn motor(
     if let Some(enabled) = own.enabled {
         pin(Role::Enable, "enable", !enabled)?;
     }
-    section.items.push(Item::Line(format!(
-        "static {held}: rt::stepper::SharedMotor = rt::stepper::new();"
-    )));
+    section
+        .items
+        .push(Item::Line(format!("static {held}: rt::stepper::SharedMotor = rt::stepper::new();")));
     let handler = format!("{}_STEPS", ident.to_uppercase());
     section.bind(&interrupt, format!("crate::{handler}"));
     section.items.push(Item::Handler(Handler {

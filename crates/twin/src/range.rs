@@ -72,10 +72,9 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
         Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
             Words::of(device).as_ref().and_then(words::range)
         }
-        Interface::Encoder(_)
-        | Interface::Pwm(_)
-        | Interface::Dac(_)
-        | Interface::Stepper(_) => None,
+        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => {
+            None
+        }
     }
 }
 

@@ -32,11 +32,10 @@ pub const SPEC: KindSpec = KindSpec {
     inputs_have: &[],
     of_part: &[],
     serves: Serves::Signal(serves),
-    wires: "one timer output for the steps; the whole timer is taken. A GPIO for the direction, and one for `enable` \
-            where there is that wire",
+    wires: "one timer output for the steps; the whole timer is taken. A GPIO for the direction, and one for `enable` where there is that wire",
     example: "",
-    colour: "#C62D42",
-    colour_on_dark: "#F46A7C",
+    colour: "#A209D8",
+    colour_on_dark: "#632DFC",
     letter: 'M',
 };
 

@@ -6,9 +6,9 @@ use std::str::SplitWhitespace;
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
     Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, Filter,
-    FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range, Scalar, Stepper, WIDE,
-    decay, load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
-    store_signed, store_signed_ratio, store_unsigned,
+    FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range, Scalar,
+    Stepper, WIDE, decay, load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level,
+    store_count, store_signed, store_signed_ratio, store_unsigned,
 };
 
 use super::link::Link;

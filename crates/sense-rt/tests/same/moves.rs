@@ -19,8 +19,7 @@ fn step(ask: &mut impl FnMut(&str) -> String) -> Option<(f64, i64)> {
     let mut sum = 0;
     loop {
         let answer = ask("advance");
-        let numbers: Vec<i64> =
-            answer.split(' ').skip(1).map(|one| one.parse().unwrap()).collect();
+        let numbers: Vec<i64> = answer.split(' ').skip(1).map(|one| one.parse().unwrap()).collect();
         let [ticks, is_step, is_backward, position] = numbers[..] else { panic!("{answer}") };
         if ticks == 0 {
             return None;

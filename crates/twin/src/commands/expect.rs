@@ -128,7 +128,9 @@ pub(super) fn unreported(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -
             Interface::Pwm(_) => Some(expected(wire, element, Expectation::Pulses(None))),
             Interface::Dac(_) => Some(expected(wire, element, Expectation::Millivolts(0.0))),
             Interface::I2c(_) | Interface::Spi(_) => written::first(job, wire, one, now_ns),
-            Interface::Stepper(_) => Some(expected(wire, element, Expectation::Motion(Motion::At(0)))),
+            Interface::Stepper(_) => {
+                Some(expected(wire, element, Expectation::Motion(Motion::At(0))))
+            }
             Interface::Uart(_)
             | Interface::Can(_)
             | Interface::Analog(_)

@@ -94,9 +94,12 @@ impl Recorder {
     /// Adds a connection of the board.
     pub(crate) fn connect(&mut self, one: &JobConnection<'_>) {
         let kind = &one.connection.kind;
-        let is_output =
-            kind.pwm().is_some() || kind.dac().is_some() || kind.stepper().is_some();
-        let signal = one.pad(Role::Out).or_else(|| one.pad(Role::Step)).and_then(|pad| pad.usage).map(|usage| &usage.signal);
+        let is_output = kind.pwm().is_some() || kind.dac().is_some() || kind.stepper().is_some();
+        let signal = one
+            .pad(Role::Out)
+            .or_else(|| one.pad(Role::Step))
+            .and_then(|pad| pad.usage)
+            .map(|usage| &usage.signal);
         match signal.filter(|_| is_output).map(sensedsl_board::signal::Signal::function) {
             Some(Function::Timer { unit, channel, line }) => {
                 let Some(timer) = number_of(unit.as_str()) else { return };

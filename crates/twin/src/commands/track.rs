@@ -132,7 +132,8 @@ impl Track {
         let log = self.log();
         let first = log.position_at(from_ns);
         let all = log.steps.iter().filter(|(at, _)| (from_ns..=to_ns).contains(at));
-        let ends = |(least, most): (i64, i64), (_, one): &(u64, i64)| (least.min(*one), most.max(*one));
+        let ends =
+            |(least, most): (i64, i64), (_, one): &(u64, i64)| (least.min(*one), most.max(*one));
         let (least, most) = all.fold((first, first), ends);
         let (one, other) = (log.scale.shown(whole(least)), log.scale.shown(whole(most)));
         (one.min(other), one.max(other))
@@ -158,7 +159,8 @@ impl Log {
     fn complain(&mut self, now_ns: u64, what: &str) {
         let position = self.position;
         let seconds = crate::bench::seconds(now_ns);
-        let _ = self.wrong.get_or_insert_with(|| format!("at step {position}, {seconds:.6} s: {what}"));
+        let _ =
+            self.wrong.get_or_insert_with(|| format!("at step {position}, {seconds:.6} s: {what}"));
     }
 
     fn direct(&mut self, level: Option<bool>, now_ns: u64) {
@@ -225,8 +227,9 @@ impl Log {
         let Some((slower, earlier)) = before else { return };
         let most = acceleration * (middle - earlier) * 1.05 + (2.0 * acceleration).sqrt();
         if (speed - slower).abs() > most {
-            let what =
-                format!("its speed goes from {slower:.0} to {speed:.0} steps/s, by more than {most:.0}");
+            let what = format!(
+                "its speed goes from {slower:.0} to {speed:.0} steps/s, by more than {most:.0}"
+            );
             self.complain(now_ns, &what);
         }
     }
@@ -243,7 +246,8 @@ impl Log {
                 // Late steps make it slower, never faster.
                 let slowest = 1.0 / (1.0 / asked.abs().max(0.001) + LATE_NS / 1e9) * (1.0 - OFF);
                 let fits = (slowest..=asked.abs() * (1.0 + OFF)).contains(&speed.abs());
-                let is_right = if asked == 0.0 { speed == 0.0 } else { fits && speed * asked > 0.0 };
+                let is_right =
+                    if asked == 0.0 { speed == 0.0 } else { fits && speed * asked > 0.0 };
                 (!is_right).then(|| format!("{speed:.1} steps/s"))
             }
         }
@@ -252,7 +256,8 @@ impl Log {
     /// The mean speed of the last steps; 0 once the next one of that speed is missing.
     fn speed(&self, now_ns: u64) -> f64 {
         let recent: Vec<&(u64, i64)> = self.steps.iter().rev().take(RECENT + 1).collect();
-        let ([(last_ns, last), ..], [.., (first_ns, first)]) = (recent.as_slice(), recent.as_slice())
+        let ([(last_ns, last), ..], [.., (first_ns, first)]) =
+            (recent.as_slice(), recent.as_slice())
         else {
             return 0.0;
         };

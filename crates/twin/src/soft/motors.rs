@@ -157,12 +157,7 @@ impl Motor {
 }
 
 impl Reading {
-    fn look(
-        &mut self,
-        motors: &BTreeMap<ConnectionIndex, Motor>,
-        core: &mut Core,
-        since_ms: u64,
-    ) {
+    fn look(&mut self, motors: &BTreeMap<ConnectionIndex, Motor>, core: &mut Core, since_ms: u64) {
         let own = self.of.iter().filter_map(|at| motors.get(at));
         let now: Vec<i32> = own.map(|motor| motor.stepper.position()).collect();
         if !self.repeat.is_due(now != self.reported, REPEAT_MS, wrapped(since_ms)) {

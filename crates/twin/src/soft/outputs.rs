@@ -113,7 +113,13 @@ impl Outputs {
             let is_driven = one.connection.direction == Direction::Actuator;
             is_driven.then_some((one.index, own.initial != own.active_low))
         };
-        Self { all, frames, levels: bare.filter_map(level).collect(), safe, motors: Motors::new(job) }
+        Self {
+            all,
+            frames,
+            levels: bare.filter_map(level).collect(),
+            safe,
+            motors: Motors::new(job),
+        }
     }
 
     /// The board starts.

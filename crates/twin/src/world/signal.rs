@@ -209,10 +209,9 @@ impl Signal {
                     _ => None,
                 })
                 .fold(0.0, f64::max),
-            Shape::Constant(_)
-            | Shape::Square { .. }
-            | Shape::Visits { .. }
-            | Shape::Walked(_) => 0.0,
+            Shape::Constant(_) | Shape::Square { .. } | Shape::Visits { .. } | Shape::Walked(_) => {
+                0.0
+            }
         };
         shape + a_second(0.0, 2.0 * self.noise, NOISE_NS)
     }

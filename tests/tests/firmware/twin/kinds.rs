@@ -250,11 +250,8 @@ fn intervals(pulses: &[(u64, u64)]) -> Vec<u64> {
 }
 
 fn motors_make_as_many_steps_as_the_host_asks_for(mut bench: Bench) {
-    let schema = items(&[
-        "1 actuator Feed int32",
-        "2 actuator Target int32",
-        "3 sensor Position int32",
-    ]);
+    let schema =
+        items(&["1 actuator Feed int32", "2 actuator Target int32", "3 sensor Position int32"]);
     bench.run_until_ms(100);
     assert!(bench.world().pulses.is_empty());
     let target = |bench: &mut Bench, id: u8, value: i32, until_ms: u64| {
