@@ -75,7 +75,7 @@ class Case:
         elif words[0] == "command":
             name, _, values = line[7:].partition("=")
             self.commands.append([name.strip(), [int(v) for v in values.split()], []])
-        elif words[0] in ("written", "width", "frame") or len(words) > 2 and words[1] == "=":
+        elif words[0] in ("written", "width", "frame", "goes") or len(words) > 2 and words[1] == "=":
             self.commands[-1][2].append(line)
         else:
             raise SyntaxError(line)
@@ -239,6 +239,8 @@ class Case:
             give = driver["properties"].get
             low, high = give("min", 0), give("max", 1 / give("frequency"))
             return [f"width us {round((low + (high - low) * values[0] / 10000) * 1e6)}"]
+        if driver["kind"] == "stepper":
+            return [f"goes {values[0]}"]
         if driver["kind"] == "digital":
             return [f"pin = {values[0] ^ (driver['properties'].get('active') == 'low')}"]
         length = get(part, driver, "length", part["count"] * SIZES[part["type"]])

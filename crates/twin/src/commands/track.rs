@@ -53,6 +53,8 @@ struct Log {
     window: Option<(f64, f64)>,
     /// Where the present window began.
     began: Option<(u64, i64)>,
+    /// The first step after the motor stood, and where it was then.
+    rested: Option<(u64, i64)>,
     wrong: Option<String>,
 }
 
@@ -81,6 +83,7 @@ impl Track {
             pulse_end_ns: 0,
             window: None,
             began: None,
+            rested: None,
             wrong: None,
         })))
     }
@@ -99,6 +102,7 @@ impl Track {
             enable: None,
             window: None,
             began: None,
+            rested: None,
             motor: log.motor.clone(),
             scale: log.scale.clone(),
             wrong: log.wrong.take(),
@@ -192,6 +196,7 @@ impl Log {
             self.complain(from_ns, &format!("a pulse of {width_ns} ns, not of {least_ns}"));
         }
         self.hurries(from_ns);
+        self.rests(from_ns);
         self.pulse_end_ns = from_ns + width_ns;
         self.position += if level == self.motor.is_forward_high { 1 } else { -1 };
         if self.steps.len() >= KEPT {
@@ -199,6 +204,7 @@ impl Log {
         }
         self.steps.push_back((from_ns, self.position));
         self.leaps(from_ns);
+        self.bolts(from_ns);
     }
 
     /// A step that comes sooner after the last one than at the greatest speed.
@@ -208,6 +214,28 @@ impl Log {
         let after_ns = now_ns - last_ns;
         if after_ns + TICK_NS + least_ns / 1_000 < least_ns {
             self.complain(now_ns, &format!("{after_ns} ns after the last step, not {least_ns}"));
+        }
+    }
+
+    /// Notes a step that comes as late as the first one from rest, or later.
+    fn rests(&mut self, now_ns: u64) {
+        let first = (2.0 / f64::from(self.motor.acceleration)).sqrt();
+        let last = self.steps.back().map(|(at, _)| number(now_ns - at) / 1e9);
+        if last.is_none_or(|after| after >= 0.99 * first) {
+            self.rested = Some((now_ns, self.position));
+        }
+    }
+
+    /// A motor that has stood goes no farther than its acceleration takes it, from the speed that it has at its first
+    /// step.
+    fn bolts(&mut self, now_ns: u64) {
+        let Some((at_ns, from)) = self.rested else { return };
+        let (acceleration, after) = (f64::from(self.motor.acceleration), number(now_ns - at_ns) / 1e9);
+        let most = 2.0 + (2.0 * acceleration).sqrt() * after + 0.51 * acceleration * after * after;
+        let far = whole(self.position - from).abs();
+        if far > most {
+            let what = format!("{far} steps from where it stood {after:.6} s ago, not {most:.1}");
+            self.complain(now_ns, &what);
         }
     }
 
