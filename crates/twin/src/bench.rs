@@ -14,18 +14,18 @@ use sensedsl_wire::Direction;
 use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
-use crate::commands::track::Track;
 use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
-use crate::truth::{Subject, scale_of};
-use crate::world::{Fault, FaultKind, Shape, Signal, World, usual};
+use crate::truth::Subject;
+use crate::world::{Fault, FaultKind, World, usual};
 use sensedsl_surroundings::{Pad, TimerOutput};
 
 mod chips;
 mod held;
 mod log;
 mod mcu;
+mod motors;
 mod peer;
 mod recorded;
 mod units;
@@ -292,11 +292,6 @@ impl Bench {
         }
     }
 
-    /// A board that knows no timers makes a step of a motor.
-    pub(crate) fn step_at(&mut self, connection: ConnectionIndex, from_ns: u64, width_ns: u64) {
-        self.recorder.step(connection, from_ns, width_ns);
-    }
-
     fn has(&self, kind: FaultKind, part: PartIndex, now_ns: u64) -> bool {
         self.faults.iter().any(|one| one.is(kind, now_ns) && one.part == Some(part))
     }
@@ -366,22 +361,6 @@ impl Bench {
             }
         }
         self.wires.insert(one.index, wired);
-    }
-
-    /// Motors count their steps; a sensor of one tells where its own is.
-    fn motors(&mut self, job: &BoardJob<'_>) {
-        for one in &job.connections {
-            let Some(motor) = one.connection.kind.stepper() else { continue };
-            let over = one.devices.iter().filter_map(|at| job.devices.get(*at));
-            let sensor = over.map(|of| of.device).find(|of| of.direction == Direction::Sensor);
-            let scale = sensor.map(|of| scale_of(&of.shown)).unwrap_or_default();
-            let track = Track::new(motor.clone(), scale);
-            let subject = sensor.and_then(|of| self.subject(of));
-            if let Some(subject) = subject.and_then(|place| self.subjects.get_mut(place)) {
-                subject.signals = vec![Signal::of(Shape::Walked(track.clone()))];
-            }
-            self.recorder.follow(one.index, track);
-        }
     }
 
     /// Adds the frames that a part sends on a CAN bus.

@@ -15,7 +15,7 @@ use crate::truth::scalar;
 /// For 64-bit integers, the numbers that a double holds exactly are enough.
 const WHOLE_MAX: f64 = 9_007_199_254_740_991.0;
 /// How far a motor goes, in seconds of its greatest speed.
-const FAR_SECONDS: f64 = 0.3;
+const FAR_SECONDS: f64 = 0.12;
 /// The bound for real numbers that have none.
 const REAL_MAX: f64 = 1_000.0;
 
@@ -131,7 +131,7 @@ pub(super) fn range(one: &JobDevice<'_>) -> (f64, f64) {
     (low.max(-WHOLE_MAX), high.min(WHOLE_MAX))
 }
 
-/// A third of a second at the greatest speed to either side, or that speed.
+/// As far as the greatest speed goes in a while, to either side; or that speed.
 fn of_motor(own: &Stepper) -> (f64, f64) {
     let speed = f64::from(own.speed);
     let far = match own.mode {

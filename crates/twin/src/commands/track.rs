@@ -162,7 +162,7 @@ impl Log {
 
     fn complain(&mut self, now_ns: u64, what: &str) {
         let position = self.position;
-        let seconds = crate::bench::seconds(now_ns);
+        let seconds = number(now_ns) / 1e9;
         let _ =
             self.wrong.get_or_insert_with(|| format!("at step {position}, {seconds:.6} s: {what}"));
     }
@@ -230,7 +230,8 @@ impl Log {
     /// step.
     fn bolts(&mut self, now_ns: u64) {
         let Some((at_ns, from)) = self.rested else { return };
-        let (acceleration, after) = (f64::from(self.motor.acceleration), number(now_ns - at_ns) / 1e9);
+        let (acceleration, after) =
+            (f64::from(self.motor.acceleration), number(now_ns - at_ns) / 1e9);
         let most = 2.0 + (2.0 * acceleration).sqrt() * after + 0.51 * acceleration * after * after;
         let far = whole(self.position - from).abs();
         if far > most {

@@ -298,7 +298,9 @@ impl SoftBoard {
         captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         contacts.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         encoders.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
-        outputs.motors.step(core, bench, since_ms, now_ns);
+        for (index, mut value) in outputs.motors.step(bench, since_ms, now_ns) {
+            core.record(index, Outcome::Fresh, &mut value);
+        }
     }
 
     fn report(&mut self, since_ms: u64) {

@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use sense_rt::{Item, MotorConfig, Outcome, Repeat, Scalar, Stepper, TICK_HZ_MAX, store_count};
+use sense_rt::{Item, MotorConfig, Repeat, Scalar, Stepper, TICK_HZ_MAX, store_count};
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::stepper::Mode;
 use sensedsl_wire::Direction;
 
-use super::{Core, wrapped};
 use crate::bench::Bench;
 use crate::tables;
 
@@ -116,16 +115,21 @@ impl Motors {
         self.all.values_mut().for_each(|motor| motor.stepper.stop());
     }
 
-    pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
+    /// Makes the steps of a millisecond. Gives the positions that are told then, by place in the schema.
+    pub(super) fn step(
+        &mut self,
+        bench: &mut Bench,
+        since_ms: u64,
+        now_ns: u64,
+    ) -> Vec<(usize, Vec<u8>)> {
         for (at, motor) in &mut self.all {
             motor.step(*at, bench, now_ns);
         }
         if !since_ms.is_multiple_of(LOOK_MS) {
-            return;
+            return Vec::new();
         }
-        for reading in &mut self.readings {
-            reading.look(&self.all, core, since_ms);
-        }
+        let all = &self.all;
+        self.readings.iter_mut().filter_map(|reading| reading.look(all, since_ms)).collect()
     }
 }
 
@@ -157,17 +161,23 @@ impl Motor {
 }
 
 impl Reading {
-    fn look(&mut self, motors: &BTreeMap<ConnectionIndex, Motor>, core: &mut Core, since_ms: u64) {
+    /// The value, if it is told now.
+    fn look(
+        &mut self,
+        motors: &BTreeMap<ConnectionIndex, Motor>,
+        since_ms: u64,
+    ) -> Option<(usize, Vec<u8>)> {
         let own = self.of.iter().filter_map(|at| motors.get(at));
         let now: Vec<i32> = own.map(|motor| motor.stepper.position()).collect();
-        if !self.repeat.is_due(now != self.reported, REPEAT_MS, wrapped(since_ms)) {
-            return;
+        let since_ms = u32::try_from(since_ms & u64::from(u32::MAX)).unwrap_or(0);
+        if !self.repeat.is_due(now != self.reported, REPEAT_MS, since_ms) {
+            return None;
         }
         let mut value = vec![0; self.item.bytes()];
         for (target, position) in value.chunks_mut(self.item.scalar.bytes()).zip(&now) {
             store_count(self.item.scalar, i64::from(*position), target);
         }
         self.reported = now;
-        core.record(self.index, Outcome::Fresh, &mut value);
+        Some((self.index, value))
     }
 }

@@ -20,7 +20,8 @@ const RIGHT: &str = "board STM32F407G_DISC1 {
 fn series() -> String {
     let mut state = 20_261_129_u64;
     let mut below = |most: u64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) % most
     };
     let (mut at_ms, mut text) = (1_000, String::new());
