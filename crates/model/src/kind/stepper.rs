@@ -122,7 +122,7 @@ impl Properties for Stepper {
     fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
         let own = Self::default();
         let mut small = |name: &str, most: i64| {
-            let read = fields.integer(name, 1..=most.into())?;
+            let read = fields.integer(name, 1..=most)?;
             Some((u32::try_from(read.value).ok()?, read.span))
         };
         let (speed, acceleration) = (small("speed", 500_000), small("acceleration", 10_000_000));
