@@ -68,6 +68,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "stm32/mod.rs",
     "stm32/pwm.rs",
     "stm32/spi.rs",
+    "stm32/stepper.rs",
     "stm32/timer.rs",
     "stm32/usart/mod.rs",
     "stm32/usart/v1.rs",

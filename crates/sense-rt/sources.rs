@@ -52,6 +52,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "scalar.rs",
     "schema.rs",
     "silence.rs",
+    "stepper.rs",
     "store.rs",
     "train.rs",
     "uses.rs",

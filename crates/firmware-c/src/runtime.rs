@@ -82,3 +82,6 @@ pub const ONEWIRE: &[File] = files!["up_onewire.c", "up_onewire.h",];
 
 /// Widths of pulses in timer ticks.
 pub const PULSE_WIDTH: &[File] = files!["up_pulse_width.c", "up_pulse_width.h",];
+
+/// Steps of motors.
+pub const STEPPER: &[File] = files!["up_stepper.c", "up_stepper.h",];

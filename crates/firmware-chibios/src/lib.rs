@@ -57,6 +57,7 @@ mod section;
 mod settings;
 mod spi;
 mod stacks;
+mod stepper;
 mod timers;
 mod uart;
 

@@ -9,7 +9,9 @@ use sensedsl_model::kind::KindName;
 use super::context::Context;
 use super::names::Drivers;
 use super::section::{Peripheral, Section, Version};
-use super::{adc, can, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, uart};
+use super::{
+    adc, can, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, stepper, uart,
+};
 
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
 pub(super) const PERIPHERALS: &[&Peripheral] = &[
@@ -25,6 +27,7 @@ pub(super) const PERIPHERALS: &[&Peripheral] = &[
     &encoder::PERIPHERAL,
     &digital::PERIPHERAL,
     &pwm::PERIPHERAL,
+    &stepper::PERIPHERAL,
     &pulse::PERIPHERAL,
 ];
 

@@ -7,7 +7,7 @@ use super::hal::contract::Drivers;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
-pub(super) const KINDS: [KindName; 11] = [
+pub(super) const KINDS: [KindName; 12] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -19,6 +19,7 @@ pub(super) const KINDS: [KindName; 11] = [
     KindName::Spi,
     KindName::Can,
     KindName::OneWire,
+    KindName::Stepper,
 ];
 
 /// The kinds that a HAL has drivers for.
@@ -39,6 +40,7 @@ fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
         KindName::Spi => drivers.spi().is_some(),
         KindName::Can => drivers.can().is_some(),
         KindName::OneWire => drivers.onewire().is_some(),
+        KindName::Stepper => drivers.motors().is_some(),
     }
 }
 
@@ -69,7 +71,8 @@ pub(super) fn lacks(
         | Kind::Uart(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

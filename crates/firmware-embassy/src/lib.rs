@@ -62,6 +62,7 @@ mod render;
 mod section;
 mod serial;
 mod spi;
+mod stepper;
 #[cfg(test)]
 mod tests;
 mod typed;

@@ -15,7 +15,7 @@ use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
     analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, onewire, outputs, pulse,
-    serial, spi,
+    serial, spi, stepper,
 };
 
 /// What a kind adds to a project.
@@ -35,6 +35,7 @@ const PERIPHERALS: &[Peripheral] = &[
     pulse::plan,
     contacts::plan,
     inputs::plan,
+    stepper::plan,
 ];
 
 /// The cycle of the reporter if nothing asks for a shorter one.

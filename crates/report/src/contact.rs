@@ -112,6 +112,9 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::Direction => &["DE", "DIR", "EN"],
         Role::Trigger => &["TRIG"],
         Role::Data => &["DATA", "DQ", "OUT", "SIGNAL", "S", "PIN"],
+        Role::Step => &["STEP", "STP", "PUL", "PUL+"],
+        Role::Dir => &["DIR", "DIR+"],
+        Role::Enable => &["EN", "ENABLE", "ENA", "ENA+"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
         }

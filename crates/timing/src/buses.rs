@@ -105,7 +105,8 @@ pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script>
         | Interface::Uart(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::OneWire(_) => None,
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     }
 }
 
@@ -122,7 +123,8 @@ pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) 
         | Interface::Uart(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::OneWire(_) => None,
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     });
     asked.min()
 }

@@ -84,7 +84,8 @@ fn period_ms(device: &Device) -> Option<u32> {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => None,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => None,
     }
 }
 

@@ -14,6 +14,7 @@ use sensedsl_wiring::assignment::Assignment;
 use crate::context::{Context, Wired};
 use crate::load::{BoardTiming, Timing};
 use crate::rows::{Part, Row, per_second};
+use crate::steps::STEPS;
 use crate::units::{MILLISECOND_NS, SECOND_NS};
 use crate::{groups, link};
 
@@ -180,6 +181,7 @@ fn of_processor(design: &Design, timing: &BoardTiming, row: &Row) -> Option<Diag
         let least = worst.cycle.map(|cycle| scaled_ms(cycle.delay_ms, busy_ns));
         let help = match least {
             Some(least) => format!("write `delay = {least} ms;` or more for {asked}"),
+            None if worst.name == STEPS => format!("write a lower `speed` for {asked}"),
             None => format!("state a lower `max` for {asked}, or count with a slower wheel"),
         };
         return Some(e0621_too_often::too_often(place(device), &message, &help));

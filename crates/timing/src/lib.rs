@@ -44,6 +44,7 @@ mod onewire;
 mod ports;
 mod processor;
 mod rows;
+mod steps;
 mod units;
 
 use sensedsl_diagnostics::Diagnostic;
@@ -74,6 +75,7 @@ pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
         rows.extend(ports::rows(&context));
         rows.extend(link::rows(&context));
         rows.extend(captures::rows(&context));
+        rows.extend(steps::rows(&context));
         rows.extend(processor::rows(&context, &work));
         BoardTiming {
             board: wiring.board,

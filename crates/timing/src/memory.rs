@@ -51,7 +51,8 @@ fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => 0,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => 0,
     };
     value + buffers
 }

@@ -48,7 +48,8 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Spi(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::OneWire(_) => {}
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => {}
         }
     }
     rows.extend(lines.iter().flat_map(|(unit, on_line)| line(context, unit.as_str(), on_line)));

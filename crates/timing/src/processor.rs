@@ -54,6 +54,11 @@ impl Work {
         self.costs.as_ref().map_or(0, |(costs, hz)| time_ns(costs, *hz, instructions(costs)))
     }
 
+    /// The processor time of one step of a motor.
+    pub(crate) fn of_step(&self) -> u64 {
+        self.ns(|costs| u64::from(costs.step))
+    }
+
     /// The processor time that a thread needs for a group of analog sensors.
     pub(crate) fn of_converter(&self, sensors: &[Analog]) -> u64 {
         self.ns(|costs| converter(costs, sensors.iter().map(|sensor| sensor.samples)))
@@ -148,7 +153,8 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => load.is_unknown = true,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => load.is_unknown = true,
             Interface::OneWire(own) => {
                 load.transfers.push((of_wire(wired, own), wired.device.delay_ms));
                 let is_read = onewire::read(context).any(|other| other.index == wired.index);
@@ -271,6 +277,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     row.busy_ns = instructions.and_then(ns);
     rows.push(row);
     rows.extend(of_captures(context, costs));
+    rows.extend(crate::steps::thread(context, costs.map(|(costs, _)| costs), &ns));
     // The sum is unknown if the busy time of any row is. Captures with an unknown rate have no row.
     let busy = rows.iter().map(|row| row.busy_ns).collect::<Option<Vec<u64>>>();
     let mut row = Row::new(Part::Processor, "all of it", Vec::new());

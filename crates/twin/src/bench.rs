@@ -19,19 +19,22 @@ use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, dialogue, formula, message, onewire as onewire_part};
 use crate::range::is_counter;
 use crate::truth::Subject;
-use crate::world::{Fault, FaultKind, World, usual};
+use crate::world::{FaultKind, World, usual};
 use sensedsl_surroundings::{Pad, TimerOutput};
 
+mod broken;
 mod chips;
 mod held;
 mod log;
 mod mcu;
+mod motors;
 mod onewire;
 mod peer;
 mod recorded;
 mod stations;
 mod units;
 
+use broken::Broken;
 use chips::Chip;
 pub use chips::UncheckedIdentity;
 use held::Held;
@@ -52,7 +55,7 @@ pub struct Bench {
     pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
     chips: Vec<Chip>,
     /// The wires that both ends pull low, and which of them a connection is on.
-    lines: Vec<onewire_part::Wire>,
+    one_wires: Vec<onewire_part::Wire>,
     on_wire: BTreeMap<ConnectionIndex, usize>,
     talkers: BTreeMap<u8, ConnectedSender>,
     lines: BTreeMap<u8, dialogue::Line>,
@@ -70,14 +73,6 @@ pub struct Bench {
     peer: Option<Peer>,
     seed: u64,
     log: Option<log::Log>,
-}
-
-/// A fault, the part that it hits, and the units of that part's wires.
-#[derive(Clone, Debug)]
-struct Broken {
-    fault: Fault,
-    part: Option<PartIndex>,
-    units: Vec<String>,
 }
 
 /// A connection and what is behind it.
@@ -110,7 +105,7 @@ impl Bench {
             wires: BTreeMap::new(),
             pads: BTreeMap::new(),
             chips: Vec::new(),
-            lines: Vec::new(),
+            one_wires: Vec::new(),
             on_wire: BTreeMap::new(),
             talkers: BTreeMap::new(),
             lines: BTreeMap::new(),
@@ -129,6 +124,7 @@ impl Bench {
         for one in &job.connections {
             bench.add(job, one);
         }
+        bench.motors(job);
         bench
     }
 
@@ -204,13 +200,14 @@ impl Bench {
 
     /// The supply is back: parts have lost what was written to them.
     pub fn power_up(&mut self, now_ns: u64) {
-        for part in self.lines.iter_mut().flat_map(|wire| &mut wire.parts) {
+        for part in self.one_wires.iter_mut().flat_map(|wire| &mut wire.parts) {
             part.reset(now_ns);
         }
         for chip in &mut self.chips {
             chip.registers.reset();
         }
         self.talked_to.clear();
+        self.recorder.power_up();
     }
 
     /// The voltage at a connection.
@@ -287,7 +284,7 @@ impl Bench {
         level: Option<bool>,
         now_ns: u64,
     ) {
-        self.recorder.level(connection, role, level);
+        self.recorder.level(connection, role, level, now_ns);
         if role == Role::Data {
             self.drive_line(connection, level, now_ns);
         }
@@ -383,7 +380,8 @@ impl Bench {
                 | Interface::Encoder(_)
                 | Interface::Digital(_)
                 | Interface::Pwm(_)
-                | Interface::Dac(_),
+                | Interface::Dac(_)
+                | Interface::Stepper(_),
                 _,
             ) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
@@ -456,7 +454,8 @@ impl Bench {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::OneWire(_) => return None,
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => return None,
         })
     }
 
@@ -479,26 +478,6 @@ fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
         Subject::new(one.index, one.device, signals)
     });
     subject.collect()
-}
-
-impl Broken {
-    fn new(job: &BoardJob<'_>, fault: &Fault) -> Self {
-        let device = fault.device.and_then(|device| job.design.device(device));
-        let part = device.map(|device| device.part);
-        let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
-        let units = of_part.filter_map(|one| one.unit.map(str::to_owned)).collect();
-        Self { fault: fault.clone(), part, units }
-    }
-
-    /// Whether it is a fault of that kind, and is there now.
-    fn is(&self, kind: FaultKind, now_ns: u64) -> bool {
-        self.fault.kind == kind && self.fault.is_there(now_ns)
-    }
-
-    /// Whether nothing comes from the part now.
-    fn cuts(&self, now_ns: u64) -> bool {
-        self.is(FaultKind::Torn, now_ns) || self.is(FaultKind::Silent, now_ns)
-    }
 }
 
 /// The value that a converter gives for a voltage, with the fraction that the average of many samples has.

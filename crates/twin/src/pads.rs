@@ -96,6 +96,7 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
         | Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Pwm(_)
+        | Interface::Stepper(_)
         | Interface::Can(_) => led(driven, FREE),
     }
 }

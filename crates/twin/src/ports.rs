@@ -94,7 +94,8 @@ fn of_kind(kind: &Kind, fastest_hz: u64) -> Option<RequiredSettings> {
         | Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Pwm(_)
-        | Interface::OneWire(_) => None,
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     }
 }
 

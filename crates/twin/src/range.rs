@@ -26,7 +26,8 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
         | Interface::OneWire(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => false,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => false,
     }
 }
 
@@ -74,7 +75,9 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
         | Interface::Uart(_)
         | Interface::Can(_)
         | Interface::OneWire(_) => Words::of(device).as_ref().and_then(words::range),
-        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) => None,
+        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => {
+            None
+        }
     }
 }
 

@@ -18,6 +18,7 @@ mod icu;
 mod onewire;
 mod pwm;
 mod spi;
+mod stepper;
 mod uart;
 
 use sensedsl_board::profile::TargetProfile;
@@ -123,6 +124,7 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
         Kind::Dac(dac) => dac,
         Kind::Can(can) => can,
         Kind::OneWire(onewire) => onewire,
+        Kind::Stepper(stepper) => stepper,
     }
 }
 

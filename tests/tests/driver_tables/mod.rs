@@ -379,6 +379,7 @@ fn plain_effect(device: &Device, value: i64) -> String {
         Kind::Digital(digital) => {
             format!("pin = {}", i64::from((value != 0) != digital.active_low))
         }
+        Kind::Stepper(_) => format!("goes {value}"),
         _ => String::new(),
     }
 }

@@ -81,7 +81,7 @@ class Case:
         elif words[0] == "command":
             name, _, values = line[7:].partition("=")
             self.commands.append([name.strip(), [int(v) for v in values.split()], []])
-        elif words[0] in ("written", "width", "frame") or len(words) > 2 and words[1] == "=":
+        elif words[0] in ("written", "width", "frame", "goes") or len(words) > 2 and words[1] == "=":
             self.commands[-1][2].append(line)
         else:
             raise SyntaxError(line)
@@ -284,6 +284,8 @@ class Case:
             give = properties.get
             low, high = give("min", 0), give("max", 1 / give("frequency"))
             return [f"width us {round((low + (high - low) * values[0] / 10000) * 1e6)}"]
+        if driver["kind"] == "stepper":
+            return [f"goes {values[0]}"]
         if kind == "digital":
             return [f"pin = {values[0] ^ (properties.get('active') == 'low')}"]
         if driver["kind"] == "uart" and str(get(part, driver, "format")) == "decimal":

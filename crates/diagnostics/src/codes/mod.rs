@@ -187,6 +187,7 @@ codes! {
     w0625_no_turns_by_default,
     w0627_locked_too_long,
     e0626_memory_full,
+    e0627_too_many_steps,
     h0701_eight_bit_address,
     h0702_target_none,
     h0703_default_protocol,

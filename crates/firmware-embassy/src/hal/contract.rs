@@ -12,6 +12,7 @@
 pub(crate) mod buses;
 pub(crate) mod inputs;
 pub(crate) mod link;
+pub(crate) mod motors;
 pub(crate) mod outputs;
 pub(crate) mod types;
 
@@ -23,6 +24,7 @@ use crate::names::{Chip, Names};
 use buses::{Can, I2c, OneWire, Serial, Spi};
 use inputs::{Analog, Capture, Edges, Encoder};
 use link::Link;
+use motors::Motors;
 use outputs::{Dac, Pins, Pulses};
 use types::Types;
 
@@ -149,6 +151,10 @@ pub(crate) trait Drivers {
     }
     /// Pulses that timers make.
     fn pulses(&self) -> Option<&dyn Pulses> {
+        None
+    }
+    /// Stepper motors.
+    fn motors(&self) -> Option<&dyn Motors> {
         None
     }
     /// Analog outputs.

@@ -21,6 +21,7 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/radio_control.sense", include_str!("../../drivers/radio_control.sense")),
     ("drivers/rangers.sense", include_str!("../../drivers/rangers.sense")),
     ("drivers/ranging_optical.sense", include_str!("../../drivers/ranging_optical.sense")),
+    ("drivers/steppers.sense", include_str!("../../drivers/steppers.sense")),
     ("drivers/weather.sense", include_str!("../../drivers/weather.sense")),
 ];
 

@@ -16,6 +16,7 @@ use super::icu::{Icu, Mode};
 use super::onewire::OneWire;
 use super::pwm::Pwm;
 use super::spi::Spi;
+use super::stepper::Stepper;
 use super::uart::Uart;
 
 /// Generates the type, and a question for each interface, from the table below.
@@ -62,6 +63,8 @@ interfaces! {
     Can as can;
     /// Bytes of a part on one wire that both ends pull low.
     OneWire as onewire;
+    /// Pulses of a timer that are counted, and a level for the direction.
+    Stepper as stepper;
 }
 
 /// What is sent and waited for before the bytes of a part with registers come, and their number.
@@ -106,6 +109,7 @@ impl Kind {
             Self::Dac(own) => Interface::Dac(own),
             Self::Can(own) => Interface::Can(own),
             Self::OneWire(own) => Interface::OneWire(own),
+            Self::Stepper(own) => Interface::Stepper(own),
         }
     }
 
@@ -144,7 +148,8 @@ impl Kind {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
@@ -170,7 +175,8 @@ impl Kind {
             | Interface::Encoder(_)
             | Interface::Digital(_)
             | Interface::Pwm(_)
-            | Interface::Dac(_) => None,
+            | Interface::Dac(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
@@ -220,7 +226,8 @@ impl Kind {
             | Interface::Uart(_)
             | Interface::Spi(_)
             | Interface::Can(_)
-            | Interface::OneWire(_) => None,
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => None,
         }
     }
 

@@ -26,6 +26,7 @@ mod role;
 mod snippet;
 mod spec;
 pub mod spi;
+pub mod stepper;
 pub mod uart;
 
 pub use interface::{Bytes, Interface, RegisterAccess};
@@ -131,6 +132,8 @@ kinds! {
     Can in can;
     /// A part with one data wire, such as a DS18B20 or a DHT22.
     OneWire in onewire;
+    /// A stepper motor behind a driver with step and direction.
+    Stepper in stepper;
 }
 
 impl KindName {

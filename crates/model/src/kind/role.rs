@@ -88,6 +88,12 @@ roles! {
     Trigger("trigger", pin: "trigger", driven by Mcu, on AnyPin);
     /// The only wire of a part that both ends pull low.
     Data("data", pin: "pin", driven by Device, on Interface);
+    /// A pulse for each step of a motor.
+    Step("step", pin: "step", driven by Mcu, on Interface);
+    /// The direction of a motor's steps.
+    Dir("dir", pin: "dir", driven by Mcu, on AnyPin);
+    /// Lets current into a motor.
+    Enable("enable", pin: "enable", driven by Mcu, on AnyPin);
 }
 
 impl Role {

@@ -219,4 +219,11 @@ pub(super) const WIRES: &[Meaning] = &[
         "Fixes the pin of the pulse that makes the device measure, with `pulse`; any pin can be it.",
         "trigger = PA1;",
     ),
+    wire("step", "Fixes the pin of a motor's steps, an output of a timer.", "step = PB4;"),
+    wire("dir", "Fixes the pin of a motor's direction; any pin can be it.", "dir = PB5;"),
+    wire(
+        "enable",
+        "Fixes the pin that lets current into a motor; any pin can be it. `none`: there is no such wire.",
+        "enable = PB6;",
+    ),
 ];

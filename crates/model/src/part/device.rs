@@ -252,13 +252,17 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
 /// Words that people write for properties, each with the property that is meant.
 const OTHER_WORDS: &[(&str, &str)] = &[
     ("addr", "address"),
+    ("accel", "acceleration"),
     ("baudrate", "baud"),
     ("baud_rate", "baud"),
+    ("direction", "dir"),
     ("echo", "pin"),
+    ("en", "enable"),
     ("freq", "frequency"),
     ("gpio", "pin"),
     ("interval", "delay"),
     ("kind", "type"),
+    ("max_speed", "speed"),
     ("name", "label"),
     ("period", "delay"),
     ("port", "pin"),

@@ -41,7 +41,11 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
-    let why = "the timer sees every edge by itself";
+    let why = if device.kind.stepper().is_some() {
+        "a timer makes and counts the steps by itself"
+    } else {
+        "the timer sees every edge by itself"
+    };
     let kind = device.kind.name().name();
     let unused = |(name, at): (&str, Option<Span>)| {
         let mut unused = w0601_unused_property::unused_property(at?, name, kind, why);
@@ -67,7 +71,8 @@ fn too_slow(design: &Design, device: &Device) -> Option<Diagnostic> {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => return None,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => return None,
     };
     if u64::from(wait_us) <= u64::from(device.delay_ms) * 1_000 {
         return None;
@@ -150,7 +155,7 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         | Interface::Can(_)
         | Interface::OneWire(_) => return None,
         Interface::Icu(_) | Interface::Encoder(_) | Interface::Digital(_) => return None,
-        Interface::Pwm(_) | Interface::Dac(_) => return None,
+        Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => return None,
     };
     let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
     if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)

@@ -246,6 +246,11 @@ pub(super) fn settings(kind: &Kind) -> String {
             let active = if digital.active_low { "on when low" } else { "on when high" };
             pull.into_iter().chain([active]).map(str::to_owned).collect()
         }
+        Interface::Stepper(motor) => vec![
+            format!("up to {} steps/s", motor.speed),
+            format!("{} steps/s^2", motor.acceleration),
+            format!("pulses of {} us", motor.pulse_us),
+        ],
         Interface::Analog(_) | Interface::Dac(_) | Interface::Can(_) => Vec::new(),
     };
     words.join(", ")

@@ -9,6 +9,7 @@ pub mod edges;
 pub mod i2c;
 pub mod pwm;
 pub mod spi;
+pub mod stepper;
 pub mod timer;
 #[cfg(any(feature = "usart-v1", feature = "usart-v3"))]
 pub mod usart;

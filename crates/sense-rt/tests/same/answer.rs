@@ -6,9 +6,9 @@ use std::str::SplitWhitespace;
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
     Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, FieldFormat,
-    Filter, FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE,
-    decay, load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
-    store_signed, store_signed_ratio, store_unsigned,
+    Filter, FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range,
+    Scalar, Stepper, WIDE, decay, load_magnitude, parse_decimal, parse_degrees, parse_hex,
+    pulse_level, store_count, store_signed, store_signed_ratio, store_unsigned,
 };
 
 use super::link::Link;
@@ -101,6 +101,9 @@ pub(crate) fn say_bytes(out: &mut String, bytes: &[u8]) {
     bytes.iter().for_each(|byte| write!(out, "{byte:02x}").unwrap());
 }
 
+const MOTOR: MotorConfig =
+    MotorConfig { tick_hz: 1, speed: 1, acceleration: 1, is_velocity: false };
+
 /// The state that is kept from question to question.
 pub(crate) struct Desk {
     item: Item,
@@ -110,6 +113,7 @@ pub(crate) struct Desk {
     bridge: (Bridge, BridgeState),
     counter: Counter,
     elements: Elements,
+    motor: (MotorConfig, Stepper),
     link: Link,
 }
 
@@ -125,6 +129,7 @@ impl Default for Desk {
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
             elements: Elements::NEW,
+            motor: (MOTOR, Stepper::NEW),
             link: Link::default(),
         }
     }
@@ -177,9 +182,36 @@ impl Desk {
                 self.elements.note(words.number() as usize);
                 write!(out, " {}", u8::from(self.elements.are_due(8, words.flag()))).unwrap();
             }
+            "motor" | "target" | "halt" | "advance" => self.motor(word, &mut words, &mut out),
             _ => self.link.answer(word, &mut words, &mut out),
         }
         out
+    }
+
+    fn motor(&mut self, word: &str, words: &mut Words<'_>, out: &mut String) {
+        let (config, stepper) = &mut self.motor;
+        match word {
+            "motor" => {
+                *config = MotorConfig {
+                    tick_hz: words.small(),
+                    speed: words.small(),
+                    acceleration: words.small(),
+                    is_velocity: words.flag(),
+                };
+                *stepper = Stepper::NEW;
+            }
+            "target" => {
+                let scalar = words.scalar();
+                stepper.command(config, scalar, &words.element(scalar));
+            }
+            "halt" => stepper.stop(),
+            _ => {
+                let ticks = stepper.advance(config);
+                let (step, back) = (stepper.is_step(), stepper.is_backward());
+                let (step, back) = (u8::from(step), u8::from(back));
+                write!(out, " {ticks} {step} {back} {}", stepper.position()).unwrap();
+            }
+        }
     }
 
     fn begin_filter(&mut self, words: &mut Words<'_>) {
@@ -309,7 +341,9 @@ fn compose(words: &mut Words<'_>, out: &mut String) {
         [FieldFormat::Binary, FieldFormat::Decimal, FieldFormat::Degrees, FieldFormat::Hex];
     let format = formats[words.number() as usize];
     let (separator, decimals) = (words.byte(), words.byte());
-    use MessageChecksum::{Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea};
+    use MessageChecksum::{
+        Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea,
+    };
     use MessageChecksum::{NotSum8, Sum7, Sum8, Sum16, Xor8};
     let first = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
     let second = [Sum7, NotSum8, NegSum8, NegSum16, Crc16Umts, Crc16Xmodem];

@@ -7,7 +7,7 @@ use super::answer::SCALARS;
 
 /// The first words of the answers that carry a result.
 pub(crate) const WORDS: &str = "ratio store magnitude decode encode compose parse formula \
-    decay apply captured see drive count element cycle";
+    decay apply captured see drive count element advance cycle";
 
 /// A random number: unrestricted, small, near a power of two, or near the end of the range.
 fn number(random: &mut Random) -> u64 {
@@ -144,8 +144,8 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
     let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
     let behind = hex(&bytes(random, behind));
-    let text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
-    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { text };
+    let number = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
+    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { number };
     let values = elements(random, one, count);
     all.push(format!(
         "compose {one} {count} {how} {start} {behind} {end} {format} {separator} {decimals} {sum} {from}{values}"
@@ -325,6 +325,25 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
     }
 }
 
+/// Targets of all sizes and at all moments, most of them in reach.
+fn motors(random: &mut Random, all: &mut Vec<String>) {
+    let below = |random: &mut Random, most: usize| 1 + random.below(most) >> random.below(16);
+    let (ticks, speed) = (below(random, 4_000_000).max(1_000), below(random, 500_000).max(1));
+    let (acceleration, is_velocity) = (below(random, 10_000_000).max(1), random.below(2));
+    all.push(format!("motor {ticks} {speed} {acceleration} {is_velocity}"));
+    for _ in 0..12 {
+        let (one, near) = (scalar(random), random.below(400) as i32 - 200);
+        match random.below(4) {
+            0 => all.push(format!("target {one}{}", elements(random, one, 1))),
+            1 => all.push("halt".to_owned()),
+            _ => all.push(format!("target 6 {:x}", near.cast_unsigned())),
+        }
+        for _ in 0..random.below(120) {
+            all.push("advance".to_owned());
+        }
+    }
+}
+
 /// A round of questions of all kinds.
 pub(crate) fn round(random: &mut Random) -> Vec<String> {
     let mut all = Vec::new();
@@ -336,6 +355,7 @@ pub(crate) fn round(random: &mut Random) -> Vec<String> {
     for _ in 0..20 {
         filters(random, &mut all);
         pins(random, &mut all);
+        motors(random, &mut all);
     }
     for _ in 0..4 {
         links(random, &mut all);

@@ -81,6 +81,13 @@ impl Surroundings for Bench {
         self.recorder.timer(output, period_ns, width_ns);
     }
 
+    fn pulse(&mut self, output: TimerOutput, from_ns: u64, width_ns: u64) {
+        let TimerOutput { timer, channel, .. } = output;
+        let place = format_args!("TIM{timer}_CH{channel}");
+        self.note(from_ns, place, format_args!("a pulse of {width_ns} ns"));
+        self.recorder.pulse(output, from_ns, width_ns);
+    }
+
     fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
         self.note(now_ns, format_args!("DAC{channel}"), format_args!("{millivolts:.1} mV"));
         self.recorder.converter(channel, millivolts);

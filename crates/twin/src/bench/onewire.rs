@@ -27,10 +27,10 @@ impl Bench {
         let others = job.connections.iter().filter(shares);
         let place = others.filter_map(|other| self.on_wire.get(&other.index)).next().copied();
         let place = place.unwrap_or_else(|| {
-            self.lines.push(Wire::default());
-            self.lines.len() - 1
+            self.one_wires.push(Wire::default());
+            self.one_wires.len() - 1
         });
-        if let Some(wire) = self.lines.get_mut(place) {
+        if let Some(wire) = self.one_wires.get_mut(place) {
             wire.add(made);
         }
         self.on_wire.insert(one.index, place);
@@ -39,7 +39,7 @@ impl Bench {
     /// The wire of a connection, with what is wrong with its parts now.
     fn line_of(&mut self, connection: ConnectionIndex, now_ns: u64) -> Option<&mut Wire> {
         let place = *self.on_wire.get(&connection)?;
-        let parts = self.lines.get(place)?.parts.iter();
+        let parts = self.one_wires.get(place)?.parts.iter();
         let ail = |part: PartIndex| {
             let has = |kind| self.has(kind, part, now_ns);
             Ailment {
@@ -49,7 +49,7 @@ impl Bench {
             }
         };
         let ailments: Vec<Ailment> = parts.map(|part| ail(part.part)).collect();
-        let wire = self.lines.get_mut(place)?;
+        let wire = self.one_wires.get_mut(place)?;
         for (part, ailment) in wire.parts.iter_mut().zip(ailments) {
             part.ailment = ailment;
         }
@@ -67,7 +67,7 @@ impl Bench {
         connection: ConnectionIndex,
         after_ns: u64,
     ) -> Option<(u64, bool)> {
-        self.lines.get(*self.on_wire.get(&connection)?)?.next_edge(after_ns)
+        self.one_wires.get(*self.on_wire.get(&connection)?)?.next_edge(after_ns)
     }
 
     /// The board drives a wire.
@@ -81,7 +81,7 @@ impl Bench {
             return;
         }
         let place = self.on_wire.get(&connection).copied();
-        if let Some(wire) = place.and_then(|place| self.lines.get_mut(place)) {
+        if let Some(wire) = place.and_then(|place| self.one_wires.get_mut(place)) {
             wire.driven(level == Some(false), &self.subjects, now_ns);
         }
     }
@@ -94,7 +94,7 @@ impl Bench {
         now_ns: u64,
     ) -> Option<Vec<u8>> {
         self.line_of(connection, now_ns)?;
-        let wire = self.lines.get_mut(*self.on_wire.get(&connection)?)?;
+        let wire = self.one_wires.get_mut(*self.on_wire.get(&connection)?)?;
         let part = wire.parts.iter_mut().find(|one| one.connection == connection)?;
         part.transfer(sent, &self.subjects, now_ns)
     }

@@ -48,7 +48,7 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         // An answer has what the part measures then.
         Interface::Uart(own) if !own.exchange.request.is_empty() => period_ns + 10 * MS,
         Interface::Uart(_) | Interface::Can(_) => period_ns + delay_ns.min(SECOND),
-        Interface::Encoder(_) => 20 * MS,
+        Interface::Encoder(_) | Interface::Stepper(_) => 20 * MS,
         Interface::Icu(icu) => {
             pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some())
         }

@@ -56,7 +56,7 @@ impl Pace {
         let reporter_ns = rate_hz.map_or(REPORTER_NS, cycle_ns_of);
         let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
         let (least_ns, most_ns, own_ns) = match device.kind.interface() {
-            Interface::Encoder(_) => (0, REPEAT_NS, 0),
+            Interface::Encoder(_) | Interface::Stepper(_) => (0, REPEAT_NS, 0),
             Interface::Icu(icu) if icu.mode == Mode::Count => (0, REPEAT_NS, 0),
             Interface::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
             Interface::Digital(_) | Interface::Analog(_) => (cycle_ns, cycle_ns, 0),
@@ -99,7 +99,8 @@ impl Pace {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         };
         // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);

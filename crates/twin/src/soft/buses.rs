@@ -234,7 +234,8 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => continue,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => continue,
         };
         let Some(plan) = job.bus_of(one) else {
             continue;

@@ -7,6 +7,7 @@
 
 mod buses;
 mod dialogue;
+mod motors;
 mod outputs;
 mod sensors;
 
@@ -295,6 +296,7 @@ impl SoftBoard {
             captures,
             contacts,
             encoders,
+            outputs,
             ..
         } = &mut self.state;
         core.now_ms = wrapped(since_ms);
@@ -307,6 +309,9 @@ impl SoftBoard {
         captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         contacts.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         encoders.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        for (index, mut value) in outputs.motors.step(bench, since_ms, now_ns) {
+            core.record(index, Outcome::Fresh, &mut value);
+        }
     }
 
     fn report(&mut self, since_ms: u64) {

@@ -116,7 +116,8 @@ impl FaultKind {
                 | Interface::OneWire(_)
                 | Interface::Spi(_)
                 | Interface::Pwm(_)
-                | Interface::Dac(_) => false,
+                | Interface::Dac(_)
+                | Interface::Stepper(_) => false,
             },
             Self::Reset | Self::Garbage => false,
         }

@@ -206,7 +206,7 @@ fn likely_range(device: &Device) -> (f64, f64) {
                 Mode::Count => (0.0, 0.0),
             }
         }
-        Interface::Encoder(_) => (-2_000.0, 2_000.0),
+        Interface::Encoder(_) | Interface::Stepper(_) => (-2_000.0, 2_000.0),
         Interface::Analog(_) => (400.0, 3_700.0),
         Interface::I2c(_)
         | Interface::Spi(_)

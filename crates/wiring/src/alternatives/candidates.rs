@@ -47,7 +47,7 @@ impl Maker<'_, '_> {
                         let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
                         let shared = match (need, bus) {
                             (Need::Shared(wire), _) => {
-                                let kind = wanted.kind.name().spec().name;
+                                let kind = wanted.kind.name();
                                 Some((*wire, Group::Bus(offer.index, (*wire).to_owned(), kind, 0)))
                             }
                             (_, Some((unit, group))) => Some((unit, group.clone())),

@@ -139,6 +139,20 @@ pub(super) const KINDS: &[Kind] = &[
     },
     Kind {
         may: &[
+            ("mode", &["position", "velocity"], &["torque"]),
+            ("speed", &["4000", "1", "500000"], &["0", "500001", "1 ms"]),
+            ("acceleration", &["8000", "1", "10000000"], &["0", "-1"]),
+            ("pulse", &["2 us", "1 ms"], &["0", "2 ms"]),
+            ("forward", &["high", "low"], &["up"]),
+            ("enabled", &["low", "high"], &["true"]),
+            ("enable", &["none"], &["5"]),
+        ],
+        roles: &["step", "dir"],
+        drivers: &["driver = a4988; reading = target;"],
+        ..actuator("stepper", NUMBERS)
+    },
+    Kind {
+        may: &[
             ("baud", &["9600", "115200", "300", "10000000"], &["1", "9600 Hz"]),
             ("frame", &["\"8N1\"", "\"7E1\"", "\"8O1\""], &["\"9N1\"", "8"]),
             ("start", BYTES, BAD_BYTES),

@@ -35,7 +35,8 @@ pub(super) fn lacks(
         | Kind::Pwm(_)
         | Kind::Dac(_)
         | Kind::Can(_)
-        | Kind::OneWire(_) => None,
+        | Kind::OneWire(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

@@ -24,7 +24,8 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         | Kind::Pwm(_)
         | Kind::Dac(_)
         | Kind::Can(_)
-        | Kind::OneWire(_) => None,
+        | Kind::OneWire(_)
+        | Kind::Stepper(_) => None,
     }
 }
 
