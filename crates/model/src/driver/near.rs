@@ -94,7 +94,7 @@ impl Drivers {
     /// only letters are shared, they must all be of one sort: `max` is a maker, `bme` a family.
     fn family(&self, name: &str) -> Vec<String> {
         let wanted = folded(name);
-        let letters = wanted.chars().take_while(|one| one.is_ascii_alphabetic()).count();
+        let letters = wanted.chars().take_while(char::is_ascii_alphabetic).count();
         let is_part = wanted.is_ascii() && wanted.contains(|one: char| one.is_ascii_digit());
         if !is_part || letters + 1 < BEGINNING_MIN {
             return Vec::new();
