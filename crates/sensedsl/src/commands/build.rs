@@ -302,7 +302,7 @@ fn command(
             let mut command = Command::new(make.0);
             command.args(["--no-print-directory", "-C"]).arg(&program.folder);
             let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-            command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", shown(&tree)));
+            command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", shown(tree)));
             command.arg(format!("UP_MODE={}", job.mode()));
             if terminal.is_quiet() {
                 command.arg("--silent").stdout(Stdio::null());

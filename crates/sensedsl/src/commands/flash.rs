@@ -63,7 +63,7 @@ fn flash(job: &Job<'_>, terminal: &Terminal) -> Result<Status> {
         Some(After::Run(words)) => run_tool(words, terminal)?
             .map(|(tool, how)| e0522_not_flashed::not_flashed(job.at, board, &tool, &how)),
         Some(After::Copy { file, drive }) => copy(file, drive, terminal)?
-            .map(|how| e0522_not_flashed::not_copied(job.at, board, &shown(&drive), &how)),
+            .map(|how| e0522_not_flashed::not_copied(job.at, board, &shown(drive), &how)),
     };
     if let Some(why) = failed {
         return job.refuse(why, Status::Misused, terminal);
@@ -84,7 +84,7 @@ fn run_tool(words: &[String], terminal: &Terminal) -> Result<Option<(String, Str
 
 /// Copies a file to a drive; the result says why the drive did not take it.
 fn copy(file: &Path, drive: &Path, terminal: &Terminal) -> Result<Option<String>> {
-    let bytes = std::fs::read(file).with_context(|| shown(&file))?;
+    let bytes = std::fs::read(file).with_context(|| shown(file))?;
     let Some(name) = file.file_name() else { return Ok(None) };
     terminal.note(&format!("copy {} to {}\n", visible(&shown(file)), visible(&shown(drive))))?;
     // The drive only looks like one: no other name, no second step.

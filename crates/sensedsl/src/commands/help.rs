@@ -37,7 +37,7 @@ pub(crate) fn man(args: &ManArgs, terminal: &mut Terminal) -> Result<Status> {
         pages.iter().map(|(path, text)| (path.as_path(), text.as_bytes())).collect();
     write_together(&files)?;
     for (path, _) in &pages {
-        terminal.note(&format!("{}\n", shown(&path)))?;
+        terminal.note(&format!("{}\n", shown(path)))?;
     }
     Ok(Status::Done)
 }

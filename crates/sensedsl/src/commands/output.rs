@@ -51,7 +51,7 @@ struct Listed {
 impl Listed {
     fn of(root: &Path) -> Result<Self> {
         let text =
-            read_list(&root.join(LIST)).with_context(|| format!("cannot read {}", shown(&root)))?;
+            read_list(&root.join(LIST)).with_context(|| format!("cannot read {}", shown(root)))?;
         let is_known = State::of_user().knows(root, &text);
         Ok(Self { files: entries(&text), is_known })
     }
@@ -107,7 +107,7 @@ fn sort_out(
     changes: &mut Changes,
 ) -> Result<()> {
     let is_listed = |path: &str| listed.files.contains_key(path);
-    for (path, kind) in walk(root).with_context(|| format!("cannot read {}", shown(&root)))? {
+    for (path, kind) in walk(root).with_context(|| format!("cannot read {}", shown(root)))? {
         // A user's folder may be a link to one elsewhere.
         let theirs = kind == Kind::Link && is_named_as_theirs(&path);
         if kind == Kind::Folder && path == Path::new(LIST) {

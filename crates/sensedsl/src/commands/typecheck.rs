@@ -55,7 +55,7 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
     for (path, file) in check.files.iter() {
         let path = folder.join(path);
         let parent = path.parent().unwrap_or(&folder);
-        std::fs::create_dir_all(parent).with_context(|| shown(&parent))?;
+        std::fs::create_dir_all(parent).with_context(|| shown(parent))?;
         std::fs::write(&path, &file.bytes).with_context(|| shown(&path))?;
     }
     // Dependencies that are in the cache need no network; only the first check of a chip downloads.

@@ -106,7 +106,7 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> io::Error {
     move |error| {
         let kind =
             if is_unsupported_call(&error) { io::ErrorKind::Unsupported } else { error.kind() };
-        io::Error::new(kind, format!("{}: {error}", shown(&path)))
+        io::Error::new(kind, format!("{}: {error}", shown(path)))
     }
 }
 

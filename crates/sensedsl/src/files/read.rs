@@ -145,11 +145,11 @@ pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
     match open(path, false) {
         Ok(opened) => {
             let read = opened.reader().read_to_end(&mut bytes);
-            read.with_context(|| format!("cannot read {}", shown(&path)))?;
+            read.with_context(|| format!("cannot read {}", shown(path)))?;
             Ok(Some(bytes))
         }
         Err(ReadError::Missing) => Ok(None),
-        Err(unread) => anyhow::bail!("cannot read {}: {}", shown(&path), unread.why()),
+        Err(unread) => anyhow::bail!("cannot read {}: {}", shown(path), unread.why()),
     }
 }
 

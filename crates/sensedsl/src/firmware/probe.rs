@@ -232,7 +232,7 @@ pub(crate) fn drive_at(
     at: Span,
 ) -> Result<PathBuf, Box<Diagnostic>> {
     match Drive::at(path) {
-        None => Err(e0527_other_drive::no_drive(at, &shown(&path)).into()),
+        None => Err(e0527_other_drive::no_drive(at, &shown(path)).into()),
         Some(drive) if drive.suits(program) => Ok(drive.path),
         Some(drive) => Err(not_of_board(&drive, program, at)),
     }
@@ -253,7 +253,7 @@ pub(crate) fn command(
     (elf, raw): (&Path, &Path),
     at: Span,
 ) -> Result<Vec<String>, Box<Diagnostic>> {
-    let (elf, raw) = (shown(&elf), shown(&raw));
+    let (elf, raw) = (shown(elf), shown(raw));
     let mcu = || {
         let unknown = || Box::new(e0522_not_flashed::unknown_mcu(at, &program.board, tool.name()));
         program.mcu.as_deref().ok_or_else(unknown)

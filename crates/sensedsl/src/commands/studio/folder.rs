@@ -46,7 +46,7 @@ impl Folder {
     /// It is not there, or is neither.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let real =
-            fs::canonicalize(path).with_context(|| format!("cannot open {}", shown(&path)))?;
+            fs::canonicalize(path).with_context(|| format!("cannot open {}", shown(path)))?;
         let (root, open) = if real.is_dir() {
             (real, None)
         } else {
@@ -55,7 +55,7 @@ impl Folder {
             (folder.to_path_buf(), name.filter(|name| is_shown(name)))
         };
         if !root.is_dir() {
-            bail!("{} is not a folder", shown(&path));
+            bail!("{} is not a folder", shown(path));
         }
         Ok(Self { root, open, writing: Mutex::new(()) })
     }

@@ -28,7 +28,7 @@ impl Site {
             Some(folder) if folder.join("index.html").is_file() => {
                 Ok(Self::In(fs::canonicalize(folder)?))
             }
-            Some(folder) => bail!("there is no page in {}: it has no index.html", shown(&folder)),
+            Some(folder) => bail!("there is no page in {}: it has no index.html", shown(folder)),
             None if FILES.iter().any(|(path, _)| *path == "index.html") => Ok(Self::Own),
             None => bail!(
                 "this program was built without the studio's page: make it with `cargo xtask studio`, \
