@@ -60,7 +60,9 @@ pub(super) fn lacks(
         }
         Kind::Uart(own)
             if own.exchange.duplex == Duplex::Half
-                && !drivers.serial().is_some_and(|serial| serial.has_one_wire()) =>
+                && !drivers
+                    .serial()
+                    .is_some_and(super::hal::contract::buses::Serial::has_one_wire) =>
         {
             Some("both directions of a serial port on one wire")
         }

@@ -24,6 +24,9 @@ const DRAIN_MS: u16 = 5;
 /// Tells the task of a line that the host has set something; it is a `static`.
 pub type Wake = Signal<CriticalSectionRawMutex, ()>;
 
+/// What takes bytes, and says whether they are all.
+type Taker<'a> = &'a mut dyn FnMut(&[u8]) -> Heard;
+
 /// What is known of an order.
 #[derive(Clone, Copy)]
 pub struct OrderState {
@@ -201,12 +204,7 @@ impl<const RX: usize, const TX: usize> Wires<RX, TX> {
 
     /// Takes what comes in the time that the bytes take on the line and `wait_ms`, without their
     /// echo, until `take` has heard enough; with no `take`, until the echo is over.
-    async fn hear(
-        &self,
-        sent: &[u8],
-        wait_ms: u16,
-        mut take: Option<&mut dyn FnMut(&[u8]) -> Heard>,
-    ) -> Heard {
+    async fn hear(&self, sent: &[u8], wait_ms: u16, mut take: Option<Taker<'_>>) -> Heard {
         // A byte that is queued waits for a tick of the clock besides its own time.
         let line_us = sent.len() as u64 * 2 * (u64::from(self.character_us) + 64);
         let until = Instant::now()

@@ -1,9 +1,7 @@
 //! Both runtimes against `tests/vectors/stepper`: in a file of moves each step is due when exact arithmetic says, and
 //! the motor is then where it says.
 
-use std::fs;
-
-use sensedsl_tests::root;
+use sensedsl_tests::text;
 
 use super::answer::Desk;
 
@@ -33,7 +31,7 @@ fn step(ask: &mut impl FnMut(&str) -> String) -> Option<(f64, i64)> {
 
 /// The lines of the file, and what a runtime is asked for each of them.
 pub(crate) fn hold(ask: &mut impl FnMut(&str) -> String) {
-    let text = fs::read_to_string(root().join("tests/vectors/stepper/moves.txt")).unwrap();
+    let text = text("tests/vectors/stepper/moves.txt");
     let (mut steps, mut tick_hz) = (0, 1.0);
     for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let words: Vec<&str> = line.split(' ').collect();

@@ -198,7 +198,7 @@ fn load_cell(random: &mut Random) -> Vec<u8> {
     let code = random.next() as u32;
     let mut all = vec![if random.below(6) > 0 { 0 } else { 1 }];
     all.extend((0..6).map(|at| {
-        let pairs = (0..4).map(|bit| (code >> (23 - 4 * at - bit) & 1) * 3 << (6 - 2 * bit));
+        let pairs = (0..4).map(|bit| ((code >> (23 - 4 * at - bit) & 1) * 3) << (6 - 2 * bit));
         pairs.sum::<u32>() as u8
     }));
     all.push(if random.below(6) > 0 { 0xFF } else { 0xFE });
@@ -327,7 +327,7 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
 
 /// Targets of all sizes and at all moments, most of them in reach.
 fn motors(random: &mut Random, all: &mut Vec<String>) {
-    let below = |random: &mut Random, most: usize| 1 + random.below(most) >> random.below(16);
+    let below = |random: &mut Random, most: usize| (1 + random.below(most)) >> random.below(16);
     let (ticks, speed) = (below(random, 4_000_000).max(1_000), below(random, 500_000).max(1));
     let (acceleration, is_velocity) = (below(random, 10_000_000).max(1), random.below(2));
     all.push(format!("motor {ticks} {speed} {acceleration} {is_velocity}"));

@@ -132,7 +132,7 @@ fn load_cell(wanted: f64) -> Vec<u8> {
     #[expect(clippy::cast_possible_truncation, reason = "it is in the range of 24 bits")]
     let number = wanted.round().clamp(-8_388_608.0, 8_388_607.0) as i32;
     let doubled = |byte: u8| {
-        (0..8).rev().fold(0_u16, |all, place| all << 2 | u16::from(byte >> place & 1) * 0b11)
+        (0..8).rev().fold(0_u16, |all, place| (all << 2) | (u16::from(byte >> place & 1) * 0b11))
     };
     let [_, bytes @ ..] = number.to_be_bytes();
     let clocked = bytes.map(|byte| doubled(byte).to_be_bytes()).concat();
