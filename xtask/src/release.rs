@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         let status = cargo.arg(root.join(manifest)).status()?;
         ensure!(status.success(), "the lock file of {manifest} was not written");
     }
-    crate::say(&steps(&asked.version))
+    crate::say(&steps(&release.old, &asked.version))
 }
 
 impl Asked {
@@ -98,6 +98,8 @@ fn today() -> Result<String> {
 struct Release {
     /// Paths and their new text.
     changed: Vec<(String, String)>,
+    /// The version before.
+    old: String,
     /// What the changelog has now.
     removed: Vec<String>,
     /// The section of the changelog.
@@ -127,7 +129,7 @@ impl Release {
             changelog::renewed(&text(changelog::PAGE)?, &fragments, version, date)?;
         changed.push((changelog::PAGE.into(), whole));
         let removed = fragments.into_iter().map(|one| format!("changes/{}", one.file)).collect();
-        Ok(Self { changed, removed, section })
+        Ok(Self { changed, old, removed, section })
     }
 
     fn write(&self, root: &Path) -> Result<()> {
@@ -142,14 +144,14 @@ impl Release {
 }
 
 /// What a person does then.
-fn steps(version: &str) -> String {
+fn steps(old: &str, version: &str) -> String {
     format!(
         "
 read the difference, then:
 
     git commit -am 'Release {version}'
     bash .ci/full
-    cargo semver-checks --workspace --baseline-rev v{version}  # the tag before this one
+    cargo semver-checks --workspace --baseline-rev v{old}  # unless this is the first release
     cargo xtask release {version} --artefacts target/release-{version}
     git tag -s v{version} -F target/release-{version}/tag-message.txt
     cargo publish --workspace --dry-run  # without it the crates are published, in the order of their needs

@@ -38,30 +38,30 @@ fn a_copy_is_released() {
     let copy = copy("release");
     let fragments = changelog::fragments(&copy.0.join("changes")).unwrap();
     let old = places::current(&text(&copy, "Cargo.toml")).unwrap();
-    let release = Release::new(&copy.0, "7.1.3", "2031-02-28").unwrap();
+    let release = Release::new(&copy.0, "7.91.3", "2031-02-28").unwrap();
     release.write(&copy.0).unwrap();
 
-    assert_eq!(places::current(&text(&copy, "Cargo.toml")).unwrap(), "7.1.3");
+    assert_eq!(places::current(&text(&copy, "Cargo.toml")).unwrap(), "7.91.3");
     let manifest = text(&copy, "Cargo.toml");
     let own = manifest.lines().filter(|line| line.contains("path = \"crates/")).count();
-    assert_eq!(manifest.matches("\"7.1.3\"").count(), own + 1);
+    assert_eq!(manifest.matches("\"7.91.3\"").count(), own + 1);
     for place in places::PLACES {
         let text = text(&copy, place.path);
         match place.times {
             // A lock file of npm has its own version first; that of another package may be the same.
-            Some(times) => assert_eq!(text.matches("7.1.3").count(), times, "{}", place.path),
+            Some(times) => assert_eq!(text.matches("7.91.3").count(), times, "{}", place.path),
             None => assert!(place.renewed(&text, &old, "8.0.0").is_err(), "{}", place.path),
         }
     }
     let cited = text(&copy, places::CITATION);
     assert_eq!(
-        cited.matches("\nversion: 7.1.3\ndate-released: 2031-02-28\n").count(),
+        cited.matches("\nversion: 7.91.3\ndate-released: 2031-02-28\n").count(),
         1,
         "{cited}"
     );
 
     let page = text(&copy, changelog::PAGE);
-    let section = changelog::section_of(&page, "7.1.3").unwrap();
+    let section = changelog::section_of(&page, "7.91.3").unwrap();
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     for one in &fragments {
         let said = std::fs::read_to_string(
@@ -76,27 +76,27 @@ fn a_copy_is_released() {
     assert_eq!(left, 1, "the README alone is left");
 
     // Nothing has changed since.
-    assert!(Release::new(&copy.0, "7.1.4", "2031-03-01").is_err());
+    assert!(Release::new(&copy.0, "7.91.4", "2031-03-01").is_err());
     // What comes next has a section of its own, above.
     std::fs::write(copy.0.join("changes/next.md"), "Wire\n\nA wire is shorter.\n").unwrap();
-    let next = Release::new(&copy.0, "7.2.0", "2031-04-01").unwrap();
+    let next = Release::new(&copy.0, "7.92.0", "2031-04-01").unwrap();
     next.write(&copy.0).unwrap();
     let page = text(&copy, changelog::PAGE);
-    assert_eq!(changelog::section_of(&page, "7.2.0").unwrap(), "### Wire\n\n- A wire is shorter.");
-    assert!(page.find("## 7.2.0 (2031-04-01)") < page.find("## 7.1.3 (2031-02-28)"));
+    assert_eq!(changelog::section_of(&page, "7.92.0").unwrap(), "### Wire\n\n- A wire is shorter.");
+    assert!(page.find("## 7.92.0 (2031-04-01)") < page.find("## 7.91.3 (2031-02-28)"));
     assert_eq!(
         text(&copy, places::CITATION).matches("version: ").count(),
         2,
         "cff-version, version"
     );
-    assert!(Release::new(&copy.0, "7.1.9", "2031-04-02").is_err(), "an older version");
+    assert!(Release::new(&copy.0, "7.91.9", "2031-04-02").is_err(), "an older version");
 }
 
 #[test]
 fn what_is_no_fragment_is_told() {
     let copy = copy("fragments");
     std::fs::write(copy.0.join("changes/odd.md"), "Solder\n\nA joint is better.\n").unwrap();
-    let why = Release::new(&copy.0, "7.1.3", "2031-02-28").err().unwrap().to_string();
+    let why = Release::new(&copy.0, "7.91.3", "2031-02-28").err().unwrap().to_string();
     assert!(why.contains("changes/odd.md") && why.contains("Solder"), "{why}");
 }
 
