@@ -117,7 +117,7 @@ impl Compose {
         };
         let mut digits = [b'0'; 20];
         let (mut rest, mut count) = (number, 0);
-        for place in digits.iter_mut() {
+        for place in &mut digits {
             if rest == 0 && count > decimals {
                 break;
             }

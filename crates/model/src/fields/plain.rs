@@ -54,11 +54,7 @@ pub(crate) fn with_address(value: &Value, address: Option<u8>) -> Value {
     let number =
         Number { value: address.into(), integer: Some(address.into()), measure: Measure::Bare };
     let one = |one: &Spanned<Value>| Spanned {
-        value: if is_address(&one.value) {
-            Value::Number(number.clone())
-        } else {
-            one.value.clone()
-        },
+        value: if is_address(&one.value) { Value::Number(number) } else { one.value.clone() },
         span: one.span,
     };
     Value::List(list.iter().map(one).collect())
