@@ -4,6 +4,7 @@ use sensedsl_model::kind::uart::Duplex;
 use sensedsl_model::kind::{Kind, KindName};
 
 use super::hal::contract::Drivers;
+use super::hal::contract::buses::Serial;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
@@ -60,9 +61,7 @@ pub(super) fn lacks(
         }
         Kind::Uart(own)
             if own.exchange.duplex == Duplex::Half
-                && !drivers
-                    .serial()
-                    .is_some_and(super::hal::contract::buses::Serial::has_one_wire) =>
+                && !drivers.serial().is_some_and(Serial::has_one_wire) =>
         {
             Some("both directions of a serial port on one wire")
         }

@@ -21,11 +21,11 @@ use crate::serial::{RxQueue, TxQueue};
 /// What a part says to a step of its start is taken off the line for so long.
 const DRAIN_MS: u16 = 5;
 
+/// What takes the bytes of an answer, and says whether it has heard enough.
+type Listener<'a> = dyn FnMut(&[u8]) -> Heard + 'a;
+
 /// Tells the task of a line that the host has set something; it is a `static`.
 pub type Wake = Signal<CriticalSectionRawMutex, ()>;
-
-/// What takes bytes, and says whether they are all.
-type Taker<'a> = &'a mut dyn FnMut(&[u8]) -> Heard;
 
 /// What is known of an order.
 #[derive(Clone, Copy)]
@@ -204,7 +204,7 @@ impl<const RX: usize, const TX: usize> Wires<RX, TX> {
 
     /// Takes what comes in the time that the bytes take on the line and `wait_ms`, without their
     /// echo, until `take` has heard enough; with no `take`, until the echo is over.
-    async fn hear(&self, sent: &[u8], wait_ms: u16, mut take: Option<Taker<'_>>) -> Heard {
+    async fn hear(&self, sent: &[u8], wait_ms: u16, mut take: Option<&mut Listener<'_>>) -> Heard {
         // A byte that is queued waits for a tick of the clock besides its own time.
         let line_us = sent.len() as u64 * 2 * (u64::from(self.character_us) + 64);
         let until = Instant::now()

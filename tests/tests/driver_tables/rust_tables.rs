@@ -93,7 +93,9 @@ impl Tables {
         Self {
             schema,
             chip: table,
-            message: port.map(|port| kept(tables::message(port, index))),
+            message: port
+                .filter(|port| !port.fields.is_empty())
+                .map(|port| kept(tables::message(port, index))),
             exchanges: port
                 .map(|port| port.exchanges.iter().map(|one| tables::exchange(one, index)).collect())
                 .unwrap_or_default(),

@@ -118,6 +118,8 @@ class Parser:
                 unit = self.take()
                 return Quantity(number * UNITS[unit], unit)
             return number
+        if token == "raw":
+            return self.factor()
         return Word(token)
 
 

@@ -144,8 +144,8 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
     let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
     let behind = hex(&bytes(random, behind));
-    let number = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
-    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { number };
+    let as_text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
+    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { as_text };
     let values = elements(random, one, count);
     all.push(format!(
         "compose {one} {count} {how} {start} {behind} {end} {format} {separator} {decimals} {sum} {from}{values}"
