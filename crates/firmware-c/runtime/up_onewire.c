@@ -57,5 +57,5 @@ up_result_t up_burst_decode(const uint32_t *falls_us, size_t falls_count, uint8_
       return UP_BUS_ERROR;
     }
   }
-  return (((bytes[0] + bytes[1] + bytes[2] + bytes[3]) & 0xFFU) == bytes[4]) ? UP_FRESH : UP_WRONG_CRC;
+  return ((uint8_t)(bytes[0] + bytes[1] + bytes[2] + bytes[3]) == bytes[4]) ? UP_FRESH : UP_WRONG_CRC;
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
     e0621_too_often, e0622_link_too_slow, e0624_no_turns, w0623_nearly_busy,
-    w0625_no_turns_by_default, w0627_locked_too_long,
+    w0625_no_turns_by_default, w0628_locked_too_long,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{Design, Device, DeviceIndex, Transport};
@@ -62,7 +62,7 @@ fn of_locks(design: &Design, timing: &BoardTiming) -> Option<Diagnostic> {
     let device = design.device(*wire.devices.first()?)?;
     let most = BYTE_BITS * SECOND_NS / locked_ns;
     let (name, lock) = (&device.name.value, shown_time(locked_ns));
-    Some(w0627_locked_too_long::locked_too_long(device.name.span, name, &lock, &port.name, most))
+    Some(w0628_locked_too_long::locked_too_long(device.name.span, name, &lock, &port.name, most))
 }
 
 /// The place of a device's cycle time.

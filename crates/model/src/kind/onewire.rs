@@ -32,9 +32,9 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::AnyPin,
     wires: "one GPIO with a resistor to the supply; with `rom` shared by 1-Wire parts. ChibiOS also takes the \
             interrupt line of its number with `protocol = dht`",
-    example: "protocol = dht; wait = 1 s;",
-    colour: "#B5003C",
-    colour_on_dark: "#E8527B",
+    example: "protocol = w1;",
+    colour: "#A800E1",
+    colour_on_dark: "#4C7A5D",
     letter: 'W',
 };
 
@@ -60,7 +60,7 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         "rom = \"28-0000055f311a\";",
     ),
     Meaning::new(
-        ("pulse", Takes::Time(500, 30_000)),
+        ("pulse", Takes::Time(10, 30_000)),
         "1 ms",
         "How long the board pulls the wire low to make a part of `dht` measure: 18 ms for a DHT11.",
         "pulse = 18 ms;",
@@ -190,7 +190,7 @@ impl Properties for OneWire {
         let bare = Self::bare(protocol);
         let family = fields.integer("family", 1..=255);
         let rom = rom::read(fields, family.as_ref().and_then(|one| u8::try_from(one.value).ok()));
-        let pulse = fields.time_us("pulse", 500..=30_000);
+        let pulse = fields.time_us("pulse", 10..=30_000);
         let trigger = fields.bytes("trigger", 0..=8);
         let read = fields.bytes("read", 1..=8);
         let wait = fields.time_us("wait", 0..=60_000_000);

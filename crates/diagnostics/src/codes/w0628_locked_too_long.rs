@@ -1,10 +1,10 @@
-//! W0627: interrupts are off for longer than a serial port can wait.
+//! W0628: interrupts are off for longer than a serial port can wait.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
-    code: "W0627",
+    code: "W0628",
     title: "interrupts are off for longer than a serial port can wait",
     explanation: r#"The processor makes the bits of a part on 1-Wire itself, and keeps interrupts off for the few microseconds in which
 a bit must be exact. A serial port that is faster than the message says can receive a whole byte in that time. Where its
@@ -12,7 +12,7 @@ hardware holds only one, the next one overwrites it.
 
 Way out: a lower `baud`, a part on I2C, or the part on another board.
 
-If the port only sends, nothing is lost: `allow W0627 "it only sends";`."#,
+If the port only sends, nothing is lost: `allow W0628 "it only sends";`."#,
 });
 
 /// `lock` is the time for which the device `name` keeps interrupts off; `most` is the greatest rate that can be received.
