@@ -249,7 +249,7 @@ pub(super) fn settings(kind: &Kind) -> String {
         Interface::Stepper(motor) => vec![
             format!("up to {} steps/s", motor.speed),
             format!("{} steps/s^2", motor.acceleration),
-            format!("pulses of {} us", motor.pulse_us),
+            format!("pulses {} us", motor.pulse_us),
         ],
         Interface::Analog(_) | Interface::Dac(_) | Interface::Can(_) => Vec::new(),
     };
