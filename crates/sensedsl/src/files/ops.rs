@@ -65,7 +65,7 @@ impl Ops {
     }
 
     /// Makes a symbolic link that leads to `target`.
-    #[cfg(unix)]
+    #[cfg(target_os = "linux")]
     pub(crate) fn symlink(&self, target: &Path, path: &Path) -> io::Result<()> {
         self.may()?;
         std::os::unix::fs::symlink(target, path).map_err(at(path))
