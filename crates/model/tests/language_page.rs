@@ -188,7 +188,7 @@ fn misspelled_names_are_understood() {
 fn parts_that_are_not_there_lead_to_similar_ones() {
     for (asked, first) in [
         ("bme688", "bme280"),
-        ("ina233", "ina228"),
+        ("ina233", "ina219"),
         ("max31850", "max31855"),
         ("lsm6dsl", "lsm6ds3"),
         ("barometer", "bmp280"),

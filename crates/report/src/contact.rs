@@ -135,16 +135,28 @@ mod tests {
     }
 
     /// Wires of the MCU's port that these parts have no use for.
-    const NOT_AT_THE_PART: [&str; 3] = ["hc595_pins miso", "mt6701_ssi mosi", "sabertooth rx"];
+    const NOT_AT_THE_PART: [&str; 7] = [
+        "hc595_pins miso",
+        "mt6701_ssi mosi",
+        "sabertooth rx",
+        "max31855 mosi",
+        "max6675 mosi",
+        "hx711 sck",
+        "hx711 cs",
+    ];
 
     /// Parts that get their supply from elsewhere: over a resistor, from a pin, from the robot's battery.
-    const WITHOUT_SUPPLY: [&str; 15] = [
+    const WITHOUT_SUPPLY: [&str; 19] = [
         "ntc",
         "buzzer",
         "vesc",
         "vesc_duty",
         "vesc_current",
         "vesc_uart",
+        "odrive",
+        "odrive_position",
+        "odrive_torque",
+        "wind_vane",
         "roboclaw",
         "sabertooth",
         "kangaroo",

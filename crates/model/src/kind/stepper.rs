@@ -34,7 +34,7 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(serves),
     wires: "one timer output for the steps; the whole timer is taken. A GPIO for the direction, and one for `enable` where there is that wire",
     example: "speed = 4000; acceleration = 40000;",
-    colour: "#A209D8",
+    colour: "#500080",
     colour_on_dark: "#632DFC",
     letter: 'M',
 };
