@@ -24,9 +24,9 @@ pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         let over = over_supply(design, device).or_else(|| beyond(device));
         // A bound in a driver of the file was reported at the driver.
         let is_told = |one: &Diagnostic| {
-            diagnostics.iter().any(|told| {
-                told.code == one.code && told.primary.span == one.primary.span
-            })
+            diagnostics
+                .iter()
+                .any(|told| told.code == one.code && told.primary.span == one.primary.span)
         };
         if let Some(over) = over.filter(|over| !is_told(over)) {
             diagnostics.push(over);

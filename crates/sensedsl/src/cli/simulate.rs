@@ -31,7 +31,7 @@ pub(crate) struct SimulateArgs {
     /// Compare every report with the world, as fast as possible; exit 1 where they disagree
     #[arg(long)]
     pub(crate) judge: bool,
-    /// With --judge, write a case for each device to a file, as JUnit XML for a build server
+    /// With --judge, write a case for each device to a file, as `JUnit` XML for a build server
     #[arg(long, value_name = "FILE", requires = "judge")]
     pub(crate) junit: Option<PathBuf>,
     /// Print what the board reports, and make no pseudo-terminal
