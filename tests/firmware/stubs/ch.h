@@ -107,6 +107,7 @@ void chThdSleepMicroseconds(uint32_t us);
 void chThdSleepUntil(systime_t time);
 systime_t chThdSleepUntilWindowed(systime_t previous, systime_t next);
 void chThdSleep(sysinterval_t time);
+void chThdYield(void);
 thread_t *chThdCreateStatic(void *area, size_t bytes, tprio_t prio, tfunc_t function, void *parameter);
 thread_t *chThdCreateFromHeap(void *heap, size_t bytes, const char *name, tprio_t prio, tfunc_t function,
                               void *parameter);
