@@ -85,20 +85,22 @@ static void write_one(const up_onewire_port_t *port) {
 
 /* False if it may have been a reset. */
 static bool write_zero(const up_onewire_port_t *port) {
+  const bool is_short = !up_ticks_are_long();
   uint32_t begin;
   uint32_t ticks;
 
-#if UP_TICKS_ARE_LONG == FALSE
-  chSysLock();
-#endif
+  /* What lasts longer than the counter would not be noticed. */
+  if (is_short) {
+    chSysLock();
+  }
   begin = up_ticks();
   pull(port);
   up_wait_us(LONG_US);
   release(port);
   ticks = up_ticks_since(begin);
-#if UP_TICKS_ARE_LONG == FALSE
-  chSysUnlock();
-#endif
+  if (is_short) {
+    chSysUnlock();
+  }
   up_wait_us(RECOVERY_US);
   return ticks < UP_TICKS_OF_US(LONG_MOST_US);
 }

@@ -14,8 +14,10 @@
 
 #if PORT_SUPPORTS_RT == TRUE && !defined(UP_TICKS_OF_SYSTEM_TIMER)
 
-/* It lasts for seconds, so that also a time in which other threads ran is right. */
-#define UP_TICKS_ARE_LONG TRUE
+/* Whether also a time in which other threads ran is right: it lasts for seconds. */
+static inline bool up_ticks_are_long(void) {
+  return true;
+}
 
 static inline void up_ticks_start(void) {
 }
@@ -30,8 +32,10 @@ static inline uint32_t up_ticks_between(uint32_t begin, uint32_t end) {
 
 #else
 
-/* It may be the kernel's own, and wrap each millisecond. */
-#define UP_TICKS_ARE_LONG FALSE
+/* Where it is the kernel's own it wraps each millisecond. */
+static inline bool up_ticks_are_long(void) {
+  return SysTick->LOAD == SysTick_LOAD_RELOAD_Msk;
+}
 
 /* Unless the kernel uses it already, it counts 24 bits without interrupting. */
 static inline void up_ticks_start(void) {

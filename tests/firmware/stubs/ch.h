@@ -107,6 +107,7 @@ void chThdSleepMicroseconds(uint32_t us);
 void chThdSleepUntil(systime_t time);
 systime_t chThdSleepUntilWindowed(systime_t previous, systime_t next);
 void chThdSleep(sysinterval_t time);
+void chThdYield(void);
 static inline sysinterval_t chVTTimeElapsedSinceX(systime_t start) {
   return chTimeDiffX(start, chVTGetSystemTimeX());
 }

@@ -392,4 +392,16 @@ void wdgReset(WDGDriver *driver);
 
 #include "stub_units.h"
 
+/* The core's own timer, which CMSIS has. */
+typedef struct {
+  volatile uint32_t CTRL;
+  volatile uint32_t LOAD;
+  volatile uint32_t VAL;
+} stub_systick_t;
+extern stub_systick_t stub_systick;
+#define SysTick (&stub_systick)
+#define SysTick_CTRL_ENABLE_Msk 1U
+#define SysTick_CTRL_CLKSOURCE_Msk 4U
+#define SysTick_LOAD_RELOAD_Msk 0xFFFFFFU
+
 #endif

@@ -78,7 +78,7 @@ fn too_slow(design: &Design, device: &Device) -> Option<Diagnostic> {
         return None;
     }
     let must_rest = device.kind.onewire().is_some_and(|own| own.rest_us > 0);
-    let at = device.delay_span.or(wait_span).or(must_rest.then_some(device.name.span))?;
+    let at = device.delay_span.or(if must_rest { Some(device.name.span) } else { wait_span })?;
     let needs_ms = wait_us.div_ceil(1_000).to_string();
     let part = design.part(device.part).filter(|_| must_rest);
     let part = part.map_or(&device.name, |part| &part.name);

@@ -325,6 +325,7 @@ impl ChipReader<'_> {
             |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
         let numbers = given.via.iter().map(|wanted| self.next.connection.0 + place(wanted));
         let connections = numbers.map(ConnectionIndex).collect();
+        let delay_ms = properties::delay_ms(own.delay_ms, &kind);
         Some(Device {
             part: self.next.part,
             name: name.clone(),
@@ -332,9 +333,9 @@ impl ChipReader<'_> {
             id: id.unwrap_or(Spanned { value: 0, span: name.span }),
             direction,
             value: *value,
+            delay_ms,
             kind,
             kind_span: name.span,
-            delay_ms: own.delay_ms,
             delay_span: own.delay_span,
             prio: own.prio,
             prio_span: own.prio_span,
