@@ -23,7 +23,7 @@ built() {
     (cd "$folder" && CARGO_HOME="$scratch/$1/home" CARGO_TARGET_DIR="$scratch/$1/target" CARGO_INCREMENTAL=0 sh packaging/plain-paths.sh \
         cargo build --locked --offline --quiet --profile "$profile" -p sensedsl)
     cp "$scratch/$1/target/$folder_of_profile/sensedsl" "$scratch/$1.program"
-    if grep -c "$scratch\|$HOME" "$scratch/$1.program"; then
+    if grep -q "$scratch\|$HOME" "$scratch/$1.program"; then
         echo "the program has paths of this machine" && exit 1
     fi
     rm -rf "${scratch:?}/$1"
