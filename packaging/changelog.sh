@@ -11,7 +11,7 @@ else
     date=$(LC_ALL=C date -Ru -d "@${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}")
 fi
 cat <<END
-sensedsl ($version) unstable; urgency=low
+sensedsl ($version-1) unstable; urgency=low
 
   * CHANGELOG.md of the sources says what has changed.
 

@@ -3,7 +3,7 @@
 #
 #     sh packaging/cross.sh x86_64-pc-windows-gnu [PROFILE]      under Wine, if wine64 is there
 #     sh packaging/cross.sh aarch64-unknown-linux-gnu [PROFILE]  under qemu-user
-#     sh packaging/cross.sh x86_64-unknown-linux-musl [PROFILE]  a static program; Zig links it
+#     sh packaging/cross.sh x86_64-unknown-linux-musl [PROFILE]  a static program; by the toolchain of rustup alone
 #     sh packaging/cross.sh aarch64-apple-darwin                 compiles only: to link it takes Apple's SDK
 #
 # What it built is a file in `target/cross`. Needs the linkers of the other systems (Debian: gcc-mingw-w64-x86-64,
@@ -14,7 +14,9 @@ cd "$(dirname "$0")/.."
 triple=$1
 profile=${2:-dist}
 target=${CARGO_TARGET_DIR:-$PWD/target}
-program=${PROGRAM:-$target/$profile/sensedsl}
+folder=$profile
+[ "$profile" != dev ] || folder=debug
+program=${PROGRAM:-$target/$folder/sensedsl}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 ending=
@@ -25,7 +27,7 @@ case $triple in
         export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER=x86_64-w64-mingw32-gcc
         ;;
     aarch64-unknown-linux-gnu) export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc ;;
-    x86_64-unknown-linux-musl) export CARGO_TARGET_X86_64_UNKNOWN_LINUX_MUSL_LINKER="$PWD/packaging/zig-musl.sh" ;;
+    x86_64-unknown-linux-musl) ;;
     aarch64-apple-darwin | x86_64-apple-darwin) build=check ;;
     *) echo "targets: x86_64-pc-windows-gnu, aarch64-unknown-linux-gnu, x86_64-unknown-linux-musl, aarch64-apple-darwin" && exit 2 ;;
 esac
@@ -35,10 +37,6 @@ if rustup target list --installed 2>/dev/null | grep -qx "$triple"; then
     cargo "$build" --locked --profile "$profile" -p sensedsl --target "$triple"
 else
     export RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1
-    case $triple in
-        # The standard library comes without its own objects, so the linker's C library is used.
-        *-musl) export RUSTFLAGS="-C link-self-contained=no -C target-feature=+crt-static -C relocation-model=static" ;;
-    esac
     cargo "$build" --locked -Zbuild-std=std,panic_unwind --profile "$profile" -p sensedsl --target "$triple"
 fi
 if [ "$build" = check ]; then
@@ -48,9 +46,9 @@ fi
 mkdir -p "$target/cross"
 file="$target/cross/sensedsl-$triple$ending"
 case $triple in
-    x86_64-pc-windows-gnu) x86_64-w64-mingw32-strip -o "$file" "$target/$triple/$profile/sensedsl$ending" ;;
-    aarch64-unknown-linux-gnu) aarch64-linux-gnu-strip -o "$file" "$target/$triple/$profile/sensedsl" ;;
-    *) strip -o "$file" "$target/$triple/$profile/sensedsl" ;;
+    x86_64-pc-windows-gnu) x86_64-w64-mingw32-strip -o "$file" "$target/$triple/$folder/sensedsl$ending" ;;
+    aarch64-unknown-linux-gnu) aarch64-linux-gnu-strip -o "$file" "$target/$triple/$folder/sensedsl" ;;
+    *) strip -o "$file" "$target/$triple/$folder/sensedsl" ;;
 esac
 du -h "$file"
 

@@ -35,7 +35,8 @@ for file in man/man1/sensedsl.1.gz bash-completion/completions/sensedsl zsh/vend
     test -f "$scratch/package/usr/share/$file"
 done
 if command -v lintian > /dev/null; then
-    lintian --no-tag-display-limit --fail-on error,warning "$package"
+    # It is no upload to Debian, which would close a bug.
+    lintian --tag-display-limit 0 --suppress-tags initial-upload-closes-no-bugs --fail-on error,warning "$package"
 fi
 if [ -n "${ROOT:-}" ]; then
     sh packaging/root.sh "$ROOT" man-db bash-completion

@@ -8,9 +8,4 @@ home=${CARGO_HOME:-$HOME/.cargo}
 sysroot=$(rustc --print sysroot)
 flags="--remap-path-prefix=$PWD=/sensedsl --remap-path-prefix=$home=/cargo --remap-path-prefix=$sysroot=/rust"
 [ -z "${CARGO_TARGET_DIR:-}" ] || flags="$flags --remap-path-prefix=$CARGO_TARGET_DIR=/target"
-# Where nothing is unwound, tables for it are a tenth of the program; Windows wants them in any case.
-case "$*" in
-    *windows*) ;;
-    *) flags="$flags -C force-unwind-tables=no" ;;
-esac
 RUSTFLAGS="${RUSTFLAGS:-} $flags" exec "$@"

@@ -8,6 +8,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 profile=${1:-dist}
+folder_of_profile=$profile
+[ "$profile" != dev ] || folder_of_profile=debug
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 home=${CARGO_HOME:-$HOME/.cargo}
@@ -18,10 +20,10 @@ built() {
     mkdir -p "$folder" "$scratch/$1/home/registry"
     git archive HEAD | tar -xf - -C "$folder"
     cp -r "$home/registry/index" "$home/registry/cache" "$scratch/$1/home/registry/"
-    (cd "$folder" && CARGO_HOME="$scratch/$1/home" CARGO_TARGET_DIR="$scratch/$1/target" sh packaging/plain-paths.sh \
+    (cd "$folder" && CARGO_HOME="$scratch/$1/home" CARGO_TARGET_DIR="$scratch/$1/target" CARGO_INCREMENTAL=0 sh packaging/plain-paths.sh \
         cargo build --locked --offline --quiet --profile "$profile" -p sensedsl)
-    cp "$scratch/$1/target/$profile/sensedsl" "$scratch/$1.program"
-    if grep -c "$scratch\|$HOME" "$scratch/$1.program"; then
+    cp "$scratch/$1/target/$folder_of_profile/sensedsl" "$scratch/$1.program"
+    if grep -q "$scratch\|$HOME" "$scratch/$1.program"; then
         echo "the program has paths of this machine" && exit 1
     fi
     rm -rf "${scratch:?}/$1"
