@@ -10,7 +10,7 @@ use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
 use sensedsl_wire::Direction;
 
-use super::{Core, begins, wrapped};
+use super::core::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
 use crate::tables::{self, kept};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Surroundings as _};

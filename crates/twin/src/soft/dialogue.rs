@@ -13,7 +13,7 @@ use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::uart::Duplex;
 
-use super::{Core, begins, wrapped};
+use super::core::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
 use crate::tables;
 use sensedsl_surroundings::Surroundings as _;

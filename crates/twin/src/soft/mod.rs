@@ -6,6 +6,7 @@
 //! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod core;
 mod dialogue;
 mod motors;
 mod outputs;
@@ -14,13 +15,14 @@ mod sensors;
 use std::collections::{BTreeMap, VecDeque};
 
 use sense_rt::{
-    BoardHealth, Cause, Channel, Filter, FilterTable, Health, Host, Outcome, Record, Reporter,
-    ReporterConfig, Schema, Store,
+    BoardHealth, Cause, Channel, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
+    Schema, Store,
 };
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_wire::Direction;
 
+use self::core::{Core, wrapped};
 use crate::bench::Bench;
 use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
@@ -35,10 +37,6 @@ const REPORT_MS: u32 = 10;
 const QUEUE_BYTES: usize = 16_384;
 /// The bytes that a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
 const USB_BYTES_A_MS: u64 = 1_000;
-
-type Values = Store<[u8; 16_384]>;
-type Records = Health<[Record; 256]>;
-type AnyFilter = Filter<[u8; 49_152]>;
 
 /// A board that does its job in this program.
 pub struct SoftBoard {
@@ -88,21 +86,6 @@ struct State {
     /// The values that actuators are set to in this millisecond, by the host or because of its silence.
     owed: Vec<(usize, Vec<u8>)>,
     began_ms: u64,
-}
-
-/// The values and the health of the devices.
-struct Core {
-    store: Box<Values>,
-    health: Box<Records>,
-    filters: BTreeMap<usize, Box<AnyFilter>>,
-    now_ms: u32,
-}
-
-impl Core {
-    fn record(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
-        let filter = self.filters.get_mut(&index).map(|filter| &mut ***filter);
-        self.store.record(&mut self.health, filter, index, outcome, value, self.now_ms);
-    }
 }
 
 /// The bytes between board and host.
@@ -388,15 +371,8 @@ impl Shape {
 
 impl State {
     fn new(shape: &Shape, now_ms: u64) -> Self {
-        let filters = shape.filters.iter();
-        let filters = filters.map(|(index, table)| (*index, Box::new(Filter::new(table))));
         Self {
-            core: Core {
-                store: Box::new(Store::new(shape.schema)),
-                health: Box::new(Health::new(shape.cycles_ms)),
-                filters: filters.collect(),
-                now_ms: 0,
-            },
+            core: Core::new(shape.schema, shape.cycles_ms, &shape.filters),
             reporter: Box::new(Reporter::new(shape.config)),
             buses: shape.buses.iter().map(Bus::anew).collect(),
             ports: shape.ports.iter().map(Port::anew).collect(),
@@ -411,16 +387,4 @@ impl State {
             began_ms: now_ms,
         }
     }
-}
-
-/// Milliseconds as the runtime counts them: they wrap at 32 bits.
-fn wrapped(ms: u64) -> u32 {
-    u32::try_from(ms & u64::from(u32::MAX)).unwrap_or(0)
-}
-
-/// Whether a cycle begins in this millisecond.
-const fn begins(since_ms: u64, cycle: sensedsl_job::Cycle) -> bool {
-    let start = cycle.start_ms as u64;
-    let delay = if cycle.delay_ms == 0 { 1 } else { cycle.delay_ms as u64 };
-    since_ms >= start && (since_ms - start).is_multiple_of(delay)
 }
