@@ -14,6 +14,7 @@
  *   trace ON                          whether every value is printed, before and after its filter
  *   later MS                          lets time pass
  *   feed BYTES                        bytes received on the serial port
+ *   asked REQUEST ANSWER              the answer to a request on a serial line
  *   raw FIELD NUMBER                  a measurement of the hardware
  *   edges COUNT US...                 the times from one edge to the next
  *   frame FIELD BYTES                 data of a received CAN frame that has the field
@@ -30,7 +31,9 @@
 
 #include "up_chip.h"
 #include "up_convert.h"
+#include "up_compose.h"
 #include "up_drive.h"
+#include "up_exchange.h"
 #include "up_filter.h"
 #include "up_message.h"
 #include "up_ppm.h"
@@ -48,6 +51,7 @@ typedef struct {
   const up_drive_t *bridge;
   const up_value_t *can;
   uint8_t can_byte;
+  const up_compose_t *compose;
 } unit_field_t;
 
 typedef struct {
@@ -60,6 +64,8 @@ typedef struct {
   const up_message_t *message;
   up_message_state_t *message_state;
   const up_message_init_t *message_init;
+  const up_exchange_t *exchanges;
+  size_t exchanges_count;
 } unit_t;
 
 #include "tables.c"
@@ -336,10 +342,15 @@ static void print_value(const up_field_t *field, const uint8_t *value) {
   const size_t size = up_type_bytes(field->type);
   size_t i;
 
-  check(field->type != UP_TYPE_FLOAT32 && field->type != UP_TYPE_FLOAT64, "a float");
+  check(field->type != UP_TYPE_FLOAT64, "a float of 64 bits");
   for (i = 0U; i < field->count; i++) {
     uint64_t bits = up_element_load(field->type, &value[i * size]);
-    if (is_signed(field->type)) {
+    if (field->type == UP_TYPE_FLOAT32) {
+      float number;
+      memcpy(&number, &value[i * size], sizeof number);
+      check(number == (float)(int32_t)number, "a float with a fraction");
+      printf(" %" PRId32, (int32_t)number);
+    } else if (is_signed(field->type)) {
       const uint64_t sign = (uint64_t)1U << (8U * size - 1U);
       printf(" %" PRId64, (int64_t)((bits ^ sign) - sign));
     } else {
@@ -357,6 +368,11 @@ static const up_field_t *ask_field(uint16_t *index) {
 static void store(const up_field_t *field, size_t element, int64_t number, uint64_t *value) {
   uint8_t *memory = (uint8_t *)value;
 
+  if (field->type == UP_TYPE_FLOAT32) {
+    const float real = (float)number;
+    memcpy(&memory[element * sizeof real], &real, sizeof real);
+    return;
+  }
   up_store_signed(field->type, number, &memory[element * up_type_bytes(field->type)]);
 }
 
@@ -526,6 +542,28 @@ static void edges(void) {
            up_ppm_read(test.unit->fields[index].train, &train, &seen, &test.unit->schema->fields[index], value), value);
 }
 
+static void asked(void) {
+  static uint8_t buffer[BYTES_MAX];
+  static uint64_t scratch[VALUE_BYTES_MAX / 8U];
+  up_message_state_t state = {.buffer = buffer, .scratch = scratch};
+  block_t request, answer;
+  size_t i;
+
+  ask_bytes(&request);
+  ask_bytes(&answer);
+  for (i = 0U; i < test.unit->exchanges_count; i++) {
+    const up_exchange_t *how = &test.unit->exchanges[i];
+    if (how->request_count == request.count && memcmp(how->request, request.bytes, request.count) == 0) {
+      up_exchange_begin(how, &state, test.unit->schema);
+      if (up_exchange_take(how, &state, test.unit->schema, answer.bytes, answer.count, &sink) == UP_HEARD_WAITING) {
+        up_exchange_fail(how, UP_TIMED_OUT, &sink);
+      }
+      return;
+    }
+  }
+  fail("nobody sends that request");
+}
+
 static void command(void) {
   uint64_t value[VALUE_BYTES_MAX / 8U];
   up_drive_write_t writes[UP_DRIVE_WRITES_MAX];
@@ -555,6 +593,16 @@ static void command(void) {
     printf("frame ");
     for (i = 0U; i < sizeof data; i++) {
       printf("%02X", (unsigned)data[i]);
+    }
+    printf("\n");
+    return;
+  }
+  if (test.unit->fields[index].compose != NULL) {
+    static uint8_t message[BYTES_MAX];
+    count = up_compose(test.unit->fields[index].compose, field, value, message, sizeof message);
+    printf("written ");
+    for (i = 0U; i < count; i++) {
+      printf("%02X", (unsigned)message[i]);
     }
     printf("\n");
     return;
@@ -659,6 +707,8 @@ int main(void) {
       test.now_ms += ask();
     } else if (strcmp(word, "feed") == 0) {
       feed();
+    } else if (strcmp(word, "asked") == 0) {
+      asked();
     } else if (strcmp(word, "raw") == 0) {
       raw();
     } else if (strcmp(word, "frame") == 0) {

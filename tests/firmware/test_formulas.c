@@ -158,7 +158,29 @@ static void test_tsl2561(void) {
   CHECK(lux(402, 16, 65535U, 0U) == -1 && lux(402, 2, 1U, 0U) == -1 && lux(400, 16, 1U, 0U) == -1);
 }
 
+/* Each bit of -2 and 1 twice, the second of them alone, and parts that are not ready or not there. */
+static void test_hx711(void) {
+  uint8_t raw[] = {0x00U, 0xFFU, 0xFFU, 0xFFU, 0xFFU, 0xFFU, 0xFCU, 0xFFU};
+  int64_t load = 0;
+
+  CHECK(up_formula_hx711.compute(NULL, NULL, raw, &load) && load == -2);
+  raw[7] = 0x7FU;
+  raw[6] = 0x54U;
+  CHECK(up_formula_hx711.compute(NULL, NULL, raw, &load) && load == -2);
+  raw[7] = 0x00U;
+  CHECK(!up_formula_hx711.compute(NULL, NULL, raw, &load));
+  raw[7] = 0xFFU;
+  raw[0] = 0x01U;
+  CHECK(!up_formula_hx711.compute(NULL, NULL, raw, &load));
+  raw[0] = 0xFFU;
+  CHECK(!up_formula_hx711.compute(NULL, NULL, raw, &load));
+  memset(raw, 0, 6U);
+  raw[6] = 0x03U;
+  CHECK(up_formula_hx711.compute(NULL, NULL, raw, &load) && load == 1);
+}
+
 void test_formulas(void) {
+  test_hx711();
   test_bosch();
   test_bosch_noise();
   test_ntc();

@@ -1,5 +1,5 @@
-//! `docs/boards.md` agrees with `boards/`. `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests
-//! boards_page::` rewrites the page.
+//! `docs/boards.md` agrees with `boards/`, and so does the list that `sensedsl boards` prints. `SENSEDSL_BLESS=1 cargo
+//! test -p sensedsl-tests boards_page::` rewrites both.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -10,7 +10,8 @@ use sensedsl_board::pin::natural;
 use sensedsl_board::profile::Transport;
 use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_firmware_chibios::Facts;
-use sensedsl_tests::assert_page;
+use sensedsl_generate::listing;
+use sensedsl_tests::{assert_page, root, write_file};
 
 /// The text of the page, from the boards.
 fn page() -> String {
@@ -74,4 +75,23 @@ fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> String {
 #[test]
 fn the_page_is_fresh() {
     assert_page("docs/boards.md", "## ", page().trim_start());
+}
+
+/// What `sensedsl boards` prints is embedded, because to work it out takes a tenth of a second.
+#[test]
+fn the_list_is_fresh() {
+    let rows = catalog::all().iter().map(|entry| listing::row(entry, &entry.table()));
+    let rows: Vec<listing::Row> = rows.collect();
+    assert!(rows.iter().flatten().all(|cell| !cell.contains([',', '\n'])));
+    let place = root().join("crates/generate/src/listing.csv");
+    let wanted: String = rows.iter().map(|row| row.join(",") + "\n").collect();
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        write_file(&place, &wanted);
+    }
+    assert_eq!(wanted, std::fs::read_to_string(&place).unwrap(), "SENSEDSL_BLESS=1");
+    // What was compiled is older than what was just written.
+    if std::env::var_os("SENSEDSL_BLESS").is_none() {
+        let read: Vec<listing::Row> = listing::rows().map(|(_, row)| row).collect();
+        assert_eq!(read, rows);
+    }
 }

@@ -3,7 +3,9 @@
 
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::{TempDir, binary, files, has, is_exhaustive, one_in, read, root, sensedsl, text};
+use sensedsl_tests::{
+    TempDir, binary, files, has, is_exhaustive, one_in, read, root, sensedsl, text,
+};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";

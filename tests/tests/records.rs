@@ -334,6 +334,10 @@ fn a_page_needs_nothing_else() {
         assert!(page.contains(word), "{word}: {page}");
     }
     assert!(!page.contains("http") && !page.contains("src=") && !page.contains("NaN"), "{page}");
+    // Devices that are named are the only ones.
+    let call = ["convert", "--to", "html", "--device", "Light"];
+    let some = sensedsl(call).arg(&record).run().exits(0).stdout;
+    assert!(some.contains("<h3>Light") && !some.contains("Bumper"), "{some}");
     // What is there is not replaced, unless that is asked for.
     let output = scratch.write("page.html", "mine");
     let call = || sensedsl(["convert", "-o"]).arg(&output).arg(&record);

@@ -114,6 +114,49 @@ fn a_generated_host_reads_the_pseudo_terminal() {
     assert!(missing.is_empty(), "{missing:?} in {read:#?}");
 }
 
+/// Where there are no pseudo-terminals, and for hosts on other machines: a port of TCP, which one host at a time has. The
+/// next one is served as well.
+#[test]
+fn hosts_read_a_port_of_tcp() {
+    let mut simulate = Command::new(binary());
+    let call = ["simulate", FIG2, "--tcp", "0", "--seconds", "120"];
+    let mut board = Running::new(simulate.args(call).current_dir(root()).stderr(Stdio::null()));
+    let mut reported = board.lines();
+    let name = reported.find_map(|line| line.strip_prefix("the board is at ").map(str::to_owned));
+    let name = name.unwrap();
+    assert!(name.starts_with("tcp:127.0.0.1:"), "{name}");
+    for _ in 0..2 {
+        let call =
+            ["monitor", &name, FIG2, "--seconds", "3", "--format", "lines", "--no-reconnect"];
+        let ran = sensedsl(call).run().exits(0);
+        assert!(ran.stderr.contains("firmware and design agree"), "{}", ran.stderr);
+        assert!(ran.stdout.contains("USRear"), "{}{}", ran.stdout, ran.stderr);
+    }
+    if !has("python3") {
+        return;
+    }
+    let scratch = TempDir::new("python-tcp");
+    let _ = sensedsl(["generate", FIG2, "--quiet", "-o"]).arg(scratch.path()).run().exits(0);
+    let mut host = Command::new("python3");
+    host.args(["-m", "sense_fig2", &name]).current_dir(scratch.join("host/python"));
+    let mut host = Running::new(host.stderr(Stdio::null()));
+    assert!(host.lines().take(100).any(|line| line.contains("USRear")), "no value came");
+}
+
+/// A port that nothing listens at, and one that is taken.
+#[test]
+fn ports_of_tcp_that_cannot_be_had() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    let ran = sensedsl(["simulate", FIG2, "--tcp", &port]).run().exits(2);
+    assert!(ran.stderr.contains("cannot listen at"), "{}", ran.stderr);
+    drop(taken);
+    let name = format!("tcp:127.0.0.1:{port}");
+    let ran = sensedsl(["monitor", &name, FIG2, "--seconds", "1"]).run().exits(2);
+    assert!(ran.stderr.contains("nothing answers there"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("simulate FILE --tcp"), "{}", ran.stderr);
+}
+
 /// A board sleeps until somebody opens its terminal; it once polled 35,000 times a second.
 #[test]
 #[cfg(target_os = "linux")]

@@ -13,7 +13,7 @@ export const site = process.env.SENSEDSL_STUDIO ?? join(root, "target/web/studio
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const TYPES = {
     ".css": "text/css", ".html": "text/html", ".js": "text/javascript", ".json": "application/json", ".svg": "image/svg+xml",
-    ".txt": "text/plain", ".wasm": "application/wasm", ".webmanifest": "application/manifest+json",
+    ".txt": "text/plain", ".wasm": "application/wasm", ".webmanifest": "application/manifest+json", ".woff2": "font/woff2",
 };
 
 /** What is missing of what these tests need; nothing if all is there. Where all is required, a test without it fails. */
@@ -36,15 +36,15 @@ export function example(name) {
     return readFileSync(join(root, "examples", `${name}.sense`), "utf8");
 }
 
-/** Serves the site; `answer` may answer a request itself, and change a file on its way. */
-export async function serve({ answer = () => false, change = (_, bytes) => bytes } = {}) {
+/** Serves the studio, or another folder; `answer` may answer a request itself, and change a file on its way. */
+export async function serve({ folder = site, answer = () => false, change = (_, bytes) => bytes } = {}) {
     const server = createServer((request, response) => {
         void (async () => {
             const { pathname } = new URL(request.url, "http://localhost");
             if (await answer(request, response, pathname)) return;
-            const name = pathname === "/" ? "index.html" : pathname.slice(1);
-            const path = join(site, name);
-            if (!path.startsWith(site) || !existsSync(path)) {
+            const name = decodeURIComponent(pathname.replace(/\/$/, "/index.html").slice(1));
+            const path = join(folder, name);
+            if (!path.startsWith(folder) || !existsSync(path)) {
                 response.writeHead(404).end();
                 return;
             }

@@ -5,8 +5,9 @@
 //! of them `simulate --judge` notices. `firmware` builds the firmware of every board and kind. `parts` writes the table
 //! of known parts, or compares it; `mcus` writes the facts that the emulated machine needs about each MCU, `packages`
 //! the table of Embassy's lock files. `profiles` compares the target profiles with a tree of ChibiOS, and writes those
-//! for Embassy. `soak` has a monitor watch a busy board for a long time, `fleet` a subscriber of Zenoh many boards. `web`
-//! builds the WebAssembly module, `studio` the page and `npm` the package that are made of it.
+//! for Embassy. `release` makes a release. `soak` has a monitor watch a busy board for a long time, `fleet` a subscriber
+//! of Zenoh many boards. `web` builds the WebAssembly module, `studio` the page and `npm` the package that are made of
+//! it, `site` the documentation.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod embassy;
@@ -19,6 +20,8 @@ mod packages;
 mod parts;
 mod profiles;
 mod programs;
+mod release;
+mod site;
 mod soak;
 mod studio;
 mod typecheck;
@@ -56,12 +59,14 @@ fn run() -> Result<()> {
             Some((target, rest)) if target == "embassy" => embassy::run(rest),
             _ => profiles::run(rest),
         },
+        Some((task, rest)) if task == "release" => release::run(rest),
+        Some((task, rest)) if task == "site" => site::run(rest),
         Some((task, rest)) if task == "soak" => soak::run(rest),
         Some((task, [])) if task == "studio" => studio::run(),
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, studio, npm, bless, firmware --matrix or --embassy, fleet [--boards N] [--rate HZ], fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], soak [--seconds N] [--limits], typecheck"
+            "tasks: web, studio, npm, site [--studio FOLDER] [--twice], bless, firmware --matrix or --embassy, fleet [--boards N] [--rate HZ], fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], release VERSION, soak [--seconds N] [--limits], typecheck"
         ),
     }
 }

@@ -59,7 +59,8 @@ fn packages(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-fn npm(folder: &Path, arguments: &[&str]) -> Result<()> {
+/// Has npm do something in a folder.
+pub(crate) fn npm(folder: &Path, arguments: &[&str]) -> Result<()> {
     let mut npm = Command::new("npm");
     npm.current_dir(folder).args(arguments);
     let is_done = npm.status().context("npm is missing: install Node 20 or later")?.success();

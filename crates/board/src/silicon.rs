@@ -74,8 +74,10 @@ pub struct Pads {
 pub struct Serials {
     /// Part-number prefixes.
     pub parts: Vec<String>,
-    /// The inversion of wires to low at rest; it has no channels.
-    pub invert: Ability,
+    /// The inversion of wires to low at rest, if they lack it; it has no channels.
+    pub invert: Option<Ability>,
+    /// Both directions on the wire of TX, if they lack it; it has no channels.
+    pub half: Option<Ability>,
 }
 
 /// The voltages that the pins of some MCUs in a family tolerate.
@@ -222,9 +224,24 @@ fn pads(all: &[Pads], mcu: &str) -> BTreeSet<PinName> {
 /// known.
 #[must_use]
 pub fn inversion(mcu: &str) -> Option<&'static Ability> {
+    lack(mcu, |serials| serials.invert.as_ref())
+}
+
+/// Why the serial ports of an MCU cannot have both directions on one wire; none if they can, or if
+/// it is not known.
+#[must_use]
+pub fn one_wire(mcu: &str) -> Option<&'static Ability> {
+    lack(mcu, |serials| serials.half.as_ref())
+}
+
+fn lack(mcu: &str, of: fn(&Serials) -> Option<&Ability>) -> Option<&'static Ability> {
     let name = mcu::normalise(mcu);
-    let serials = of(mcu)?.serials.iter().find(|serials| covers(&serials.parts, &name))?;
-    Some(&serials.invert)
+    let all = silicon_serials(mcu)?.iter().filter(|serials| covers(&serials.parts, &name));
+    all.filter_map(of).next()
+}
+
+fn silicon_serials(mcu: &str) -> Option<&'static [Serials]> {
+    Some(&of(mcu)?.serials)
 }
 
 /// The voltages that the pins of an MCU tolerate: the first entry that covers the part.

@@ -41,3 +41,17 @@ uint8_t up_crc8(uint8_t polynomial, uint8_t start, const uint8_t *bytes, size_t 
   }
   return crc;
 }
+
+uint16_t up_crc16_of(uint16_t polynomial, const uint8_t *bytes, size_t count) {
+  uint16_t crc = 0U;
+  size_t i;
+  unsigned bit;
+
+  for (i = 0U; i < count; i++) {
+    crc ^= (uint16_t)((unsigned)bytes[i] << 8);
+    for (bit = 0U; bit < 8U; bit++) {
+      crc = (uint16_t)(((crc & 0x8000U) != 0U) ? (((unsigned)crc << 1) ^ polynomial) : ((unsigned)crc << 1));
+    }
+  }
+  return crc;
+}

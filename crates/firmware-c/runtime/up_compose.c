@@ -2,67 +2,91 @@
 
 #include <string.h>
 
-#include "up_checksum.h"
+#include "up_convert.h"
 
-#define DVB_S2_POLYNOMIAL 0xD5U
-#define IBUS_START 0xFFFFU
-#define CHECKSUM_BYTES_MAX 3U
+#define DIGITS_MAX 20U
+/* A number in a text: a sign, its digits, a point, and what separates it from the next. */
+#define TEXT_BYTES (DIGITS_MAX + 3U)
 
-static uint8_t digit(uint8_t number) {
-  return (uint8_t)((number < 10U) ? (48U + number) : (55U + number)); /* '0' and 'A' - 10 */
+static size_t put(const uint8_t *from, size_t count, uint8_t *to) {
+  if (count > 0U) {
+    memcpy(to, from, count);
+  }
+  return count;
 }
 
-/* Writes the checksum of the first `at` bytes after them, and returns its size. */
-static size_t put_checksum(const up_compose_t *how, uint8_t *bytes, size_t at) {
-  const size_t from = (how->checksum_from < at) ? how->checksum_from : at;
-  uint16_t sum;
+/* The digits of a number, the highest first, with a point before the last `decimals`. */
+static size_t put_number(const up_compose_t *how, uint64_t number, uint8_t *text) {
+  const unsigned base = (how->format == (uint8_t)UP_FORMAT_HEX) ? 16U : 10U;
+  const size_t decimals = (base == 10U) ? how->decimals : 0U;
+  uint8_t digits[DIGITS_MAX];
+  size_t count = 0U, size = 0U;
 
-  switch ((up_checksum_t)how->checksum) {
-  case UP_CHECKSUM_SUM8:
-    bytes[at] = up_sum8(&bytes[from], at - from);
-    return 1U;
-  case UP_CHECKSUM_XOR8:
-    bytes[at] = up_xor8(&bytes[from], at - from);
-    return 1U;
-  case UP_CHECKSUM_CRC8_DVB_S2:
-    bytes[at] = up_crc8(DVB_S2_POLYNOMIAL, 0U, &bytes[from], at - from);
-    return 1U;
-  case UP_CHECKSUM_IBUS:
-    sum = (uint16_t)(IBUS_START - up_sum16(&bytes[from], at - from));
-    bytes[at] = (uint8_t)sum;
-    bytes[at + 1U] = (uint8_t)(sum >> 8);
-    return 2U;
-  case UP_CHECKSUM_NMEA:
-    sum = up_xor8(&bytes[how->start_count], at - how->start_count);
-    bytes[at] = (uint8_t)'*';
-    bytes[at + 1U] = digit((uint8_t)(sum >> 4));
-    bytes[at + 2U] = digit((uint8_t)(sum & 15U));
-    return 3U;
-  case UP_CHECKSUM_NONE:
-  default:
+  while (count < DIGITS_MAX && (number != 0U || count <= decimals)) {
+    const unsigned digit = (unsigned)(number % base);
+    digits[count] = (uint8_t)((digit < 10U) ? (48U + digit) : (55U + digit)); /* '0' and 'A' - 10 */
+    number /= base;
+    count++;
+  }
+  while (count > 0U) {
+    count--;
+    text[size] = digits[count];
+    size++;
+    if (count == decimals && decimals > 0U) {
+      text[size] = (uint8_t)'.';
+      size++;
+    }
+  }
+  return size;
+}
+
+static size_t put_text(const up_compose_t *how, const up_field_t *field, const void *value, uint8_t *text,
+                       size_t room) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  const uint8_t *memory = value;
+  size_t size = 0U, i;
+
+  if (room < TEXT_BYTES * (size_t)field->count) {
     return 0U;
   }
+  for (i = 0U; i < field->count; i++) {
+    bool is_negative;
+    const uint64_t magnitude = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
+
+    if (i > 0U && how->separator != '\0') {
+      text[size] = (uint8_t)how->separator;
+      size++;
+    }
+    if (is_negative) {
+      text[size] = (uint8_t)'-';
+      size++;
+    }
+    size += put_number(how, magnitude, &text[size]);
+  }
+  return size;
 }
 
 size_t up_compose(const up_compose_t *how, const up_field_t *field, const void *value, uint8_t *bytes, size_t room) {
-  const size_t around = (size_t)how->start_count + how->end_count + CHECKSUM_BYTES_MAX;
-  size_t size = how->start_count;
-  size_t value_bytes;
+  const size_t around =
+      (size_t)how->start_count + how->behind_count + how->end_count + up_checksum_bytes(how->checksum);
+  uint8_t sum[UP_CHECKSUM_BYTES_MAX];
+  size_t size, value_bytes, sum_bytes;
 
   if (room < around) {
     return 0U;
   }
-  if (how->start_count > 0U) {
-    memcpy(bytes, how->start, how->start_count);
+  size = put(how->start, how->start_count, bytes);
+  if (how->format == (uint8_t)UP_FORMAT_BINARY) {
+    value_bytes = up_value_encode(&how->value, field, value, &bytes[size], room - around);
+  } else {
+    value_bytes = put_text(how, field, value, &bytes[size], room - around);
   }
-  value_bytes = up_value_encode(&how->value, field, value, &bytes[size], room - around);
   if (value_bytes == 0U) {
     return 0U;
   }
   size += value_bytes;
-  size += put_checksum(how, bytes, size);
-  if (how->end_count > 0U) {
-    memcpy(&bytes[size], how->end, how->end_count);
-  }
-  return size + how->end_count;
+  size += put(how->behind, how->behind_count, &bytes[size]);
+  sum_bytes = up_checksum_put(how->checksum, how->checksum_from, how->start_count, bytes, size, sum);
+  size += put(sum, sum_bytes, &bytes[size]);
+  return size + put(how->end, how->end_count, &bytes[size]);
 }

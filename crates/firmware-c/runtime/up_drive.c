@@ -25,6 +25,20 @@ static size_t drive_pins(up_drive_write_t *writes, bool is_turning, int8_t direc
   return count;
 }
 
+static size_t drive_pin(up_drive_write_t *writes, bool is_turning, int8_t direction, uint32_t magnitude) {
+  size_t count = 0U;
+
+  if (is_turning) {
+    put(writes, &count, 0U, 0U);
+    put(writes, &count, 1U, (direction < 0) ? 1U : 0U);
+    if (direction == 0) {
+      return count;
+    }
+  }
+  put(writes, &count, 0U, magnitude);
+  return count;
+}
+
 static size_t drive_pwms(up_drive_write_t *writes, int8_t direction, uint32_t magnitude) {
   const uint8_t idle = (direction > 0) ? 1U : 0U;
   size_t count = 0U;
@@ -46,6 +60,9 @@ size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, 
   state->direction = direction;
   if (drive->mode == UP_DRIVE_TWO_PWM) {
     return drive_pwms(writes, direction, magnitude);
+  }
+  if (drive->mode == UP_DRIVE_DIRECTION_PIN) {
+    return drive_pin(writes, is_turning, direction, magnitude);
   }
   return drive_pins(writes, is_turning, direction, magnitude);
 }

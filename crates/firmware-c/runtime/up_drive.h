@@ -12,7 +12,8 @@
 
 typedef enum {
   UP_DRIVE_DIRECTION_PINS, /* outputs: 0 magnitude (PWM), 1 in1 (high: forward), 2 in2 (high: backward) */
-  UP_DRIVE_TWO_PWM         /* outputs: 0 forward (PWM), 1 backward (PWM) */
+  UP_DRIVE_TWO_PWM,        /* outputs: 0 forward (PWM), 1 backward (PWM) */
+  UP_DRIVE_DIRECTION_PIN   /* outputs: 0 magnitude (PWM), 1 direction (high: backward) */
 } up_drive_mode_t;
 
 /* The most writes for one value. */
@@ -36,7 +37,8 @@ typedef struct {
 
 /* Gives the writes for an element of this type (integers, bool or float32; NaN is 0), in order. With direction pins,
  * a new direction first writes the magnitude 0, then the pin that goes low, then the one that goes high, then the
- * magnitude; both pins are low at 0. With two PWM outputs, the one that goes to 0 is written first. Returns their
+ * magnitude; both pins are low at 0. With one pin, the magnitude is 0 while the pin changes; the pin is low at 0. With
+ * two PWM outputs, the one that goes to 0 is written first. Returns their
  * number. */
 size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
                 up_drive_write_t writes[UP_DRIVE_WRITES_MAX]);

@@ -42,4 +42,9 @@ extern const up_formula_t up_formula_ntc;
  * first; a saturated channel is not a measurement. */
 extern const up_formula_t up_formula_tsl2561;
 
+/* HX711 on SPI, channel A, gain 128. Output: 0 the conversion, 24 bits with sign. Raw: 8 bytes that come back while 00,
+ * six times AA and 80 are sent, two bits a clock. Not a measurement if the part was not ready before the first clock
+ * (its output was high), or if its output is not high after the last one. */
+extern const up_formula_t up_formula_hx711;
+
 #endif

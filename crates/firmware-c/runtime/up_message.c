@@ -6,15 +6,113 @@
 #include "up_parse.h"
 
 #define DVB_S2_POLYNOMIAL 0xD5U
+#define LD06_POLYNOMIAL 0x4DU
+#define UMTS_POLYNOMIAL 0x8005U
+#define XMODEM_POLYNOMIAL 0x1021U
 #define IBUS_START 0xFFFFU
 
 static const uint8_t checksum_bytes[] = {
-    [UP_CHECKSUM_NONE] = 0U, [UP_CHECKSUM_SUM8] = 1U,        [UP_CHECKSUM_XOR8] = 1U,
-    [UP_CHECKSUM_IBUS] = 2U, [UP_CHECKSUM_CRC8_DVB_S2] = 1U, [UP_CHECKSUM_NMEA] = 3U,
+    [UP_CHECKSUM_NONE] = 0U,       [UP_CHECKSUM_SUM8] = 1U,     [UP_CHECKSUM_XOR8] = 1U,
+    [UP_CHECKSUM_IBUS] = 2U,       [UP_CHECKSUM_NMEA] = 3U,     [UP_CHECKSUM_CRC8_DVB_S2] = 1U,
+    [UP_CHECKSUM_SUM7] = 1U,       [UP_CHECKSUM_NOT_SUM8] = 1U, [UP_CHECKSUM_NEG_SUM8] = 1U,
+    [UP_CHECKSUM_NEG_SUM16] = 2U,  [UP_CHECKSUM_CRC16_UMTS] = 2U,
+    [UP_CHECKSUM_CRC16_XMODEM] = 2U, [UP_CHECKSUM_CRC8_LD06] = 1U, [UP_CHECKSUM_SUM16] = 2U,
 };
 
+size_t up_checksum_bytes(uint8_t checksum) {
+  return (checksum < sizeof checksum_bytes) ? checksum_bytes[checksum] : 0U;
+}
+
+static uint8_t digit(uint8_t number) {
+  return (uint8_t)((number < 10U) ? (48U + number) : (55U + number)); /* '0' and 'A' - 10 */
+}
+
+static void put_low_first(uint16_t sum, uint8_t *bytes) {
+  bytes[0] = (uint8_t)sum;
+  bytes[1] = (uint8_t)(sum >> 8);
+}
+
+static void put_high_first(uint16_t sum, uint8_t *bytes) {
+  bytes[0] = (uint8_t)(sum >> 8);
+  bytes[1] = (uint8_t)sum;
+}
+
+/* Sums of one byte. */
+static uint8_t short_sum(up_checksum_t checksum, const uint8_t *bytes, size_t count) {
+  switch (checksum) {
+  case UP_CHECKSUM_SUM7:
+    return up_sum8(bytes, count) & 0x7FU;
+  case UP_CHECKSUM_NOT_SUM8:
+    return (uint8_t)(0xFFU - up_sum8(bytes, count));
+  case UP_CHECKSUM_NEG_SUM8:
+    return (uint8_t)(0x100U - up_sum8(bytes, count));
+  case UP_CHECKSUM_XOR8:
+    return up_xor8(bytes, count);
+  case UP_CHECKSUM_CRC8_DVB_S2:
+    return up_crc8(DVB_S2_POLYNOMIAL, 0U, bytes, count);
+  case UP_CHECKSUM_CRC8_LD06:
+    return up_crc8(LD06_POLYNOMIAL, 0U, bytes, count);
+  case UP_CHECKSUM_NONE:
+  case UP_CHECKSUM_SUM8:
+  case UP_CHECKSUM_IBUS:
+  case UP_CHECKSUM_NMEA:
+  case UP_CHECKSUM_NEG_SUM16:
+  case UP_CHECKSUM_SUM16:
+  case UP_CHECKSUM_CRC16_UMTS:
+  case UP_CHECKSUM_CRC16_XMODEM:
+  default:
+    return up_sum8(bytes, count);
+  }
+}
+
+size_t up_checksum_put(uint8_t checksum, uint8_t from, uint8_t start_count, const uint8_t *bytes, size_t at,
+                       uint8_t sum[UP_CHECKSUM_BYTES_MAX]) {
+  const size_t wanted = (checksum == (uint8_t)UP_CHECKSUM_NMEA) ? start_count : from;
+  const size_t first = (wanted < at) ? wanted : at;
+  const uint8_t *summed = &bytes[first];
+  const size_t count = at - first;
+  uint8_t number;
+
+  switch ((up_checksum_t)checksum) {
+  case UP_CHECKSUM_NONE:
+    break;
+  case UP_CHECKSUM_IBUS:
+    put_low_first((uint16_t)(IBUS_START - up_sum16(summed, count)), sum);
+    break;
+  case UP_CHECKSUM_SUM16:
+    put_high_first(up_sum16(summed, count), sum);
+    break;
+  case UP_CHECKSUM_NEG_SUM16:
+    put_high_first((uint16_t)(0x10000U - up_sum16(summed, count)), sum);
+    break;
+  case UP_CHECKSUM_CRC16_UMTS:
+    put_low_first(up_crc16_of(UMTS_POLYNOMIAL, summed, count), sum);
+    break;
+  case UP_CHECKSUM_CRC16_XMODEM:
+    put_high_first(up_crc16_of(XMODEM_POLYNOMIAL, summed, count), sum);
+    break;
+  case UP_CHECKSUM_NMEA:
+    number = up_xor8(summed, count);
+    sum[0] = (uint8_t)'*';
+    sum[1] = digit((uint8_t)(number >> 4));
+    sum[2] = digit((uint8_t)(number & 15U));
+    break;
+  case UP_CHECKSUM_SUM8:
+  case UP_CHECKSUM_SUM7:
+  case UP_CHECKSUM_NOT_SUM8:
+  case UP_CHECKSUM_NEG_SUM8:
+  case UP_CHECKSUM_XOR8:
+  case UP_CHECKSUM_CRC8_DVB_S2:
+  case UP_CHECKSUM_CRC8_LD06:
+  default:
+    sum[0] = short_sum((up_checksum_t)checksum, summed, count);
+    break;
+  }
+  return up_checksum_bytes(checksum);
+}
+
 static size_t checksum_size(const up_message_t *message) {
-  return (message->checksum < sizeof checksum_bytes) ? checksum_bytes[message->checksum] : 0U;
+  return up_checksum_bytes(message->checksum);
 }
 
 /* The bytes around a body. */
@@ -48,38 +146,24 @@ static bool begins_anew(const up_message_t *message, const uint8_t *bytes, size_
          memcmp(&bytes[size - message->start_count], message->start, message->start_count) == 0;
 }
 
-static bool is_nmea_sum(const up_message_t *message, const uint8_t *bytes, size_t at) {
-  const up_piece_t digits = {(const char *)&bytes[at + 1U], 2U};
-  uint8_t sum = 0U;
-
-  return bytes[at] == (uint8_t)'*' && digits.start[0] != ' ' && digits.start[1] != ' ' &&
-         up_parse_hex(digits, UP_TYPE_UINT8, &sum) == UP_FRESH &&
-         sum == up_xor8(&bytes[message->start_count], at - message->start_count);
+static uint8_t upper(uint8_t letter) {
+  return (uint8_t)((letter >= (uint8_t)'a' && letter <= (uint8_t)'z') ? (letter - 32U) : letter);
 }
 
-/* Whether the checksum at `at` is right. */
+/* Whether the checksum at `at` is right. Hexadecimal digits may be in lower case. */
 static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t at) {
-  const size_t from = (message->checksum_from < at) ? message->checksum_from : at;
-  const uint8_t *summed = &bytes[from];
-  const size_t count = at - from;
-  uint16_t sum;
+  const bool is_text = message->checksum == (uint8_t)UP_CHECKSUM_NMEA;
+  uint8_t sum[UP_CHECKSUM_BYTES_MAX];
+  const size_t size =
+      up_checksum_put(message->checksum, message->checksum_from, message->start_count, bytes, at, sum);
+  size_t i;
 
-  switch ((up_checksum_t)message->checksum) {
-  case UP_CHECKSUM_SUM8:
-    return up_sum8(summed, count) == bytes[at];
-  case UP_CHECKSUM_XOR8:
-    return up_xor8(summed, count) == bytes[at];
-  case UP_CHECKSUM_CRC8_DVB_S2:
-    return up_crc8(DVB_S2_POLYNOMIAL, 0U, summed, count) == bytes[at];
-  case UP_CHECKSUM_IBUS:
-    sum = (uint16_t)(IBUS_START - up_sum16(summed, count));
-    return bytes[at] == (uint8_t)sum && bytes[at + 1U] == (uint8_t)(sum >> 8);
-  case UP_CHECKSUM_NMEA:
-    return is_nmea_sum(message, bytes, at);
-  case UP_CHECKSUM_NONE:
-  default:
-    return true;
+  for (i = 0U; i < size; i++) {
+    if (sum[i] != bytes[at + i] && !(is_text && sum[i] == upper(bytes[at + i]))) {
+      return false;
+    }
   }
+  return true;
 }
 
 static verdict_t judge(const up_message_t *message, const up_message_state_t *state) {

@@ -17,8 +17,25 @@ typedef enum {
   UP_CHECKSUM_XOR8,        /* 1 byte: exclusive or */
   UP_CHECKSUM_IBUS,        /* 2 bytes, low byte first: 0xFFFF minus the sum of the bytes */
   UP_CHECKSUM_CRC8_DVB_S2, /* 1 byte: CRC-8 with polynomial 0xD5 and start value 0 */
-  UP_CHECKSUM_NMEA         /* 3 bytes: `*` and two hex digits, exclusive or of the bytes between `start` and `*` */
+  UP_CHECKSUM_NMEA,        /* 3 bytes: `*` and two hex digits, exclusive or of the bytes between `start` and `*` */
+  UP_CHECKSUM_SUM7,        /* 1 byte: the low seven bits of the sum */
+  UP_CHECKSUM_NOT_SUM8,    /* 1 byte: the low byte of the sum, inverted */
+  UP_CHECKSUM_NEG_SUM8,    /* 1 byte: what makes the low byte of the sum 0 */
+  UP_CHECKSUM_NEG_SUM16,   /* 2 bytes, high byte first: what makes the low two bytes of the sum 0 */
+  UP_CHECKSUM_CRC16_UMTS,  /* 2 bytes, low byte first: CRC-16 with polynomial 0x8005 and start value 0 */
+  UP_CHECKSUM_CRC16_XMODEM, /* 2 bytes, high byte first: CRC-16 with polynomial 0x1021 and start value 0 */
+  UP_CHECKSUM_CRC8_LD06,   /* 1 byte: CRC-8 with polynomial 0x4D and start value 0 */
+  UP_CHECKSUM_SUM16        /* 2 bytes, high byte first: the low 16 bits of the sum */
 } up_checksum_t;
+
+/* The size of a checksum; 0 for none. */
+size_t up_checksum_bytes(uint8_t checksum);
+
+/* Writes the checksum of the first `at` bytes, and returns its size. `from`: the first byte that it covers; for NMEA
+ * the first byte after `start_count`. */
+#define UP_CHECKSUM_BYTES_MAX 3U
+size_t up_checksum_put(uint8_t checksum, uint8_t from, uint8_t start_count, const uint8_t *bytes, size_t at,
+                       uint8_t sum[UP_CHECKSUM_BYTES_MAX]);
 
 /* The format of a number in a message. */
 typedef enum {

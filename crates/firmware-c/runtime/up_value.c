@@ -141,6 +141,13 @@ static void store_integer(const up_value_t *how, uint8_t type, uint64_t number, 
   }
 }
 
+static void store_magnitude(uint8_t type, uint64_t number, unsigned bits, void *element) {
+  const uint64_t sign = (uint64_t)1U << (bits - 1U);
+  const int64_t magnitude = (int64_t)(number & ~sign & INT64_MAX);
+
+  up_store_signed(type, ((number & sign) != 0U) ? -magnitude : magnitude, element);
+}
+
 static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *bytes, size_t word, void *element) {
   const unsigned bits = bits_of(how);
   uint64_t number;
@@ -155,6 +162,10 @@ static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *b
   }
   if (is_code(how, UP_CODE_FLOAT)) {
     return store_float(type, number, how->word_bytes, element);
+  }
+  if (is_code(how, UP_CODE_MAGNITUDE)) {
+    store_magnitude(type, number, bits, element);
+    return true;
   }
   store_integer(how, type, number, bits, element);
   return true;
@@ -209,6 +220,9 @@ static uint64_t encode_element(const up_value_t *how, uint8_t type, const void *
   }
   if (is_code(how, UP_CODE_BCD)) {
     return is_negative ? 0U : to_bcd(magnitude, mask);
+  }
+  if (is_code(how, UP_CODE_MAGNITUDE)) {
+    return ((magnitude > mask >> 1) ? mask >> 1 : magnitude) | (is_negative ? mask ^ (mask >> 1) : 0U);
   }
   if (!is_negative) {
     return (magnitude > greatest) ? greatest : magnitude;

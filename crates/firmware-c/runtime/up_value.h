@@ -22,7 +22,8 @@ typedef enum {
   UP_CODE_INTEGER, /* words that are binary numbers */
   UP_CODE_FLOAT,   /* words that are IEEE 754 numbers: word_bytes is 4 for a float32, 8 for a float64 */
   UP_CODE_BCD,     /* words with two decimal digits per byte */
-  UP_CODE_PACKED   /* words of `bits` bits, one after the other without gaps, least significant bit first */
+  UP_CODE_PACKED,  /* words of `bits` bits, one after the other without gaps, least significant bit first */
+  UP_CODE_MAGNITUDE /* words that are binary numbers, whose highest bit is a sign */
 } up_code_t;
 
 typedef enum {
@@ -41,7 +42,8 @@ typedef struct {
   uint8_t low;             /* lowest significant bit of the word, 0 for its least significant; PACKED: 0 */
   uint8_t bits;            /* number of significant bits from there, 1 to 64; 0: up to the word's highest. PACKED: 1
                             * to 32 */
-  bool is_signed;          /* the highest of the bits is a sign (two's complement); ignored for FLOAT and BCD */
+  bool is_signed;          /* the highest of the bits is a sign (two's complement); ignored for FLOAT, BCD and
+                            * MAGNITUDE */
   bool little_endian;      /* the word's first byte is its least significant */
 } up_value_t;
 

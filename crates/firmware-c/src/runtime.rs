@@ -27,11 +27,14 @@ pub const BASE: &[File] = files![
     "up_drive.h",
     "up_encode.c",
     "up_encode.h",
+    "up_exchange.c",
+    "up_exchange.h",
     "up_filter.c",
     "up_filter.h",
     "up_filter_double.c",
     "up_formula.c",
     "up_formula.h",
+    "up_formula_hx711.c",
     "up_formula_ntc.c",
     "up_formula_tsl2561.c",
     "up_health.c",
@@ -74,5 +77,11 @@ pub const DEBOUNCE: &[File] = files!["up_debounce.c", "up_debounce.h",];
 /// Values with one element per wire.
 pub const ELEMENTS: &[File] = files!["up_elements.c", "up_elements.h",];
 
+/// Answers on one wire.
+pub const ONEWIRE: &[File] = files!["up_onewire.c", "up_onewire.h",];
+
 /// Widths of pulses in timer ticks.
 pub const PULSE_WIDTH: &[File] = files!["up_pulse_width.c", "up_pulse_width.h",];
+
+/// Steps of motors.
+pub const STEPPER: &[File] = files!["up_stepper.c", "up_stepper.h",];

@@ -11,7 +11,7 @@ use crate::words as c;
 pub struct Wiring {
     /// The kind of DMA that fills and empties its buffer.
     pub buffer: DmaBuffer,
-    /// The number of its chip select; `None` if its address selects it.
+    /// The number of its chip select, or that on its wire; `None` if its address selects it.
     pub select: Option<u8>,
 }
 

@@ -1,7 +1,7 @@
 //! How a plan is spelled in C, for the templates of this crate and of systems in C.
 
 use sensedsl_model::kind::uart::MessageChecksum;
-use sensedsl_model::protocol::{Crc, Drive, Format, Formula};
+use sensedsl_model::protocol::{Crc, Drive, Format, Formula, TextField};
 use sensedsl_model::words::Code;
 
 use sensedsl_job::part::{FieldCoding, Number};
@@ -35,7 +35,7 @@ pub(crate) fn separator(separator: &Option<u8>) -> String {
     byte(&separator.unwrap_or(0))
 }
 
-/// A part's address, or the number of its chip select.
+/// A part's address, or the number of its chip select or on its wire.
 pub(crate) fn address(address: &u8, wiring: &Wiring) -> String {
     wiring.select.map_or_else(|| byte(address), |number| format!("{number}U"))
 }
@@ -56,6 +56,7 @@ pub const fn code(code: &Code) -> &'static str {
         Code::Integer => "UP_CODE_INTEGER",
         Code::Float => "UP_CODE_FLOAT",
         Code::Bcd => "UP_CODE_BCD",
+        Code::Magnitude => "UP_CODE_MAGNITUDE",
         Code::Packed => "UP_CODE_PACKED",
     }
 }
@@ -76,24 +77,37 @@ pub(crate) const fn checksum(checksum: &MessageChecksum) -> &'static str {
         MessageChecksum::Xor8 => "UP_CHECKSUM_XOR8",
         MessageChecksum::Ibus => "UP_CHECKSUM_IBUS",
         MessageChecksum::Crc8DvbS2 => "UP_CHECKSUM_CRC8_DVB_S2",
+        MessageChecksum::Crc8Ld06 => "UP_CHECKSUM_CRC8_LD06",
+        MessageChecksum::Sum16 => "UP_CHECKSUM_SUM16",
         MessageChecksum::Nmea => "UP_CHECKSUM_NMEA",
+        MessageChecksum::Sum7 => "UP_CHECKSUM_SUM7",
+        MessageChecksum::NotSum8 => "UP_CHECKSUM_NOT_SUM8",
+        MessageChecksum::NegSum8 => "UP_CHECKSUM_NEG_SUM8",
+        MessageChecksum::NegSum16 => "UP_CHECKSUM_NEG_SUM16",
+        MessageChecksum::Crc16Umts => "UP_CHECKSUM_CRC16_UMTS",
+        MessageChecksum::Crc16Xmodem => "UP_CHECKSUM_CRC16_XMODEM",
     }
 }
 
 pub(crate) const fn format(how: &FieldCoding) -> &'static str {
     match how {
         FieldCoding::Binary { .. } => "UP_FORMAT_BINARY",
-        FieldCoding::Text(text) => match text.format {
-            Format::Decimal => "UP_FORMAT_DECIMAL",
-            Format::Degrees => "UP_FORMAT_DEGREES",
-            Format::Hex => "UP_FORMAT_HEX",
-        },
+        FieldCoding::Text(text) => text_format(text),
+    }
+}
+
+pub(crate) const fn text_format(text: &TextField) -> &'static str {
+    match text.format {
+        Format::Decimal => "UP_FORMAT_DECIMAL",
+        Format::Degrees => "UP_FORMAT_DEGREES",
+        Format::Hex => "UP_FORMAT_HEX",
     }
 }
 
 pub(crate) const fn drive(drive: &Drive) -> &'static str {
     match drive {
         Drive::DirectionPins => "UP_DRIVE_DIRECTION_PINS",
+        Drive::DirectionPin => "UP_DRIVE_DIRECTION_PIN",
         Drive::TwoPwm => "UP_DRIVE_TWO_PWM",
     }
 }
@@ -104,6 +118,7 @@ pub const fn formula(formula: &Formula) -> &'static str {
     match formula {
         Formula::Bmp280 => "up_formula_bmp280",
         Formula::Bme280 => "up_formula_bme280",
+        Formula::Hx711 => "up_formula_hx711",
         Formula::Ntc => "up_formula_ntc",
         Formula::Tsl2561 => "up_formula_tsl2561",
     }

@@ -45,6 +45,7 @@ mod icu;
 mod link;
 mod missed;
 mod names;
+mod onewire;
 mod parts;
 mod peripherals;
 mod plan;
@@ -56,6 +57,7 @@ mod section;
 mod settings;
 mod spi;
 mod stacks;
+mod stepper;
 mod timers;
 mod uart;
 

@@ -54,8 +54,8 @@ fn missed(
     if let Some(pad) = one.pads.iter().find(|pad| !is_set_up(&pad.pin.name)) {
         return Some(format!("the pin {}", pad.pin.name));
     }
-    // Only what is sent in bytes has a port.
-    one.connection.kind.bytes()?;
+    // Only what is sent in bytes has a port, unless the processor makes the bits on a pin.
+    one.connection.kind.bytes().filter(|_| one.connection.kind.onewire().is_none())?;
     let Some(unit) = one.unit else { return Some("a unit".to_owned()) };
     let own = context.profile.unit(unit).map_or(unit, |unit| unit.name.as_str());
     let is_started = sections.iter().any(|section| {

@@ -298,10 +298,14 @@ impl Names {
     /// The driver object of a timer's outputs, and the options that turn it on.
     pub(super) fn pwm(&self, timer: &str) -> (String, Vec<String>) {
         let pwm = &self.timers.pwm;
-        let lacks = self.without_interrupt.iter().any(|one| one == timer);
-        let suppress = lacks.then(|| format!("STM32_{timer}_SUPPRESS_ISR"));
+        let suppress = self.lacks_interrupt(timer).then(|| format!("STM32_{timer}_SUPPRESS_ISR"));
         let switches = std::iter::once(apply(&pwm.switch, timer)).chain(suppress);
         (apply(&pwm.driver, timer), switches.collect())
+    }
+
+    /// Whether the system has no handler for a timer's interrupt.
+    pub(super) fn lacks_interrupt(&self, timer: &str) -> bool {
+        self.without_interrupt.iter().any(|one| one == timer)
     }
 
     /// The option that names the stream of a request, and the stream's name; `None` if the tree fixes the stream.

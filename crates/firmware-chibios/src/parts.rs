@@ -3,7 +3,7 @@
 use sensedsl_model::design::Device;
 
 use super::context::Context;
-use super::spi;
+use super::{onewire, spi};
 use sensedsl_firmware_c::{self as c, DmaBuffer, Wiring};
 use sensedsl_job::{JobConnection, JobDevice, JobPart};
 
@@ -38,7 +38,8 @@ fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
         &one.plan,
         Wiring {
             buffer: wired.map_or(DmaBuffer::Main, |wired| context.names.buffer(&wired.streams)),
-            select: spi::number_of(context.job, one.index),
+            select: spi::number_of(context.job, one.index)
+                .or_else(|| onewire::number_of(context.job, one.index)),
         },
     )
 }

@@ -9,7 +9,9 @@ use sensedsl_model::kind::KindName;
 use super::context::Context;
 use super::names::Drivers;
 use super::section::{Peripheral, Section, Version};
-use super::{adc, can, dac, digital, encoder, gpio, i2c, icu, pulse, pwm, spi, uart};
+use super::{
+    adc, can, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, stepper, uart,
+};
 
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
 pub(super) const PERIPHERALS: &[&Peripheral] = &[
@@ -18,12 +20,14 @@ pub(super) const PERIPHERALS: &[&Peripheral] = &[
     &dac::PERIPHERAL,
     &i2c::PERIPHERAL,
     &spi::PERIPHERAL,
+    &onewire::PERIPHERAL,
     &uart::PERIPHERAL,
     &can::PERIPHERAL,
     &icu::PERIPHERAL,
     &encoder::PERIPHERAL,
     &digital::PERIPHERAL,
     &pwm::PERIPHERAL,
+    &stepper::PERIPHERAL,
     &pulse::PERIPHERAL,
 ];
 

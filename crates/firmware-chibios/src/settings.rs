@@ -151,7 +151,14 @@ fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
             None => settings.push(switch),
         }
     }
-    settings.extend(sections.iter().flat_map(|section| section.hal.iter().cloned()));
+    for option in sections.iter().flat_map(|section| section.hal.iter().cloned()) {
+        // One section may turn on what another one does not need.
+        match settings.iter_mut().find(|one| one.name == option.name) {
+            Some(one) if option.value == "TRUE" => one.value = option.value,
+            Some(_) => {}
+            None => settings.push(option),
+        }
+    }
     if !link.is_usb() {
         let own = settings.iter_mut().find(|one| one.name == SERIAL_SIZE);
         match own {

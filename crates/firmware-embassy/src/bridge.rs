@@ -40,6 +40,7 @@ fn bridge(
     let (ident, upper) = (&wired.device.ident, wired.device.ident.to_uppercase());
     let mode = match plan.drive {
         Drive::DirectionPins => "DirectionPins",
+        Drive::DirectionPin => "DirectionPin",
         Drive::TwoPwm => "TwoPwm",
     };
     section.tables.push(Constant::Line(format!(

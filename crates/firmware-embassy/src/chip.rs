@@ -107,6 +107,7 @@ pub(super) const fn formula(formula: Formula) -> &'static str {
         Formula::Bme280 => "sense_rt::BME280",
         Formula::Ntc => "sense_rt::NTC",
         Formula::Tsl2561 => "sense_rt::TSL2561",
+        Formula::Hx711 => "sense_rt::HX711",
     }
 }
 
@@ -115,6 +116,7 @@ pub(super) fn coding(plan: &ValuePlan) -> String {
         Code::Integer => "Code::Integer",
         Code::Float => "Code::Float",
         Code::Bcd => "Code::Bcd",
+        Code::Magnitude => "Code::Magnitude",
         Code::Packed => "Code::Packed",
     };
     let crc = match plan.crc {

@@ -45,6 +45,17 @@ pub(super) fn buses<'a>(
     buses.filter_map(bus).collect()
 }
 
+impl<'a> Bus<'a> {
+    /// A wire, named after its pin, with the parts on it.
+    pub(super) fn of_wire(
+        unit: UnitName,
+        type_: String,
+        all: &[&'a JobConnection<'a>],
+    ) -> Option<Self> {
+        Some(Self { unit, type_, first: all.first()?, all: all.to_vec() })
+    }
+}
+
 impl Bus<'_> {
     /// The names of the connections, for a comment.
     pub(super) fn titles(&self) -> String {

@@ -1,12 +1,14 @@
 //! What Embassy firmware cannot do yet. Every gap is reported; no device is left out in silence.
 
+use sensedsl_model::kind::uart::Duplex;
 use sensedsl_model::kind::{Kind, KindName};
 
 use super::hal::contract::Drivers;
+use super::hal::contract::buses::Serial;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
-pub(super) const KINDS: [KindName; 10] = [
+pub(super) const KINDS: [KindName; 12] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -17,6 +19,8 @@ pub(super) const KINDS: [KindName; 10] = [
     KindName::Uart,
     KindName::Spi,
     KindName::Can,
+    KindName::OneWire,
+    KindName::Stepper,
 ];
 
 /// The kinds that a HAL has drivers for.
@@ -36,6 +40,8 @@ fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
         KindName::Uart => drivers.serial().is_some(),
         KindName::Spi => drivers.spi().is_some(),
         KindName::Can => drivers.can().is_some(),
+        KindName::OneWire => drivers.onewire().is_some(),
+        KindName::Stepper => drivers.motors().is_some(),
     }
 }
 
@@ -49,9 +55,15 @@ pub(super) fn lacks(
         return Some(gap);
     }
     match &connection.connection.kind {
-        Kind::I2c(_) | Kind::Spi(_) => job.lacks_on_buses(connection),
+        Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_) => job.lacks_on_buses(connection),
         Kind::Digital(own) if own.edge.is_some() && drivers.edges().is_none() => {
             Some("edges of digital inputs on this MCU")
+        }
+        Kind::Uart(own)
+            if own.exchange.duplex == Duplex::Half
+                && !drivers.serial().is_some_and(Serial::has_one_wire) =>
+        {
+            Some("both directions of a serial port on one wire")
         }
         Kind::Analog(_)
         | Kind::Icu(_)
@@ -60,7 +72,8 @@ pub(super) fn lacks(
         | Kind::Uart(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

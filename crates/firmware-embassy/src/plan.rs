@@ -14,7 +14,8 @@ use super::item::{Constant, Item};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, onewire, outputs, pulse,
+    serial, spi, stepper,
 };
 
 /// What a kind adds to a project.
@@ -27,12 +28,14 @@ const PERIPHERALS: &[Peripheral] = &[
     analog::plan,
     i2c::plan,
     spi::plan,
+    onewire::plan,
     serial::plan,
     can::plan,
     icu::plan,
     pulse::plan,
     contacts::plan,
     inputs::plan,
+    stepper::plan,
 ];
 
 /// The cycle of the reporter if nothing asks for a shorter one.

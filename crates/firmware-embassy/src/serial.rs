@@ -10,7 +10,7 @@ use super::hal::contract::buses::{self, Half, Hearing, PortPins, Serial};
 use super::item::{Handler, Item, Task, beat};
 use super::missing::{self, Missing, Printed};
 use super::section::{Constructor, Field, Section, Start, Watched};
-use super::{filter, message};
+use super::{filter, line, message};
 use sensedsl_job::JobConnection;
 use sensedsl_job::kinds::serial::{self, QUEUE_BYTES};
 use sensedsl_job::part::MessagePlan;
@@ -33,9 +33,18 @@ pub(super) fn plan(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Section {
     let mut section = Section::default();
-    let Some(serial) = drivers.serial() else { return section };
+    let Some(driver) = drivers.serial() else { return section };
+    for dialogue in serial::dialogues(context.job) {
+        let Some(first) = dialogue.wires.first() else { continue };
+        let made =
+            line::add(context, (driver, drivers.pins()), &dialogue, &mut section, diagnostics);
+        context.report(first.part, made, diagnostics);
+    }
     for wire in context.connections(KindName::Uart) {
-        let made = port(context, serial, wire, &mut section, diagnostics);
+        if serial::is_dialogue(context.job, wire) {
+            continue;
+        }
+        let made = port(context, driver, wire, &mut section, diagnostics);
         context.report(wire.part, made, diagnostics);
     }
     section

@@ -162,7 +162,8 @@ impl<'a> Lines<'a> {
                 continue;
             };
             let is_known = self.all.iter().any(|(known, _)| *known == code);
-            if !(shares && pad.usage.is_some() && is_known) {
+            let is_shared = (shares && pad.usage.is_some()) || kind == KindName::OneWire;
+            if !(is_shared && is_known) {
                 self.push(code, &judged);
             }
         }

@@ -23,6 +23,7 @@
 //! ```
 
 pub mod host;
+pub mod listing;
 mod project;
 pub mod target;
 

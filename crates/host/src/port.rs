@@ -1,7 +1,9 @@
-//! Serial ports: opened for this program alone, and found again under another name.
+//! Serial ports: opened for this program alone, and found again under another name. `tcp:HOST:PORT` is a link, too: of a
+//! simulated board, or of an adapter in the network.
 
 use std::fmt;
 use std::io::{self, Read as _, Write as _};
+use std::net::{TcpStream, ToSocketAddrs as _};
 use std::time::Duration;
 
 use serialport::{ErrorKind, SerialPort, SerialPortType, UsbPortInfo};
@@ -9,11 +11,23 @@ use serialport::{ErrorKind, SerialPort, SerialPortType, UsbPortInfo};
 /// The longest time that writing may take; a board that does not read for so long is gone.
 const WRITE_WITHIN: Duration = Duration::from_secs(1);
 
-/// A serial port that is open.
+/// The longest time that a connection may take.
+const CONNECT_WITHIN: Duration = Duration::from_secs(3);
+
+/// What the path of a link over TCP begins with.
+const TCP: &str = "tcp:";
+
+/// A serial port that is open, or a link over TCP.
 pub struct Port {
-    port: Box<dyn SerialPort>,
+    port: Line,
     path: String,
     identity: Option<Identity>,
+}
+
+/// What carries the bytes.
+enum Line {
+    Serial(Box<dyn SerialPort>),
+    Tcp(TcpStream),
 }
 
 /// What tells a serial port of a USB device from all others.
@@ -57,6 +71,8 @@ pub enum OpenError {
     Busy,
     /// It is no serial port.
     NotSerial,
+    /// Nothing answers at an address of TCP; the system's reason.
+    Unreachable(String),
     /// The system's reason.
     Other(String),
 }
@@ -68,6 +84,7 @@ impl fmt::Display for OpenError {
             Self::Denied => f.write_str("you may not open it"),
             Self::Busy => f.write_str("another program has it open"),
             Self::NotSerial => f.write_str("it is no serial port"),
+            Self::Unreachable(why) => write!(f, "nothing answers there ({why})"),
             Self::Other(why) => f.write_str(why),
         }
     }
@@ -76,15 +93,20 @@ impl fmt::Display for OpenError {
 impl std::error::Error for OpenError {}
 
 impl Port {
-    /// Opens a port raw and for this program alone.
+    /// Opens a port raw and for this program alone, or connects to `tcp:HOST:PORT`, which has no rate.
     ///
     /// # Errors
     /// Fails if it is not there, not a serial port, in use, or not this user's.
     pub fn open(path: &str, baud: u32) -> Result<Self, OpenError> {
+        if let Some(address) = path.strip_prefix(TCP) {
+            let stream = connect(address).map_err(|why| OpenError::Unreachable(why.to_string()))?;
+            return Ok(Self { port: Line::Tcp(stream), path: path.to_owned(), identity: None });
+        }
         let port = serialport::new(path, baud).timeout(Duration::from_millis(1)).open();
         let port = port.map_err(|error| why(&error))?;
         // Bytes from before are somebody else's.
         let _ = port.clear(serialport::ClearBuffer::Input);
+        let port = Line::Serial(port);
         Ok(Self { port, path: path.to_owned(), identity: identity(path) })
     }
 
@@ -93,7 +115,10 @@ impl Port {
     /// # Errors
     /// Fails if the system has no room for it, or the device is gone.
     pub fn try_clone(&self) -> io::Result<Self> {
-        let port = self.port.try_clone()?;
+        let port = match &self.port {
+            Line::Serial(port) => Line::Serial(port.try_clone()?),
+            Line::Tcp(stream) => Line::Tcp(stream.try_clone()?),
+        };
         Ok(Self { port, path: self.path.clone(), identity: self.identity.clone() })
     }
 
@@ -115,8 +140,18 @@ impl Port {
     /// Fails if the device is gone.
     pub fn read(&mut self, within: Duration) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; 4_096];
-        self.port.set_timeout(within.max(Duration::from_millis(1)))?;
-        match self.port.read(&mut bytes) {
+        let within = within.max(Duration::from_millis(1));
+        let read = match &mut self.port {
+            Line::Serial(port) => {
+                port.set_timeout(within)?;
+                port.read(&mut bytes)
+            }
+            Line::Tcp(stream) => {
+                stream.set_read_timeout(Some(within))?;
+                stream.read(&mut bytes)
+            }
+        };
+        match read {
             Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
             Ok(count) => {
                 bytes.truncate(count);
@@ -132,9 +167,30 @@ impl Port {
     /// # Errors
     /// Fails if the device is gone, or does not take them.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.port.set_timeout(WRITE_WITHIN)?;
-        self.port.write_all(bytes)
+        match &mut self.port {
+            Line::Serial(port) => {
+                port.set_timeout(WRITE_WITHIN)?;
+                port.write_all(bytes)
+            }
+            Line::Tcp(stream) => stream.write_all(bytes),
+        }
     }
+}
+
+/// Connects to the first address of a name that answers.
+fn connect(address: &str) -> io::Result<TcpStream> {
+    let mut why = io::Error::from(io::ErrorKind::AddrNotAvailable);
+    for one in address.to_socket_addrs()? {
+        match TcpStream::connect_timeout(&one, CONNECT_WITHIN) {
+            Ok(stream) => {
+                stream.set_nodelay(true)?;
+                stream.set_write_timeout(Some(WRITE_WITHIN))?;
+                return Ok(stream);
+            }
+            Err(error) => why = error,
+        }
+    }
+    Err(why)
 }
 
 fn is_nothing(error: &io::Error) -> bool {

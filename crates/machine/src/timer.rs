@@ -223,6 +223,7 @@ impl Timer {
                 wires.triggers |= 1 << (self.variant.number - 1);
             }
             if self.cr1 & 8 != 0 {
+                self.single_pulses(now, wires);
                 self.cr1 &= !1;
                 self.rebase(0, now);
                 return;
@@ -387,6 +388,20 @@ impl Timer {
         }
     }
 
+    /// A period after which the counter stops ends: each output that was on for the end of it has made one pulse.
+    fn single_pulses(&self, now: u64, wires: &mut Wires) {
+        for channel in 0..usize::from(self.variant.channels) {
+            let (period, width) = self.shape(channel, false);
+            if width > 0 && width < period {
+                let timer = self.variant.number;
+                let number = u8::try_from(channel + 1).unwrap_or(0);
+                let output = TimerOutput { timer, channel: number, is_complement: false };
+                let from = now.saturating_sub(width);
+                wires.world(|world, _| world.pulse(output, from, width));
+            }
+        }
+    }
+
     fn report_waveforms(&mut self, wires: &mut Wires) {
         for channel in 0..usize::from(self.variant.channels) {
             for is_complement in [false, true] {
@@ -403,9 +418,15 @@ impl Timer {
         }
     }
 
+    /// Period and width of the pulses that an output makes again and again; those that are made one by one are told as
+    /// they end.
+    fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
+        if self.cr1 & 8 != 0 { (0, 0) } else { self.shape(channel, is_complement) }
+    }
+
     /// Period and width, in nanoseconds, of the output of a channel or its complement. A complement that is on alone
     /// follows the channel; next to an active channel, it is inverted (RM0090, table 97).
-    fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
+    fn shape(&self, channel: usize, is_complement: bool) -> (u64, u64) {
         if is_complement && channel >= self.variant.complements {
             return (0, 0);
         }

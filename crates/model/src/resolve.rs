@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
     e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0225_too_many_items,
-    e0312_unknown_place, e0315_no_board, e0317_table_too_large,
+    e0312_unknown_place, e0315_no_board, e0317_table_too_large, h0708_drivers_alone,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
@@ -16,7 +16,7 @@ use crate::design::{Board, BoardIndex, Design};
 use crate::driver::Drivers;
 use crate::driver::known::Known;
 use crate::part::block::{Next, ReadPart, assemble};
-use crate::part::{chip, device, frames, ids, registers};
+use crate::part::{chip, device, frames, ids, registers, serial};
 use crate::request::Request;
 use crate::rule::{checks, names};
 use crate::sound::{Partial, broken_drivers};
@@ -70,7 +70,14 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     names::check("constant", &constant_names.iter().collect::<Vec<_>>(), &mut diagnostics);
     let board_names = board_names(&items);
     check_names(&board_names, &parts, &drivers, &mut diagnostics);
-    if items.boards.is_empty() && !items.broken {
+    let has_drivers_alone =
+        items.boards.is_empty() && items.parts.is_empty() && !items.drivers.is_empty();
+    let is_wrong = |one: &Diagnostic| one.severity == Severity::Error;
+    if has_drivers_alone && !diagnostics.iter().any(is_wrong) {
+        let first = drivers.own_names().first().map(|name| name.span);
+        let at = first.unwrap_or_else(|| Span::new(file, 0..0));
+        diagnostics.push(h0708_drivers_alone::drivers_alone(at, drivers.own().len()));
+    } else if items.boards.is_empty() && !items.broken && !has_drivers_alone {
         let first = parts.first().map(|read| read.part.name.span);
         let at = first.unwrap_or_else(|| Span::new(file, 0..0));
         diagnostics.push(e0315_no_board::no_board(at));
@@ -80,6 +87,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     check_places(&design, &mut diagnostics);
     frames::settle(&mut design, &mut diagnostics);
     registers::settle(&mut design, &mut diagnostics);
+    serial::check(&design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
     link::settle_silence(&mut design, &mut diagnostics);
     if items.broken {
@@ -98,6 +106,8 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         let partial = partial.without(&diagnostics).without_drivers(&broken);
         let partial = partial.without_doubtful_tables(&diagnostics);
         (None, Some(partial).filter(|partial| !partial.design.boards.is_empty()))
+    } else if has_drivers_alone {
+        (None, None)
     } else {
         (Some(design), None)
     };

@@ -80,7 +80,11 @@ pub fn summary<R: Read>(mut reader: RecordReader<R>, part: &Part) -> Result<Summ
             tally.take(&entry);
         }
     }
-    let boards = tallies.into_iter().flatten().map(Tally::done).collect();
+    let mut boards: Vec<BoardSummary> = tallies.into_iter().flatten().map(Tally::done).collect();
+    for board in &mut boards {
+        let names = &part.devices;
+        board.devices.retain(|one| names.is_empty() || names.contains(&one.device.name));
+    }
     Ok(Summary { ending: reader.ending().unwrap_or(Ending::Whole), began, lasted, boards })
 }
 

@@ -42,7 +42,9 @@ impl<'a> Wires<'a> {
         let known = names_of(self.kind, role).iter().filter(|_| own.is_empty());
         let names = own.iter().map(String::as_str).chain(known.copied());
         names.into_iter().find_map(|wanted| {
-            let mut found = called(module, wanted);
+            // What the driver states for another wire is not this one's: the clock of an HX711 is at MOSI.
+            let is_free = |entry: &&str| module.contacts.iter().all(|(_, other)| other != entry);
+            let mut found = called(module, wanted).filter(is_free);
             let first = found.next()?;
             found.next().is_none().then_some(first)
         })
@@ -107,7 +109,12 @@ fn names_of(kind: &Kind, role: Role) -> &'static [&'static str] {
         Role::Cs => &["CS", "CSN", "NCS"],
         Role::A => &["A"],
         Role::B => &["B"],
+        Role::Direction => &["DE", "DIR", "EN"],
         Role::Trigger => &["TRIG"],
+        Role::Data => &["DATA", "DQ", "OUT", "SIGNAL", "S", "PIN"],
+        Role::Step => &["STEP", "STP", "PUL", "PUL+"],
+        Role::Dir => &["DIR", "DIR+"],
+        Role::Enable => &["EN", "ENABLE", "ENA", "ENA+"],
         Role::In if kind.is_sampled() => {
             &["AOUT", "VO", "AN", "OUT", "WIPER", "SIGNAL", "S", "PIN"]
         }
@@ -128,10 +135,38 @@ mod tests {
     }
 
     /// Wires of the MCU's port that these parts have no use for.
-    const NOT_AT_THE_PART: [&str; 2] = ["hc595_pins miso", "mt6701_ssi mosi"];
+    const NOT_AT_THE_PART: [&str; 7] = [
+        "hc595_pins miso",
+        "mt6701_ssi mosi",
+        "sabertooth rx",
+        "max31855 mosi",
+        "max6675 mosi",
+        "hx711 sck",
+        "hx711 cs",
+    ];
 
     /// Parts that get their supply from elsewhere: over a resistor, from a pin, from the robot's battery.
-    const WITHOUT_SUPPLY: [&str; 5] = ["ntc", "buzzer", "vesc", "vesc_duty", "vesc_current"];
+    const WITHOUT_SUPPLY: [&str; 19] = [
+        "ntc",
+        "buzzer",
+        "vesc",
+        "vesc_duty",
+        "vesc_current",
+        "vesc_uart",
+        "odrive",
+        "odrive_position",
+        "odrive_torque",
+        "wind_vane",
+        "roboclaw",
+        "sabertooth",
+        "kangaroo",
+        "xl330",
+        "xl430",
+        "xl430_wheel",
+        "ax12",
+        "sts3215",
+        "lx16a",
+    ];
 
     /// Every wire of every driver of the library has a contact, and so have supply and ground where the part has them.
     #[test]

@@ -1,6 +1,6 @@
-//! What was checked, as JUnit XML: the form in which build servers show results.
+//! What was checked, as `JUnit` XML: the form in which build servers show results.
 //!
-//! Suites of cases come in, each with what is wrong with it; a document goes out. There is no schema of JUnit's own: it
+//! Suites of cases come in, each with what is wrong with it; a document goes out. `JUnit` has no schema of its own: it
 //! has the elements and attributes that Jenkins, GitLab and GitHub's reporters read.
 
 use crate::markup::escaped;

@@ -1,5 +1,7 @@
 //! A wiring as rows: one wire each, ready to be printed.
 
+use std::collections::BTreeSet;
+
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
@@ -87,6 +89,20 @@ pub(super) fn dividers<'a>(
         let wires = design.connection(wiring.connection)?;
         let once = wires.element.is_none_or(|element| element == 0);
         once.then_some((design.part_name(wires.part), wires.level.as_ref()?.divided()?))
+    })
+}
+
+/// The parts of a board whose wire needs a resistor to the supply, with that resistor: the first on each wire.
+pub(super) fn pull_ups<'a>(
+    design: &'a Design,
+    on: &'a BoardAssignment,
+) -> impl Iterator<Item = (&'a str, String)> {
+    let mut pins = BTreeSet::new();
+    on.connections.iter().filter_map(move |wiring| {
+        let wires = design.connection(wiring.connection)?;
+        wires.kind.onewire()?;
+        let pin = wiring.wires.first()?.pin;
+        pins.insert(pin).then(|| (design.part_name(wires.part), "4.7 kOhm to supply".to_owned()))
     })
 }
 

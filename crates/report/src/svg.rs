@@ -33,7 +33,7 @@ use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use sensedsl_wiring::kept_back;
 
 use crate::markup::escaped;
-use crate::rows::{Row, dividers, rows};
+use crate::rows::{Row, dividers, pull_ups, rows};
 use crate::sheet;
 use area::Area;
 use draw::Use;
@@ -158,7 +158,7 @@ fn board_picture(
     for contact in &mut shape.contacts {
         contact.kept_for = contact.pin().and_then(|pin| kept_back.get(&pin.name)).cloned();
     }
-    let resistors: Vec<(&str, String)> = dividers(design, on).collect();
+    let resistors: Vec<(&str, String)> = dividers(design, on).chain(pull_ups(design, on)).collect();
     let resistors_of =
         |name: &str| resistors.iter().find(|(part, _)| *part == name).map(|(_, text)| text.clone());
     let sheet = sheet::sheet(design, on, board);

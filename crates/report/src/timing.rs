@@ -49,6 +49,7 @@ fn board_value(design: &Design, board: &BoardTiming) -> Value {
             "a_second": row.a_second.map(Count::number),
             "busy_ns_a_second": row.busy_ns,
             "shortest_ms": row.shortest_ms,
+            "locked_ns": row.locked_ns,
         })
     });
     let turns = board.turns.iter().map(|turn| {
@@ -81,6 +82,11 @@ pub fn human(design: &Design, timing: &Timing) -> String {
         let rows: Vec<[String; 8]> = board.rows.iter().map(cells).collect();
         let heads = ["Part", "Name", ">Clock", ">Cycle", ">Takes", ">A second", ">Busy", ">Least"];
         out.push_str(&table(heads, &rows));
+        let locked_ns = board.rows.iter().filter_map(|row| row.locked_ns).max();
+        if let Some(locked_ns) = locked_ns {
+            let time = shown_time(locked_ns);
+            out.push_str(&format!("\n{INDENT}Interrupts are off for {time} at a time, while a bit of a wire is made.\n"));
+        }
         if !board.turns.is_empty() {
             out.push('\n');
             out.push_str(&turns(design, board));
@@ -137,6 +143,7 @@ fn clock(part: Part, hz: u32) -> String {
         Part::Link | Part::Port => format!("{hz} Bd"),
         Part::Converter
         | Part::Bus
+        | Part::Wire
         | Part::Output
         | Part::Interrupts
         | Part::Thread

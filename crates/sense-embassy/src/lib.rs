@@ -47,6 +47,8 @@ pub mod contact;
 #[cfg(feature = "runtime")]
 pub mod devices;
 #[cfg(feature = "runtime")]
+pub mod line;
+#[cfg(feature = "runtime")]
 pub mod link;
 #[cfg(feature = "runtime")]
 pub mod link_stream;
@@ -54,6 +56,8 @@ pub mod link_stream;
 pub mod link_uart;
 #[cfg(feature = "runtime")]
 pub mod link_usb;
+#[cfg(feature = "runtime")]
+pub mod onewire;
 #[cfg(feature = "runtime")]
 pub mod serial;
 #[cfg(all(

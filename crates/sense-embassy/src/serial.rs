@@ -36,6 +36,16 @@ impl<const BYTES: usize> RxQueue<BYTES> {
         }
     }
 
+    /// Forgets what waits.
+    pub(crate) fn clear(&self) {
+        self.bytes.clear();
+    }
+
+    /// Waits for bytes.
+    pub(crate) async fn read(&self, bytes: &mut [u8]) -> usize {
+        self.bytes.read(bytes).await
+    }
+
     /// Whether characters were damaged, or not taken in time, since the last call.
     fn take_fault(&self) -> bool {
         // Not a swap, which small cores lack: a fault between the two is one with the one before.
@@ -159,10 +169,13 @@ pub async fn transmit<const BYTES: usize>(
 ) -> ! {
     // Twelve bits are the longest character.
     let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
+    // The port is waited for, so at a fast one several go into a tenth of a millisecond.
+    let together = (baud as usize / 120_000).clamp(1, 16);
     loop {
-        let mut bytes = [0];
-        queue.read(&mut bytes).await;
-        put(&bytes);
+        let mut bytes = [0; 16];
+        let room = bytes.get_mut(..together).unwrap_or_default();
+        let size = queue.read(room).await;
+        put(bytes.get(..size).unwrap_or_default());
         Timer::after(character).await;
     }
 }

@@ -117,3 +117,14 @@ pub fn crc8(polynomial: u8, start: u8, bytes: &[u8]) -> u8 {
         })
     })
 }
+
+/// A CRC-16 with a polynomial and start value 0; most significant bit first, nothing reflected.
+#[must_use]
+pub fn crc16_of(polynomial: u16, bytes: &[u8]) -> u16 {
+    bytes.iter().fold(0, |crc: u16, byte| {
+        (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
+            let carried = if crc & 0x8000 == 0 { 0 } else { polynomial };
+            (crc << 1) ^ carried
+        })
+    })
+}

@@ -1,5 +1,5 @@
 //! From the bytes of a device to the value of an item, and back: words, bit fields, byte order,
-//! packed bits, BCD, checksums.
+//! packed bits, BCD, signs with magnitudes, checksums.
 //!
 //! Integers saturate to the item's type instead of wrapping; bool is "not zero".
 
@@ -24,6 +24,8 @@ pub enum Code {
     Float,
     /// Two decimal digits per byte.
     Bcd,
+    /// A binary number whose highest bit is its sign.
+    Magnitude,
     /// `bits` bits per word, without gaps between words, least significant bit first.
     Packed,
 }
@@ -55,7 +57,8 @@ pub struct Coding {
     /// The number of significant bits from there, 1 to 64; 0: up to the word's highest. Packed: 1
     /// to 32.
     pub bits: u8,
-    /// True if the highest of the bits is a sign; ignored for floats and BCD.
+    /// True if the highest of the bits is a sign; ignored for floats, BCD and
+    /// magnitudes.
     pub is_signed: bool,
     /// True if the word's first byte is its least significant.
     pub is_little_endian: bool,
@@ -94,7 +97,9 @@ impl Coding {
         let words = self.words_of(count);
         let data = match self.code() {
             Code::Packed => (words * self.bits as usize).div_ceil(8),
-            Code::Integer | Code::Float | Code::Bcd => words * self.word_bytes as usize,
+            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => {
+                words * self.word_bytes as usize
+            }
         };
         match self.crc() {
             Crc::None => data,
@@ -179,12 +184,22 @@ impl Coding {
         let code = self.code();
         let number = match code {
             Code::Packed => packed_word(bytes, word, bits as usize),
-            Code::Integer | Code::Float | Code::Bcd => self.whole_word(bytes, word),
+            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => {
+                self.whole_word(bytes, word)
+            }
         };
         let number = number & mask_of(bits);
         match code {
             Code::Bcd => store_bcd(scalar, number, element),
             Code::Float => store_float(scalar, number, self.word_bytes, element),
+            Code::Magnitude => {
+                let sign = 1_u64.wrapping_shl(bits - 1);
+                let magnitude = (number & !sign).cast_signed();
+                let is_negative = number & sign != 0;
+                let value = if is_negative { magnitude.wrapping_neg() } else { magnitude };
+                store_signed(scalar, value, element);
+                true
+            }
             Code::Integer | Code::Packed => {
                 if self.is_signed {
                     let sign = 1_u64.wrapping_shl(bits - 1);
@@ -250,6 +265,8 @@ impl Coding {
             (Code::Float, _) => scalar.load(element),
             (Code::Bcd, true) => 0,
             (Code::Bcd, false) => to_bcd(magnitude, mask),
+            (Code::Magnitude, false) => magnitude.min(mask >> 1),
+            (Code::Magnitude, true) => magnitude.min(mask >> 1) | (mask ^ (mask >> 1)),
             (Code::Integer | Code::Packed, false) => magnitude.min(greatest),
             (Code::Integer | Code::Packed, true) if !self.is_signed => 0,
             (Code::Integer | Code::Packed, true) => {

@@ -12,6 +12,8 @@ use crate::scalar::Scalar;
 pub enum BridgeMode {
     /// Outputs: 0 magnitude (PWM), 1 in1 (high: forward), 2 in2 (high: backward).
     DirectionPins,
+    /// Outputs: 0 magnitude (PWM), 1 direction (high: backward).
+    DirectionPin,
     /// Outputs: 0 forward (PWM), 1 backward (PWM).
     TwoPwm,
 }
@@ -70,7 +72,8 @@ impl BridgeState {
 impl Bridge {
     /// The writes for an element (NaN is 0). With direction pins, a new direction first writes the
     /// magnitude 0, then the pin that goes low, then the one that goes high, then the magnitude;
-    /// both pins are low at 0. With two PWM outputs, the one that goes to 0 is written first.
+    /// both pins are low at 0. With one
+    /// pin, the magnitude is 0 while the pin changes; the pin is low at 0. With two PWM outputs, the one that goes to 0 is written first.
     #[must_use]
     pub fn drive(&self, state: &mut BridgeState, scalar: Scalar, element: &[u8]) -> Writes {
         let (asked, is_negative) = load_magnitude(scalar, element);
@@ -84,6 +87,7 @@ impl Bridge {
         state.direction = Some(direction);
         match self.mode {
             BridgeMode::TwoPwm => two_pwm(direction, magnitude),
+            BridgeMode::DirectionPin => direction_pin(is_turning, direction, magnitude),
             BridgeMode::DirectionPins => direction_pins(is_turning, direction, magnitude),
         }
     }
@@ -96,6 +100,19 @@ fn direction_pins(is_turning: bool, direction: i8, magnitude: u32) -> Writes {
         writes.put(0, 0);
         writes.put(low, 0);
         writes.put(other, u32::from(direction != 0));
+        if direction == 0 {
+            return writes;
+        }
+    }
+    writes.put(0, magnitude);
+    writes
+}
+
+fn direction_pin(is_turning: bool, direction: i8, magnitude: u32) -> Writes {
+    let mut writes = Writes::default();
+    if is_turning {
+        writes.put(0, 0);
+        writes.put(1, u32::from(direction < 0));
         if direction == 0 {
             return writes;
         }

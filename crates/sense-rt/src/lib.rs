@@ -58,11 +58,13 @@ mod decode;
 mod drive;
 mod elements;
 mod encode;
+mod exchange;
 mod filter;
 mod formula;
 mod health;
 mod listener;
 mod message;
+pub mod onewire;
 mod outcome;
 mod parse;
 mod pulse_width;
@@ -71,6 +73,7 @@ mod requests;
 mod scalar;
 mod schema;
 mod silence;
+mod stepper;
 mod store;
 mod train;
 mod uses;
@@ -82,7 +85,7 @@ pub mod sources;
 
 pub use bits::Bits;
 pub use capture::{Capture, CaptureConfig, CaptureMode, Captured};
-pub use checksum::{Checksum, crc8, crc16, crc32, sum8, sum16, xor8};
+pub use checksum::{Checksum, crc8, crc16, crc16_of, crc32, sum8, sum16, xor8};
 pub use chip::{
     Calibration, Chip, ChipCounts, ChipTable, Command, Identity, InitStep, Reading, Step, Transfer,
 };
@@ -100,8 +103,9 @@ pub use elements::Elements;
 pub use encode::{
     Stamp, encode_health, encode_health_request, encode_hello, encode_hello_request, encode_values,
 };
+pub use exchange::{Echo, Exchange, Heard, Reply};
 pub use filter::{Filter, FilterTable, Number, Range, WIDE, Wide, decay};
-pub use formula::{BME280, BMP280, Formula, NTC, OUTPUTS_MAX, Outputs, TSL2561};
+pub use formula::{BME280, BMP280, Formula, HX711, NTC, OUTPUTS_MAX, Outputs, TSL2561};
 pub use health::{
     AGE_LONG, AGE_NEVER, BoardHealth, Cause, Fault, Health, HealthRow, LOAD_UNKNOWN, Record,
     STACK_UNKNOWN, Status,
@@ -118,6 +122,7 @@ pub use requests::Requests;
 pub use scalar::Scalar;
 pub use schema::{Direction, FRAME_BYTES_LIMIT, ITEMS_MAX, Item, Schema};
 pub use silence::Silence;
+pub use stepper::{MotorConfig, Stepper, TICK_HZ_MAX};
 pub use store::Store;
 pub use train::{CHANNELS_MAX, Train, TrainConfig};
 pub use watch::Watch;

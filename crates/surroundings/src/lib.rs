@@ -193,6 +193,11 @@ pub trait Surroundings: Send {
         let _ = (output, period_ns, width_ns, now_ns);
     }
 
+    /// A timer that stops after each period has made a pulse, which is over now.
+    fn pulse(&mut self, output: TimerOutput, from_ns: u64, width_ns: u64) {
+        let _ = (output, from_ns, width_ns);
+    }
+
     /// An output of a DAC has a new voltage. Channels count on from unit to unit, each of which has two.
     fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
         let _ = (channel, millivolts, now_ns);

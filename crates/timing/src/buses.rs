@@ -104,7 +104,9 @@ pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script>
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Pwm(_)
-        | Interface::Dac(_) => None,
+        | Interface::Dac(_)
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     }
 }
 
@@ -120,7 +122,9 @@ pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) 
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Pwm(_)
-        | Interface::Dac(_) => None,
+        | Interface::Dac(_)
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     });
     asked.min()
 }

@@ -74,7 +74,9 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => continue,
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => continue,
         };
         let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
         let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);

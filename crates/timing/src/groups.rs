@@ -75,6 +75,7 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
 fn period_ms(device: &Device) -> Option<u32> {
     match device.kind.interface() {
         Interface::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
+        Interface::OneWire(own) => Some(i2c_period_ms(device.delay_ms, own.wait_us)),
         Interface::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
         Interface::Analog(_)
         | Interface::Encoder(_)
@@ -83,7 +84,8 @@ fn period_ms(device: &Device) -> Option<u32> {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => None,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => None,
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
     e0621_too_often, e0622_link_too_slow, e0624_no_turns, w0623_nearly_busy,
-    w0625_no_turns_by_default,
+    w0625_no_turns_by_default, w0628_locked_too_long,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{Design, Device, DeviceIndex, Transport};
@@ -14,6 +14,7 @@ use sensedsl_wiring::assignment::Assignment;
 use crate::context::{Context, Wired};
 use crate::load::{BoardTiming, Timing};
 use crate::rows::{Part, Row, per_second};
+use crate::steps::STEPS;
 use crate::units::{MILLISECOND_NS, SECOND_NS};
 use crate::{groups, link};
 
@@ -29,7 +30,7 @@ fn of_board(design: &Design, timing: &BoardTiming) -> Vec<Diagnostic> {
     let mut units: BTreeMap<(Part, &str), Vec<&Row>> = BTreeMap::new();
     for row in &timing.rows {
         match row.part {
-            Part::Converter | Part::Bus | Part::Port | Part::Thread => {
+            Part::Converter | Part::Bus | Part::Wire | Part::Port | Part::Thread => {
                 units.entry((row.part, &row.name)).or_default().push(row);
             }
             Part::Processor => diagnostics.extend(of_processor(design, timing, row)),
@@ -39,7 +40,29 @@ fn of_board(design: &Design, timing: &BoardTiming) -> Vec<Diagnostic> {
     for ((part, unit), rows) in units {
         diagnostics.extend(of_unit(design, part, unit, &rows));
     }
+    diagnostics.extend(of_locks(design, timing));
     diagnostics
+}
+
+/// Reports a serial port on which a whole byte can come while a wire keeps interrupts off: the next one overwrites it.
+fn of_locks(design: &Design, timing: &BoardTiming) -> Option<Diagnostic> {
+    /// The bits of the shortest byte on a line, with start and stop.
+    const BYTE_BITS: u64 = 9;
+    let locks = timing.rows.iter().filter(|row| row.locked_ns.is_some());
+    let wire = locks.max_by_key(|row| row.locked_ns)?;
+    let locked_ns = wire.locked_ns?;
+    let is_short = |row: &&Row| {
+        let is_port = matches!(row.part, Part::Port | Part::Link);
+        is_port
+            && row
+                .clock_hz
+                .is_some_and(|hz| BYTE_BITS * SECOND_NS / u64::from(hz.max(1)) < locked_ns)
+    };
+    let port = timing.rows.iter().find(is_short)?;
+    let device = design.device(*wire.devices.first()?)?;
+    let most = BYTE_BITS * SECOND_NS / locked_ns;
+    let (name, lock) = (&device.name.value, shown_time(locked_ns));
+    Some(w0628_locked_too_long::locked_too_long(device.name.span, name, &lock, &port.name, most))
 }
 
 /// The place of a device's cycle time.
@@ -68,6 +91,7 @@ fn otherwise(part: Part) -> &'static str {
         Part::Converter => ", fewer `samples`, or a shorter `sampling`",
         Part::Bus => ", a faster bus, or another one",
         Part::Port => ", or more `baud`",
+        Part::Wire => ", or a wire for each part",
         Part::Thread | Part::Output | Part::Link | Part::Interrupts | Part::Processor => "",
     }
 }
@@ -157,6 +181,7 @@ fn of_processor(design: &Design, timing: &BoardTiming, row: &Row) -> Option<Diag
         let least = worst.cycle.map(|cycle| scaled_ms(cycle.delay_ms, busy_ns));
         let help = match least {
             Some(least) => format!("write `delay = {least} ms;` or more for {asked}"),
+            None if worst.name == STEPS => format!("write a lower `speed` for {asked}"),
             None => format!("state a lower `max` for {asked}, or count with a slower wheel"),
         };
         return Some(e0621_too_often::too_often(place(device), &message, &help));

@@ -40,9 +40,11 @@ mod limits;
 mod link;
 mod load;
 mod memory;
+mod onewire;
 mod ports;
 mod processor;
 mod rows;
+mod steps;
 mod units;
 
 use sensedsl_diagnostics::Diagnostic;
@@ -69,9 +71,11 @@ pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
         let work = processor::Work::of(&context);
         let mut rows = converters::rows(&context, &work);
         rows.extend(buses::rows(&context, &work));
+        rows.extend(onewire::rows(&context));
         rows.extend(ports::rows(&context));
         rows.extend(link::rows(&context));
         rows.extend(captures::rows(&context));
+        rows.extend(steps::rows(&context));
         rows.extend(processor::rows(&context, &work));
         BoardTiming {
             board: wiring.board,

@@ -15,7 +15,7 @@ use sensedsl_model::kind::{Interface, Sharing};
 use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
 use crate::context::{Context, Wired};
-use crate::{buses, i2c_clock, ports};
+use crate::{buses, i2c_clock, ports, steps};
 
 /// How far off a serial port may be: half a bit after ten bits, shared by both ends and the slopes
 /// of the edges.
@@ -42,7 +42,10 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
             }),
             // Kinds that share their unit are checked per bus, below.
             Interface::I2c(_) | Interface::Spi(_) | Interface::Can(_) => None,
+            Interface::Stepper(own) => steps::too_fast(context, wired, own),
             Interface::Encoder(_) | Interface::Digital(_) | Interface::Dac(_) => None,
+            // The processor makes its bits.
+            Interface::OneWire(_) => None,
         });
         if let (true, Some(unit)) = (kind.name().spec().sharing != Sharing::Own, unit) {
             shared.entry(UnitName::new(unit)).or_default().push(wired);
@@ -169,7 +172,9 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Pwm(_)
-        | Interface::Dac(_) => return None,
+        | Interface::Dac(_)
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => return None,
     };
     // Without facts about its dividers, nothing is known about the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;

@@ -43,6 +43,7 @@ fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
     let buffers = match kind.interface() {
         Interface::Analog(analog) => u64::from(analog.samples) * SAMPLE_BYTES,
         Interface::I2c(i2c) => value + u64::from(i2c.length_bytes),
+        Interface::OneWire(own) => value + u64::from(own.answer_bytes()),
         Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Digital(_)
@@ -50,7 +51,8 @@ fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
         | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => 0,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => 0,
     };
     value + buffers
 }

@@ -6,12 +6,14 @@ use sensedsl_board::profile::Costs;
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_model::kind::analog::Analog;
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::kind::{Interface, Kind};
 
 use crate::buses::script;
 use crate::captures::interrupts;
-use crate::context::Context;
+use crate::context::{Context, Wired};
 use crate::link::reports;
+use crate::onewire;
 use crate::rows::{Count, Cycle, Part, Row, clocks_ns};
 use crate::units::MILLISECOND_NS;
 
@@ -50,6 +52,11 @@ impl Work {
 
     fn ns(&self, instructions: impl FnOnce(&Costs) -> u64) -> u64 {
         self.costs.as_ref().map_or(0, |(costs, hz)| time_ns(costs, *hz, instructions(costs)))
+    }
+
+    /// The processor time of one step of a motor.
+    pub(crate) fn of_step(&self) -> u64 {
+        self.ns(|costs| u64::from(costs.step))
     }
 
     /// The processor time that a thread needs for a group of analog sensors.
@@ -113,6 +120,8 @@ struct Load {
     transfers: Vec<(Transfers, u32)>,
     /// The lengths of the pulses.
     pulses_us: Vec<u32>,
+    /// The time in which the bits of wires are made.
+    bits_ns: u64,
     /// True if the runtime has no thread for some of the work.
     is_unknown: bool,
 }
@@ -125,6 +134,8 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             continue;
         }
         let of_kind = || wired.wiring.unit.as_deref().unwrap_or(kind.name().name());
+        let pin = onewire::wire(context, wired);
+        let of_kind = || pin.as_ref().map_or_else(of_kind, UnitName::as_str);
         let unit = if kind.pulse_us().is_some() { "pulse" } else { of_kind() };
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
@@ -142,10 +153,24 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => load.is_unknown = true,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => load.is_unknown = true,
+            Interface::OneWire(own) => {
+                load.transfers.push((of_wire(wired, own), wired.device.delay_ms));
+                let is_read = onewire::read(context).any(|other| other.index == wired.index);
+                load.bits_ns += if is_read { onewire::held_ns(own) } else { 0 };
+            }
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()
+}
+
+/// What a part on one wire costs besides its bits: as much as one on a bus.
+fn of_wire(wired: &Wired<'_>, own: &OneWire) -> Transfers {
+    let count = 1 + u64::from(!own.trigger.is_empty());
+    let elements = wired.device.value.value.count() as u64;
+    let bytes = u64::from(own.answer_bytes());
+    Transfers { count, phases: count + 1, bytes, elements, value_bytes: own.length_bytes.into() }
 }
 
 impl Load {
@@ -183,7 +208,7 @@ impl Load {
             devices: self.devices,
             cycle_instructions: instructions.map(|(cycle, _)| cycle),
             instructions: instructions.map(|(_, second)| second),
-            held_ns: ns(&held_us),
+            held_ns: ns(&held_us) + self.bits_ns,
             slept_ns: ns(&slept_us),
             has_pulses: !self.pulses_us.is_empty(),
         }
@@ -252,6 +277,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     row.busy_ns = instructions.and_then(ns);
     rows.push(row);
     rows.extend(of_captures(context, costs));
+    rows.extend(crate::steps::thread(context, costs.map(|(costs, _)| costs), &ns));
     // The sum is unknown if the busy time of any row is. Captures with an unknown rate have no row.
     let busy = rows.iter().map(|row| row.busy_ns).collect::<Option<Vec<u64>>>();
     let mut row = Row::new(Part::Processor, "all of it", Vec::new());

@@ -11,6 +11,8 @@ pub enum Part {
     Converter,
     /// A bus: I2C, SPI or CAN.
     Bus,
+    /// A wire that both ends pull low, whose bits the processor makes.
+    Wire,
     /// A serial port of a device.
     Port,
     /// A timer that outputs pulses.
@@ -32,6 +34,7 @@ impl Part {
         match self {
             Self::Converter => "adc",
             Self::Bus => "bus",
+            Self::Wire => "wire",
             Self::Port => "port",
             Self::Output => "pwm",
             Self::Link => "link",
@@ -138,6 +141,8 @@ pub struct Row {
     pub busy_ns: Option<u64>,
     /// The shortest possible cycle time, given the others.
     pub shortest_ms: Option<u32>,
+    /// The longest time for which it keeps interrupts off, if it does.
+    pub locked_ns: Option<u64>,
 }
 
 impl Row {
@@ -167,6 +172,7 @@ impl Row {
             a_second: None,
             busy_ns: None,
             shortest_ms: None,
+            locked_ns: None,
         }
     }
 }

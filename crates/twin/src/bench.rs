@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_job::kinds::serial;
 use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, Device, DeviceIndex, PartIndex};
 use sensedsl_model::kind::{Interface, Kind, Role};
@@ -15,20 +16,25 @@ use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
-use crate::parts::{can, formula, message};
+use crate::parts::{can, dialogue, formula, message, onewire as onewire_part};
 use crate::range::is_counter;
 use crate::truth::Subject;
-use crate::world::{Fault, FaultKind, World, usual};
+use crate::world::{FaultKind, World, usual};
 use sensedsl_surroundings::{Pad, TimerOutput};
 
+mod broken;
 mod chips;
 mod held;
 mod log;
 mod mcu;
+mod motors;
+mod onewire;
 mod peer;
 mod recorded;
+mod stations;
 mod units;
 
+use broken::Broken;
 use chips::Chip;
 pub use chips::UncheckedIdentity;
 use held::Held;
@@ -48,7 +54,11 @@ pub struct Bench {
     wires: BTreeMap<ConnectionIndex, Wired>,
     pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
     chips: Vec<Chip>,
+    /// The wires that both ends pull low, and which of them a connection is on.
+    one_wires: Vec<onewire_part::Wire>,
+    on_wire: BTreeMap<ConnectionIndex, usize>,
     talkers: BTreeMap<u8, ConnectedSender>,
+    lines: BTreeMap<u8, dialogue::Line>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
@@ -63,14 +73,6 @@ pub struct Bench {
     peer: Option<Peer>,
     seed: u64,
     log: Option<log::Log>,
-}
-
-/// A fault, the part that it hits, and the units of that part's wires.
-#[derive(Clone, Debug)]
-struct Broken {
-    fault: Fault,
-    part: Option<PartIndex>,
-    units: Vec<String>,
 }
 
 /// A connection and what is behind it.
@@ -103,7 +105,10 @@ impl Bench {
             wires: BTreeMap::new(),
             pads: BTreeMap::new(),
             chips: Vec::new(),
+            one_wires: Vec::new(),
+            on_wire: BTreeMap::new(),
             talkers: BTreeMap::new(),
+            lines: BTreeMap::new(),
             senders: BTreeMap::new(),
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
@@ -119,6 +124,7 @@ impl Bench {
         for one in &job.connections {
             bench.add(job, one);
         }
+        bench.motors(job);
         bench
     }
 
@@ -144,7 +150,8 @@ impl Bench {
         let of_part =
             |(of, sender): &(PartIndex, can::Sender)| (*of == part).then(|| sender.round_ns());
         let senders = || self.senders.values().flatten().filter_map(of_part).max();
-        talker.map(|one| one.talker.period_ns()).or_else(senders)
+        let round_ns = self.lines.values().find_map(|line| line.round_ns(part));
+        round_ns.or_else(|| talker.map(|one| one.talker.period_ns())).or_else(senders)
     }
 
     /// The times, from start to end, at which a fault may keep a device from reporting.
@@ -192,11 +199,15 @@ impl Bench {
     }
 
     /// The supply is back: parts have lost what was written to them.
-    pub fn power_up(&mut self) {
+    pub fn power_up(&mut self, now_ns: u64) {
+        for part in self.one_wires.iter_mut().flat_map(|wire| &mut wire.parts) {
+            part.reset(now_ns);
+        }
         for chip in &mut self.chips {
             chip.registers.reset();
         }
         self.talked_to.clear();
+        self.recorder.power_up();
     }
 
     /// The voltage at a connection.
@@ -229,6 +240,9 @@ impl Bench {
         if self.is_cut(connection, now_ns) {
             return None;
         }
+        if role == Role::Data {
+            return self.line_level(connection, now_ns);
+        }
         let wired = self.wires.get_mut(&connection)?;
         let (first, second) = wired.line.as_mut()?;
         let line = if role == Role::B { second.as_mut()? } else { first };
@@ -242,6 +256,9 @@ impl Bench {
         role: Role,
         after_ns: u64,
     ) -> Option<(u64, bool)> {
+        if role == Role::Data {
+            return self.line_edge(connection, after_ns);
+        }
         let wired = self.wires.get_mut(&connection)?;
         let (first, second) = wired.line.as_mut()?;
         let line = if role == Role::B { second.as_mut()? } else { first };
@@ -267,7 +284,10 @@ impl Bench {
         level: Option<bool>,
         now_ns: u64,
     ) {
-        self.recorder.level(connection, role, level);
+        self.recorder.level(connection, role, level, now_ns);
+        if role == Role::Data {
+            self.drive_line(connection, level, now_ns);
+        }
         if role == Role::Cs
             && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
         {
@@ -279,6 +299,11 @@ impl Bench {
             }
             chip.is_selected = is_selected;
             self.recorder.select(connection, is_selected, now_ns);
+        }
+        if role == Role::Direction
+            && let Some(line) = self.lines.values_mut().find(|line| line.is_at(connection))
+        {
+            line.give(level == Some(true));
         }
         if role == Role::Trigger
             && level == Some(false)
@@ -332,6 +357,11 @@ impl Bench {
             (Interface::I2c(_) | Interface::Spi(_), Some(unit)) => {
                 self.chips.push(self.chip(job, one, unit));
             }
+            (Interface::Uart(uart), Some(unit)) if serial::is_dialogue(job, one) => {
+                let station = self.station(job, one);
+                let fresh = || dialogue::Line::new(uart.clone());
+                self.lines.entry(unit).or_insert_with(fresh).add(station);
+            }
             (Interface::Uart(uart), Some(unit)) if !devices.is_empty() => {
                 let fields = devices.iter().filter_map(|of| self.field(of)).collect();
                 let delay_ns = MS_NS * u64::from(one.cycle.delay_ms);
@@ -339,6 +369,7 @@ impl Bench {
                     message::MessageSender::new(uart.clone(), fields, delay_ns, &self.subjects);
                 self.talkers.insert(unit, ConnectedSender { part, talker });
             }
+            (Interface::OneWire(own), _) => self.hang(job, one, own),
             (Interface::Can(_), Some(unit)) => self.stations(unit, part, &devices),
             // Nothing is sent without a unit, or by a part that is only written.
             (Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_), _) => {
@@ -349,7 +380,8 @@ impl Bench {
                 | Interface::Encoder(_)
                 | Interface::Digital(_)
                 | Interface::Pwm(_)
-                | Interface::Dac(_),
+                | Interface::Dac(_)
+                | Interface::Stepper(_),
                 _,
             ) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
@@ -421,7 +453,9 @@ impl Bench {
             | Interface::Spi(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => return None,
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => return None,
         })
     }
 
@@ -444,26 +478,6 @@ fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
         Subject::new(one.index, one.device, signals)
     });
     subject.collect()
-}
-
-impl Broken {
-    fn new(job: &BoardJob<'_>, fault: &Fault) -> Self {
-        let device = fault.device.and_then(|device| job.design.device(device));
-        let part = device.map(|device| device.part);
-        let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
-        let units = of_part.filter_map(|one| one.unit.map(str::to_owned)).collect();
-        Self { fault: fault.clone(), part, units }
-    }
-
-    /// Whether it is a fault of that kind, and is there now.
-    fn is(&self, kind: FaultKind, now_ns: u64) -> bool {
-        self.fault.kind == kind && self.fault.is_there(now_ns)
-    }
-
-    /// Whether nothing comes from the part now.
-    fn cuts(&self, now_ns: u64) -> bool {
-        self.is(FaultKind::Torn, now_ns) || self.is(FaultKind::Silent, now_ns)
-    }
 }
 
 /// The value that a converter gives for a voltage, with the fraction that the average of many samples has.

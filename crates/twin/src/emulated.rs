@@ -152,7 +152,7 @@ impl EmulatedBoard {
             self.look = None;
             self.watchdog_at_ns = None;
             if !is_off {
-                self.bench().power_up();
+                self.bench().power_up(now_ns);
             }
         }
     }

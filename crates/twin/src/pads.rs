@@ -6,6 +6,7 @@
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_job::{BoardJob, Pad as Wired};
 use sensedsl_model::kind::digital::Pull as Wanted;
+use sensedsl_model::kind::uart::Duplex;
 use sensedsl_model::kind::{Interface, Kind, Role};
 
 use sensedsl_machine::{Mode, PadState, Pull};
@@ -83,6 +84,9 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
             },
         ),
         Interface::I2c(_) => led(Some(true), BUS),
+        // Each end of a wire with both directions pulls it low, or lets it go.
+        Interface::Uart(own) if own.exchange.duplex == Duplex::Half => led(Some(true), BUS),
+        Interface::OneWire(_) => plain(Mode::Output, Some(true), BUS),
         Interface::Uart(own) if pad.role == Role::Rx => {
             led(None, if own.is_inverted { DOWN } else { UP })
         }
@@ -92,6 +96,7 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
         | Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Pwm(_)
+        | Interface::Stepper(_)
         | Interface::Can(_) => led(driven, FREE),
     }
 }

@@ -93,7 +93,9 @@ fn of_kind(kind: &Kind, fastest_hz: u64) -> Option<RequiredSettings> {
         | Interface::Digital(_)
         | Interface::Icu(_)
         | Interface::Encoder(_)
-        | Interface::Pwm(_) => None,
+        | Interface::Pwm(_)
+        | Interface::OneWire(_)
+        | Interface::Stepper(_) => None,
     }
 }
 

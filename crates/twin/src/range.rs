@@ -23,9 +23,11 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
         | Interface::Encoder(_)
         | Interface::Uart(_)
         | Interface::Spi(_)
+        | Interface::OneWire(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => false,
+        | Interface::Can(_)
+        | Interface::Stepper(_) => false,
     }
 }
 
@@ -68,10 +70,14 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
             Some((ticks(600.0), ticks(2_100.0)))
         }
         Interface::Icu(_) | Interface::Digital(_) => Some((0.0, f64::from(u32::MAX))),
-        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
-            Words::of(device).as_ref().and_then(words::range)
+        Interface::I2c(_)
+        | Interface::Spi(_)
+        | Interface::Uart(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_) => Words::of(device).as_ref().and_then(words::range),
+        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => {
+            None
         }
-        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) => None,
     }
 }
 

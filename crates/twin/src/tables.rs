@@ -6,13 +6,13 @@
 
 use sense_rt::{
     Bridge, BridgeMode, Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc,
-    FieldFormat, FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField,
-    MessageTable, Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
+    Exchange, FieldFormat, FilterTable, Formula, Identity, InitStep, Item, MessageChecksum,
+    MessageField, MessageTable, Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
 };
 use sensedsl_job::BoardJob;
 use sensedsl_job::part::{
-    self, BridgePlan, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan,
-    MessagePlan, ValuePlan,
+    self, BridgePlan, BusPlan, ComposePlan, ExchangePlan, FieldCoding, FilterPlan, InitPlan,
+    MessageFieldPlan, MessagePlan, ValuePlan,
 };
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;
@@ -77,6 +77,7 @@ pub const fn formula(of: protocol::Formula) -> Formula {
     match of {
         protocol::Formula::Bmp280 => sense_rt::BMP280,
         protocol::Formula::Bme280 => sense_rt::BME280,
+        protocol::Formula::Hx711 => sense_rt::HX711,
         protocol::Formula::Ntc => sense_rt::NTC,
         protocol::Formula::Tsl2561 => sense_rt::TSL2561,
     }
@@ -128,7 +129,8 @@ pub fn chip(plan: &BusPlan, place: impl Fn(&str) -> u16) -> ChipTable {
     }
 }
 
-fn init(steps: &[InitPlan]) -> &'static [InitStep] {
+/// The steps that start a part.
+pub fn init(steps: &[InitPlan]) -> &'static [InitStep] {
     all(steps.iter().map(|one| InitStep { bytes: bytes(&one.bytes), pause_ms: one.pause_ms }))
 }
 
@@ -141,6 +143,7 @@ pub fn coding(plan: &ValuePlan) -> Coding {
             words::Code::Integer => Code::Integer,
             words::Code::Float => Code::Float,
             words::Code::Bcd => Code::Bcd,
+            words::Code::Magnitude => Code::Magnitude,
             words::Code::Packed => Code::Packed,
         },
         crc: match plan.crc {
@@ -173,16 +176,20 @@ fn field(plan: &MessageFieldPlan, item: u16) -> MessageField {
     };
     MessageField {
         item,
-        format: match text.format {
-            Format::Decimal => FieldFormat::Decimal,
-            Format::Degrees => FieldFormat::Degrees,
-            Format::Hex => FieldFormat::Hex,
-        },
+        format: format(text),
         sentence: text.sentence.as_ref().map(|sentence| bytes(sentence.as_bytes())),
         separator: text.separator.unwrap_or(0),
         index: text.field,
         decimals: text.decimals,
         ..MessageField::NEW
+    }
+}
+
+const fn format(text: &protocol::TextField) -> FieldFormat {
+    match text.format {
+        Format::Decimal => FieldFormat::Decimal,
+        Format::Degrees => FieldFormat::Degrees,
+        Format::Hex => FieldFormat::Hex,
     }
 }
 
@@ -203,10 +210,33 @@ pub fn message(plan: &MessagePlan, place: impl Fn(&str) -> u16) -> MessageTable 
 pub fn compose(plan: &ComposePlan) -> Compose {
     Compose {
         start: bytes(&plan.start),
+        behind: bytes(&plan.behind),
         end: bytes(&plan.end),
+        format: plan.text.as_ref().map_or(FieldFormat::Binary, format),
         value: coding(&plan.value),
+        separator: plan.text.as_ref().and_then(|text| text.separator).unwrap_or(0),
+        decimals: plan.text.as_ref().map_or(0, |text| text.decimals),
         checksum: checksum(plan.checksum),
         checksum_from: plan.checksum_from,
+    }
+}
+
+/// A request to a serial part, and the message that answers it.
+pub fn exchange(plan: &ExchangePlan, place: impl Fn(&str) -> u16) -> Exchange {
+    let answer = MessageTable {
+        start: bytes(&plan.start),
+        end: bytes(&plan.end),
+        fields: all(plan.fields.iter().map(|one| field(one, place(&one.field)))),
+        length: plan.length,
+        bytes_max: plan.bytes_max,
+        checksum: checksum(plan.checksum),
+        checksum_from: plan.checksum_from,
+    };
+    Exchange {
+        request: bytes(&plan.request),
+        answer: kept(answer),
+        is_primed: plan.is_primed,
+        wait_ms: plan.wait_ms,
     }
 }
 
@@ -217,7 +247,15 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
         uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
         uart::MessageChecksum::Ibus => MessageChecksum::Ibus,
         uart::MessageChecksum::Crc8DvbS2 => MessageChecksum::Crc8DvbS2,
+        uart::MessageChecksum::Crc8Ld06 => MessageChecksum::Crc8Ld06,
+        uart::MessageChecksum::Sum16 => MessageChecksum::Sum16,
         uart::MessageChecksum::Nmea => MessageChecksum::Nmea,
+        uart::MessageChecksum::Sum7 => MessageChecksum::Sum7,
+        uart::MessageChecksum::NotSum8 => MessageChecksum::NotSum8,
+        uart::MessageChecksum::NegSum8 => MessageChecksum::NegSum8,
+        uart::MessageChecksum::NegSum16 => MessageChecksum::NegSum16,
+        uart::MessageChecksum::Crc16Umts => MessageChecksum::Crc16Umts,
+        uart::MessageChecksum::Crc16Xmodem => MessageChecksum::Crc16Xmodem,
     }
 }
 
@@ -271,6 +309,7 @@ fn number(number: part::Number) -> Number {
 pub const fn bridge(plan: &BridgePlan) -> Bridge {
     let mode = match plan.drive {
         Drive::DirectionPins => BridgeMode::DirectionPins,
+        Drive::DirectionPin => BridgeMode::DirectionPin,
         Drive::TwoPwm => BridgeMode::TwoPwm,
     };
     Bridge { mode, full: plan.full }

@@ -15,8 +15,10 @@ mod digital;
 mod encoder;
 mod i2c;
 mod icu;
+mod onewire;
 mod pwm;
 mod spi;
+mod stepper;
 mod uart;
 
 use sensedsl_board::profile::TargetProfile;
@@ -121,6 +123,8 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
         Kind::Pwm(pwm) => pwm,
         Kind::Dac(dac) => dac,
         Kind::Can(can) => can,
+        Kind::OneWire(onewire) => onewire,
+        Kind::Stepper(stepper) => stepper,
     }
 }
 

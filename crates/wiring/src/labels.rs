@@ -95,7 +95,10 @@ impl Namer<'_> {
         let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
         let name = match group {
             Group::Bus(_, unit, _, 0) => format!("bus {unit}"),
-            Group::Bus(_, unit, _, setting) => format!("bus {unit} at {setting}"),
+            // What a serial line is set to besides its rate is in the upper bits.
+            Group::Bus(_, unit, _, setting) => {
+                format!("bus {unit} at {}", setting & 0x00FF_FFFF)
+            }
             Group::Frequency(_, timer, frequency_hz) => format!("{timer} at {frequency_hz} Hz"),
             Group::Program(_, unit, program) => format!("{unit} with the {program}"),
             Group::Pin(_, unit, role, at, _) => {

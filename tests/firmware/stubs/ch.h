@@ -107,6 +107,25 @@ void chThdSleepMicroseconds(uint32_t us);
 void chThdSleepUntil(systime_t time);
 systime_t chThdSleepUntilWindowed(systime_t previous, systime_t next);
 void chThdSleep(sysinterval_t time);
+void chThdYield(void);
+static inline sysinterval_t chVTTimeElapsedSinceX(systime_t start) {
+  return chTimeDiffX(start, chVTGetSystemTimeX());
+}
+static inline void chBSemObjectInit(binary_semaphore_t *semaphore, bool is_taken) {
+  semaphore->count = is_taken ? 0 : 1;
+}
+static inline void chBSemSignal(binary_semaphore_t *semaphore) {
+  semaphore->count = 1;
+}
+/* Nobody else runs meanwhile. */
+static inline msg_t chBSemWaitTimeout(binary_semaphore_t *semaphore, sysinterval_t timeout) {
+  if (semaphore->count == 0) {
+    chThdSleep(timeout);
+    return (msg_t)-1;
+  }
+  semaphore->count = 0;
+  return 0;
+}
 thread_t *chThdCreateStatic(void *area, size_t bytes, tprio_t prio, tfunc_t function, void *parameter);
 thread_t *chThdCreateFromHeap(void *heap, size_t bytes, const char *name, tprio_t prio, tfunc_t function,
                               void *parameter);

@@ -167,6 +167,7 @@ extern AFIO_TypeDef stub_afio;
 #define PAL_STM32_PUPDR_PULLUP 0x4000U
 #define PAL_STM32_PUPDR_PULLDOWN 0x8000U
 #endif
+#define PAL_NOLINE 0U
 void palSetLineMode(ioline_t line, iomode_t mode);
 void palSetLine(ioline_t line);
 void palClearLine(ioline_t line);
@@ -211,6 +212,8 @@ extern stm32_tim_t stub_timers[21];
 #define STM32_TIM20_CHANNELS 6
 #define STM32_TIM_CR1_CEN 1U
 #define STM32_TIM_CR1_UDIS 2U
+#define STM32_TIM_CR1_URS 4U
+#define STM32_TIM_CR1_OPM 8U
 #define STM32_TIM_EGR_UG 1U
 #define STM32_TIM_SMCR_SMS(n) ((uint32_t)(n))
 #define STM32_TIM_CCMR1_CC1S(n) ((uint32_t)(n))
@@ -364,6 +367,7 @@ struct stub_pwm {
 msg_t pwmStart(PWMDriver *driver, const PWMConfig *config);
 void pwmEnableChannel(PWMDriver *driver, pwmchannel_t channel, pwmcnt_t width);
 void pwmEnableChannelI(PWMDriver *driver, pwmchannel_t channel, pwmcnt_t width);
+void pwmEnablePeriodicNotification(PWMDriver *driver);
 #endif
 
 #include "stub_buses.h"
@@ -387,5 +391,17 @@ msg_t wdgStart(WDGDriver *driver, const WDGConfig *config);
 void wdgReset(WDGDriver *driver);
 
 #include "stub_units.h"
+
+/* The core's own timer, which CMSIS has. */
+typedef struct {
+  volatile uint32_t CTRL;
+  volatile uint32_t LOAD;
+  volatile uint32_t VAL;
+} stub_systick_t;
+extern stub_systick_t stub_systick;
+#define SysTick (&stub_systick)
+#define SysTick_CTRL_ENABLE_Msk 1U
+#define SysTick_CTRL_CLKSOURCE_Msk 4U
+#define SysTick_LOAD_RELOAD_Msk 0xFFFFFFU
 
 #endif

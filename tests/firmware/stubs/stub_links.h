@@ -37,9 +37,19 @@ typedef struct {
   uint32_t cr1, cr2, cr3;
 } SerialConfig;
 typedef struct {
+#if STUB_USART > 1
+  volatile uint32_t ISR;
+#define USART_ISR_TC 0x40U
+#else
+  volatile uint32_t SR;
+#define USART_SR_TC 0x40U
+#endif
+} USART_TypeDef;
+typedef struct {
   const void *methods;
   input_queue_t iqueue;
   output_queue_t oqueue;
+  USART_TypeDef *usart;
 } SerialDriver;
 msg_t sdStart(SerialDriver *driver, const SerialConfig *config);
 size_t sdWrite(SerialDriver *driver, const uint8_t *bytes, size_t count);
@@ -48,6 +58,7 @@ size_t sdReadTimeout(SerialDriver *driver, uint8_t *bytes, size_t count, sysinte
 #define USART_CR1_PS 0x200U
 #define USART_CR1_PCE 0x400U
 #define USART_CR2_STOP_1 0x2000U
+#define USART_CR3_HDSEL 0x8U
 #if STUB_USART > 1
 #define USART_CR2_RXINV 0x10000U
 #define USART_CR2_TXINV 0x20000U

@@ -10,6 +10,7 @@ use super::{SCALARS, Scalar, check, rounds};
 const FLOAT: usize = 1;
 const BCD: usize = 2;
 const PACKED: usize = 3;
+const MAGNITUDE: usize = 4;
 
 /// The coding of a value, and its bytes.
 #[derive(Debug)]
@@ -50,7 +51,7 @@ fn digits(random: &mut Random) -> u8 {
 
 impl Case {
     fn random(random: &mut Random) -> Self {
-        let code = random.below(4);
+        let code = random.below(5);
         let mut word_bytes = 1 + random.below(8);
         let mut scalar = SCALARS[random.below(SCALARS.len())];
         if code == FLOAT {
@@ -129,6 +130,11 @@ impl Case {
                 is_finite.then_some(word)
             }
             BCD => Some(self.scalar.store(format!("{word:x}").parse().ok()?)),
+            MAGNITUDE => {
+                let sign = 1 << (self.bits - 1);
+                let magnitude = i128::from(word & (sign - 1));
+                Some(self.scalar.store(if word & sign == 0 { magnitude } else { -magnitude }))
+            }
             _ => {
                 let negative = self.is_signed && word >> (self.bits - 1) == 1;
                 let number = i128::from(word) - if negative { 1 << self.bits } else { 0 };
@@ -147,6 +153,12 @@ impl Case {
                 let greatest = (0..16).map(|i| (mask >> (4 * i) & 15).min(9) << (4 * i)).sum();
                 let digits = u64::from_str_radix(&number.max(0).to_string(), 16);
                 digits.ok().filter(|digits| *digits <= mask).unwrap_or(greatest)
+            }
+            MAGNITUDE => {
+                let greatest = i128::from(mask >> 1);
+                let magnitude = number.abs().min(greatest) as u64;
+                let sign = if number < 0 { mask ^ (mask >> 1) } else { 0 };
+                magnitude | sign
             }
             // No float holds a number beyond 64 bits that a word could hold.
             _ if self.is_signed => {

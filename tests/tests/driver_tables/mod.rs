@@ -6,6 +6,7 @@
 
 mod examples;
 mod gaps;
+mod judged;
 mod library;
 mod program;
 mod rust;
@@ -19,6 +20,7 @@ use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_tests::hex;
 use sensedsl_wire::Direction;
 
@@ -160,13 +162,20 @@ fn the_tables_are_the_same_each_time() {
 fn request(index: usize, unit: &Unit, case: &Case) -> String {
     let mut lines = vec![format!("unit {index}")];
     let protocol = unit.protocol();
-    let is_bus = unit.devices().any(|device| matches!(device.kind, Kind::I2c(_) | Kind::Spi(_)));
+    let is_bus = unit
+        .devices()
+        .any(|device| matches!(device.kind, Kind::I2c(_) | Kind::Spi(_) | Kind::OneWire(_)));
+    let wire = wire(unit);
     if let Some(protocol) = protocol.filter(|_| is_bus) {
         let (size, mask) = (protocol.register_bytes, protocol.read_mask);
         lines.push(format!("registers {size} {mask} {}", u8::from(protocol.is_one_by_one)));
         if let Some(identity) = &protocol.identity {
             let (at, bytes) = (identity.register, hex(&identity.expected));
             lines.push(format!("register {at} {bytes}"));
+        }
+        // The first byte of its address, which is read as a register of 1-Wire.
+        if let Some(family) = wire.and_then(|wire| wire.family) {
+            lines.push(format!("register {READ_ROM} {}", hex(&[family, 0, 0, 0, 0, 0, 0, 0])));
         }
     }
     lines.extend(case.given.iter().map(|given| given_line(unit, given)));
@@ -184,8 +193,21 @@ fn request(index: usize, unit: &Unit, case: &Case) -> String {
     lines.join("\n")
 }
 
+/// Asks a part on 1-Wire for its address.
+const READ_ROM: u8 = 0x33;
+
+/// The wire of a part that has only one.
+fn wire(unit: &Unit) -> Option<&OneWire> {
+    unit.devices().find_map(|device| device.kind.onewire())
+}
+
 fn given_line(unit: &Unit, given: &Given) -> String {
     match given {
+        // What a command selects is to the program's bus what a register's number does.
+        Given::Answer(Some(trigger), bytes) if wire(unit).is_some() => {
+            let select = wire(unit).and_then(|wire| wire.read.first()).unwrap();
+            format!("after {} {select} {}", hex(trigger), hex(bytes))
+        }
         Given::Registers(None, at, bytes) | Given::WrongIdentity(at, bytes) => {
             format!("register {at} {}", hex(bytes))
         }
@@ -197,12 +219,20 @@ fn given_line(unit: &Unit, given: &Given) -> String {
         }
         Given::Exchange(sent, received) => format!("exchange {} {}", hex(sent), hex(received)),
         Given::Stream(bytes) => format!("feed {}", hex(bytes)),
+        Given::Asked(request, answer) => format!("asked {} {}", hex(request), hex(answer)),
         Given::Raw(what, number) => {
-            // The only sensor that is on no bus.
-            let mut sensors =
-                unit.devices().enumerate().filter(|(_, one)| one.direction == Direction::Sensor);
-            let (field, device) = sensors.next().unwrap();
-            format!("raw {field} {}", measured(device, what, *number))
+            // All sensors of the kind that measures this; none of them is on a bus.
+            let is_it = |device: &Device| match what.as_str() {
+                "analog" => matches!(device.kind, Kind::Analog(_)),
+                "level" => matches!(device.kind, Kind::Digital(_)),
+                "counts" => matches!(device.kind, Kind::Encoder(_)),
+                _ => matches!(device.kind, Kind::Icu(_)),
+            };
+            let is_sensor = |device: &Device| device.direction == Direction::Sensor;
+            let sensors = unit.devices().enumerate();
+            let sensors = sensors.filter(|(_, device)| is_sensor(device) && is_it(device));
+            let line = |(field, device)| format!("raw {field} {}", measured(device, what, *number));
+            sensors.map(line).collect::<Vec<_>>().join("\n")
         }
         Given::Frame(name, bytes) => {
             let fits = |can: &Can| frame_name(can) == *name && usize::from(can.byte) < bytes.len();
@@ -349,6 +379,7 @@ fn plain_effect(device: &Device, value: i64) -> String {
         Kind::Digital(digital) => {
             format!("pin = {}", i64::from((value != 0) != digital.active_low))
         }
+        Kind::Stepper(_) => format!("goes {value}"),
         _ => String::new(),
     }
 }

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use sensedsl_firmware_c::{self as c, Wiring};
 use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
-use sensedsl_model::words::{Code, Words};
+use sensedsl_model::words::Words;
 use sensedsl_tests::{fed, files, has, is_thorough, root, run};
 use sensedsl_wire::{Direction, ScalarType};
 
@@ -99,11 +99,15 @@ fn unit_fields(unit: &Unit) -> String {
     let one = |device: &Device| match &plan {
         Some(plan) => {
             let (own, can) = (unit_field(plan, &device.name.value), in_frame(device, part));
-            format!("  {{{own}, {can}}},\n")
+            let message = plan.message.iter().flat_map(|plan| &plan.commands);
+            let name = &device.name.value;
+            let is_told = message.filter(|one| one.field == *name).count() > 0;
+            let compose = if is_told { format!("&compose_{name}") } else { "NULL".to_owned() };
+            format!("  {{{own}, {can}, {compose}}},\n")
         }
         None => {
             let can = in_frame(device, part);
-            format!("  {{NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL, {can}}},\n")
+            format!("  {{NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL, {can}, NULL}},\n")
         }
     };
     let all: String = unit.devices().map(one).collect();
@@ -116,10 +120,10 @@ fn frame_coding(device: &Device, part: &str) -> Option<String> {
     device.kind.can()?;
     let how = ValuePlan::new(&Words::of(device)?);
     assert!(how.elements.is_empty() && how.crc.is_none(), "no driver in a frame has that yet");
-    assert_eq!(how.code, Code::Integer, "no driver in a frame has that yet");
     let (size, low, bits) = (how.word_bytes, how.low, how.bits);
+    let code = c::words::code(&how.code);
     Some(format!(
-        "static const up_value_t can_{part}_{} = {{.word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
+        "static const up_value_t can_{part}_{} = {{.code = {code}, .word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
         device.name.value, how.is_signed, how.is_little_endian
     ))
 }
@@ -158,8 +162,17 @@ fn entry(unit: &Unit) -> String {
     }
     if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
         let prefix = &message.prefix;
-        write!(text, ", .message = &{prefix}_message, .message_state = &{prefix}_message_state")
+        if !message.fields.is_empty() {
+            write!(
+                text,
+                ", .message = &{prefix}_message, .message_state = &{prefix}_message_state"
+            )
             .unwrap();
+        }
+        if !message.exchanges.is_empty() {
+            let count = message.exchanges.len();
+            write!(text, ", .exchanges = {prefix}_exchanges, .exchanges_count = {count}U").unwrap();
+        }
         if !message.init.is_empty() {
             write!(text, ", .message_init = {prefix}_init").unwrap();
         }

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use sense_rt::{
-    BridgeState, Chip, ChipTable, Filter, MessageStream, Outcome, Scalar, Sink, Step, Train,
+    BridgeState, Chip, ChipTable, Filter, Heard, MessageStream, Outcome, Scalar, Sink, Step, Train,
     store_signed,
 };
 
@@ -258,6 +258,7 @@ pub fn answer(units: &[(Unit, Tables)], request: &str) -> String {
             "trace" => run.bus.traces = ask() != "0",
             "later" => run.reported.now_ms += ask().parse::<u32>().unwrap(),
             "feed" => run.feed(&unhex(ask())),
+            "asked" => run.asked(&unhex(ask()), &unhex(ask())),
             "raw" => run.raw(ask().parse().unwrap(), ask().parse().unwrap()),
             "frame" => run.frame(ask().parse().unwrap(), &unhex(ask())),
             "edges" => {
@@ -336,6 +337,20 @@ impl Run<'_> {
         stream.as_mut().unwrap().feed(bytes, sink);
     }
 
+    fn asked(&mut self, request: &[u8], answer: &[u8]) {
+        let mut all = self.tables.exchanges.iter();
+        let exchange = *all.find(|one| one.request == request).expect("nobody sends that request");
+        let mut stream: Box<MessageStream<[u8; MEMORY_BYTES]>> =
+            Box::new(MessageStream::new(exchange.answer, self.tables.schema));
+        let Self { bus, reported, out, .. } = self;
+        let sink: &mut Sink<'_> =
+            &mut |index, outcome, value| reported.record(index, outcome, value, bus.traces, out);
+        exchange.begin(&mut stream);
+        if exchange.take(&mut stream, answer, sink) == Heard::Waiting {
+            exchange.fail(Outcome::TimedOut, sink);
+        }
+    }
+
     fn record(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
         self.reported.record(index, outcome, value, self.bus.traces, &mut self.out);
     }
@@ -384,7 +399,11 @@ impl Run<'_> {
     fn command(&mut self, index: usize, numbers: Vec<i64>) {
         let (scalar, mut value) = self.empty(index);
         for (element, number) in value.chunks_mut(scalar.bytes()).zip(numbers) {
-            store_signed(scalar, number, element);
+            if scalar == Scalar::Float32 {
+                element.copy_from_slice(&(number as f32).to_be_bytes());
+            } else {
+                store_signed(scalar, number, element);
+            }
         }
         if let Some(bridge) = self.tables.own[index].bridge {
             for write in bridge.drive(&mut self.bridges[index], scalar, &value).as_slice() {
@@ -399,6 +418,13 @@ impl Run<'_> {
             let bytes = &mut data[usize::from(field.byte)..];
             assert!(field.value.encode(item, &value, bytes) > 0);
             writeln!(self.out, "frame {}", upper(&data)).unwrap();
+            return;
+        }
+        if let Some(compose) = self.tables.own[index].compose {
+            let item = &self.tables.schema.items[index];
+            let mut message = vec![0; compose.bytes(item)];
+            let size = compose.write(item, &value, &mut message);
+            writeln!(self.out, "written {}", upper(&message[..size])).unwrap();
             return;
         }
         let table: &'static ChipTable = self.tables.chip.unwrap();
@@ -431,9 +457,12 @@ impl Run<'_> {
                 Outcome::Fresh => {
                     write!(self.out, "value {index}").unwrap();
                     for element in 0..usize::from(item.count) {
-                        assert!(!item.scalar.is_real(), "a float");
                         let bits = item.scalar.load_at(value, element);
-                        if item.scalar.is_signed() {
+                        if item.scalar == Scalar::Float32 {
+                            let number = f32::from_bits(bits as u32);
+                            assert_eq!(number.fract(), 0.0, "a float with a fraction");
+                            write!(self.out, " {number}").unwrap();
+                        } else if item.scalar.is_signed() {
                             write!(self.out, " {}", item.scalar.extend(bits)).unwrap();
                         } else {
                             write!(self.out, " {bits}").unwrap();

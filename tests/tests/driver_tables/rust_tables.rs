@@ -2,7 +2,8 @@
 //! from.
 
 use sense_rt::{
-    Bridge, ChipTable, FilterTable, Formula, Item, MessageField, MessageTable, Schema, TrainConfig,
+    Bridge, ChipTable, Compose, FilterTable, Formula, Item, MessageField, MessageTable, Schema,
+    TrainConfig,
 };
 use sensedsl_job::part::{PartPlan, TrainPlan};
 use sensedsl_twin::tables::{self, kept};
@@ -19,6 +20,8 @@ pub struct Own {
     pub bridge: Option<Bridge>,
     /// A value in a CAN frame.
     pub can: Option<MessageField>,
+    /// A message with the value.
+    pub compose: Option<Compose>,
 }
 
 /// All tables of a unit.
@@ -26,6 +29,7 @@ pub struct Tables {
     pub schema: &'static Schema,
     pub chip: Option<&'static ChipTable>,
     pub message: Option<&'static MessageTable>,
+    pub exchanges: Vec<sense_rt::Exchange>,
     pub own: Vec<Own>,
 }
 
@@ -50,6 +54,11 @@ fn own(plan: &PartPlan, name: &str) -> Own {
         train: plan.trains.iter().find(|one| one.field == name).map(train),
         bridge: plan.bridges.iter().find(|one| one.field == name).map(tables::bridge),
         can: None,
+        compose: plan
+            .message
+            .as_ref()
+            .and_then(|plan| plan.commands.iter().find(|one| one.field == name))
+            .map(tables::compose),
     }
 }
 
@@ -84,7 +93,12 @@ impl Tables {
         Self {
             schema,
             chip: table,
-            message: port.map(|port| kept(tables::message(port, index))),
+            message: port
+                .filter(|port| !port.fields.is_empty())
+                .map(|port| kept(tables::message(port, index))),
+            exchanges: port
+                .map(|port| port.exchanges.iter().map(|one| tables::exchange(one, index)).collect())
+                .unwrap_or_default(),
             own: unit
                 .devices()
                 .map(|device| {

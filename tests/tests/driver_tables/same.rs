@@ -99,7 +99,9 @@ fn on_port(index: usize, unit: &Unit, random: &mut Random) -> String {
             _ => None,
         })
         .collect();
-    for _ in 0..12 {
+    // A part that is asked speaks only then: the damaged answers of its vectors are in those.
+    let rounds = if streams.is_empty() { 0 } else { 12 };
+    for _ in 0..rounds {
         let mut bytes = (*random.pick(&streams).unwrap()).clone();
         for _ in 0..random.below(3) {
             let at = random.below(bytes.len());

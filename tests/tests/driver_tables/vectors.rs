@@ -22,6 +22,8 @@ pub enum Given {
     Answer(Option<Vec<u8>>, Vec<u8>),
     Exchange(Vec<u8>, Vec<u8>),
     Stream(Vec<u8>),
+    /// A request on a serial line, and its answer.
+    Asked(Vec<u8>, Vec<u8>),
     /// A CAN frame: its identifier as `frame_name` writes it, and its bytes.
     Frame(String, Vec<u8>),
     /// A measurement of the hardware: `analog`, `level`, `pulse`, `frequency` or `counts`.
@@ -85,6 +87,12 @@ impl Case {
             }),
             "read" => self.given.push(Given::Answer(None, bytes(rest)?)),
             "exchange" => self.given.push(Given::Exchange(bytes(head)?, bytes(tail)?)),
+            "asked" => self.given.push(Given::Asked(bytes(head)?, bytes(tail)?)),
+            "asked_text" => {
+                let (head, tail) = rest.split_once("\": \"")?;
+                let (head, tail) = (format!("{head}\""), format!("\"{tail}"));
+                self.given.push(Given::Asked(escaped(&head)?, escaped(&tail)?));
+            }
             "bytes" => self.given.push(Given::Stream(bytes(rest)?)),
             "text" => self.given.push(Given::Stream(escaped(rest)?)),
             "analog" | "level" | "counts" => {

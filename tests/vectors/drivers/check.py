@@ -7,11 +7,12 @@ Figures that `language.py` and the tool get wrong in the same way are not found,
 
 import pathlib
 import re
+import struct
 import sys
 
 sys.dont_write_bytecode = True
 from language import (  # noqa: E402
-    NOTHING, SIZES, Parser, bosch, bytes_of, decode, field, get, judged, messages, ntc, sensirion, tsl2561)
+    NOTHING, SIZES, Parser, answered, asked, bosch, bytes_of, decode, field, get, hx711, judged, messages, ntc, number, sensirion, told, tsl2561)
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
@@ -25,7 +26,7 @@ class Case:
     def __init__(self, driver, name, lines):
         self.driver, self.name = driver, name
         self.image, self.after, self.plain, self.exchanges = {}, {}, None, {}
-        self.frames = {}
+        self.frames, self.asked = {}, {}
         self.stream, self.input, self.wrong, self.type = None, None, None, None
         self.expects, self.shown, self.commands, self.seen = [], [], [], set()
         self.kept = {}
@@ -52,6 +53,11 @@ class Case:
             self.plain = bytes.fromhex(rest)
         elif words[0] == "exchange":
             self.exchanges[bytes.fromhex("".join(words[1:]))] = bytes.fromhex(rest)
+        elif words[0] == "asked":
+            self.asked[bytes.fromhex("".join(words[1:]))] = bytes.fromhex(rest)
+        elif words[0] == "asked_text":
+            texts = [one.encode().decode("unicode_escape").encode("latin-1") for one in re.findall(r'"((?:[^"\\]|\\.)*)"', line)]
+            self.asked[texts[0]] = texts[1]
         elif words[0] == "bytes":
             self.stream = (self.stream or b"") + bytes.fromhex("".join(words[1:]))
         elif words[0] == "frame" and not self.commands:
@@ -75,7 +81,7 @@ class Case:
         elif words[0] == "command":
             name, _, values = line[7:].partition("=")
             self.commands.append([name.strip(), [int(v) for v in values.split()], []])
-        elif words[0] in ("written", "width", "frame") or len(words) > 2 and words[1] == "=":
+        elif words[0] in ("written", "width", "frame", "goes") or len(words) > 2 and words[1] == "=":
             self.commands[-1][2].append(line)
         else:
             raise SyntaxError(line)
@@ -96,7 +102,10 @@ class Case:
             return True
         first, wanted = wanted[0], wanted[1:]
         mask = self.driver["properties"].get("identity_mask", [0xFF] * len(wanted))
-        image = {**{first + i: byte for i, byte in enumerate(wanted)}, **self.image}
+        is_alone = self.driver["properties"].get("burst") == "false"
+        own = enumerate(self.image.get(("alone", first), b""))
+        given = {first + i: byte for i, byte in own} if is_alone else self.image
+        image = {**{first + i: byte for i, byte in enumerate(wanted)}, **given}
         if self.wrong:
             image.update({self.wrong[0] + i: byte for i, byte in enumerate(self.wrong[1])})
         found = self.registers(image, first, len(wanted))
@@ -117,11 +126,11 @@ class Case:
             raise KeyError(f"after {bytes_of(trigger).hex(' ')}")
         length = get(part, driver, "length", part["count"] * SIZES.get(part["type"], 1))
         register = get(part, driver, "register")
-        if register is not None and get(part, driver, "burst") == "false":
-            return image["alone", register][:length]
-        if register is not None:
-            return self.registers(image, register, length)
         first = get(part, driver, "byte", 0)
+        if register is not None and get(part, driver, "burst") == "false":
+            return image["alone", register][first:first + length]
+        if register is not None:
+            return self.registers(image, register + first, length)
         if get(part, driver, "crc"):
             whole = b""
             for at in range(0, len(plain), 3):
@@ -136,6 +145,8 @@ class Case:
         driver = self.driver
         if not self.identity():
             return "wrong identity"
+        if "request" in part["properties"]:
+            return self.answer(part)
         if self.stream is not None:
             value = "nothing"
             for body in messages(driver, self.stream):
@@ -162,7 +173,27 @@ class Case:
             return self.output(part, bosch(image, raw, formula == "bme280"))
         if formula == "tsl2561":
             return self.output(part, tsl2561(raw))
+        if formula == "hx711":
+            value = self.output(part, hx711(raw))
+            return value if value == "invalid" else judged(part, driver, value)
         return judged(part, driver, decode(part, driver, raw))
+
+    def answer(self, part):
+        """A reading that is asked for: silence is a fault, as is an answer that is damaged."""
+        request = asked(part, self.driver)[0]
+        if request not in self.asked:
+            return "nothing"
+        body = answered(part, self.driver, self.asked[request])
+        if body is NOTHING:
+            return "wrong identity"
+        if body is None:
+            return "invalid"
+        if str(get(part, self.driver, "format")) == "decimal":
+            value = number(body.decode("latin-1"), get(part, self.driver, "decimals", 0))
+            return "invalid" if value is None else [value]
+        first = part["properties"].get("byte", 0)
+        length = part["properties"].get("length", part["count"] * SIZES[part["type"]])
+        return judged(part, self.driver, decode(part, self.driver, body[first:first + length]))
 
     @staticmethod
     def output(part, values):
@@ -191,15 +222,26 @@ class Case:
         first, width = self.place(part)
         order = "little" if get(part, self.driver, "order") == "little" else "big"
         width //= part["count"]
+        if part["type"] == "float32":
+            values = [int.from_bytes(struct.pack(">f", value), "big") for value in values]
         data = b"".join((value & (1 << 8 * width) - 1).to_bytes(width, order) for value in values)
         return [f"frame {self.frame_name(part)}: {data.rjust(first + len(data), bytes(1)).ljust(length, bytes(1)).hex(' ').upper()}"]
 
+    def wires(self, part):
+        """Kind and properties of what the value goes over."""
+        over = self.driver["parts"].get(part["properties"].get("via"))
+        return (over["type"], over["properties"]) if over else (self.driver["kind"], self.driver["properties"])
+
     def captured(self, part):
         what, values = self.input
-        give = self.driver["properties"].get
+        give = self.wires(part)[1].get
         if what == "analog" and give("compensate") == "ntc":
             out = ntc(give("parameters"), values[0])
             return [out["temperature"]] if out else [10**9]
+        if what == "pulse":
+            tick = give("resolution", 1e-6)
+            tick = 1 / tick if getattr(tick, "unit", "s").endswith("Hz") else tick
+            return [round(values[0] * 1e-6 / tick)]
         if what == "level":
             return [values[0] ^ (give("active") == "low")]
         if what == "edges":
@@ -231,21 +273,30 @@ class Case:
         if isinstance(via, list) and part["properties"].get("drive") == "direction_pins":
             value = values[0]
             return [f"{via[0]} = {abs(value)}", f"{via[1]} = {int(value > 0)}", f"{via[2]} = {int(value < 0)}"]
+        if isinstance(via, list) and part["properties"].get("drive") == "direction_pin":
+            return [f"{via[0]} = {abs(values[0])}", f"{via[1]} = {int(values[0] < 0)}"]
         if isinstance(via, list):
             return [f"{via[0]} = {max(values[0], 0)}", f"{via[1]} = {max(-values[0], 0)}"]
-        if driver["kind"] == "can":
+        kind, properties = self.wires(part)
+        if kind == "can":
             return self.sent(part, values)
-        if driver["kind"] == "pwm":
-            give = driver["properties"].get
+        if kind == "pwm":
+            give = properties.get
             low, high = give("min", 0), give("max", 1 / give("frequency"))
             return [f"width us {round((low + (high - low) * values[0] / 10000) * 1e6)}"]
-        if driver["kind"] == "digital":
-            return [f"pin = {values[0] ^ (driver['properties'].get('active') == 'low')}"]
+        if driver["kind"] == "stepper":
+            return [f"goes {values[0]}"]
+        if kind == "digital":
+            return [f"pin = {values[0] ^ (properties.get('active') == 'low')}"]
+        if driver["kind"] == "uart" and str(get(part, driver, "format")) == "decimal":
+            return [f"written {told(part, driver, str(values[0]).encode()).hex(' ').upper()}"]
         length = get(part, driver, "length", part["count"] * SIZES[part["type"]])
         width = length // part["count"]
         high, low = get(part, driver, "bits", (8 * width - 1, 0))
         order = "little" if get(part, driver, "order") == "little" else "big"
         data = b"".join(((v & (1 << high - low + 1) - 1) << low).to_bytes(width, order) for v in values)
+        if driver["kind"] == "uart":
+            return [f"written {told(part, driver, data).hex(' ').upper()}"]
         register = get(part, driver, "register")
         size = driver["properties"].get("register_size", 1)
         head = b"" if register is None else register.to_bytes(size, "big")
@@ -284,7 +335,11 @@ class Case:
                 told.append(f"{name}: {value}, not {wanted}")
         for name, wanted in self.shown:
             part = self.part(name)
-            for text, raw in zip(wanted, self.value(part), strict=True):
+            values = self.value(part)
+            if isinstance(values, str):
+                told.append(f"{name} is shown, and is {values}")
+                continue
+            for text, raw in zip(wanted, values, strict=True):
                 shown, slack = self.visible(part, raw), 0.5000001 * 10 ** -len(text.partition(".")[2])
                 if abs(shown - float(text)) > slack:
                     told.append(f"{name} is shown as {shown}, not {text}")

@@ -10,7 +10,8 @@ import struct
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1, "Hz": 1, "kHz": 1e3, "MHz": 1e6, "V": 1, "mV": 1e-3, "Ohm": 1, "kOhm": 1e3}
 TOKEN = re.compile(r"//[^\n]*|\s+|\.\.|0x[0-9A-Fa-f]+|0b[01]+|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
                    r"|[A-Za-z]\w*|\"(?:[^\"\\]|\\.)*\"|[{}\[\]()=;,+*/-]")
-SIZES = {"bool": 1, "uint8": 1, "int8": 1, "uint16": 2, "int16": 2, "uint32": 4, "int32": 4, "uint64": 8, "int64": 8}
+SIZES = {"bool": 1, "uint8": 1, "int8": 1, "uint16": 2, "int16": 2, "uint32": 4, "int32": 4, "uint64": 8, "int64": 8,
+         "float32": 4}
 NOTHING = object()
 
 
@@ -117,6 +118,8 @@ class Parser:
                 unit = self.take()
                 return Quantity(number * UNITS[unit], unit)
             return number
+        if token == "raw":
+            return self.factor()
         return Word(token)
 
 
@@ -144,6 +147,13 @@ def bytes_of(value):
     if not isinstance(value, list):
         return bytes([value])
     return b"".join(bytes_of(one) for one in value)
+
+
+def unfractional(value):
+    """A floating-point number of a vector, which has no fraction."""
+    if value != int(value):
+        raise ValueError(f"{value} is not whole")
+    return int(value)
 
 
 def signed(value, bits):
@@ -190,8 +200,12 @@ def decode(part, driver, data):
         if span:
             high, low = span
             word, bits = word >> low & (1 << (high - low + 1)) - 1, high - low + 1
-        if get(part, driver, "format") == "bcd":
+        if part["type"] == "float32":
+            word = unfractional(struct.unpack(">f", word.to_bytes(4, "big"))[0])
+        elif get(part, driver, "format") == "bcd":
             word = int(f"{word:x}")
+        elif get(part, driver, "format") == "sign_magnitude":
+            word = -(word & (1 << bits - 1) - 1) if word >> bits - 1 else word
         elif is_signed:
             word = signed(word, bits)
         values.append(int(word != 0) if part["type"] == "bool" else word)
@@ -263,19 +277,45 @@ def tsl2561(raw):
     return {"illuminance": max(0, both * b - infrared * m) * 1000 >> 14}
 
 
+def hx711(raw):
+    """Two bits a clock, the second of which counts; ready before them, high after them."""
+    bits = f"{int.from_bytes(raw, 'big'):064b}"
+    if "1" in bits[:8] or "0" in bits[57:]:
+        return {}
+    return {"load": signed(int(bits[9:56:2], 2), 24)}
+
+
 # Messages on a serial port.
 
 def checksum(kind, body):
     """The bytes of the checksum over `body`."""
     if kind == "sum8":
         return bytes([sum(body) & 0xFF])
+    if kind == "sum7":
+        return bytes([sum(body) & 0x7F])
+    if kind == "not_sum8":
+        return bytes([~sum(body) & 0xFF])
+    if kind == "neg_sum8":
+        return bytes([-sum(body) & 0xFF])
+    if kind == "neg_sum16":
+        return (-sum(body) & 0xFFFF).to_bytes(2, "big")
+    if kind in ("crc16_umts", "crc16_xmodem"):
+        rest = int.from_bytes(body + bytes(2), "big")
+        polynomial = 0x18005 if kind == "crc16_umts" else 0x11021
+        for bit in range(8 * len(body) + 15, 15, -1):
+            rest ^= (rest >> bit & 1) * polynomial << bit - 16
+        return rest.to_bytes(2, "little" if kind == "crc16_umts" else "big")
+    if kind == "none":
+        return b""
     if kind == "ibus":
         return (0xFFFF - sum(body)).to_bytes(2, "little")
-    value = 0
+    if kind == "sum16":
+        return (sum(body) & 0xFFFF).to_bytes(2, "big")
+    value, polynomial = 0, {"crc8_dvb_s2": 0xD5, "crc8_ld06": 0x4D}.get(kind)
     for byte in body:
         value ^= byte
-        for _ in range(8 if kind == "crc8_dvb_s2" else 0):
-            value = (value << 1 ^ 0xD5) & 0xFF if value & 0x80 else value << 1
+        for _ in range(8 if polynomial else 0):
+            value = (value << 1 ^ polynomial) & 0xFF if value & 0x80 else value << 1
     return bytes([value]) if kind != "nmea" else b"%02X" % value
 
 
@@ -287,7 +327,7 @@ def messages(driver, stream):
     at = 0
     while (at := stream.find(start, at)) >= 0:
         first = at + len(start)
-        if end:
+        if end and (kind == "nmea" or "length" not in driver["properties"]):
             last = stream.find(end, first)
             if last < 0:
                 return
@@ -310,8 +350,55 @@ def messages(driver, stream):
                 at += 1
                 continue
             last += len(wanted)
-        at = last
+        if stream[last:last + len(end)] != end:
+            at += 1
+            continue
+        at = last + len(end)
         yield body
+
+
+def with_address(value, address):
+    """The bytes of a list in which the word `address` stands for the part's own."""
+    if isinstance(value, list):
+        return bytes(address if str(one) == "address" else one for one in value)
+    return bytes_of(value)
+
+
+def asked(part, driver):
+    """The bytes that ask for a reading, the message that its answer must be, and how it is bounded."""
+    give = lambda name, default: get(part, driver, name, default)
+    address = give("address", None)
+    first = give("checksum_from", 0)
+    request = with_address(part["properties"]["request"], address)
+    kind = str(give("checksum", "none"))
+    request += checksum(str(give("request_checksum", kind)), request[first:]) + bytes_of(give("request_end", []))
+    start = with_address(part["properties"].get("start", []), address)
+    return request, start, kind, first
+
+
+def answered(part, driver, answer):
+    """The body of an answer: None where it is damaged, NOTHING where it is none."""
+    request, start, kind, first = asked(part, driver)
+    end = bytes_of(get(part, driver, "end", []))
+    body = part["properties"].get("body")
+    if not answer.startswith(start):
+        return NOTHING
+    if body is None:
+        return answer[len(start):-len(end)] if answer.endswith(end) else NOTHING
+    last = len(start) + body
+    before = (request if str(get(part, driver, "sums_request", "false")) == "true" else b"") + answer[:last]
+    if len(answer) < last + len(checksum(kind, before)) + len(end):
+        return NOTHING
+    return answer[len(start):last] if answer[last:] == checksum(kind, before[first:]) + end else None
+
+
+def told(part, driver, data):
+    """The message of a command."""
+    give = lambda name, default: get(part, driver, name, default)
+    address = give("address", None)
+    message = with_address(give("start", []), address) + data + with_address(give("behind", []), address)
+    message += checksum(str(give("checksum", "none")), message[give("checksum_from", 0):])
+    return message + bytes_of(give("end", []))
 
 
 def number(text, decimals):

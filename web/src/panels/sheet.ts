@@ -2,7 +2,7 @@
 
 import type { Report } from "../../../crates/wasm/sensedsl.mjs";
 import { button, el } from "../ui/dom";
-import { undressed } from "../picture/picture";
+import { undressed } from "../picture/rules";
 import { nameOf } from "../project/commands";
 import { ReportView } from "./report";
 

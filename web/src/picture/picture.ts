@@ -2,6 +2,7 @@
 
 import { el } from "../ui/dom";
 import { onTheme } from "../ui/theme";
+import { rulesOf, undressed } from "./rules";
 
 const STEP = 1.25;
 const ZOOM_MIN = 0.2;
@@ -19,16 +20,6 @@ export interface PictureListener {
 export function partsOf(element: Element): string[] {
     const box = element.getAttribute("data-part");
     return box === null ? (element.getAttribute("data-parts") ?? "").split(/[ ,]+/).filter(Boolean) : [box];
-}
-
-/** A picture or page without its own rules, and these. */
-export function undressed(source: string): { text: string; rules: string } {
-    const all: string[] = [];
-    const text = source.replace(/<style>([^<]*)<\/style>/g, (_, rules: string) => {
-        all.push(rules.replaceAll("&gt;", ">").replaceAll("&amp;", "&"));
-        return "";
-    });
-    return { text, rules: all.join("\n") };
 }
 
 export class Picture {
@@ -119,13 +110,7 @@ export class Picture {
 
     /** Takes the picture's own rules: what it has for dark screens is for the dark theme here. */
     private dress(css: string): void {
-        const all = new CSSStyleSheet();
-        all.replaceSync(css);
-        const texts = { always: "", dark: "" };
-        for (const rule of all.cssRules) {
-            if (rule instanceof CSSMediaRule) texts.dark += [...rule.cssRules].map((one) => one.cssText).join("\n");
-            else texts.always += rule.cssText;
-        }
+        const texts = rulesOf(css);
         this.sheets.always.replaceSync(texts.always);
         this.sheets.dark.replaceSync(texts.dark);
     }

@@ -99,7 +99,7 @@ fn prefixes(names: &BTreeSet<&str>, all: &[Chip]) -> Vec<String> {
     found.into_iter().collect()
 }
 
-/// The timers whose interrupts belong to no other unit on any chip. Of other timers, only capture interrupts count: no
+/// The timers whose interrupts belong to no other unit on any chip. Of other timers, capture and update interrupts count: no
 /// code is generated for their brakes and triggers.
 fn kernel(facts: &Facts, chips: &[Chip]) -> Vec<String> {
     let is_alone = |name: &&String| {
@@ -123,7 +123,7 @@ fn taken<'a>(
 ) -> impl Iterator<Item = &'a String> {
     let is_timer = unit.starts_with("TIM");
     let has_handler =
-        move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
+        move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL" | "UP");
     interrupts.iter().filter(move |(signal, _)| has_handler(signal)).map(|(_, name)| name)
 }
 
@@ -305,7 +305,7 @@ fn interrupts(unit: &Unit) -> Option<String> {
     let wanted: &[&str] = match unit.kind.as_str() {
         "i2c" => &["EV", "ER"],
         "usart" | "adc" | "otg" => &["GLOBAL"],
-        "timer" => &["CC"],
+        "timer" => &["CC", "UP"],
         "usb" => &["LP"],
         "can" => &["TX", "RX0", "RX1", "SCE", "IT0", "IT1"],
         _ => return None,

@@ -24,8 +24,10 @@ const EXAMPLES: [(&str, &str); 2] =
     [("fig2", "examples/fig2.sense"), ("car", "examples/miniature_car.sense")];
 
 /// The columns of the table, in the order of the language's page.
-pub(super) const KINDS: [&str; 10] =
-    ["analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can"];
+pub(super) const KINDS: [&str; 12] = [
+    "analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can", "onewire",
+    "stepper",
+];
 
 /// A board, and the kind that is built for it.
 #[derive(Clone, Debug, PartialEq, Eq)]

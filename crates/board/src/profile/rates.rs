@@ -100,6 +100,8 @@ pub struct Costs {
     pub pulse: u32,
     /// Handling an interrupt of a capture.
     pub capture: u32,
+    /// Making a step of a motor: the interrupt, and when the next step is due.
+    pub step: u32,
     /// Checking a capture in the reporter.
     pub capture_look: u32,
     /// Waking the reporter, checking whether anything is due, and putting it to sleep.

@@ -7,8 +7,8 @@ use crate::diagnostic::Scope;
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0207",
     title: "no such kind of device",
-    explanation: r#"`type` says what the device is connected to: analog, i2c, icu, encoder, digital, uart, spi, pwm, dac
-or can.
+    explanation: r#"`type` says what the device is connected to: analog, i2c, icu, encoder, digital, uart, spi, pwm, dac,
+can or stepper.
 
 Way out: use one of these."#,
 });

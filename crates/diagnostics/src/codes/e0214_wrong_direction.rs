@@ -6,7 +6,7 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0214",
     title: "a device of this kind cannot go that way",
-    explanation: r#"Some kinds only measure (analog, icu, encoder) and some only act (pwm, dac); the others do both. A
+    explanation: r#"Some kinds only measure (analog, icu, encoder) and some only act (pwm, dac, stepper); the others do both. A
 sensor `returns` a value, an actuator `accepts` one.
 
 Way out: declare the device the other way round, or change its `type`."#,

@@ -15,5 +15,5 @@ Way out: the message says what; `sensedsl drivers NAME` shows a driver of the li
 
 /// `message` says what is wrong.
 pub fn wrong_driver(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, message).help("correct the driver: `sensedsl drivers` lists those of the library to compare with")
+    Diagnostic::new(CODE, span, message).help("correct it in the driver; `sensedsl drivers NAME` shows how a part of the library does it")
 }

@@ -9,8 +9,8 @@ pub const CODE: Code = Code(&CodeInfo {
     explanation: r#"A frame is sent as a whole: all commands of one identifier stand in it. Where two of them take the same bits the later
 one would overwrite the earlier one. Sensors may read the same bits: nothing is lost by that.
 
-Way out: give each command bits of its own (`byte`, or `bit` and `bits`), another frame, or another value of the
-selector with `mux`."#,
+Way out: two parts of one type need a `node` each, the number that is set in the part. Otherwise give each command bits
+of its own (`byte`, or `bit` and `bits`), another frame, or another value of the selector with `mux`."#,
 });
 
 /// `name` and `other` are the commands, `frame` is the frame in words.
@@ -18,5 +18,5 @@ pub fn overlap_in_frame(span: Span, name: &str, other: &str, other_span: Span, f
     Diagnostic::new(CODE, span, format!("{name} and {other} take the same bits of frame {frame}"))
         .here("here")
         .label(other_span, "and here")
-        .help("give each bits of its own (`byte`, or `bit` and `bits`), or another frame")
+        .help("give two parts a `node` each, or give each command bits of its own (`byte`, or `bit` and `bits`) or another frame")
 }

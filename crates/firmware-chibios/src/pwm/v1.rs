@@ -119,7 +119,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     for (device, wires) in timers::devices(context, KindName::Pwm) {
         pulses.device(context, device, &wires, &mut section);
     }
-    let truth = if pulses.timers.is_empty() { "FALSE" } else { "TRUE" };
+    // Motors take the same driver.
+    let has_motors = context.connections(KindName::Stepper).next().is_some();
+    let is_used = has_motors || !pulses.timers.is_empty();
+    let truth = if is_used { "TRUE" } else { "FALSE" };
     section.switch = Some(Setting::new("HAL_USE_PWM", truth));
     if !pulses.timers.is_empty() {
         section.tables = block(&Tables { s: &pulses });
@@ -232,7 +235,7 @@ impl Pulses {
     ) -> (Vec<Output>, Vec<BridgeInput>) {
         let wanted = match drive {
             Bridged::DirectionPins => 3,
-            Bridged::TwoPwm => 2,
+            Bridged::DirectionPin | Bridged::TwoPwm => 2,
         };
         let (mut outputs, mut inputs) = (Vec::new(), Vec::new());
         for wired in wires.iter().take(wanted) {

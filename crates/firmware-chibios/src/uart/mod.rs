@@ -1,12 +1,11 @@
 //! Devices on serial ports. All versions of the system's driver are the same except for how a port inverts.
 
+mod line;
 mod v1;
 
 use super::runtime::own;
-use super::section::{Lacks, Peripheral, Version};
-use sensedsl_job::{BoardJob, JobConnection};
+use super::section::{Peripheral, Version, nothing};
 use sensedsl_model::kind::KindName;
-use sensedsl_wire::Direction;
 
 /// The serial ports.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
@@ -18,15 +17,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "USARTv2", plan: v1::plan },
         Version { name: "USARTv3", plan: v1::plan },
     ],
-    lacks: LACKS,
+    lacks: nothing,
     core: &[],
-    runtime: own!["up_uart.c", "up_uart.h"],
-};
-
-/// Numbers in text can be received but not yet sent.
-const LACKS: Lacks = |job: &BoardJob<'_>, connection: &JobConnection<'_>| {
-    let mut own = connection.devices.iter().filter_map(|field| job.devices.get(*field));
-    let is_text = own
-        .any(|one| one.device.direction == Direction::Actuator && one.device.coding.text.is_some());
-    is_text.then_some("values that are sent as a text")
+    runtime: own!["up_line.c", "up_line.h", "up_uart.c", "up_uart.h"],
 };

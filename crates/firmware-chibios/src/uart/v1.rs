@@ -4,6 +4,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
+use super::line;
 use crate::context::{Context, Drive};
 use crate::names::Setting;
 use crate::section::{Apply, Section, Size, Work};
@@ -53,16 +54,18 @@ const WITHOUT_INVERSION: &str = "USARTv1";
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let (mut ports, mut queue_bytes, mut send_bytes) = (Vec::new(), 0, 1);
+    let lines = line::add(context, &mut section, diagnostics);
     for wired in context.connections(KindName::Uart) {
+        if serial::is_dialogue(context.job, wired) {
+            continue;
+        }
         let Some(uart) = uart(context, wired) else { continue };
         let Some(message) = context.job.tables_of(wired).and_then(|plan| plan.message.as_ref())
         else {
             continue;
         };
         let Some(port) = Port::new(context, wired, uart, message) else { continue };
-        if uart.is_inverted && context.names.drivers.serial == WITHOUT_INVERSION {
-            diagnostics.push(serial::not_inverted(wired.part, context.profile));
-        }
+        diagnostics.extend(not_inverted(context, wired, uart));
         for pad in &wired.pads {
             let drive =
                 if pad.role == Role::Rx { Drive::Resting(!uart.is_inverted) } else { Drive::Plain };
@@ -84,17 +87,39 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         section.work.extend(port.work());
         ports.push(port);
     }
-    if !ports.is_empty() {
+    let queue_bytes = queue_bytes.max(lines.queue_bytes);
+    if queue_bytes > 0 {
         section.switch = Some(Setting::new("HAL_USE_SERIAL", "TRUE"));
         section.hal =
             vec![Setting::new("SERIAL_BUFFERS_SIZE", &queue_bytes.next_power_of_two().to_string())];
+    }
+    if !ports.is_empty() {
         section.tables = block(&Tables { s: &Ports { ports } });
     }
-    section.sizes = vec![Size {
-        comment: "The longest message that a serial device is sent.",
-        setting: Setting::new("UP_UART_SEND_BYTES_MAX", &format!("{send_bytes}U")),
-    }];
+    let size = |comment, name, bytes: u32| Size {
+        comment,
+        setting: Setting::new(name, &format!("{bytes}U")),
+    };
+    section.tables.push_str(&lines.tables);
+    section.sizes = vec![
+        size(
+            "The longest message that a serial device is sent.",
+            "UP_UART_SEND_BYTES_MAX",
+            send_bytes,
+        ),
+        size("The longest one on a line with answers.", "UP_LINE_SEND_BYTES_MAX", lines.send_bytes),
+    ];
     section
+}
+
+/// A port that cannot invert its wires, and a device that wants that.
+pub(super) fn not_inverted(
+    context: &Context<'_>,
+    wired: &JobConnection<'_>,
+    uart: &Uart,
+) -> Option<Diagnostic> {
+    let is_wrong = uart.is_inverted && context.names.drivers.serial == WITHOUT_INVERSION;
+    is_wrong.then(|| serial::not_inverted(wired.part, context.profile))
 }
 
 /// The settings of a connection's port.
@@ -147,7 +172,7 @@ impl Port {
 }
 
 /// The frame format for people.
-fn frame(uart: &Uart) -> String {
+pub(super) fn frame(uart: &Uart) -> String {
     let parity = match uart.parity {
         Parity::None => 'N',
         Parity::Even => 'E',
@@ -158,7 +183,7 @@ fn frame(uart: &Uart) -> String {
 }
 
 /// Parity, and whether it follows eight data bits.
-fn cr1(uart: &Uart) -> String {
+pub(super) fn cr1(uart: &Uart) -> String {
     let nine = if uart.data_bits == 8 { "UP_UART_NINE_BITS | " } else { "" };
     match uart.parity {
         Parity::None => String::new(),
@@ -168,7 +193,7 @@ fn cr1(uart: &Uart) -> String {
 }
 
 /// Stop bits and inversion.
-fn cr2(uart: &Uart) -> String {
+pub(super) fn cr2(uart: &Uart) -> String {
     let stop = (uart.stop_bits == 2).then_some("USART_CR2_STOP_1");
     let invert = uart.is_inverted.then_some("USART_CR2_RXINV | USART_CR2_TXINV");
     let all: Vec<&str> = stop.into_iter().chain(invert).collect();

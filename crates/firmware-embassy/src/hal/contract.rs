@@ -12,6 +12,7 @@
 pub(crate) mod buses;
 pub(crate) mod inputs;
 pub(crate) mod link;
+pub(crate) mod motors;
 pub(crate) mod outputs;
 pub(crate) mod types;
 
@@ -20,9 +21,10 @@ use sensedsl_job::{BoardJob, JobConnection};
 
 use crate::context::Context;
 use crate::names::{Chip, Names};
-use buses::{Can, I2c, Serial, Spi};
+use buses::{Can, I2c, OneWire, Serial, Spi};
 use inputs::{Analog, Capture, Edges, Encoder};
 use link::Link;
+use motors::Motors;
 use outputs::{Dac, Pins, Pulses};
 use types::Types;
 
@@ -151,6 +153,10 @@ pub(crate) trait Drivers {
     fn pulses(&self) -> Option<&dyn Pulses> {
         None
     }
+    /// Stepper motors.
+    fn motors(&self) -> Option<&dyn Motors> {
+        None
+    }
     /// Analog outputs.
     fn dac(&self) -> Option<&dyn Dac> {
         None
@@ -161,6 +167,10 @@ pub(crate) trait Drivers {
     }
     /// SPI buses.
     fn spi(&self) -> Option<&dyn Spi> {
+        None
+    }
+    /// Wires that both ends pull low.
+    fn onewire(&self) -> Option<&dyn OneWire> {
         None
     }
     /// Serial ports.

@@ -8,7 +8,7 @@ import time
 from typing import Any, AsyncIterator, BinaryIO, Callable, ClassVar, Dict, Iterator, List, Optional, Sequence
 from typing import Tuple, Type, TypeVar, Union
 
-from .link import DeviceError, Link, Recording, SerialLink, now, usb_ports
+from .link import DeviceError, Link, Recording, SerialLink, now, opened, usb_ports
 from .session import MATCHED, PLAYING, OtherFirmware, Session
 from .values import Message, received
 from .wire import Health, OtherHealth, Report, Schema, encode_hello_request, encode_report
@@ -55,12 +55,12 @@ class Board:
 
     @classmethod
     def open(cls: Type[B], path: Optional[str] = None, baud: Optional[int] = None, **options: Any) -> B:
-        """Opens a board; without a path, the first USB port that answers as one.
+        """Opens a board: a serial port, or `tcp:HOST:PORT`; without a path, the first USB port that answers as one.
 
         Raises DeviceError if it cannot be opened or found.
         """
         if path is not None:
-            return cls(SerialLink(path, baud or cls.BAUD), **options)
+            return cls(opened(path, baud or cls.BAUD), **options)
         tried = []
         for port in usb_ports():
             try:

@@ -1,10 +1,15 @@
-"""The two ends that bytes come from: a serial port, found again under another name, or a recording."""
+"""The ends that bytes come from: a serial port, found again under another name, a port of TCP, or a recording."""
 
 from __future__ import annotations
 
 import importlib
+import socket
 import time
 from typing import Any, BinaryIO, List, Optional, Tuple, Union
+
+
+TCP = "tcp:"
+"""What the path of a link over TCP begins with."""
 
 
 class DeviceError(Exception):
@@ -111,6 +116,73 @@ class SerialLink:
                 self._port = None
 
 
+class TcpLink:
+    """A link over TCP, of `tcp:HOST:PORT`: a simulated board, or an adapter in the network."""
+
+    is_recording = False
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self._socket: Optional[socket.socket] = None
+        self.open()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the other side is there."""
+        return self._socket is not None
+
+    def open(self) -> None:
+        """Connects. Raises DeviceError with the reason."""
+        host, _, port = self.path[len(TCP) :].rpartition(":")
+        try:
+            self._socket = socket.create_connection((host.strip("[]"), int(port)), timeout=3)
+            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        except (OSError, ValueError) as error:
+            raise DeviceError("cannot open %s: %s (write tcp:HOST:PORT)" % (self.path, error)) from None
+
+    def find_again(self) -> bool:
+        """Connects again."""
+        try:
+            self.open()
+        except DeviceError:
+            return False
+        return True
+
+    def read(self, timeout: float) -> Optional[bytes]:
+        """The bytes that come within a time; None if the other side is gone."""
+        if self._socket is None:
+            return None
+        try:
+            self._socket.settimeout(max(timeout, 0.001))
+            data = self._socket.recv(4096)
+        except (socket.timeout, BlockingIOError):
+            return b""
+        except OSError:
+            data = b""
+        if not data:
+            self.close()
+            return None
+        return data
+
+    def write(self, data: bytes) -> bool:
+        """Sends bytes; False if the other side is gone."""
+        if self._socket is None:
+            return False
+        try:
+            self._socket.settimeout(1)
+            self._socket.sendall(data)
+            return True
+        except OSError:
+            self.close()
+            return False
+
+    def close(self) -> None:
+        """Ends the connection."""
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+
 class Recording:
     """Bytes of a board in a file, or in any stream of bytes."""
 
@@ -138,7 +210,12 @@ class Recording:
         self._file.close()
 
 
-Link = Union[SerialLink, Recording]
+Link = Union[SerialLink, TcpLink, Recording]
+
+
+def opened(path: str, baud: int) -> Link:
+    """The link at a path. Raises DeviceError if it cannot be opened."""
+    return TcpLink(path) if path.startswith(TCP) else SerialLink(path, baud)
 
 
 def now() -> float:

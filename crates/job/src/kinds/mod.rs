@@ -4,5 +4,6 @@
 //! In: a [`crate::BoardJob`]. Out: decisions that depend on no system, for the plans of the targets.
 
 pub mod can;
+pub mod onewire;
 pub mod pulse;
 pub mod serial;

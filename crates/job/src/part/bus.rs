@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Connection, ConnectionIndex, Design, Device};
+use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
 use sensedsl_model::registers::{self, Register};
 use sensedsl_model::words::Words;
@@ -13,6 +14,11 @@ use super::transfers::{self, Place, TransferPlan, register_to_read};
 use super::value::ValuePlan;
 use crate::snake;
 
+/// Asks a part on 1-Wire for its address.
+const READ_ROM: u8 = 0x33;
+/// Bytes of such an address.
+const ROM_BYTES: usize = 8;
+
 /// An `up_chip_t`.
 #[derive(Clone, Debug)]
 pub struct BusPlan {
@@ -20,7 +26,7 @@ pub struct BusPlan {
     pub prefix: String,
     /// The connection that the bus goes over.
     pub connection: ConnectionIndex,
-    /// The 7-bit address; 0 on SPI, where a chip select takes its place.
+    /// The 7-bit address; 0 on SPI, where a chip select takes its place, and on one wire.
     pub address: u8,
     /// The steps that start the part.
     pub init: Vec<InitPlan>,
@@ -159,6 +165,8 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
     let (commands, kept) = commands(source.design, of(Direction::Actuator), protocol);
     let init = init(&protocol.init);
     let identity = protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol));
+    let wire = all.first().and_then(|device| device.kind.onewire());
+    let identity = identity.or_else(|| IdentityPlan::of_wire(wire?));
     let calibration: Vec<CalibrationPlan> = calibration.collect();
     Some(BusPlan {
         work_bytes: work_bytes((&init, identity.as_ref(), &calibration), &transfers, &commands),
@@ -204,6 +212,16 @@ impl IdentityPlan {
             expected: identity.expected.clone(),
             mask: identity.mask.clone(),
         }
+    }
+
+    /// The family of a part that is alone on its wire, which is the first byte of its address. One that shares its wire
+    /// is called by its address, so that no other answers.
+    fn of_wire(wire: &OneWire) -> Option<Self> {
+        let family = wire.family.filter(|_| wire.rom.is_none())?;
+        let (mut expected, mut mask) = (vec![0; ROM_BYTES], vec![0; ROM_BYTES]);
+        *expected.first_mut()? = family;
+        *mask.first_mut()? = 0xFF;
+        Some(Self { select: vec![READ_ROM], expected, mask })
     }
 }
 

@@ -38,6 +38,8 @@ pub struct MessagePlan {
     pub fields: Vec<MessageFieldPlan>,
     /// The values that are sent.
     pub commands: Vec<ComposePlan>,
+    /// The requests, each with the values in its answer.
+    pub exchanges: Vec<ExchangePlan>,
     /// The number of 64-bit words that hold the largest value.
     pub scratch_words: usize,
 }
@@ -47,19 +49,67 @@ pub struct MessagePlan {
 pub struct ComposePlan {
     /// The device's name.
     pub field: String,
-    /// The coding of the value.
+    /// The coding of the value; of no meaning for a text.
     pub value: ValuePlan,
+    /// The format of a value that is sent as a text.
+    pub text: Option<TextField>,
     /// The first bytes of the message.
     pub start: Vec<u8>,
+    /// The bytes between the value and the checksum.
+    pub behind: Vec<u8>,
     /// The last bytes of the message.
     pub end: Vec<u8>,
     /// The checksum before the end.
     pub checksum: MessageChecksum,
     /// The first byte that the checksum covers.
     pub checksum_from: u8,
-    /// The bytes of the whole message.
+    /// The bytes of the whole message; of a text at most.
     pub bytes: u16,
+    /// What the part says when it has taken it; empty if nothing is awaited.
+    pub answer: Vec<u8>,
+    /// The time that the part has for that.
+    pub wait_ms: u16,
+    /// The time after which it is sent again; 0 for never.
+    pub resend_ms: u32,
 }
+
+/// An `up_exchange_t`: a request, and the message that answers it.
+#[derive(Clone, Debug)]
+pub struct ExchangePlan {
+    /// The prefix of the names of its tables.
+    pub prefix: String,
+    /// What is sent.
+    pub request: Vec<u8>,
+    /// The first bytes of the answer.
+    pub start: Vec<u8>,
+    /// The last bytes of the answer.
+    pub end: Vec<u8>,
+    /// The bytes of the body; 0: up to `end`.
+    pub length: u16,
+    /// The bytes of the longest answer.
+    pub bytes_max: u16,
+    /// The checksum before the end.
+    pub checksum: MessageChecksum,
+    /// The first byte that the checksum covers.
+    pub checksum_from: u8,
+    /// The values.
+    pub fields: Vec<MessageFieldPlan>,
+    /// Whether the answer's checksum begins with the request.
+    pub is_primed: bool,
+    /// The time that the part has for the answer.
+    pub wait_ms: u16,
+}
+
+impl MessagePlan {
+    /// The bytes of the longest answer; 0 if nothing is asked.
+    #[must_use]
+    pub fn answer_bytes_max(&self) -> u16 {
+        self.exchanges.iter().map(|one| one.bytes_max).max().unwrap_or(0)
+    }
+}
+
+/// A number in a text: a sign, twenty digits, a point, and what separates it from the next.
+const TEXT_BYTES: u16 = 23;
 
 /// An `up_message_field_t`.
 #[derive(Clone, Debug)]
@@ -101,13 +151,15 @@ impl FieldCoding {
 pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     let all: Vec<&Device> = source.devices(|kind| kind.uart().is_some()).collect();
     let is_sensor = |device: &&&Device| device.direction == Direction::Sensor;
-    let devices: Vec<&Device> = all.iter().filter(is_sensor).copied().collect();
+    let (asked, devices): (Vec<&Device>, Vec<&Device>) =
+        all.iter().filter(is_sensor).copied().partition(|device| is_asked(device));
     let first = devices.first().or(all.first())?;
     let uart = source.design.main_connection(first)?.kind.uart()?;
     let is_text = devices.iter().any(|device| device.coding.text.is_some());
     let is_chip = source.part.chip.is_some();
     let is_open = !uart.end.is_empty() && !uart.is_length_given && (is_chip || is_text);
-    let sizes = devices.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
+    let sizes = all.iter().filter(is_sensor);
+    let sizes = sizes.map(|device| device.value.value.size_bytes().div_ceil(8));
     Some(MessagePlan {
         prefix: prefix.to_owned(),
         init: init(&source.protocol.init, uart.baud),
@@ -119,8 +171,57 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
         checksum_from: uart.checksum_from,
         fields: devices.iter().filter_map(|device| field(device)).collect(),
         commands: all.iter().filter_map(|device| command(device)).collect(),
+        exchanges: exchanges(&asked, prefix),
         scratch_words: sizes.max().unwrap_or(1),
     })
+}
+
+fn is_asked(device: &Device) -> bool {
+    device.kind.uart().is_some_and(|uart| !uart.exchange.request.is_empty())
+}
+
+/// The requests, in the order of the devices; values of one answer go together.
+fn exchanges(asked: &[&Device], prefix: &str) -> Vec<ExchangePlan> {
+    let mut all: Vec<ExchangePlan> = Vec::new();
+    for device in asked {
+        let Some(uart) = device.kind.uart() else { continue };
+        let Some(field) = field(device) else { continue };
+        let mut own = exchange(uart, format!("{prefix}_answer_{}", all.len()));
+        let same = |one: &&mut ExchangePlan| {
+            (&one.request, &one.start, &one.end, one.length)
+                == (&own.request, &own.start, &own.end, own.length)
+        };
+        match all.iter_mut().find(same) {
+            Some(one) => one.fields.push(field),
+            None => {
+                own.fields.push(field);
+                all.push(own);
+            }
+        }
+    }
+    all
+}
+
+fn exchange(uart: &Uart, prefix: String) -> ExchangePlan {
+    let asked = &uart.exchange;
+    let start = if asked.sums_request { &asked.request } else { &uart.start };
+    let around = start.len() + uart.end.len();
+    let around =
+        u16::try_from(around).unwrap_or(u16::MAX).saturating_add(checksum_bytes(uart.checksum));
+    let length = asked.body_bytes.unwrap_or(0);
+    ExchangePlan {
+        prefix,
+        request: asked.request.clone(),
+        start: start.clone(),
+        end: uart.end.clone(),
+        length,
+        bytes_max: if length == 0 { OPEN_BYTES_MAX } else { length.saturating_add(around) },
+        checksum: uart.checksum,
+        checksum_from: uart.checksum_from,
+        fields: Vec::new(),
+        is_primed: asked.sums_request,
+        wait_ms: u16::try_from(asked.wait_ms).unwrap_or(u16::MAX),
+    }
 }
 
 /// The steps that set up the part. Bytes are queued and sent later, so each pause is extended by the time that the
@@ -142,12 +243,7 @@ fn init(steps: &[InitStep], baud: u32) -> Vec<InitPlan> {
 
 /// The bytes of a checksum.
 const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
-    match checksum {
-        MessageChecksum::None => 0,
-        MessageChecksum::Sum8 | MessageChecksum::Xor8 | MessageChecksum::Crc8DvbS2 => 1,
-        MessageChecksum::Ibus => 2,
-        MessageChecksum::Nmea => 3,
-    }
+    checksum.bytes()
 }
 
 /// The bytes of a message of known length.
@@ -158,21 +254,33 @@ fn bytes(uart: &Uart) -> u16 {
 
 /// The message that sends a value; `None` if the value is received.
 fn command(device: &Device) -> Option<ComposePlan> {
-    let uart = device.kind.uart()?;
-    let is_sent = device.direction == Direction::Actuator;
-    let words = Words::of(device).filter(|_| is_sent)?;
-    let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
+    let uart = device.kind.uart().filter(|_| device.direction == Direction::Actuator)?;
+    let text = device.coding.text.clone();
+    let count = u16::try_from(device.value.value.count()).unwrap_or(u16::MAX);
+    let (value, value_bytes) = match &text {
+        Some(_) => (ValuePlan::none(), TEXT_BYTES.saturating_mul(count)),
+        None => {
+            let words = Words::of(device)?;
+            (ValuePlan::new(&words), words.wire_bytes())
+        }
+    };
+    let told = &uart.exchange;
+    let ends = u16::try_from(uart.start.len() + told.behind.len() + uart.end.len());
     Some(ComposePlan {
         field: device.name.value.clone(),
-        value: ValuePlan::new(&words),
+        value,
+        text,
         start: uart.start.clone(),
+        behind: told.behind.clone(),
         end: uart.end.clone(),
         checksum: uart.checksum,
         checksum_from: uart.checksum_from,
-        bytes: words
-            .wire_bytes()
-            .saturating_add(ends)
+        bytes: value_bytes
+            .saturating_add(ends.unwrap_or(u16::MAX))
             .saturating_add(checksum_bytes(uart.checksum)),
+        answer: told.answer.clone(),
+        wait_ms: u16::try_from(told.wait_ms).unwrap_or(u16::MAX),
+        resend_ms: told.resend_ms,
     })
 }
 

@@ -22,7 +22,7 @@ pub use bus::{
     BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, OwnBitsPlan, ReadingPlan,
 };
 pub use filter::{FilterPlan, Number};
-pub use message::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
+pub use message::{ComposePlan, ExchangePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
 use source::Source;
 pub use transfers::TransferPlan;

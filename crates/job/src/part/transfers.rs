@@ -74,6 +74,9 @@ struct CombinedRead {
     key: Key,
     register: u32,
     end: u32,
+    /// Whether it holds only readings of this very register: the part answers to each register by itself, or there
+    /// are checksums in between.
+    is_alone: bool,
 }
 
 /// The transfers of a chip, and the place of each of its readings.
@@ -86,13 +89,14 @@ pub(super) fn plan(
     sorted.sort_by_key(|one| (&one.key, one.register, one.end));
     let mut all: Vec<CombinedRead> = Vec::new();
     for one in sorted {
-        match all.last_mut().filter(|last| last.takes(one, protocol)) {
+        match all.last_mut().filter(|last| last.takes(one)) {
             Some(last) => last.end = last.end.max(one.end),
             None => {
                 all.push(CombinedRead {
                     key: one.key.clone(),
                     register: one.register,
                     end: one.end,
+                    is_alone: protocol.is_one_by_one || one.key.has_crc,
                 });
             }
         }
@@ -130,32 +134,27 @@ fn wanted(device: &Device) -> Option<NeededBytes> {
         has_crc: words.is_some_and(|words| words.crc.is_some()),
         select,
     };
-    Some(NeededBytes {
-        key,
-        register: first,
-        end: first + u32::from(byte) + u32::from(length),
-        byte,
-    })
+    let bytes = byte.saturating_add(length).max(device.kind.answer_bytes().unwrap_or(0));
+    Some(NeededBytes { key, register: first, end: first + u32::from(bytes), byte })
 }
 
 impl CombinedRead {
     /// Whether the transfer also covers the reading, which begins no earlier.
-    fn takes(&self, one: &NeededBytes, protocol: &Protocol) -> bool {
+    fn takes(&self, one: &NeededBytes) -> bool {
         if self.key != one.key {
             return false;
         }
-        // Without bursts, or with checksums in between, only readings of the same register can be combined.
         if one.register == self.register {
             return true;
         }
         let gap = if self.key.trigger.is_empty() { GAP_BYTES } else { GAP_OF_MEASUREMENT_BYTES };
-        let runs_on = !protocol.is_one_by_one && !self.key.has_crc;
         let is_short = one.end.max(self.end) - self.register <= TOGETHER_BYTES_MAX;
-        runs_on && one.register <= self.end.saturating_add(gap) && is_short
+        !self.is_alone && one.register <= self.end.saturating_add(gap) && is_short
     }
 
     fn has(&self, one: &NeededBytes) -> bool {
-        self.key == one.key && self.register <= one.register && one.end <= self.end
+        let is_in = self.register <= one.register && one.end <= self.end;
+        self.key == one.key && is_in && (!self.is_alone || self.register == one.register)
     }
 
     fn on_wire(&self, byte: u32) -> u16 {

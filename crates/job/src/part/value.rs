@@ -42,8 +42,23 @@ impl ValuePlan {
             word_bytes: words.word_bytes,
             low: words.low,
             bits: if is_whole { 0 } else { words.bits },
-            is_signed: words.is_signed && words.code != Code::Float && words.code != Code::Bcd,
+            is_signed: words.is_signed && matches!(words.code, Code::Integer | Code::Packed),
             is_little_endian: words.order == ByteOrder::Little && words.code != Code::Packed,
+        }
+    }
+
+    /// The coding of what is no words but a text.
+    pub(super) const fn none() -> Self {
+        Self {
+            elements: Vec::new(),
+            words: 0,
+            code: Code::Integer,
+            crc: None,
+            word_bytes: 1,
+            low: 0,
+            bits: 0,
+            is_signed: false,
+            is_little_endian: false,
         }
     }
 

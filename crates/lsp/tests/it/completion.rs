@@ -314,7 +314,7 @@ fn words_are_those_of_the_reader() {
         "N"
     );
     assert_eq!(of("const N = 3;\nsensor X returns uint8[$0] { type = analog; }"), "N");
-    assert_eq!(of("driver d for i2c { compensate = $0; }"), "bmp280 bme280 ntc tsl2561");
+    assert_eq!(of("driver d for i2c { compensate = $0; }"), "bmp280 bme280 ntc tsl2561 hx711");
     let frames = "driver d for can { frame = 1; reading page returns uint8 { } reading a returns uint8 { mux = $0; } }";
     assert_eq!(of(frames), "page");
     assert!(taken(frames, &offered(frames)[0]).contains("mux = page = ;"));

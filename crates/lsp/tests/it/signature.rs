@@ -24,7 +24,7 @@ fn a_value_is_told_what_it_may_be() {
     assert_eq!(label(&device("baud = 96$000; }")), "baud = a whole number from 300 to 10000000");
     assert_eq!(
         label(&device("start = [0x24, $0")),
-        "start = 0 to 8 bytes, as a list of numbers or as a text"
+        "start = 0 to 16 bytes, as a list of numbers or as a text"
     );
     assert_eq!(label(&device("delay = 10 $0; }")), "delay = a time from 1 ms to 1 h");
     let shown = help(&device("checksum = $0"));

@@ -29,6 +29,7 @@ const COMPLETE_INTERRUPTS: u32 = 1 << 6;
 const EMPTY_INTERRUPTS: u32 = 1 << 7;
 /// Bits of CR3.
 const ERROR_INTERRUPTS: u32 = 1;
+const ONE_WIRE: u32 = 1 << 3;
 const RECEIVES_BY_DMA: u32 = 1 << 6;
 const TRANSMITS_BY_DMA: u32 = 1 << 7;
 
@@ -189,10 +190,18 @@ impl Usart {
         wires.link.port == LinkPort::Serial(self.unit)
     }
 
+    /// Whether both directions are on the wire of TX.
+    fn has_one_wire(&self) -> bool {
+        self.cr[2] & ONE_WIRE != 0
+    }
+
     fn sent(&mut self, wires: &mut Wires) {
         let Some(byte) = self.shifting.take() else { return };
         if wires.pad_of(&self.tx).is_none() {
             return;
+        }
+        if self.has_one_wire() && self.cr[0] & RECEIVER != 0 {
+            self.receive(byte);
         }
         if self.is_link(wires) {
             let at = self.shifted_at;
@@ -215,7 +224,8 @@ impl Usart {
 
     fn listen(&mut self, wires: &mut Wires) {
         self.listens_at += self.frame_ns(wires);
-        if wires.pad_of(&self.rx).is_none() {
+        let wire = if self.has_one_wire() { &self.tx } else { &self.rx };
+        if wires.pad_of(wire).is_none() {
             return;
         }
         let byte = if self.is_link(wires) {
@@ -224,21 +234,23 @@ impl Usart {
             wires.world(|world, now| world.uart_in(self.unit, now))
         };
         match byte {
-            Some(_) if self.sr & RECEIVED != 0 => {
-                self.sr |= OVERRUN;
-                self.was_busy = true;
-            }
-            Some(byte) => {
-                self.received = byte;
-                self.sr |= RECEIVED;
-                self.was_busy = true;
-            }
+            Some(byte) => self.receive(byte),
             None if self.was_busy => {
                 self.sr |= IDLE;
                 self.was_busy = false;
             }
             None => {}
         }
+    }
+
+    fn receive(&mut self, byte: u8) {
+        if self.sr & RECEIVED != 0 {
+            self.sr |= OVERRUN;
+        } else {
+            self.received = byte;
+            self.sr |= RECEIVED;
+        }
+        self.was_busy = true;
     }
 
     fn report(&self, wires: &mut Wires) {

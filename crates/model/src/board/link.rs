@@ -8,7 +8,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
-use sensedsl_wire::Checksum;
+use sensedsl_wire::{Checksum, Direction};
 
 use crate::design::{BoardIndex, Design, Device, Link, Transport};
 use crate::fields::Fields;
@@ -191,9 +191,11 @@ fn default_checksum(transport: Transport) -> Checksum {
 /// has a failsafe value.
 pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     let board_of = |device: &Device| design.part(device.part).and_then(|part| part.board);
-    // Repeated frames stop when the host does.
-    let has_to_stop =
-        |device: &Device| device.coding.failsafe.is_some() || device.kind.resend_ms() > 0;
+    // Repeated frames stop when the host does, and so do motors.
+    let has_to_stop = |device: &Device| {
+        let is_motor = device.kind.stepper().is_some() && device.direction == Direction::Actuator;
+        device.coding.failsafe.is_some() || device.kind.resend_ms() > 0 || is_motor
+    };
     let falling: Vec<Option<BoardIndex>> = design
         .connections
         .iter()

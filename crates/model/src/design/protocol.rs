@@ -67,11 +67,13 @@ pub enum Formula {
     Ntc,
     /// The illuminance of a TSL2561.
     Tsl2561,
+    /// The load that an HX711 tells, its clock being the data of an SPI port.
+    Hx711,
 }
 
 impl Formula {
     /// All variants.
-    pub const ALL: [Self; 4] = [Self::Bmp280, Self::Bme280, Self::Ntc, Self::Tsl2561];
+    pub const ALL: [Self; 5] = [Self::Bmp280, Self::Bme280, Self::Ntc, Self::Tsl2561, Self::Hx711];
 
     /// The word after `compensate`.
     #[must_use]
@@ -81,6 +83,7 @@ impl Formula {
             Self::Bme280 => "bme280",
             Self::Ntc => "ntc",
             Self::Tsl2561 => "tsl2561",
+            Self::Hx711 => "hx711",
         }
     }
 
@@ -92,6 +95,7 @@ impl Formula {
             Self::Bme280 => &["temperature", "pressure", "humidity"],
             Self::Ntc => &["temperature"],
             Self::Tsl2561 => &["illuminance"],
+            Self::Hx711 => &["load"],
         }
     }
 
@@ -104,6 +108,7 @@ impl Formula {
             Self::Bme280 => (32, 8, 0),
             Self::Ntc => (0, 2, 3),
             Self::Tsl2561 => (0, 4, 2),
+            Self::Hx711 => (0, 8, 0),
         }
     }
 }
@@ -140,6 +145,8 @@ pub struct Coding {
     pub text: Option<TextField>,
     /// True if each byte holds two decimal digits.
     pub bcd: bool,
+    /// True if the highest bit is a sign, and the others are the magnitude.
+    pub is_magnitude: bool,
     /// Bytes sent on SPI while as many bytes, which are the value's, are received.
     pub exchange: Vec<u8>,
     /// The output of the chip's formula that the value is.
@@ -208,6 +215,8 @@ pub enum Format {
 pub enum Drive {
     /// Its magnitude is a pulse width, its sign two levels.
     DirectionPins,
+    /// Its magnitude is a pulse width, its sign one level, which is on for a negative value.
+    DirectionPin,
     /// One pulse width for each direction.
     TwoPwm,
 }

@@ -6,6 +6,7 @@ pub mod facts;
 pub(crate) mod known;
 pub(crate) mod library;
 pub(crate) mod module;
+pub(crate) mod near;
 
 use std::cell::OnceCell;
 
@@ -25,9 +26,6 @@ use crate::spanned::{Spanned, span};
 pub(crate) const DEFAULT_RANGER: &str = "srf08";
 /// The 8-bit addresses that such a device can have.
 pub(crate) const RANGER_ADDRESSES: std::ops::RangeInclusive<i64> = 0xE0..=0xFE;
-
-/// Fewest letters that identify a part by the beginning of its name.
-const BEGINNING_MIN: usize = 3;
 
 /// A driver that devices and chips can name.
 #[derive(Clone, Debug)]
@@ -129,8 +127,11 @@ impl Drivers {
         let found = self.look_up(&wanted.value);
         if found.is_none() {
             let (span, name) = (wanted.span, &wanted.value);
-            let meant = self.meant(name);
-            diagnostics.push(e0216_unknown_driver::unknown_driver(span, name, meant));
+            let near = self.near(name);
+            let similar: Vec<&str> = near.similar.iter().map(String::as_str).collect();
+            let new = near::identifier(name);
+            let nearby = (near.meant.as_deref(), similar.as_slice());
+            diagnostics.push(e0216_unknown_driver::unknown_driver(span, name, nearby, &new));
         }
         found
     }
@@ -161,41 +162,6 @@ impl Drivers {
             let folded_name = folded(name);
             self.all().find(|driver| driver.is_called(&folded_name))
         })
-    }
-
-    /// The driver that an unknown name may stand for. Tried in this order: the one with the nearest
-    /// name, the first with a name that begins with it or that it begins with, the one with the
-    /// nearest alias.
-    pub(crate) fn meant(&self, name: &str) -> Option<&str> {
-        let near_name = || nearest(name, self.all().map(|one| one.name.value.as_str()));
-        // A word that begins with another letter is a different word (barometer, tachometer).
-        let first = name.chars().next().map(|letter| letter.to_ascii_lowercase());
-        let begins_so = |alias: &&str| alias.chars().next() == first;
-        let near_alias = || {
-            let aliases = self.all().flat_map(|one| one.aliases.iter().map(String::as_str));
-            let near = nearest(name, aliases.filter(begins_so))?;
-            self.look_up(near).map(|one| one.name.value.as_str())
-        };
-        near_name().or_else(|| self.begins(name)).or_else(near_alias)
-    }
-
-    /// The first driver with a name that begins like this; otherwise the one whose name is the
-    /// longest prefix of this one (`mpu6050_gyro`).
-    fn begins(&self, name: &str) -> Option<&str> {
-        let wanted = folded(name);
-        let names = || {
-            let of = |one: &'_ Driver| {
-                let aliases = one.aliases.iter().map(|alias| folded(alias));
-                std::iter::once(folded(&one.name.value)).chain(aliases).collect::<Vec<_>>()
-            };
-            self.all().flat_map(move |one| of(one).into_iter().map(move |name| (name, one)))
-        };
-        let is_long = wanted.len() >= BEGINNING_MIN;
-        let longer = names().find(|(name, _)| is_long && name.starts_with(&wanted));
-        let is_beginning =
-            |(name, _): &(String, _)| name.len() >= BEGINNING_MIN && wanted.starts_with(name);
-        let shorter = || names().filter(is_beginning).max_by_key(|(name, _)| name.len());
-        longer.or_else(shorter).map(|(_, driver)| driver.name.value.as_str())
     }
 
     /// The drivers of the library, each with the name of its file, without folder and extension.

@@ -5,6 +5,7 @@
 
 #[cfg(test)]
 pub(crate) mod asked;
+mod bytes;
 mod contradictions;
 mod plain;
 mod quantities;
@@ -26,8 +27,8 @@ use crate::meaning::Takes;
 use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::{Evaluator, Value};
-use plain::{byte_list, describe};
-pub(crate) use plain::{name_or_text, plain_integer, plain_number, points};
+use plain::describe;
+pub(crate) use plain::{name_or_text, plain_integer, plain_number, points, with_address};
 pub(crate) use shown::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
 
 /// A property as it was written.
@@ -437,36 +438,5 @@ impl<'a> Fields<'a> {
     /// A text between quotes, or a single name.
     pub(crate) fn text(&mut self, name: &str) -> Option<Spanned<String>> {
         self.name(name, "a text between quotes")
-    }
-
-    /// A list of bytes; a text stands for its bytes, and a single number for a list of one.
-    pub(crate) fn bytes(
-        &mut self,
-        name: &str,
-        lengths: RangeInclusive<usize>,
-    ) -> Option<Spanned<Vec<u8>>> {
-        #[cfg(test)]
-        asked::takes(name, &Takes::Bytes(*lengths.start(), *lengths.end()));
-        let field = self.take(name)?;
-        let Some(numbers) = byte_list(&field.value) else {
-            self.wrong(&field, "a list of whole numbers such as [0x00, 0x51]");
-            return None;
-        };
-        let mut bytes = Vec::with_capacity(numbers.len());
-        for number in numbers {
-            match u8::try_from(number) {
-                Ok(byte) => bytes.push(byte),
-                Err(_) => {
-                    self.out_of_range(&field, &number.to_string(), "bytes from 0 to 255");
-                    return None;
-                }
-            }
-        }
-        if !lengths.contains(&bytes.len()) {
-            let range = format!("{} to {} bytes", lengths.start(), lengths.end());
-            self.out_of_range(&field, &format!("{} bytes", bytes.len()), &range);
-            return None;
-        }
-        Some(Spanned { value: bytes, span: field.value_span })
     }
 }

@@ -1,7 +1,8 @@
 //! Values that are not quantities: a value in; a number without a unit, a name, a text, bytes or points out.
 
+use crate::kind::uart::exchange::is_address;
 use crate::spanned::Spanned;
-use crate::value::{Measure, Value};
+use crate::value::{Measure, Number, Value};
 
 /// A number without a unit.
 pub(crate) fn plain_number(value: &Value) -> Option<f64> {
@@ -45,6 +46,18 @@ pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
             && points.iter().zip(points.iter().skip(1)).all(|(one, next)| one.0 < next.0)
     };
     points.filter(rises)
+}
+
+/// The same list with a number where a word stands for the part's address.
+pub(crate) fn with_address(value: &Value, address: Option<u8>) -> Value {
+    let (Some(list), Some(address)) = (value.list(), address) else { return value.clone() };
+    let number =
+        Number { value: address.into(), integer: Some(address.into()), measure: Measure::Bare };
+    let one = |one: &Spanned<Value>| Spanned {
+        value: if is_address(&one.value) { Value::Number(number) } else { one.value.clone() },
+        span: one.span,
+    };
+    Value::List(list.iter().map(one).collect())
 }
 
 pub(super) fn byte_list(value: &Value) -> Option<Vec<i128>> {

@@ -13,8 +13,10 @@ use super::digital::Digital;
 use super::encoder::Encoder;
 use super::i2c::{ByteOrder, I2c};
 use super::icu::{Icu, Mode};
+use super::onewire::OneWire;
 use super::pwm::Pwm;
 use super::spi::Spi;
+use super::stepper::Stepper;
 use super::uart::Uart;
 
 /// Generates the type, and a question for each interface, from the table below.
@@ -59,6 +61,10 @@ interfaces! {
     Dac as dac;
     /// Frames with identifiers.
     Can as can;
+    /// Bytes of a part on one wire that both ends pull low.
+    OneWire as onewire;
+    /// Pulses of a timer that are counted, and a level for the direction.
+    Stepper as stepper;
 }
 
 /// What is sent and waited for before the bytes of a part with registers come, and their number.
@@ -102,6 +108,8 @@ impl Kind {
             Self::Pwm(own) => Interface::Pwm(own),
             Self::Dac(own) => Interface::Dac(own),
             Self::Can(own) => Interface::Can(own),
+            Self::OneWire(own) => Interface::OneWire(own),
+            Self::Stepper(own) => Interface::Stepper(own),
         }
     }
 
@@ -125,6 +133,14 @@ impl Kind {
                 length_bytes: own.length_bytes,
                 address: None,
             }),
+            Interface::OneWire(own) => Some(RegisterAccess {
+                trigger: &own.trigger,
+                wait_us: own.wait_us,
+                register: None,
+                read: &own.read,
+                length_bytes: own.length_bytes,
+                address: None,
+            }),
             Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
@@ -132,8 +148,16 @@ impl Kind {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         }
+    }
+
+    /// The bytes of an answer that a part always gives as a whole, its checksum at the end; none if it gives as many
+    /// as are asked for.
+    #[must_use]
+    pub fn answer_bytes(&self) -> Option<u16> {
+        self.onewire().map(OneWire::answer_bytes)
     }
 
     /// How the bytes of a value are sent; none if it is not sent in bytes.
@@ -144,13 +168,15 @@ impl Kind {
             Interface::I2c(own) => of(Some(own.length_bytes), own.order),
             Interface::Spi(own) => of(Some(own.length_bytes), own.order),
             Interface::Uart(own) => of(Some(own.length_bytes), own.order),
+            Interface::OneWire(own) => of(Some(own.length_bytes), own.order),
             Interface::Can(own) => of(own.field.map(|field| field.word_bytes.into()), own.order),
             Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
             | Interface::Digital(_)
             | Interface::Pwm(_)
-            | Interface::Dac(_) => None,
+            | Interface::Dac(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
@@ -199,13 +225,16 @@ impl Kind {
             | Interface::Digital(_)
             | Interface::Uart(_)
             | Interface::Spi(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => None,
         }
     }
 
     /// The time after which a command is sent again; 0 for never.
     #[must_use]
     pub fn resend_ms(&self) -> u32 {
-        self.can().map_or(0, |can| can.resend_ms)
+        let of_port = self.uart().map_or(0, |uart| uart.exchange.resend_ms);
+        self.can().map_or(of_port, |can| can.resend_ms)
     }
 }

@@ -20,11 +20,13 @@ pub mod encoder;
 pub mod i2c;
 pub mod icu;
 mod interface;
+pub mod onewire;
 pub mod pwm;
 mod role;
 mod snippet;
 mod spec;
 pub mod spi;
+pub mod stepper;
 pub mod uart;
 
 pub use interface::{Bytes, Interface, RegisterAccess};
@@ -128,6 +130,10 @@ kinds! {
     Dac in dac;
     /// Frames on a CAN bus.
     Can in can;
+    /// A part with one data wire, such as a DS18B20 or a DHT22.
+    OneWire in onewire;
+    /// A stepper motor behind a driver with step and direction.
+    Stepper in stepper;
 }
 
 impl KindName {

@@ -70,6 +70,8 @@ roles! {
     Tx("tx", pin: "tx", driven by Mcu, on Interface);
     /// Reception by the board.
     Rx("rx", pin: "rx", driven by Device, on Interface);
+    /// Which end of a half-duplex line speaks: high while the board does.
+    Direction("direction", pin: "direction", driven by Mcu, on AnyPin);
     /// SPI clock.
     Sck("sck", pin: "sck", driven by Mcu, on Interface);
     /// SPI data from the device.
@@ -84,6 +86,14 @@ roles! {
     B("b", pin: "b", driven by Device, on Interface);
     /// The pulse that makes an icu device measure (HC-SR04).
     Trigger("trigger", pin: "trigger", driven by Mcu, on AnyPin);
+    /// The only wire of a part that both ends pull low.
+    Data("data", pin: "pin", driven by Device, on Interface);
+    /// A pulse for each step of a motor.
+    Step("step", pin: "step", driven by Mcu, on Interface);
+    /// The direction of a motor's steps.
+    Dir("dir", pin: "dir", driven by Mcu, on AnyPin);
+    /// Lets current into a motor.
+    Enable("enable", pin: "enable", driven by Mcu, on AnyPin);
 }
 
 impl Role {

@@ -1,5 +1,12 @@
 //! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
-//! `tx = none` takes only the receiving wire.
+//! `tx = none` takes only the receiving wire. What is asked and told is in `uart/exchange.rs`.
+
+mod checksum;
+pub(crate) mod exchange;
+
+pub(crate) use checksum::CHECKSUMS;
+pub use checksum::MessageChecksum;
+pub use exchange::{Duplex, Exchange};
 
 use super::i2c::{self, ByteOrder, ORDERS};
 use super::role::Role;
@@ -25,8 +32,21 @@ pub const SPEC: KindSpec = KindSpec {
         "checksum",
         "checksum_from",
         "order",
+        "address",
+        "duplex",
+        "request",
+        "request_checksum",
+        "request_end",
+        "body",
+        "sums_request",
+        "answer",
+        "answer_checksum",
+        "behind",
+        "wait",
+        "resend",
         "tx",
         "rx",
+        "direction",
     ],
     sharing: Sharing::Own,
     triggers_itself: false,
@@ -36,7 +56,7 @@ pub const SPEC: KindSpec = KindSpec {
     inputs_have: &[],
     of_part: &["length"],
     serves: Serves::Signal(serves),
-    wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`",
+    wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`; TX alone with `duplex = half;`. Shared by parts with different `address`es",
     example: "",
     colour: "#DF8AB6",
     colour_on_dark: "#C07AA5",
@@ -64,7 +84,7 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         "invert = true;",
     ),
     Meaning::new(
-        ("start", Takes::Bytes(0, 8)),
+        ("start", Takes::Bytes(0, 16)),
         "none",
         "What a message begins with.",
         "start = \"$GP\";",
@@ -84,13 +104,15 @@ pub(crate) const MEANINGS: &[Meaning] = &[
     Meaning::new(
         ("checksum", Takes::Words(|| first(&CHECKSUMS))),
         "`none`",
-        "What stands before `end`. `sum8`: low byte of the sum; `xor8`: all bytes exclusive or; `ibus`: 0xFFFF \
-         minus the sum, two bytes, low one first; `crc8_dvb_s2`: CRC-8 of polynomial 0xD5; `nmea`: `*` and two \
-         hexadecimal digits.",
+        "What stands before `end`. `sum8`, `sum7`: low byte, or low seven bits, of the sum; `not_sum8`: all its bits \
+         inverted; `neg_sum8`, `neg_sum16`: what makes the sum 0 in one byte, or in two, high one first; `xor8`: all \
+         bytes exclusive or; `ibus`: 0xFFFF minus the sum, two bytes, low one first; `sum16`: the sum, two bytes, high one first; `crc8_dvb_s2`, `crc8_ld06`: CRC-8 of polynomial 0xD5 or \
+         0x4D; `crc16_umts`: CRC-16 of polynomial 0x8005, low byte first; `crc16_xmodem`: CRC-16 of polynomial 0x1021, \
+         high byte first; `nmea`: `*` and two hexadecimal digits.",
         "checksum = xor8;",
     ),
     Meaning::new(
-        ("checksum_from", Takes::Whole(0, 8)),
+        ("checksum_from", Takes::Whole(0, 16)),
         "0",
         "The first byte that the checksum is of, counted from the first of `start`; the length of `start` at \
          most.",
@@ -102,6 +124,29 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         "The order of the bytes of each element: the highest or the lowest one first.",
         "order = little;",
     ),
+    exchange::MEANINGS[0],
+    exchange::MEANINGS[1],
+    exchange::MEANINGS[2],
+    exchange::MEANINGS[3],
+    exchange::MEANINGS[4],
+    exchange::MEANINGS[5],
+    exchange::MEANINGS[6],
+    exchange::MEANINGS[7],
+    exchange::MEANINGS[8],
+    exchange::MEANINGS[9],
+    Meaning::new(
+        ("wait", Takes::Time(1_000, 1_000_000)),
+        "10 ms",
+        "How long a part has for its answer. One that stays silent is a fault, and is asked again in the next cycle.",
+        "wait = 5 ms;",
+    ),
+    Meaning::new(
+        ("resend", Takes::Time(1_000, 60_000_000)),
+        "never",
+        "The command is sent again and again after it was set.",
+        "resend = 100 ms;",
+    )
+    .only(Direction::Actuator),
 ];
 
 /// Bits per second if the file gives none.
@@ -117,24 +162,6 @@ pub enum Parity {
     Even,
     /// `O`
     Odd,
-}
-
-/// The checksum that a message ends with, so that a damaged one is recognised.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MessageChecksum {
-    /// No checksum.
-    #[default]
-    None,
-    /// The low byte of the sum.
-    Sum8,
-    /// The exclusive or of all bytes.
-    Xor8,
-    /// 0xFFFF minus the sum of all bytes; two bytes, the low one first.
-    Ibus,
-    /// A CRC-8 with polynomial 0xD5 and initial value 0.
-    Crc8DvbS2,
-    /// `*` and two hexadecimal digits: the exclusive or of the bytes between the start and `*`.
-    Nmea,
 }
 
 /// A serial port.
@@ -168,6 +195,8 @@ pub struct Uart {
     pub order: ByteOrder,
     /// True if nothing is sent and the device needs only RX.
     pub receive_only: bool,
+    /// What the part is asked or told.
+    pub exchange: Exchange,
 }
 
 fn serves(role: Role, function: &Function) -> bool {
@@ -190,29 +219,25 @@ const FRAMES: [(&str, (u8, Parity, u8)); 8] = [
     ("7O1", (7, Parity::Odd, 1)),
 ];
 
-/// The words after `checksum`.
-const CHECKSUMS: [(&str, MessageChecksum); 6] = [
-    ("none", MessageChecksum::None),
-    ("sum8", MessageChecksum::Sum8),
-    ("xor8", MessageChecksum::Xor8),
-    ("ibus", MessageChecksum::Ibus),
-    ("crc8_dvb_s2", MessageChecksum::Crc8DvbS2),
-    ("nmea", MessageChecksum::Nmea),
-];
-
 impl Properties for Uart {
     fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let rate = fields.integer("baud", 300..=10_000_000);
         let baud = rate.and_then(|n| u32::try_from(n.value).ok());
         let frame = fields.word("frame", &FRAMES).map(|word| word.value);
         let (data_bits, parity, stop_bits) = frame.unwrap_or((8, Parity::None, 1));
-        let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
+        let address = exchange::address(fields);
+        let start = fields.addressed("start", 0..=16, address.0);
+        let start = start.map(|bytes| bytes.value).unwrap_or_default();
         let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
         let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
         let length = fields.integer("length", 1..=1024).map(|n| n.value);
         let is_inverted = fields.boolean("invert").is_some_and(|word| word.value);
         let (checksum, checksum_from) = checksum(fields, start.len());
-        let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
+        let frame =
+            exchange::Frame { has_end: !end.is_empty(), checksum, from: checksum_from.into() };
+        let exchange = exchange::read(fields, direction, address, &frame);
+        let is_sensor = direction == Direction::Sensor;
+        let receive_only = is_sensor && fields.take_word_if("tx", "none");
         Self {
             baud: baud.unwrap_or(BAUD_DEFAULT),
             baud_span: rate.map(|rate| rate.span),
@@ -228,6 +253,7 @@ impl Properties for Uart {
             checksum_from,
             order: i2c::order(fields, value.scalar.size_bytes() == 1),
             receive_only,
+            exchange,
         }
     }
 
@@ -236,7 +262,12 @@ impl Properties for Uart {
     }
 
     fn roles(&self, _: Direction) -> Vec<Role> {
-        if self.receive_only { vec![Role::Rx] } else { vec![Role::Tx, Role::Rx] }
+        match self.exchange.duplex {
+            Duplex::Half => vec![Role::Tx],
+            Duplex::Direction => vec![Role::Tx, Role::Rx, Role::Direction],
+            Duplex::Full | Duplex::Joined if self.receive_only => vec![Role::Rx],
+            Duplex::Full | Duplex::Joined => vec![Role::Tx, Role::Rx],
+        }
     }
 }
 
@@ -244,12 +275,13 @@ impl Properties for Uart {
 fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8) {
     let checksum = fields.word("checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
     // The bytes that it covers begin within the start bytes, or right after them.
-    let most = i64::try_from(start_bytes).unwrap_or(0);
+    // Where each reading and command has a `start` of its own, it is read with them.
+    let most = if start_bytes == 0 { 16 } else { i64::try_from(start_bytes).unwrap_or(16) };
     let from = fields.integer("checksum_from", 0..=most);
     if let Some(from) = from
-        && matches!(checksum, MessageChecksum::None | MessageChecksum::Nmea)
+        && !checksum.has_from()
     {
-        let why = "`checksum_from` is for `sum8`, `xor8`, `ibus` and `crc8_dvb_s2` only";
+        let why = "`checksum_from` is not for `none` and `nmea`";
         fields.contradiction(from.span, "checksum", why);
     }
     (checksum, from.and_then(|n| u8::try_from(n.value).ok()).unwrap_or(0))
@@ -260,6 +292,21 @@ impl Uart {
     #[must_use]
     pub fn is_endless(&self) -> bool {
         !self.is_length_given && self.end.is_empty()
+    }
+
+    /// A number that is the same for parts that can share a line: rate, characters, level at rest, wires.
+    #[must_use]
+    pub fn line(&self) -> u32 {
+        let parity = match self.parity {
+            Parity::None => 0,
+            Parity::Even => 1,
+            Parity::Odd => 2,
+        };
+        let characters =
+            (u32::from(self.data_bits == 7) * 3 + parity) * 2 + u32::from(self.stop_bits == 2);
+        let of_wires = self.exchange.duplex.number() * 2 + u32::from(self.is_inverted);
+        // A rate has 24 bits, and the rest are fewer than 128.
+        self.baud | (characters * 8 + of_wires) << 24
     }
 
     /// The serial port of a link: 8N1, both ways.
@@ -280,6 +327,7 @@ impl Uart {
             checksum_from: 0,
             order: ByteOrder::Big,
             receive_only: false,
+            exchange: Exchange::default(),
         }
     }
 }

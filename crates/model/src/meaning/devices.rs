@@ -203,6 +203,11 @@ pub(super) const WIRES: &[Meaning] = &[
         "tx = PA2;",
     ),
     wire("rx", "Fixes the pin on which the board receives.", "rx = PA3;"),
+    wire(
+        "direction",
+        "Fixes the pin that is high while the board sends, with `duplex = direction`; any pin can be it.",
+        "direction = PA1;",
+    ),
     wire("sck", "Fixes the pin of the SPI clock.", "sck = PA5;"),
     wire("miso", "Fixes the pin of the SPI data from the device.", "miso = PA6;"),
     wire("mosi", "Fixes the pin of the SPI data to the device.", "mosi = PA7;"),
@@ -213,5 +218,12 @@ pub(super) const WIRES: &[Meaning] = &[
         "trigger",
         "Fixes the pin of the pulse that makes the device measure, with `pulse`; any pin can be it.",
         "trigger = PA1;",
+    ),
+    wire("step", "Fixes the pin of a motor's steps, an output of a timer.", "step = PB4;"),
+    wire("dir", "Fixes the pin of a motor's direction; any pin can be it.", "dir = PB5;"),
+    wire(
+        "enable",
+        "Fixes the pin that lets current into a motor; any pin can be it. `none`: there is no such wire.",
+        "enable = PB6;",
     ),
 ];

@@ -5,6 +5,7 @@ use sensedsl_wire::Direction;
 use super::takes::{RESISTANCE, TIME, VOLTAGE};
 use super::{Meaning, Takes, first};
 use crate::design::protocol::Formula;
+use crate::kind::uart::CHECKSUMS;
 use crate::part::coding::{CRCS, DRIVES, FORMATS};
 
 /// Where a value stands, in a reading or command or in the driver for all of them.
@@ -61,7 +62,7 @@ pub(super) const CODING: &[Meaning] = &[
         ("format", Takes::Words(|| first(&FORMATS))),
         "a binary number",
         "`decimal` and `hex` are numbers in a text; `degrees` is degrees and minutes as ten-millionths of a degree; \
-         `bcd` is two decimal digits a byte.",
+         `bcd` is two decimal digits a byte, `sign_magnitude` a number whose highest bit is its sign.",
         "format = decimal;",
     ),
     Meaning::new(
@@ -97,8 +98,8 @@ pub(super) const CODING: &[Meaning] = &[
     Meaning::new(
         ("drive", Takes::Words(|| first(&DRIVES))),
         "none",
-        "How one signed value becomes a motor's wires: a pulse width and two levels, or one pulse width for each \
-         direction.",
+        "How one signed value becomes a motor's wires: a pulse width and two levels, a pulse width and \
+         one level (on for a negative value), or one pulse width for each direction.",
         "drive = direction_pins;",
     )
     .only(Direction::Actuator),
@@ -132,6 +133,12 @@ pub(super) const PROTOCOL: &[Meaning] = &[
         "Written one after the other at the start, and again after a failed transfer; a time is a pause. Up to 128 \
          steps.",
         "init = [[0x6B, 0x80], 100 ms, [0x6B, 0x01]];",
+    ),
+    Meaning::new(
+        ("init_checksum", Takes::Words(|| first(&CHECKSUMS))),
+        "`none`",
+        "On a serial line, what stands after each list of bytes in `init`; of its bytes from `checksum_from` on.",
+        "init_checksum = crc16_umts;",
     ),
     Meaning::new(
         (

@@ -58,11 +58,14 @@ fn every_property_of_a_kind_is_described_as_it_is_read() {
             let is_listed = kind.spec().properties.contains(&own.name);
             assert!(is_listed, "{kind}: `{}` is described, and the kind has it not", own.name);
         }
-        // A `start` of eight bytes has the checksum begin anywhere; `bit` is what `bits` needs.
+        // A `start` of sixteen bytes has the checksum begin anywhere; `bit` is what `bits` needs.
         let mut all = Asked::new();
         for direction in kind.spec().directions {
-            let text =
-                device(kind, *direction, "start = \"12345678\"; mode = width; pulse = 1 ms;");
+            let text = device(
+                kind,
+                *direction,
+                "start = \"1234567812345678\"; mode = width; pulse = 1 ms;",
+            );
             for (name, takes) in asked(&text) {
                 all.entry(name).or_default().extend(takes);
             }
@@ -179,7 +182,10 @@ fn the_example_of_a_kinds_property_is_right() {
     for kind in KindName::ALL {
         for meaning in of_kind(kind) {
             let name = meaning.name;
-            let given = format!("{} start = \"$GPGGA\"; pulse = 10 us;", kind.spec().example);
+            let given = format!(
+                "{} start = \"$GPGGA\"; pulse = 10 us; duplex = direction;",
+                kind.spec().example
+            );
             let given: Vec<&str> = given
                 .split(';')
                 .map(str::trim)
@@ -189,6 +195,7 @@ fn the_example_of_a_kinds_property_is_right() {
                     other != name
                         && (is_known && (other != "start" || name == "checksum_from"))
                         && (other != "pulse" || ["wait", "trigger"].contains(&name))
+                        && (other != "duplex" || name == "direction")
                 })
                 .collect();
             let given: String = given.iter().map(|one| format!("{one}; ")).collect();

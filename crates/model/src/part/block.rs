@@ -66,13 +66,15 @@ pub(crate) fn assemble(
         Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new() };
     let mut homeless: BTreeSet<PartIndex> = BTreeSet::new();
     for mut read in parts {
-        match read.part.board {
-            None if is_whole => {}
-            Some(BoardIndex(index)) if let Some(Some(place)) = places.get(index) => {
-                read.part.board = Some(*place);
-                read.connections.iter_mut().for_each(|one| one.board = Some(*place));
+        let place =
+            read.part.board.and_then(|BoardIndex(index)| places.get(index).copied().flatten());
+        match (read.part.board, place) {
+            (None, _) if is_whole => {}
+            (Some(_), Some(place)) => {
+                read.part.board = Some(place);
+                read.connections.iter_mut().for_each(|one| one.board = Some(place));
             }
-            None | Some(_) => {
+            (None | Some(_), _) => {
                 homeless.insert(PartIndex(design.parts.len()));
                 left_out.push(read.part.name.clone());
             }

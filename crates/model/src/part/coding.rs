@@ -8,7 +8,10 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::design::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Output, Protocol, TextField,
 };
-use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number, points};
+use crate::fields::{
+    Codes, Fields, name_or_text, plain_integer, plain_number, points, with_address,
+};
+use crate::kind::uart::{CHECKSUMS, exchange::ADDRESS};
 use crate::kind::{Kind, KindName};
 use crate::part::reach;
 use crate::spanned::Spanned;
@@ -39,6 +42,7 @@ pub(crate) const CODING: &[&str] = &[
 /// The properties of a chip's protocol.
 pub(crate) const PROTOCOL: &[&str] = &[
     "init",
+    "init_checksum",
     "identity",
     "identity_mask",
     "register_size",
@@ -51,16 +55,31 @@ pub(crate) const PROTOCOL: &[&str] = &[
 
 /// The words after `crc`.
 pub(crate) const CRCS: [(&str, Crc); 1] = [("sensirion", Crc::Sensirion)];
-/// The words after `format`; `bcd` is the only one that is not of a text.
-pub(crate) const FORMATS: [(&str, Option<Format>); 4] = [
-    ("decimal", Some(Format::Decimal)),
-    ("degrees", Some(Format::Degrees)),
-    ("hex", Some(Format::Hex)),
-    ("bcd", None),
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Written {
+    /// In a text.
+    Text(Format),
+    /// Two decimal digits a byte.
+    Bcd,
+    /// A sign and a magnitude in place of the two's complement.
+    Magnitude,
+}
+
+/// The words after `format`.
+pub(crate) const FORMATS: [(&str, Written); 5] = [
+    ("decimal", Written::Text(Format::Decimal)),
+    ("degrees", Written::Text(Format::Degrees)),
+    ("hex", Written::Text(Format::Hex)),
+    ("bcd", Written::Bcd),
+    ("sign_magnitude", Written::Magnitude),
 ];
 /// The words after `drive`.
-pub(crate) const DRIVES: [(&str, Drive); 2] =
-    [("direction_pins", Drive::DirectionPins), ("two_pwm", Drive::TwoPwm)];
+pub(crate) const DRIVES: [(&str, Drive); 3] = [
+    ("direction_pins", Drive::DirectionPins),
+    ("direction_pin", Drive::DirectionPin),
+    ("two_pwm", Drive::TwoPwm),
+];
 
 /// Most raw values or ranges that mean "no measurement".
 const INVALID_MAX: usize = 16;
@@ -78,7 +97,11 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
     let packed = fields.integer("packed", 1..=32).and_then(|n| u8::try_from(n.value).ok());
     let byte = fields.integer("byte", 0..=1_023).and_then(|n| u16::try_from(n.value).ok());
     let format = fields.word("format", &FORMATS).map(|word| word.value);
-    let text = text(fields, format.flatten());
+    let of_text = match format {
+        Some(Written::Text(format)) => Some(format),
+        Some(Written::Bcd | Written::Magnitude) | None => None,
+    };
+    let text = text(fields, of_text);
     let exchange = fields.bytes("exchange", 1..=255).map(|bytes| bytes.value).unwrap_or_default();
     let output = output(fields, formula);
     let drive = fields.word("drive", &DRIVES).map(|word| word.value);
@@ -92,7 +115,8 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
         packed_bits: packed,
         byte: byte.unwrap_or(0),
         text,
-        bcd: format == Some(None),
+        bcd: format == Some(Written::Bcd),
+        is_magnitude: format == Some(Written::Magnitude),
         exchange,
         output,
         drive,
@@ -345,12 +369,20 @@ pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
 
 fn init(fields: &mut Fields<'_>) -> Vec<InitStep> {
     const TAKES: &str = "a list of byte lists and times such as [[0x6B, 0x80], 100 ms]";
+    let sum = fields.word("init_checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
     let Some(field) = fields.take("init") else { return Vec::new() };
+    let address = fields.peek_integer(ADDRESS).and_then(|number| u8::try_from(number).ok());
+    let from = fields.peek_integer("checksum_from").and_then(|from| usize::try_from(from).ok());
+    let framed = |mut bytes: Vec<u8>| {
+        bytes.extend(sum.of(&bytes, from.unwrap_or(0)));
+        InitStep::Write(bytes)
+    };
     let step = |value: &Value| match value {
-        Value::List(bytes) => {
+        Value::List(_) => {
+            let value = with_address(value, address);
             let byte = |one: &Spanned<Value>| u8::try_from(plain_integer(&one.value)?).ok();
-            let bytes: Option<Vec<u8>> = bytes.iter().map(byte).collect();
-            bytes.filter(|bytes| (1..=255).contains(&bytes.len())).map(InitStep::Write)
+            let bytes: Option<Vec<u8>> = value.list()?.iter().map(byte).collect();
+            bytes.filter(|bytes| (1..=252).contains(&bytes.len())).map(framed)
         }
         Value::Text(text) if !text.is_empty() && text.len() <= 255 => {
             Some(InitStep::Write(text.bytes().collect()))

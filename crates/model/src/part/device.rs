@@ -17,7 +17,8 @@ use crate::kind::{KindName, Role, i2c};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, CODING, FILTER};
 use crate::part::properties::{
-    COMMON_PROPERTIES, PRESENTATION, direction, divided, is_about_part, level, own,
+    COMMON_PROPERTIES, PRESENTATION, delay_ms as paced_ms, direction, divided, is_about_part,
+    level, own,
 };
 use crate::part::{chip, placement, reach, words};
 use crate::rule;
@@ -80,6 +81,7 @@ pub(crate) fn read(
         level,
     });
     let connections: Vec<Connection> = connections.collect();
+    let delay_ms = paced_ms(own.delay_ms, &kind);
     let device = Device {
         part: next.part,
         name: name.clone(),
@@ -87,9 +89,9 @@ pub(crate) fn read(
         id: own.id.unwrap_or(Spanned { value: 0, span: name.span }),
         direction,
         value,
+        delay_ms,
         kind,
         kind_span: kind_name.span,
-        delay_ms: own.delay_ms,
         delay_span: own.delay_span,
         prio: own.prio,
         prio_span: own.prio_span,
@@ -252,13 +254,17 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
 /// Words that people write for properties, each with the property that is meant.
 const OTHER_WORDS: &[(&str, &str)] = &[
     ("addr", "address"),
+    ("accel", "acceleration"),
     ("baudrate", "baud"),
     ("baud_rate", "baud"),
+    ("direction", "dir"),
     ("echo", "pin"),
+    ("en", "enable"),
     ("freq", "frequency"),
     ("gpio", "pin"),
     ("interval", "delay"),
     ("kind", "type"),
+    ("max_speed", "speed"),
     ("name", "label"),
     ("period", "delay"),
     ("port", "pin"),

@@ -165,7 +165,8 @@ fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
 fn repeated(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut parts: BTreeMap<PartIndex, Vec<&Device>> = BTreeMap::new();
     for device in &design.devices {
-        if device.coding.reading.is_some() && device.kind.resend_ms() > 0 {
+        let is_on_can = device.kind.can().is_some();
+        if is_on_can && device.coding.reading.is_some() && device.kind.resend_ms() > 0 {
             parts.entry(device.part).or_default().push(device);
         }
     }

@@ -12,4 +12,5 @@ pub(crate) mod placement;
 pub(crate) mod properties;
 pub mod reach;
 pub mod registers;
+pub(crate) mod serial;
 pub mod words;

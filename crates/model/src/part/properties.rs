@@ -60,7 +60,7 @@ pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
 /// The properties that a device has whatever it is connected to.
 pub(crate) struct Own {
     pub(crate) id: Option<Spanned<u8>>,
-    pub(crate) delay_ms: u32,
+    pub(crate) delay_ms: Option<u32>,
     pub(crate) delay_span: Option<Span>,
     pub(crate) prio: i8,
     pub(crate) prio_span: Option<Span>,
@@ -77,7 +77,7 @@ pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
     Own {
         id: id.and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })),
-        delay_ms: delay.map_or(DELAY_DEFAULT_MS, |delay| delay.value),
+        delay_ms: delay.map(|delay| delay.value),
         delay_span,
         prio: prio.unwrap_or(0),
         prio_span,
@@ -85,6 +85,12 @@ pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
         shown: presentation(fields),
         filter: coding::filter(fields),
     }
+}
+
+/// The cycle time; if the file gives none, one that leaves the part alone for as long as it needs.
+pub(crate) fn delay_ms(stated_ms: Option<u32>, kind: &Kind) -> u32 {
+    let rest_ms = kind.onewire().map_or(0, |own| own.rest_us.div_ceil(1_000));
+    stated_ms.unwrap_or_else(|| DELAY_DEFAULT_MS.max(rest_ms))
 }
 
 /// Adjusts the scale so that the host undoes the voltage divider. Only what a converter samples becomes less by it: the

@@ -44,6 +44,8 @@ pub enum Code {
     Float,
     /// Two decimal digits per byte.
     Bcd,
+    /// A binary number whose highest bit is its sign.
+    Magnitude,
     /// A binary number that follows the one before it without a gap.
     Packed,
 }
@@ -121,6 +123,14 @@ pub(crate) fn check(
     protocol: &Protocol,
 ) -> Result<(), String> {
     let Some(length) = length_bytes(kind, coding) else { return Ok(()) };
+    if let Some(bytes) = kind.answer_bytes().map(|bytes| bytes - 1)
+        && coding.byte.saturating_add(length) > bytes
+    {
+        let end = coding.byte.saturating_add(length);
+        return Err(format!(
+            "the part gives {bytes} bytes and their checksum, and the value ends at byte {end}"
+        ));
+    }
     // E0506 reports those.
     if kind.i2c().is_some() && coding.is_plain() {
         return Ok(());
@@ -216,8 +226,11 @@ fn in_frame(
     }
     let BitField { word_bytes, low, bits } = field;
     let is_whole = usize::from(bits) == 8 * of.size_bytes() && bits == 8 * word_bytes;
-    let code =
-        if is_whole || coding.bcd { code(coding, of, value, word_bytes)? } else { Code::Integer };
+    let code = if is_whole || coding.bcd || coding.is_magnitude {
+        code(coding, of, value, word_bytes)?
+    } else {
+        Code::Integer
+    };
     Ok(Words {
         code,
         word_bytes,
@@ -242,7 +255,7 @@ fn packed(
     if needed > u32::from(length) {
         return Err(format!("{count} numbers of {bits} bits are {needed} bytes, not {length}"));
     }
-    if coding.crc.is_some() || coding.bcd || coding.bits.is_some() {
+    if coding.crc.is_some() || coding.bcd || coding.is_magnitude || coding.bits.is_some() {
         return Err("`packed` goes with none of `bits`, `crc` and `format`".to_owned());
     }
     Ok(Words {
@@ -267,6 +280,9 @@ fn code(
 ) -> Result<Code, String> {
     if coding.bcd {
         return Ok(Code::Bcd);
+    }
+    if coding.is_magnitude {
+        return Ok(Code::Magnitude);
     }
     // If there are fewer bytes than a float has, they are a whole number.
     let is_whole = usize::from(word_bytes) != of.size_bytes() || coding.bits.is_some();

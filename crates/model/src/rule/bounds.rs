@@ -85,7 +85,9 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
         | Interface::Digital(_)
         | Interface::Encoder(_)
         | Interface::Icu(_)
+        | Interface::OneWire(_)
         | Interface::Pwm(_)
+        | Interface::Stepper(_)
         | Interface::Uart(_) => return None,
     };
     let (asked_words, most_words) = (shown_hz(asked), shown_hz(most));

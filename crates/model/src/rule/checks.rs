@@ -1,7 +1,10 @@
 //! What the hardware will not do although the file asks for it: a design in, reports out.
 
+use std::collections::BTreeMap;
+
 use sensedsl_diagnostics::codes::{
-    e0506_hardware_limit, w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
+    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, w0601_unused_property,
+    w0602_slower_than_asked, w0603_narrow_type,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{Direction, ValueType};
@@ -9,6 +12,7 @@ use sensedsl_wire::{Direction, ValueType};
 use super::{bounds, ranges};
 use crate::design::{Design, Device};
 use crate::kind::Interface;
+use crate::kind::onewire::Rom;
 
 /// Bits of one ADC conversion on all profiles; the driver scales wider ones.
 const ADC_BITS: u32 = 12;
@@ -20,10 +24,13 @@ const ELEMENT_BYTES_MAX: usize = 8;
 pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
         diagnostics.extend(unused_pace(device));
-        diagnostics.extend(too_slow(device));
+        // The values of a chip are asked together.
+        let slow = too_slow(design, device).filter(|one| diagnostics.last() != Some(one));
+        diagnostics.extend(slow);
         diagnostics.extend(narrow(device));
         diagnostics.extend(impossible_length(device));
     }
+    diagnostics.extend(same_rom(design));
     bounds::check(design, diagnostics);
     ranges::check(design, diagnostics);
 }
@@ -34,7 +41,11 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
-    let why = "the timer sees every edge by itself";
+    let why = if device.kind.stepper().is_some() {
+        "a timer makes and counts the steps by itself"
+    } else {
+        "the timer sees every edge by itself"
+    };
     let kind = device.kind.name().name();
     let unused = |(name, at): (&str, Option<Span>)| {
         let mut unused = w0601_unused_property::unused_property(at?, name, kind, why);
@@ -48,17 +59,59 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     written.into_iter().filter_map(unused).collect()
 }
 
-fn too_slow(device: &Device) -> Option<Diagnostic> {
-    let i2c = device.kind.i2c()?;
-    if u64::from(i2c.wait_us) <= u64::from(device.delay_ms) * 1_000 {
+fn too_slow(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let (wait_us, wait_span) = match device.kind.interface() {
+        Interface::I2c(own) => (own.wait_us, own.wait_span),
+        Interface::OneWire(own) => (own.wait_us.max(own.rest_us), own.wait_span),
+        Interface::Analog(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Digital(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Can(_)
+        | Interface::Stepper(_) => return None,
+    };
+    if u64::from(wait_us) <= u64::from(device.delay_ms) * 1_000 {
         return None;
     }
-    let at = device.delay_span.or(i2c.wait_span)?;
-    let needs_ms = i2c.wait_us.div_ceil(1_000).to_string();
-    let asked = (device.name.value.as_str(), device.name.span, device.delay_span);
+    let must_rest = device.kind.onewire().is_some_and(|own| own.rest_us > 0);
+    let at = device.delay_span.or(if must_rest { Some(device.name.span) } else { wait_span })?;
+    let needs_ms = wait_us.div_ceil(1_000).to_string();
+    let part = design.part(device.part).filter(|_| must_rest);
+    let part = part.map_or(&device.name, |part| &part.name);
+    let asked = (part.value.as_str(), part.span, device.delay_span);
     let delay_ms = device.delay_ms.to_string();
-    let source = i2c.wait_span.filter(|wait| Some(*wait) != Some(at));
-    Some(w0602_slower_than_asked::slower_than_asked(at, asked, &needs_ms, &delay_ms, source))
+    let source = wait_span.filter(|wait| *wait != at);
+    let report = if must_rest {
+        e0241_asked_too_often::asked_too_often
+    } else {
+        w0602_slower_than_asked::slower_than_asked
+    };
+    Some(report(at, asked, &needs_ms, &delay_ms, source))
+}
+
+/// Reports parts on 1-Wire that have one address: there is one part of each in the world.
+fn same_rom(design: &Design) -> Vec<Diagnostic> {
+    let mut first: BTreeMap<Rom, (&str, Span)> = BTreeMap::new();
+    let mut reports = Vec::new();
+    for wires in &design.connections {
+        let Some(own) = wires.kind.onewire() else { continue };
+        let (Some(rom), Some(part)) = (own.rom, design.part(wires.part)) else { continue };
+        let at = own.rom_span.unwrap_or(part.name.span);
+        let name = part.name.value.as_str();
+        match first.get(&rom) {
+            Some((other, before)) => {
+                reports.push(e0242_same_rom::same_rom((at, name), (*before, other), &rom.shown()));
+            }
+            None => {
+                first.insert(rom, (name, at));
+            }
+        }
+    }
+    reports
 }
 
 /// Reports an I2C device whose bytes are not whole elements that a value can hold.
@@ -96,11 +149,13 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         Interface::Analog(_) => (ADC_BITS, like(value, "uint16")),
         Interface::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
         // Other bytes are compared with the value's type where their words are read.
-        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
-            return None;
-        }
+        Interface::I2c(_)
+        | Interface::Spi(_)
+        | Interface::Uart(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_) => return None,
         Interface::Icu(_) | Interface::Encoder(_) | Interface::Digital(_) => return None,
-        Interface::Pwm(_) | Interface::Dac(_) => return None,
+        Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => return None,
     };
     let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
     if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)

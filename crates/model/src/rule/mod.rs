@@ -4,7 +4,7 @@
 mod bounds;
 pub(crate) mod checks;
 pub(crate) mod names;
-mod ranges;
+pub(crate) mod ranges;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};

@@ -21,7 +21,16 @@ const SUPPLY_MAX_MV: u32 = 5_000;
 pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
         diagnostics.extend(narrow(device));
-        diagnostics.extend(over_supply(design, device).or_else(|| beyond(device)));
+        let over = over_supply(design, device).or_else(|| beyond(device));
+        // A bound in a driver of the file was reported at the driver.
+        let is_told = |one: &Diagnostic| {
+            diagnostics
+                .iter()
+                .any(|told| told.code == one.code && told.primary.span == one.primary.span)
+        };
+        if let Some(over) = over.filter(|over| !is_told(over)) {
+            diagnostics.push(over);
+        }
     }
     diagnostics.extend(bare_numbers(design));
 }
@@ -113,7 +122,7 @@ fn supply_mv(board: &Board) -> u32 {
 }
 
 /// Warns of a bound that the shown value never reaches.
-fn beyond(device: &Device) -> Option<Diagnostic> {
+pub(crate) fn beyond(device: &Device) -> Option<Diagnostic> {
     let (least, most) = shown(device)?;
     // One step short is not a mistake: 100 / 4096 ends one step below 100.
     let (first, last) = raw(device)?;

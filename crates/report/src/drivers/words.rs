@@ -2,6 +2,7 @@
 
 use sensedsl_model::facts::{ConnectionFacts, PartFacts, ValueFacts};
 use sensedsl_model::kind::digital::Pull;
+use sensedsl_model::kind::onewire::OneWireProtocol;
 use sensedsl_model::kind::uart::Parity;
 use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_model::written::{shown_mv, shown_ohm};
@@ -208,6 +209,10 @@ pub(super) fn settings(kind: &Kind) -> String {
     let words: Vec<String> = match kind.interface() {
         Interface::I2c(i2c) => vec![hertz(i2c.speed_hz)],
         Interface::Spi(spi) => vec![hertz(spi.clock_hz), format!("mode {}", spi.mode)],
+        Interface::OneWire(own) => match own.protocol {
+            OneWireProtocol::W1 => vec!["1-Wire".to_owned()],
+            OneWireProtocol::Dht => vec![format!("asked by a low pulse of {} us", own.pulse_us)],
+        },
         Interface::Uart(uart) => {
             let parity = match uart.parity {
                 Parity::None => 'N',
@@ -241,6 +246,11 @@ pub(super) fn settings(kind: &Kind) -> String {
             let active = if digital.active_low { "on when low" } else { "on when high" };
             pull.into_iter().chain([active]).map(str::to_owned).collect()
         }
+        Interface::Stepper(motor) => vec![
+            format!("up to {} steps/s", motor.speed),
+            format!("{} steps/s^2", motor.acceleration),
+            format!("pulses {} us", motor.pulse_us),
+        ],
         Interface::Analog(_) | Interface::Dac(_) | Interface::Can(_) => Vec::new(),
     };
     words.join(", ")

@@ -17,6 +17,8 @@ pub(super) struct Buses {
     can: BTreeSet<String>,
     /// Each needs its resistors, which are noted at the first part.
     i2c: BTreeSet<String>,
+    /// So does each pin that is a part's only wire.
+    wires: BTreeSet<String>,
 }
 
 impl Buses {
@@ -72,7 +74,10 @@ pub(super) fn of_part(
         lines.push(rails.supply(contact, range_mv, &headers));
     }
     let about = module.map_or(String::new(), |module| module.title.clone());
-    let notes = notes(module, &own, needs_pulls);
+    let wire = own.iter().find(|(connection, _)| connection.kind.onewire().is_some());
+    let pin = wire.and_then(|(_, wiring)| Some(wiring.wires.first()?.pin(board)?.name.to_string()));
+    let pulled = pin.filter(|pin| buses.wires.insert(pin.clone()));
+    let notes = notes(module, &own, needs_pulls, pulled);
     PartSheet { name: part.name.value.clone(), about, lines, notes }
 }
 
@@ -143,6 +148,7 @@ fn notes(
     module: Option<&Module>,
     own: &[(&Connection, &ConnectionWiring)],
     needs_pulls: bool,
+    pulled: Option<String>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
     for (connection, _) in own {
@@ -151,6 +157,11 @@ fn notes(
         {
             notes.push(format!("A voltage divider is needed: {divided}."));
         }
+    }
+    if let Some(pin) = pulled {
+        notes.push(format!(
+            "The wire at {pin} needs a resistor of 4.7 kOhm to the supply, one for all parts on it; most modules have one."
+        ));
     }
     if needs_pulls {
         notes.push(

@@ -9,6 +9,7 @@ pub mod pwm;
 pub mod spi;
 pub mod uart;
 pub mod watchdog;
+pub mod wire;
 
 pub use watchdog::restart;
 

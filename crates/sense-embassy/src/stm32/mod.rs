@@ -9,11 +9,13 @@ pub mod edges;
 pub mod i2c;
 pub mod pwm;
 pub mod spi;
+pub mod stepper;
 pub mod timer;
 #[cfg(any(feature = "usart-v1", feature = "usart-v3"))]
 pub mod usart;
 #[cfg(feature = "otg")]
 pub mod usb;
+pub mod wire;
 
 use embassy_stm32::gpio::{Input, Output};
 

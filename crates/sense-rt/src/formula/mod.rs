@@ -4,10 +4,12 @@
 //! A table refers to its formula, so that only the formulas that a board uses are linked.
 
 mod bosch;
+mod hx711;
 mod ntc;
 mod tsl2561;
 
 pub use self::bosch::{BME280, BMP280};
+pub use self::hx711::HX711;
 pub use self::ntc::NTC;
 pub use self::tsl2561::TSL2561;
 

@@ -1,7 +1,7 @@
 //! The format of messages and their fields.
 
 use crate::bytes::at;
-use crate::checksum::{crc8, sum8, sum16, xor8};
+use crate::checksum::{crc8, crc16_of, sum8, sum16, xor8};
 use crate::coding::Coding;
 use crate::outcome::Outcome;
 use crate::parse::{field, parse_decimal, parse_degrees, parse_hex};
@@ -9,7 +9,10 @@ use crate::scalar::Scalar;
 use crate::schema::{Item, Schema};
 
 const DVB_S2_POLYNOMIAL: u8 = 0xD5;
+const LD06_POLYNOMIAL: u8 = 0x4D;
 const IBUS_START: u16 = 0xFFFF;
+const UMTS_POLYNOMIAL: u16 = 0x8005;
+const XMODEM_POLYNOMIAL: u16 = 0x1021;
 
 /// The checksum after the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +27,24 @@ pub enum MessageChecksum {
     Ibus,
     /// 1 byte: CRC-8 with polynomial 0xD5 and start value 0.
     Crc8DvbS2,
+    /// 1 byte: CRC-8 with polynomial 0x4D and start value 0.
+    Crc8Ld06,
+    /// 2 bytes, high byte first: the low 16 bits of the sum.
+    Sum16,
     /// 3 bytes: `*` and two hex digits, the exclusive or of the bytes between `start` and `*`.
     Nmea,
+    /// 1 byte: the low seven bits of the sum.
+    Sum7,
+    /// 1 byte: the low byte of the sum, inverted.
+    NotSum8,
+    /// 1 byte: what makes the low byte of the sum 0.
+    NegSum8,
+    /// 2 bytes, high byte first: what makes the low two bytes of the sum 0.
+    NegSum16,
+    /// 2 bytes, low byte first: CRC-16 with polynomial 0x8005 and start value 0.
+    Crc16Umts,
+    /// 2 bytes, high byte first: CRC-16 with polynomial 0x1021 and start value 0.
+    Crc16Xmodem,
 }
 
 impl MessageChecksum {
@@ -34,8 +53,14 @@ impl MessageChecksum {
     pub const fn bytes(self) -> usize {
         match self {
             Self::None => 0,
-            Self::Sum8 | Self::Xor8 | Self::Crc8DvbS2 => 1,
-            Self::Ibus => 2,
+            Self::Sum8
+            | Self::Sum7
+            | Self::NotSum8
+            | Self::NegSum8
+            | Self::Xor8
+            | Self::Crc8DvbS2
+            | Self::Crc8Ld06 => 1,
+            Self::Ibus | Self::Sum16 | Self::NegSum16 | Self::Crc16Umts | Self::Crc16Xmodem => 2,
             Self::Nmea => 3,
         }
     }
@@ -44,15 +69,21 @@ impl MessageChecksum {
     pub(crate) fn of(self, before: &[u8], start_bytes: usize, from: u8) -> ([u8; 3], usize) {
         let from = if self == Self::Nmea { start_bytes } else { usize::from(from) };
         let summed = before.get(from..).unwrap_or_default();
+        let two = |[first, second]: [u8; 2]| [first, second, 0];
         let bytes = match self {
             Self::None => [0; 3],
+            Self::Sum7 => [sum8(summed) & 0x7F, 0, 0],
+            Self::NotSum8 => [!sum8(summed), 0, 0],
+            Self::NegSum8 => [sum8(summed).wrapping_neg(), 0, 0],
+            Self::NegSum16 => two(sum16(summed).wrapping_neg().to_be_bytes()),
+            Self::Crc16Umts => two(crc16_of(UMTS_POLYNOMIAL, summed).to_le_bytes()),
+            Self::Crc16Xmodem => two(crc16_of(XMODEM_POLYNOMIAL, summed).to_be_bytes()),
             Self::Sum8 => [sum8(summed), 0, 0],
             Self::Xor8 => [xor8(summed), 0, 0],
             Self::Crc8DvbS2 => [crc8(DVB_S2_POLYNOMIAL, 0, summed), 0, 0],
-            Self::Ibus => {
-                let [low, high] = IBUS_START.wrapping_sub(sum16(summed)).to_le_bytes();
-                [low, high, 0]
-            }
+            Self::Crc8Ld06 => [crc8(LD06_POLYNOMIAL, 0, summed), 0, 0],
+            Self::Sum16 => two(sum16(summed).to_be_bytes()),
+            Self::Ibus => two(IBUS_START.wrapping_sub(sum16(summed)).to_le_bytes()),
             Self::Nmea => {
                 let sum = xor8(summed);
                 [b'*', hex_digit(sum >> 4), hex_digit(sum & 15)]

@@ -5,10 +5,10 @@ use std::str::SplitWhitespace;
 
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
-    Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, Filter,
-    FilterTable, Item, MessageChecksum, Number, Outcome, PulseWidth, Range, Scalar, WIDE, decay,
-    load_magnitude, parse_decimal, parse_degrees, parse_hex, pulse_level, store_count,
-    store_signed, store_signed_ratio, store_unsigned,
+    Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, FieldFormat,
+    Filter, FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range,
+    Scalar, Stepper, WIDE, decay, load_magnitude, parse_decimal, parse_degrees, parse_hex,
+    pulse_level, store_count, store_signed, store_signed_ratio, store_unsigned,
 };
 
 use super::link::Link;
@@ -79,7 +79,8 @@ impl<'a> Words<'a> {
         Coding {
             elements: self.bytes().leak(),
             words: self.number() as u16,
-            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed][self.number() as usize],
+            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed, Code::Magnitude]
+                [self.number() as usize],
             crc: [Crc::None, Crc::Sensirion][self.number() as usize],
             word_bytes: self.byte(),
             low: self.byte(),
@@ -100,6 +101,9 @@ pub(crate) fn say_bytes(out: &mut String, bytes: &[u8]) {
     bytes.iter().for_each(|byte| write!(out, "{byte:02x}").unwrap());
 }
 
+const MOTOR: MotorConfig =
+    MotorConfig { tick_hz: 1, speed: 1, acceleration: 1, is_velocity: false };
+
 /// The state that is kept from question to question.
 pub(crate) struct Desk {
     item: Item,
@@ -109,6 +113,7 @@ pub(crate) struct Desk {
     bridge: (Bridge, BridgeState),
     counter: Counter,
     elements: Elements,
+    motor: (MotorConfig, Stepper),
     link: Link,
 }
 
@@ -124,6 +129,7 @@ impl Default for Desk {
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
             elements: Elements::NEW,
+            motor: (MOTOR, Stepper::NEW),
             link: Link::default(),
         }
     }
@@ -156,7 +162,8 @@ impl Desk {
             }
             "see" => self.see(&mut words, &mut out),
             "bridge" => {
-                let mode = [BridgeMode::DirectionPins, BridgeMode::TwoPwm][words.number() as usize];
+                use BridgeMode::{DirectionPin, DirectionPins, TwoPwm};
+                let mode = [DirectionPins, TwoPwm, DirectionPin][words.number() as usize];
                 self.bridge = (Bridge { mode, full: words.small() }, BridgeState::NEW);
             }
             "drive" => {
@@ -175,9 +182,36 @@ impl Desk {
                 self.elements.note(words.number() as usize);
                 write!(out, " {}", u8::from(self.elements.are_due(8, words.flag()))).unwrap();
             }
+            "motor" | "target" | "halt" | "advance" => self.motor(word, &mut words, &mut out),
             _ => self.link.answer(word, &mut words, &mut out),
         }
         out
+    }
+
+    fn motor(&mut self, word: &str, words: &mut Words<'_>, out: &mut String) {
+        let (config, stepper) = &mut self.motor;
+        match word {
+            "motor" => {
+                *config = MotorConfig {
+                    tick_hz: words.small(),
+                    speed: words.small(),
+                    acceleration: words.small(),
+                    is_velocity: words.flag(),
+                };
+                *stepper = Stepper::NEW;
+            }
+            "target" => {
+                let scalar = words.scalar();
+                stepper.command(config, scalar, &words.element(scalar));
+            }
+            "halt" => stepper.stop(),
+            _ => {
+                let ticks = stepper.advance(config);
+                let (step, back) = (stepper.is_step(), stepper.is_backward());
+                let (step, back) = (u8::from(step), u8::from(back));
+                write!(out, " {ticks} {step} {back} {}", stepper.position()).unwrap();
+            }
+        }
     }
 
     fn begin_filter(&mut self, words: &mut Words<'_>) {
@@ -301,15 +335,27 @@ fn encode(words: &mut Words<'_>, out: &mut String) {
 
 fn compose(words: &mut Words<'_>, out: &mut String) {
     let (item, value) = (words.item(), words.coding());
-    let (start, end) = (words.bytes().leak(), words.bytes().leak());
-    use MessageChecksum::{Crc8DvbS2, Ibus, Nmea, Sum8, Xor8};
-    let all = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
+    let (start, behind) = (words.bytes().leak(), words.bytes().leak());
+    let end = words.bytes().leak();
+    let formats =
+        [FieldFormat::Binary, FieldFormat::Decimal, FieldFormat::Degrees, FieldFormat::Hex];
+    let format = formats[words.number() as usize];
+    let (separator, decimals) = (words.byte(), words.byte());
+    use MessageChecksum::{
+        Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea,
+    };
+    use MessageChecksum::{NotSum8, Sum7, Sum8, Sum16, Xor8};
+    let first = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
+    let second = [Sum7, NotSum8, NegSum8, NegSum16, Crc16Umts, Crc16Xmodem];
+    let all = [&first[..], &second, &[Crc8Ld06, Sum16]].concat();
     let checksum = all[words.number() as usize];
-    let compose = Compose { start, end, value, checksum, checksum_from: words.byte() };
+    let checksum_from = words.byte();
+    let compose =
+        Compose { start, behind, end, format, value, separator, decimals, checksum, checksum_from };
     let value = words.value(&item);
     let mut message = vec![0xEE; compose.bytes(&item)];
     let size = compose.write(&item, &value, &mut message);
-    assert!(size == 0 || size == message.len());
+    assert!(size == 0 || size == message.len() || format != FieldFormat::Binary);
     out.push(' ');
     say_bytes(out, &message[..size]);
 }
@@ -328,7 +374,8 @@ fn parse(words: &mut Words<'_>, out: &mut String) {
 }
 
 fn formula(words: &mut Words<'_>, out: &mut String) {
-    let all = [sense_rt::BMP280, sense_rt::BME280, sense_rt::NTC, sense_rt::TSL2561];
+    let all =
+        [sense_rt::BMP280, sense_rt::BME280, sense_rt::NTC, sense_rt::TSL2561, sense_rt::HX711];
     let formula = all[words.number() as usize];
     let parameters = [(); 3].map(|()| words.small().cast_signed());
     let (calibration, raw) = (words.bytes(), words.bytes());

@@ -19,6 +19,7 @@
 #include "up_parse.h"
 #include "up_pulse_width.h"
 #include "up_reporter.h"
+#include "up_stepper.h"
 
 #define BYTES_MAX 512U
 #define ELEMENTS_MAX 16U
@@ -188,10 +189,16 @@ static void compose(void) {
   up_compose_t how = {.value = ask_coding()};
   uint64_t value[ELEMENTS_MAX] = {0};
   uint8_t bytes[BYTES_MAX];
-  block_t start, end;
+  block_t start, behind, end;
 
   ask_block(&start);
+  ask_block(&behind);
   ask_block(&end);
+  how.behind = behind.bytes;
+  how.behind_count = (uint8_t)behind.count;
+  how.format = (uint8_t)ask();
+  how.separator = (char)ask();
+  how.decimals = (uint8_t)ask();
   how.start = start.bytes;
   how.start_count = (uint8_t)start.count;
   how.end = end.bytes;
@@ -230,8 +237,9 @@ static void parse(void) {
 }
 
 static void formula(void) {
-  const up_formula_t *all[] = {&up_formula_bmp280, &up_formula_bme280, &up_formula_ntc, &up_formula_tsl2561};
-  const up_formula_t *one = all[ask() % 4U];
+  const up_formula_t *all[] = {&up_formula_bmp280, &up_formula_bme280, &up_formula_ntc, &up_formula_tsl2561,
+                                  &up_formula_hx711};
+  const up_formula_t *one = all[ask() % 5U];
   int32_t parameters[3];
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX] = {0};
   block_t calibration, raw;
@@ -442,6 +450,36 @@ static void note_element(void) {
   printf(" %u", (unsigned)up_elements_are_due(flags, sizeof flags, is_complete));
 }
 
+static up_stepper_t motor;
+static up_stepper_state_t motor_state;
+
+static void begin_motor(void) {
+  memset(&motor_state, 0, sizeof motor_state);
+  motor.tick_hz = (uint32_t)ask();
+  motor.speed = (uint32_t)ask();
+  motor.acceleration = (uint32_t)ask();
+  motor.is_velocity = ask() != 0U;
+}
+
+static void command_motor(void) {
+  const up_field_t field = {.type = (uint8_t)ask(), .count = 1U};
+  uint64_t element;
+
+  ask_value(&field, &element);
+  up_stepper_command(&motor, &motor_state, field.type, &element);
+}
+
+static void stop_motor(void) {
+  up_stepper_stop(&motor_state);
+}
+
+static void advance_motor(void) {
+  const uint32_t ticks = up_stepper_advance(&motor, &motor_state);
+
+  printf(" %" PRIu32 " %u %u %" PRId32, ticks, (unsigned)motor_state.is_step, (unsigned)motor_state.is_backward,
+         motor_state.position);
+}
+
 int main(void) {
   static const question_t all[] = {
       {"ratio", ratio},          {"store", stored},       {"magnitude", magnitude}, {"decode", decode},
@@ -449,6 +487,7 @@ int main(void) {
       {"filter", begin_filter},  {"apply", apply_filter}, {"decay", ask_decay},     {"capture", begin_capture},
       {"captured", read_capture}, {"contact", begin_contact}, {"see", see_contact}, {"bridge", begin_bridge},
       {"drive", drive},          {"count", count},        {"element", note_element},
+      {"motor", begin_motor},    {"target", command_motor}, {"halt", stop_motor},   {"advance", advance_motor},
   };
   char word[16];
   size_t i;
@@ -463,6 +502,7 @@ int main(void) {
       ask_reporter(word);
     }
     printf("\n");
+    fflush(stdout); /* who asks may wait for the answer */
   }
   return 0;
 }

@@ -7,9 +7,10 @@
 
 mod answer;
 mod link;
+mod moves;
 mod questions;
 
-use std::io::Write as _;
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -17,9 +18,9 @@ use sensedsl_tests::{Random, files, has, is_thorough, root};
 
 use self::answer::Desk;
 
-fn build() -> PathBuf {
+fn build(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).to_path_buf();
-    let program = folder.join(format!("sense-rt-core-{}", std::process::id()));
+    let program = folder.join(format!("sense-rt-{name}-{}", std::process::id()));
     let (core, own) =
         (root().join("crates/firmware-c/runtime"), root().join("crates/sense-rt/tests/same"));
     let mut command = Command::new("gcc");
@@ -49,6 +50,29 @@ fn ask(program: &Path, questions: &[String]) -> Vec<String> {
     all
 }
 
+/// Asks one question after the other, so that the next one can depend on the answer.
+#[test]
+fn the_motor_in_c_moves_as_the_vectors_say() {
+    if !has("gcc") {
+        return;
+    }
+    let program = build("moves");
+    let mut child =
+        Command::new(&program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let mut stdout = BufReader::new(child.stdout.take().unwrap());
+    moves::hold(&mut |question| {
+        writeln!(stdin, "{question}").unwrap();
+        stdin.flush().unwrap();
+        let mut answer = String::new();
+        stdout.read_line(&mut answer).unwrap();
+        answer.trim_end().to_owned()
+    });
+    drop(stdin);
+    assert!(child.wait().unwrap().success());
+    std::fs::remove_file(&program).unwrap();
+}
+
 /// The first question that the two answer differently.
 fn difference(questions: &[String], of_c: &[String]) -> Option<String> {
     let mut desk = Desk::default();
@@ -68,7 +92,7 @@ fn rust_answers_as_c_does() {
     if !has("gcc") {
         return;
     }
-    let program = build();
+    let program = build("core");
     let mut random = Random::new(11);
     let rounds = if is_thorough() { 200 } else { 2 };
     let questions: Vec<String> = (0..rounds).flat_map(|_| questions::round(&mut random)).collect();

@@ -7,7 +7,7 @@ use super::answer::SCALARS;
 
 /// The first words of the answers that carry a result.
 pub(crate) const WORDS: &str = "ratio store magnitude decode encode compose parse formula \
-    decay apply captured see drive count element cycle";
+    decay apply captured see drive count element advance cycle";
 
 /// A random number: unrestricted, small, near a power of two, or near the end of the range.
 fn number(random: &mut Random) -> u64 {
@@ -58,7 +58,7 @@ fn elements(random: &mut Random, scalar: usize, count: usize) -> String {
 /// What the language allows, and a little more: a coding, the number of its words, and the bytes
 /// that they take.
 fn coding(random: &mut Random, scalar: usize, count: usize) -> (String, usize) {
-    let code = random.below(4);
+    let code = random.below(5);
     let size = SCALARS[scalar].bytes();
     let word_bytes = if code == 1 && random.below(8) > 0 { size } else { 1 + random.below(8) };
     let has_elements = random.below(4) == 0;
@@ -142,9 +142,14 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("encode {one} {count} {how}{}", elements(random, one, count)));
     let (start, end) = (random.below(4), random.below(3));
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
-    let (sum, from) = (random.below(6), random.below(5));
+    let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
+    let behind = hex(&bytes(random, behind));
+    let as_text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
+    let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { as_text };
     let values = elements(random, one, count);
-    all.push(format!("compose {one} {count} {how} {start} {end} {sum} {from}{values}"));
+    all.push(format!(
+        "compose {one} {count} {how} {start} {behind} {end} {format} {separator} {decimals} {sum} {from}{values}"
+    ));
     let (first, way) = (text(random), random.below(3));
     let place = *random.pick(&["4e", "53", "45", "57", "204e", "-", "5858"]).unwrap();
     let first = if way == 1 && random.below(4) > 0 { degrees(random) } else { first };
@@ -158,7 +163,7 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
         0x00, 0xF9, 0xFF, 0x8C, 0x3C, 0xF8, 0xC6, 0x70, 0x17, 0x4B, 0x6C, 0x01, 0x00, 0x13, 0x29,
         0x03, 0x1E,
     ];
-    let which = random.below(4);
+    let which = random.below(5);
     let mut calibration = SOUND.to_vec();
     if random.below(3) == 0 {
         let at = random.below(32);
@@ -171,6 +176,7 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
             let near = |random: &mut Random| 0x40 + random.below(0x60) as u8;
             (0..8).map(|_| near(random)).collect()
         }
+        4 if random.below(5) > 0 => load_cell(random),
         2 => (random.below(4100) as u16).to_be_bytes().to_vec(),
         _ => bytes(random, 8),
     };
@@ -185,6 +191,18 @@ fn formulas(random: &mut Random, all: &mut Vec<String>) {
         ),
     };
     all.push(format!("formula {which} {parameters} {} {}", hex(&calibration), hex(&raw)));
+}
+
+/// What an HX711 answers, ready or not.
+fn load_cell(random: &mut Random) -> Vec<u8> {
+    let code = random.next() as u32;
+    let mut all = vec![if random.below(6) > 0 { 0 } else { 1 }];
+    all.extend((0..6).map(|at| {
+        let pairs = (0..4).map(|bit| ((code >> (23 - 4 * at - bit) & 1) * 3) << (6 - 2 * bit));
+        pairs.sum::<u32>() as u8
+    }));
+    all.push(if random.below(6) > 0 { 0xFF } else { 0xFE });
+    all
 }
 
 fn filters(random: &mut Random, all: &mut Vec<String>) {
@@ -231,7 +249,7 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
         all.push(format!("see {} {} {now}", random.below(4), random.below(2)));
         now = now.wrapping_add(random.below(20) as u32);
     }
-    all.push(format!("bridge {} {}", random.below(2), random.below(20_000)));
+    all.push(format!("bridge {} {}", random.below(3), random.below(20_000)));
     for _ in 0..6 {
         all.push(format!("drive {one}{}", elements(random, one, 1)));
     }
@@ -307,6 +325,25 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
     }
 }
 
+/// Targets of all sizes and at all moments, most of them in reach.
+fn motors(random: &mut Random, all: &mut Vec<String>) {
+    let below = |random: &mut Random, most: usize| (1 + random.below(most)) >> random.below(16);
+    let (ticks, speed) = (below(random, 4_000_000).max(1_000), below(random, 500_000).max(1));
+    let (acceleration, is_velocity) = (below(random, 10_000_000).max(1), random.below(2));
+    all.push(format!("motor {ticks} {speed} {acceleration} {is_velocity}"));
+    for _ in 0..12 {
+        let (one, near) = (scalar(random), random.below(400) as i32 - 200);
+        match random.below(4) {
+            0 => all.push(format!("target {one}{}", elements(random, one, 1))),
+            1 => all.push("halt".to_owned()),
+            _ => all.push(format!("target 6 {:x}", near.cast_unsigned())),
+        }
+        for _ in 0..random.below(120) {
+            all.push("advance".to_owned());
+        }
+    }
+}
+
 /// A round of questions of all kinds.
 pub(crate) fn round(random: &mut Random) -> Vec<String> {
     let mut all = Vec::new();
@@ -318,6 +355,7 @@ pub(crate) fn round(random: &mut Random) -> Vec<String> {
     for _ in 0..20 {
         filters(random, &mut all);
         pins(random, &mut all);
+        motors(random, &mut all);
     }
     for _ in 0..4 {
         links(random, &mut all);

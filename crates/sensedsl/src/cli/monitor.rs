@@ -9,7 +9,7 @@ use super::sinks::SinkArgs;
 
 #[derive(Debug, Args)]
 pub(crate) struct MonitorArgs {
-    /// The board's serial port; a record; a file with bytes of a board, or - for the standard input;
+    /// The board's serial port, or tcp:HOST:PORT; a record; a file with bytes of a board, or - for the standard input;
     /// `simulate` for a board in this program. Without it the board is looked for on all USB ports
     #[arg(value_name = "DEVICE")]
     pub(crate) device: Option<String>,

@@ -31,12 +31,16 @@ pub(crate) struct SimulateArgs {
     /// Compare every report with the world, as fast as possible; exit 1 where they disagree
     #[arg(long)]
     pub(crate) judge: bool,
-    /// With --judge, write a case for each device to a file, as JUnit XML for a build server
+    /// With --judge, write a case for each device to a file, as `JUnit` XML for a build server
     #[arg(long, value_name = "FILE", requires = "judge")]
     pub(crate) junit: Option<PathBuf>,
     /// Print what the board reports, and make no pseudo-terminal
     #[arg(long, conflicts_with = "judge")]
     pub(crate) stdout: bool,
+    /// Be at that port in place of a pseudo-terminal: PORT of this machine, or HOST:PORT; 0 is a port
+    /// that is free. Hosts then open tcp:HOST:PORT
+    #[arg(long, value_name = "PORT", conflicts_with_all = ["judge", "stdout"])]
+    pub(crate) tcp: Option<String>,
     /// Stop after that time; 10 with --judge, and where --stdout is not a terminal, or as long as a
     /// recorded run
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
@@ -52,6 +56,7 @@ pub(crate) struct SimulateArgs {
     pub(crate) frames: Option<PathBuf>,
     /// Make an adapter (slcan) of each CAN bus on a pseudo-terminal, and leave the devices on it to
     /// whoever opens it
+    #[cfg(unix)]
     #[arg(long, conflicts_with_all = ["judge", "stdout"])]
     pub(crate) can: bool,
     /// Write all that comes out of the MCU's pads and buses to a file (CSV), with its time

@@ -260,7 +260,7 @@ fn look(
 fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<()> {
     for program in &job.programs {
         let Some(mut command) = command(job, program, builders, terminal) else { continue };
-        let name = command.get_program().display().to_string();
+        let name = shown(command.get_program());
         let status = command.status().with_context(|| format!("cannot run {name}"))?;
         if !status.success() {
             let how = firmware::ending(status);
@@ -284,9 +284,9 @@ fn make_uf2(job: &Job<'_>, program: &Program) -> Result<()> {
         return Ok(());
     };
     let elf = job.elf(program);
-    let bytes = std::fs::read(&elf).with_context(|| elf.display().to_string())?;
-    let bytes = uf2::of_elf(&bytes, family).with_context(|| elf.display().to_string())?;
-    std::fs::write(&file, bytes).with_context(|| file.display().to_string())
+    let bytes = std::fs::read(&elf).with_context(|| shown(&elf))?;
+    let bytes = uf2::of_elf(&bytes, family).with_context(|| shown(&elf))?;
+    std::fs::write(&file, bytes).with_context(|| shown(&file))
 }
 
 /// The command that builds a board; `None` if the tool for it was not found.
@@ -302,7 +302,7 @@ fn command(
             let mut command = Command::new(make.0);
             command.args(["--no-print-directory", "-C"]).arg(&program.folder);
             let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-            command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", tree.display()));
+            command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", shown(tree)));
             command.arg(format!("UP_MODE={}", job.mode()));
             if terminal.is_quiet() {
                 command.arg("--silent").stdout(Stdio::null());

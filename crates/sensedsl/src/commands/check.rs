@@ -92,7 +92,8 @@ fn summary(file: &str, answer: &Answer<'_>, diagnostics: &[Diagnostic]) -> Strin
     let errors = (errors > 0).then(|| format!("{errors} error{}", plural(errors)));
     let warnings = (warnings > 0).then(|| format!("{warnings} warning{}", plural(warnings)));
     let parts: Vec<String> = [wiring, errors, warnings].into_iter().flatten().collect();
-    format!("{file}: {}\n", parts.join(", "))
+    let found = if parts.is_empty() { "no errors".to_owned() } else { parts.join(", ") };
+    format!("{file}: {found}\n")
 }
 
 /// One log for all files: the diagnostics of each file are a run of their own.

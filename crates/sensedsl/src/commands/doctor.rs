@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use super::monitor::cure;
 use crate::cli::{DoctorArgs, DoctorFormat, Purpose};
+use crate::files::shown;
 use crate::firmware::{self, cargo, drive, probe};
 use crate::status::Status;
 use crate::terminal::Terminal;
@@ -113,7 +114,7 @@ fn chibios() -> Vec<Item> {
     let named = std::env::var_os("CHIBIOS").filter(|path| !path.is_empty()).map(PathBuf::from);
     let wanted = full_name("chibios").and_then(|name| name.strip_prefix("chibios-"));
     let tree = match firmware::tree_of(named.as_deref(), wanted.unwrap_or_default(), at) {
-        Ok(tree) => State::There(format!("{} at {}", firmware::release(&tree), tree.display())),
+        Ok(tree) => State::There(format!("{} at {}", firmware::release(&tree), shown(&tree))),
         Err(why) => missing(&why),
     };
     vec![item("make, compiler", tools), item("ChibiOS", tree)]
@@ -158,7 +159,7 @@ fn flash() -> Vec<Item> {
         })
         .collect();
     for drive in drive::mounted() {
-        items.push(item("drive", State::There(drive.path.display().to_string())));
+        items.push(item("drive", State::There(shown(&drive.path))));
     }
     if !items.iter().any(|one| matches!(one.state, State::There(_))) {
         let why = "no tool that writes to a board is installed, and no board's drive is mounted"

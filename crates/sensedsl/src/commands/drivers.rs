@@ -52,20 +52,35 @@ fn begin(name: &str, kind: KindName, terminal: &Terminal) -> Result<()> {
 }
 
 fn one(name: &str, format: TableFormat, terminal: &Terminal) -> Result<()> {
-    let Some(part) = facts::find(name) else {
-        let meant = facts::nearest_name(name);
-        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
-        let hint = match found(&facts::all(), None, name) {
-            0 => "`sensedsl drivers` lists them".to_owned(),
-            some => format!("`sensedsl drivers --search {}` finds {some}", visible(name)),
-        };
-        bail!("there is no driver {name}{meant} ({hint})");
-    };
+    let Some(part) = facts::find(name) else { bail!("{}", missing(name)) };
     match format {
         TableFormat::Human => terminal.result(&drivers::one(&part))?,
         TableFormat::Json => terminal.result(&render::json_text(&drivers::values(&[part])))?,
     }
     Ok(())
+}
+
+/// What to say of a name that no driver has: what is nearest, and how to write one.
+fn missing(name: &str) -> String {
+    let near = facts::near(name);
+    let mut hints = Vec::new();
+    if !near.similar.is_empty() {
+        hints.push(format!("of the same sort: {}", near.similar.join(", ")));
+    }
+    match found(&facts::all(), None, name) {
+        0 => hints.push("`sensedsl drivers` lists all".to_owned()),
+        some => hints.push(format!("`sensedsl drivers --search {}` finds {some}", visible(name))),
+    }
+    let meant = near.meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+    format!("there is no driver {}{meant} ({}). {}", visible(name), hints.join("; "), begun(name))
+}
+
+/// How to write a driver of that name.
+fn begun(name: &str) -> String {
+    let new = facts::identifier(name);
+    format!(
+        "`sensedsl drivers --new {new}` begins one; docs/driver-language.md says what can stand in it"
+    )
 }
 
 fn found(parts: &[PartFacts], kind: Option<KindName>, words: &str) -> usize {
@@ -82,9 +97,24 @@ fn list(args: &DriversArgs, terminal: &Terminal) -> Result<()> {
     }
     terminal.result(&drivers::listing(&parts))?;
     let count = match parts.len() {
+        0 if !search.is_empty() => {
+            let near = facts::near(search);
+            let similar: Vec<String> = near.meant.into_iter().chain(near.similar).collect();
+            let hint = match similar.as_slice() {
+                [] => "try another word, such as `temperature`".to_owned(),
+                some => format!("near to it: {}", some.join(", ")),
+            };
+            return aside_of_none(&hint, search, terminal);
+        }
         1 => "1 driver".to_owned(),
         some => format!("{some} drivers"),
     };
     terminal.aside(&format!("{count}; `sensedsl drivers NAME` tells all about one"))?;
+    Ok(())
+}
+
+/// What is said of a search that finds nothing.
+fn aside_of_none(hint: &str, search: &str, terminal: &Terminal) -> Result<()> {
+    terminal.aside(&format!("0 drivers; {hint}. {}", begun(search)))?;
     Ok(())
 }

@@ -53,18 +53,17 @@ pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
 fn flash(job: &Job<'_>, terminal: &Terminal) -> Result<Status> {
     if let Some(program) = job.programs.first().filter(|_| job.makes_raw) {
         let (elf, raw) = (job.elf(program), job.raw(program));
-        let bytes = std::fs::read(&elf).with_context(|| elf.display().to_string())?;
-        let bytes = raw::of_elf(&bytes).with_context(|| elf.display().to_string())?;
-        std::fs::write(&raw, bytes).with_context(|| raw.display().to_string())?;
+        let bytes = std::fs::read(&elf).with_context(|| shown(&elf))?;
+        let bytes = raw::of_elf(&bytes).with_context(|| shown(&elf))?;
+        std::fs::write(&raw, bytes).with_context(|| shown(&raw))?;
     }
     let board = job.programs.first().map_or("the board", |program| program.board.as_str());
     let failed = match &job.after {
         None => return Ok(Status::Done),
         Some(After::Run(words)) => run_tool(words, terminal)?
             .map(|(tool, how)| e0522_not_flashed::not_flashed(job.at, board, &tool, &how)),
-        Some(After::Copy { file, drive }) => copy(file, drive, terminal)?.map(|how| {
-            e0522_not_flashed::not_copied(job.at, board, &drive.display().to_string(), &how)
-        }),
+        Some(After::Copy { file, drive }) => copy(file, drive, terminal)?
+            .map(|how| e0522_not_flashed::not_copied(job.at, board, &shown(drive), &how)),
     };
     if let Some(why) = failed {
         return job.refuse(why, Status::Misused, terminal);
@@ -85,7 +84,7 @@ fn run_tool(words: &[String], terminal: &Terminal) -> Result<Option<(String, Str
 
 /// Copies a file to a drive; the result says why the drive did not take it.
 fn copy(file: &Path, drive: &Path, terminal: &Terminal) -> Result<Option<String>> {
-    let bytes = std::fs::read(file).with_context(|| file.display().to_string())?;
+    let bytes = std::fs::read(file).with_context(|| shown(file))?;
     let Some(name) = file.file_name() else { return Ok(None) };
     terminal.note(&format!("copy {} to {}\n", visible(&shown(file)), visible(&shown(drive))))?;
     // The drive only looks like one: no other name, no second step.

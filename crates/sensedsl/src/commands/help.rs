@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 use clap::CommandFactory as _;
 
 use crate::cli::{Cli, CompletionsArgs, ManArgs};
-use crate::files::write_together;
+use crate::files::{shown, write_together};
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -37,7 +37,7 @@ pub(crate) fn man(args: &ManArgs, terminal: &mut Terminal) -> Result<Status> {
         pages.iter().map(|(path, text)| (path.as_path(), text.as_bytes())).collect();
     write_together(&files)?;
     for (path, _) in &pages {
-        terminal.note(&format!("{}\n", path.display()))?;
+        terminal.note(&format!("{}\n", shown(path)))?;
     }
     Ok(Status::Done)
 }

@@ -12,7 +12,7 @@ use crate::files::tree::layout::{
     Kind, LIST, entries, is_not_ours, link_above, list, read_list, slashed, walk,
 };
 use crate::files::tree::{Failure, NewFile, NewTree, Output};
-use crate::files::{read_if_there, remove_file};
+use crate::files::{read_if_there, remove_file, shown};
 
 /// The changes that a folder needs.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -50,8 +50,8 @@ struct Listed {
 
 impl Listed {
     fn of(root: &Path) -> Result<Self> {
-        let text = read_list(&root.join(LIST))
-            .with_context(|| format!("cannot read {}", root.display()))?;
+        let text =
+            read_list(&root.join(LIST)).with_context(|| format!("cannot read {}", shown(root)))?;
         let is_known = State::of_user().knows(root, &text);
         Ok(Self { files: entries(&text), is_known })
     }
@@ -107,7 +107,7 @@ fn sort_out(
     changes: &mut Changes,
 ) -> Result<()> {
     let is_listed = |path: &str| listed.files.contains_key(path);
-    for (path, kind) in walk(root).with_context(|| format!("cannot read {}", root.display()))? {
+    for (path, kind) in walk(root).with_context(|| format!("cannot read {}", shown(root)))? {
         // A user's folder may be a link to one elsewhere.
         let theirs = kind == Kind::Link && is_named_as_theirs(&path);
         if kind == Kind::Folder && path == Path::new(LIST) {
@@ -187,7 +187,7 @@ fn found(root: &Path, path: &str) -> Result<Found> {
     // It does not exist either if one of the folders above it is a file.
     let Ok(found) = fs::symlink_metadata(&path) else { return Ok(Found::Nothing) };
     if found.is_dir() {
-        bail!("{} is a folder, and has to be a file", path.display());
+        bail!("{} is a folder, and has to be a file", shown(&path));
     }
     if !found.is_file() {
         return Ok(Found::Other);
@@ -204,7 +204,7 @@ fn whole(path: &Path) -> Option<String> {
 /// The path as people would type it in a command.
 pub(crate) fn typed(root: &Path, relative: &str) -> String {
     let path: PathBuf = if relative.is_empty() { root.to_owned() } else { root.join(relative) };
-    let text = path.display().to_string();
+    let text = shown(&path);
     let is_plain =
         |c: char| c.is_alphanumeric() || matches!(c, '/' | '.' | '_' | '-' | '+' | ':' | '@' | ',');
     if !text.chars().all(is_plain) { format!("'{}'", text.replace('\'', "'\\''")) } else { text }

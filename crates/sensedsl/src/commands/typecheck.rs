@@ -19,6 +19,7 @@ use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use serde_json::Value;
 
+use crate::files::shown;
 use crate::terminal::Terminal;
 
 /// The compiler's verdict on the wiring of all boards.
@@ -54,8 +55,8 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
     for (path, file) in check.files.iter() {
         let path = folder.join(path);
         let parent = path.parent().unwrap_or(&folder);
-        std::fs::create_dir_all(parent).with_context(|| parent.display().to_string())?;
-        std::fs::write(&path, &file.bytes).with_context(|| path.display().to_string())?;
+        std::fs::create_dir_all(parent).with_context(|| shown(parent))?;
+        std::fs::write(&path, &file.bytes).with_context(|| shown(&path))?;
     }
     // Dependencies that are in the cache need no network; only the first check of a chip downloads.
     let mut output = run(&cargo, &folder, &cache.join("target"), true)?;
@@ -64,9 +65,9 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
     }
     let found = read(job, check, &output);
     if terminal.verbose() {
-        terminal.aside(&format!("the check is in {}", folder.display()))?;
+        terminal.aside(&format!("the check is in {}", shown(&folder)))?;
     } else {
-        std::fs::remove_dir_all(&folder).with_context(|| folder.display().to_string())?;
+        std::fs::remove_dir_all(&folder).with_context(|| shown(&folder))?;
     }
     if found.is_empty() {
         let (count, chip) = (check.lines.len(), &check.chip);

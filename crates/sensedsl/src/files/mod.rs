@@ -30,9 +30,22 @@ pub(crate) use write::{
     write_whole,
 };
 
-/// The name under which people see a file.
-pub(crate) fn shown(path: &Path) -> String {
-    if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
+/// The name under which people see a file: with `/` on every system, as designs and generated files write it.
+pub(crate) fn shown(path: impl AsRef<Path>) -> String {
+    let path = path.as_ref();
+    let name = path.display().to_string();
+    if path == Path::new("-") {
+        "<stdin>".into()
+    } else if cfg!(windows) {
+        plain(&name)
+    } else {
+        name
+    }
+}
+
+/// A path of Windows as people write it there: without the prefix of absolute paths that the system gives back.
+fn plain(name: &str) -> String {
+    name.strip_prefix(r"\\?\").unwrap_or(name).replace('\\', "/")
 }
 
 /// A file from the command line that was not read, as an error with its diagnostic.
@@ -75,4 +88,15 @@ pub(crate) fn read_bytes(path: &Path, what: FileUse) -> Result<Vec<u8>, Refused>
 /// The text of a file that the command line names.
 pub(crate) fn read_text(path: &Path, what: FileUse) -> Result<String, Refused> {
     read::text(read_bytes(path, what)?).map_err(|unread| Refused::unread(path, what, &unread))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn paths_of_windows_are_written_one_way() {
+        assert_eq!(plain(r"\\?\C:\robot\car.sense"), "C:/robot/car.sense");
+        assert_eq!(plain(r"build/firmware\Rover\Makefile"), "build/firmware/Rover/Makefile");
+    }
 }

@@ -3,6 +3,7 @@
 //! A tree is written only through [`Ops`], so that a test can stop after any single change, as a
 //! kill does, or let any single one fail, as a full disk does.
 
+use crate::files::shown;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -54,13 +55,17 @@ impl Ops {
     }
 
     /// Gives a file a second name.
+    #[cfg_attr(
+        not(target_os = "linux"),
+        allow(dead_code, reason = "only Linux exchanges two names at once")
+    )]
     pub(crate) fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
         self.may()?;
         fs::hard_link(from, to).map_err(at(to))
     }
 
     /// Makes a symbolic link that leads to `target`.
-    #[cfg(unix)]
+    #[cfg(target_os = "linux")]
     pub(crate) fn symlink(&self, target: &Path, path: &Path) -> io::Result<()> {
         self.may()?;
         std::os::unix::fs::symlink(target, path).map_err(at(path))
@@ -105,7 +110,7 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> io::Error {
     move |error| {
         let kind =
             if is_unsupported_call(&error) { io::ErrorKind::Unsupported } else { error.kind() };
-        io::Error::new(kind, format!("{}: {error}", path.display()))
+        io::Error::new(kind, format!("{}: {error}", shown(path)))
     }
 }
 

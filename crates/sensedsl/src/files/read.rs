@@ -16,6 +16,7 @@ use sensedsl_limits::TOTAL_BYTES_MAX;
 use sensedsl_model::{FileRequest, FileUse, Files, ReadError, normal_path, stays_inside};
 
 use super::open::open;
+use crate::files::shown;
 
 /// The machine's files, as far as one design or source may see them.
 #[derive(Debug)]
@@ -144,11 +145,11 @@ pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
     match open(path, false) {
         Ok(opened) => {
             let read = opened.reader().read_to_end(&mut bytes);
-            read.with_context(|| format!("cannot read {}", path.display()))?;
+            read.with_context(|| format!("cannot read {}", shown(path)))?;
             Ok(Some(bytes))
         }
         Err(ReadError::Missing) => Ok(None),
-        Err(unread) => anyhow::bail!("cannot read {}: {}", path.display(), unread.why()),
+        Err(unread) => anyhow::bail!("cannot read {}: {}", shown(path), unread.why()),
     }
 }
 
@@ -161,11 +162,11 @@ pub(crate) fn files_below(root: &Path, skip: &dyn Fn(&str) -> bool) -> Result<Ve
             Ok(entries) => entries,
             Err(error) if error.kind() == io::ErrorKind::NotFound && folder == root => break,
             Err(error) => {
-                return Err(error).with_context(|| format!("cannot read {}", folder.display()));
+                return Err(error).with_context(|| format!("cannot read {}", shown(&folder)));
             }
         };
         for entry in entries {
-            let entry = entry.with_context(|| format!("cannot read {}", folder.display()))?;
+            let entry = entry.with_context(|| format!("cannot read {}", shown(&folder)))?;
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
             let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());

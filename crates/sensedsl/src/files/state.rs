@@ -14,7 +14,6 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::time::UNIX_EPOCH;
 
 use sha2::{Digest as _, Sha256};
 
@@ -126,7 +125,8 @@ fn identity(folder: &Path) -> io::Result<String> {
     use std::os::unix::fs::MetadataExt as _;
     let found = fs::metadata(folder)?;
     // The inode number of a removed folder is used again.
-    let born = found.created().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    let born =
+        found.created().ok().and_then(|time| time.duration_since(std::time::UNIX_EPOCH).ok());
     Ok(format!("{} {}", found.ino(), born.unwrap_or_default().as_nanos()))
 }
 
@@ -145,11 +145,12 @@ fn places() -> Vec<PathBuf> {
     if cfg!(windows) {
         places.extend(variable("LOCALAPPDATA"));
     }
-    let mut places: Vec<PathBuf> = places.iter().map(|place| place.join("sensedsl")).collect();
     // Containers often have no home.
     #[cfg(unix)]
-    places.push(format!("/var/tmp/sensedsl-{}", rustix::process::geteuid().as_raw()).into());
-    places
+    let shared = Some(format!("/var/tmp/sensedsl-{}", rustix::process::geteuid().as_raw()).into());
+    #[cfg(not(unix))]
+    let shared: Option<PathBuf> = None;
+    places.iter().map(|place| place.join("sensedsl")).chain(shared).collect()
 }
 
 /// The key in a folder, created if there is none.
@@ -193,16 +194,25 @@ fn private_folder(path: &Path) -> io::Result<()> {
     if let Some(above) = path.parent() {
         fs::create_dir_all(above)?;
     }
-    let mut builder = fs::DirBuilder::new();
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    match builder.create(path) {
+    match private_builder().create(path) {
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
         Ok(()) | Err(_) => {}
     }
     let found = fs::symlink_metadata(path)?;
     let is_own = found.is_dir() && is_private(&found, 0o022);
     if is_own { Ok(()) } else { Err(io::ErrorKind::PermissionDenied.into()) }
+}
+
+/// What makes folders for the user alone, where the system lets a program say so.
+fn private_builder() -> fs::DirBuilder {
+    #[cfg(unix)]
+    {
+        let mut builder = fs::DirBuilder::new();
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        builder
+    }
+    #[cfg(not(unix))]
+    fs::DirBuilder::new()
 }
 
 /// Whether something belongs to the user, and gives others none of these permissions.

@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use anyhow::{Context as _, Result, bail};
 
 use super::ops;
+use crate::files::shown;
 
 /// The most links that are followed one after another.
 const LINKS_MAX: usize = 40;
@@ -31,7 +32,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
     let mut staged = Vec::new();
     for (path, bytes) in files {
-        let writing = || format!("cannot write {}", path.display());
+        let writing = || format!("cannot write {}", shown(path));
         if is_stream(path) {
             write_in_place(path, bytes).with_context(writing)?;
         } else {
@@ -39,7 +40,7 @@ pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
         }
     }
     for one in &mut staged {
-        one.publish().with_context(|| format!("cannot write {}", one.place.display()))?;
+        one.publish().with_context(|| format!("cannot write {}", shown(&one.place)))?;
     }
     Ok(())
 }
@@ -49,7 +50,7 @@ pub(crate) fn write_streamed<T>(
     path: &Path,
     fill: impl FnOnce(Box<dyn io::Write + Send>) -> Result<T>,
 ) -> Result<T> {
-    let writing = || format!("cannot write {}", path.display());
+    let writing = || format!("cannot write {}", shown(path));
     if is_stream(path) {
         let file = OpenOptions::new().append(true).open(path).with_context(writing)?;
         return fill(Box::new(io::BufWriter::new(file)));
@@ -71,11 +72,11 @@ pub(crate) fn is_stream(path: &Path) -> bool {
 
 /// Whether there is a file that would be lost: neither empty nor the same as the new one.
 pub(crate) fn is_in_the_way(path: &Path, bytes: &[u8]) -> Result<bool> {
-    let reading = || format!("cannot read {}", path.display());
+    let reading = || format!("cannot read {}", shown(path));
     match fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(error).with_context(reading),
-        Ok(found) if found.is_dir() => bail!("{} is a folder", path.display()),
+        Ok(found) if found.is_dir() => bail!("{} is a folder", shown(path)),
         Ok(found) if found.len() == 0 || is_stream(path) => Ok(false),
         Ok(found) if found.len() != bytes.len() as u64 => Ok(true),
         Ok(_) => Ok(fs::read(path).with_context(reading)? != bytes),
@@ -85,7 +86,7 @@ pub(crate) fn is_in_the_way(path: &Path, bytes: &[u8]) -> Result<bool> {
 /// Whether a file starts with these bytes.
 pub(crate) fn begins_with(path: &Path, bytes: &[u8]) -> Result<bool> {
     use io::Read as _;
-    let reading = || format!("cannot read {}", path.display());
+    let reading = || format!("cannot read {}", shown(path));
     let mut head = Vec::new();
     let file = File::open(path).with_context(reading)?;
     file.take(bytes.len() as u64).read_to_end(&mut head).with_context(reading)?;
@@ -122,7 +123,7 @@ impl Staged {
         let name = place.file_name().context("a file needs a name")?;
         let above = place.parent().filter(|above| *above != Path::new(""));
         let above = above.unwrap_or(Path::new("."));
-        fs::create_dir_all(above).with_context(|| format!("cannot make {}", above.display()))?;
+        fs::create_dir_all(above).with_context(|| format!("cannot make {}", shown(above)))?;
         let old = match fs::metadata(&place) {
             Ok(old) if old.is_dir() => bail!("it is a folder"),
             // A file that may not be written is not replaced either.

@@ -10,6 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use super::drive::{self, Drive};
 use super::{Program, asked};
 use crate::cli::Tool;
+use crate::files::shown;
 
 /// What the names of ESP32 chips begin with.
 const ESP: &str = "ESP32";
@@ -218,8 +219,7 @@ fn drive_of(
         [] => Ok(Err(other.into_iter().next())),
         [drive] => Ok(Ok(drive.path.clone())),
         several => {
-            let paths: Vec<String> =
-                several.iter().map(|drive| drive.path.display().to_string()).collect();
+            let paths: Vec<String> = several.iter().map(|drive| shown(&drive.path)).collect();
             Err(e0528_several_drives::several(at, &program.board, &paths).into())
         }
     }
@@ -232,7 +232,7 @@ pub(crate) fn drive_at(
     at: Span,
 ) -> Result<PathBuf, Box<Diagnostic>> {
     match Drive::at(path) {
-        None => Err(e0527_other_drive::no_drive(at, &path.display().to_string()).into()),
+        None => Err(e0527_other_drive::no_drive(at, &shown(path)).into()),
         Some(drive) if drive.suits(program) => Ok(drive.path),
         Some(drive) => Err(not_of_board(&drive, program, at)),
     }
@@ -242,7 +242,7 @@ fn not_of_board(drive: &Drive, program: &Program, at: Span) -> Box<Diagnostic> {
     let family = program.build.family().map(|family| family.chip);
     let chip = family.or(program.mcu.as_deref());
     let chip = chip.map_or_else(|| "another chip".to_owned(), |chip| format!("an {chip}"));
-    let path = drive.path.display().to_string();
+    let path = shown(&drive.path);
     e0527_other_drive::other_drive(at, (&path, &drive.owner()), (&program.board, &chip)).into()
 }
 
@@ -253,7 +253,7 @@ pub(crate) fn command(
     (elf, raw): (&Path, &Path),
     at: Span,
 ) -> Result<Vec<String>, Box<Diagnostic>> {
-    let (elf, raw) = (elf.display().to_string(), raw.display().to_string());
+    let (elf, raw) = (shown(elf), shown(raw));
     let mcu = || {
         let unknown = || Box::new(e0522_not_flashed::unknown_mcu(at, &program.board, tool.name()));
         program.mcu.as_deref().ok_or_else(unknown)

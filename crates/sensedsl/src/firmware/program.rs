@@ -6,7 +6,7 @@ use anyhow::Result;
 use sensedsl_board::catalog;
 
 use super::uf2::{self, Family};
-use crate::files::read_if_there;
+use crate::files::{read_if_there, shown};
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -141,7 +141,7 @@ fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> 
     let Some(build) = Build::of(&mut file)? else { return Ok(None) };
     // The folder's name may be `.`.
     let named = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    let board = named.file_name().map_or_else(String::new, |name| name.display().to_string());
+    let board = named.file_name().map_or_else(String::new, shown);
     let mcu = mcus.iter().find(|(name, _)| *name == board).map(|(_, mcu)| mcu.clone());
     let known = catalog::find(&board).and_then(|entry| entry.board().ok());
     let ready = known.and_then(|board| board.ready);

@@ -8,6 +8,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Span};
 
 use super::{Program, Wants};
+use crate::files::shown;
 
 /// The file without which a folder is not a tree.
 const KERNEL: &str = "os/rt/rt.mk";
@@ -27,12 +28,12 @@ pub(crate) fn tree(
 ) -> Result<PathBuf, Box<Diagnostic>> {
     let version = programs.first().map_or("", |(_, wants)| wants.version.as_str());
     let tree = tree_of(named, version, at)?;
-    let shown = named.map(|named| named.display().to_string()).unwrap_or_default();
+    let name = named.map(shown).unwrap_or_default();
     for (program, wants) in programs {
         let missing = missing(&tree, wants);
         if !missing.is_empty() {
             let board = &program.board;
-            return Err(e0515_tree_incomplete::tree_incomplete(at, &shown, board, &missing).into());
+            return Err(e0515_tree_incomplete::tree_incomplete(at, &name, board, &missing).into());
         }
     }
     Ok(tree)
@@ -47,8 +48,8 @@ pub(crate) fn tree_of(
     let Some(named) = named.filter(|named| !named.as_os_str().is_empty()) else {
         return Err(e0512_no_tree::no_tree(at, version).into());
     };
-    let shown = named.display().to_string();
-    let not_a_tree = |why: &str| Err(e0513_not_a_tree::not_a_tree(at, &shown, why, version).into());
+    let name = shown(named);
+    let not_a_tree = |why: &str| Err(e0513_not_a_tree::not_a_tree(at, &name, why, version).into());
     let tree = match named.canonicalize() {
         Ok(tree) if tree.is_dir() => tree,
         Ok(_) => return not_a_tree("it is a file"),
@@ -60,7 +61,7 @@ pub(crate) fn tree_of(
     if !tree.join(KERNEL).is_file() {
         return not_a_tree(&format!("it has no `{KERNEL}`"));
     }
-    let full = tree.display().to_string();
+    let full = shown(&tree);
     if let Some(sign) =
         full.chars().find(|c| c.is_whitespace() || "#$%:;\\*?[]'\"&|<>".contains(*c))
     {
@@ -68,7 +69,7 @@ pub(crate) fn tree_of(
     }
     let found = release(&tree);
     if !version.is_empty() && !is_of(&found, version) {
-        return Err(e0514_other_tree::other_tree(at, &shown, &found, version).into());
+        return Err(e0514_other_tree::other_tree(at, &name, &found, version).into());
     }
     Ok(tree)
 }

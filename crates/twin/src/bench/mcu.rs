@@ -56,6 +56,9 @@ impl Surroundings for Bench {
     }
 
     fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
+        if let Some(line) = self.lines.get_mut(&unit) {
+            return line.next(now_ns);
+        }
         let part = self.talkers.get(&unit)?.part;
         let is_cut = [FaultKind::Torn, FaultKind::Silent]
             .into_iter()
@@ -78,6 +81,13 @@ impl Surroundings for Bench {
         self.recorder.timer(output, period_ns, width_ns);
     }
 
+    fn pulse(&mut self, output: TimerOutput, from_ns: u64, width_ns: u64) {
+        let TimerOutput { timer, channel, .. } = output;
+        let place = format_args!("TIM{timer}_CH{channel}");
+        self.note(from_ns, place, format_args!("a pulse of {width_ns} ns"));
+        self.recorder.pulse(output, from_ns, width_ns);
+    }
+
     fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
         self.note(now_ns, format_args!("DAC{channel}"), format_args!("{millivolts:.1} mV"));
         self.recorder.converter(channel, millivolts);
@@ -85,7 +95,19 @@ impl Surroundings for Bench {
 
     fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
         self.note(now_ns, format_args!("USART{unit}"), format_args!("0x{byte:02X}"));
-        self.recorder.sent(unit, byte, now_ns);
+        if !self.lines.contains_key(&unit) {
+            self.recorder.sent(unit, byte, now_ns);
+            return;
+        }
+        // On a line that several share, only what its part has taken counts.
+        let faults = self.faults.iter().filter(|one| one.cuts(now_ns));
+        let gone: Vec<PartIndex> = faults.filter_map(|one| one.part).collect();
+        let (subjects, line) = (&self.subjects, self.lines.get_mut(&unit));
+        let is_there = |part: PartIndex| !gone.contains(&part);
+        let taken = line.and_then(|line| line.take(byte, subjects, is_there, now_ns));
+        for byte in taken.unwrap_or_default() {
+            self.recorder.sent(unit, byte, now_ns);
+        }
     }
 
     fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {

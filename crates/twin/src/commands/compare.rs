@@ -4,6 +4,7 @@ use sensedsl_model::design::ConnectionIndex;
 
 use super::expect::{Expectation, Expected, Sent};
 use super::outputs::Outputs;
+use super::track;
 use super::written::Written;
 use sensedsl_surroundings::CanFrame;
 
@@ -44,6 +45,10 @@ pub(super) fn differs(
             let last = found.len().saturating_sub(bytes.len());
             (!is_there).then(|| hex(found.get(last..).unwrap_or_default()))
         }
+        Expectation::Motion(motion) => match outputs.track(one.at) {
+            Some(track) => track.differs(*motion, now_ns),
+            None => Some("no steps".to_owned()),
+        },
         Expectation::Frame(sent) => {
             let span = (since_ns, now_ns);
             let found = frame(sent, outputs, since_ns);
@@ -136,6 +141,7 @@ pub(super) fn shown(one: &Expected) -> String {
             hex(&written.bytes) + &own.unwrap_or_default()
         }
         Expectation::Message(_, bytes) => hex(bytes),
+        Expectation::Motion(motion) => track::shown(*motion),
         Expectation::Frame(sent) => {
             let Sent { identifier, length, bits: (mask, bits), .. } = sent;
             let shown =

@@ -7,11 +7,13 @@ use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::pwm::Pwm;
+use sensedsl_model::kind::stepper::{Mode, Stepper};
 use sensedsl_model::kind::{Interface, Role};
 use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
+use super::track::Motion;
 use super::written::{self, Written, write};
 use crate::bench::Units;
 use crate::parts::{message, words};
@@ -44,6 +46,7 @@ pub(super) enum Expectation {
     /// The unit of a serial port, and a message on it.
     Message(u8, Vec<u8>),
     Frame(Sent),
+    Motion(Motion),
 }
 
 /// A value in a CAN frame.
@@ -99,13 +102,23 @@ pub(super) fn reported(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> 
             }
             Interface::I2c(_) | Interface::Spi(_) => write(job, wire, one, raw),
             Interface::Uart(own) => {
-                let body = words::bytes(&Words::of(one.device)?, raw);
+                let text = one.device.coding.text.as_ref();
+                let value = match text {
+                    Some(text) => message::told(text, raw),
+                    None => words::bytes(&Words::of(one.device)?, raw),
+                };
+                let of_device = one.device.kind.uart().unwrap_or(own);
+                let body = [value, of_device.exchange.behind.clone()].concat();
                 let unit = number(job, wire)?;
-                let what = Expectation::Message(unit, message::framed(own, &body));
+                let what = Expectation::Message(unit, message::framed(of_device, &body));
                 Some(expected(wire, 0, what))
             }
             Interface::Can(_) => frame(job, wire, one, raw),
-            Interface::Analog(_) | Interface::Icu(_) | Interface::Encoder(_) => None,
+            Interface::Stepper(own) => Some(motion(wire, element, own, value(element))),
+            Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::OneWire(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -124,14 +137,42 @@ pub(super) fn unreported(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -
             Interface::Pwm(_) => Some(expected(wire, element, Expectation::Pulses(None))),
             Interface::Dac(_) => Some(expected(wire, element, Expectation::Millivolts(0.0))),
             Interface::I2c(_) | Interface::Spi(_) => written::first(job, wire, one, now_ns),
+            Interface::Stepper(_) => {
+                Some(expected(wire, element, Expectation::Motion(Motion::At(0))))
+            }
             Interface::Uart(_)
             | Interface::Can(_)
             | Interface::Analog(_)
             | Interface::Icu(_)
-            | Interface::Encoder(_) => None,
+            | Interface::Encoder(_)
+            | Interface::OneWire(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
+}
+
+/// A motor that was told where to go, or how fast.
+fn motion(wire: &JobConnection<'_>, element: usize, own: &Stepper, raw: f64) -> Expected {
+    let most = f64::from(own.speed);
+    let what = match own.mode {
+        Mode::Position => {
+            let step = raw.round().clamp(f64::from(i32::MIN), f64::from(i32::MAX));
+            Motion::At(crate::arith::rounded(step))
+        }
+        Mode::Velocity => Motion::Goes(raw.round().clamp(-most, most)),
+    };
+    expected(wire, element, Expectation::Motion(what))
+}
+
+/// The motors of a device, which stand when the host is silent.
+pub(super) fn stopped(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Vec<Expected> {
+    let motors = job.wires_of(one.device).into_iter();
+    let motors = motors.filter(|wire| wire.connection.kind.stepper().is_some());
+    let stands = |wire: &JobConnection<'_>| {
+        let element = usize::from(wire.element());
+        expected(wire, element, Expectation::Motion(Motion::Stands))
+    };
+    motors.map(stands).collect()
 }
 
 /// The raw value that a device takes when the host is silent; `None` if it keeps the last one.
@@ -165,6 +206,7 @@ fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Ve
     let (forward, backward) = (raw.max(0.0), (-raw).max(0.0));
     let inputs = match drive {
         Drive::DirectionPins => vec![raw.abs(), forward, backward],
+        Drive::DirectionPin => vec![raw.abs(), backward],
         Drive::TwoPwm => vec![forward, backward],
     };
     let each = |(index, input): (&ConnectionIndex, f64)| {
@@ -179,7 +221,9 @@ fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Ve
             | Interface::Uart(_)
             | Interface::Spi(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => None,
         }
     };
     one.device.connections.iter().zip(inputs).filter_map(each).collect()

@@ -9,6 +9,7 @@ mod compare;
 mod expect;
 pub mod outputs;
 mod script;
+pub(crate) mod track;
 mod tried;
 mod written;
 

@@ -7,6 +7,7 @@ use sensedsl_job::JobConnection;
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::Role;
 
+use super::track::Track;
 use crate::bench::number_of;
 use sensedsl_surroundings::{CanFrame, TimerOutput};
 
@@ -22,6 +23,7 @@ pub struct Outputs {
     writes: BTreeMap<ConnectionIndex, VecDeque<(u64, Vec<u8>)>>,
     bytes: BTreeMap<u8, VecDeque<(u64, u8)>>,
     frames: BTreeMap<u8, VecDeque<(u64, CanFrame)>>,
+    tracks: BTreeMap<ConnectionIndex, Track>,
 }
 
 fn keep<T>(log: &mut VecDeque<T>, one: T) {
@@ -36,6 +38,11 @@ impl Outputs {
     #[must_use]
     pub fn level(&self, at: ConnectionIndex, role: Role) -> Option<bool> {
         self.levels.get(&(at, role)).copied()
+    }
+
+    /// The way of a motor.
+    pub(super) fn track(&self, at: ConnectionIndex) -> Option<&Track> {
+        self.tracks.get(&at)
     }
 
     /// Period and width of the pulses on a wire, in nanoseconds.
@@ -87,8 +94,12 @@ impl Recorder {
     /// Adds a connection of the board.
     pub(crate) fn connect(&mut self, one: &JobConnection<'_>) {
         let kind = &one.connection.kind;
-        let is_output = kind.pwm().is_some() || kind.dac().is_some();
-        let signal = one.pad(Role::Out).and_then(|pad| pad.usage).map(|usage| &usage.signal);
+        let is_output = kind.pwm().is_some() || kind.dac().is_some() || kind.stepper().is_some();
+        let signal = one
+            .pad(Role::Out)
+            .or_else(|| one.pad(Role::Step))
+            .and_then(|pad| pad.usage)
+            .map(|usage| &usage.signal);
         match signal.filter(|_| is_output).map(sensedsl_board::signal::Signal::function) {
             Some(Function::Timer { unit, channel, line }) => {
                 let Some(timer) = number_of(unit.as_str()) else { return };
@@ -108,11 +119,46 @@ impl Recorder {
         &self.outputs
     }
 
-    pub(crate) fn level(&mut self, at: ConnectionIndex, role: Role, level: Option<bool>) {
+    pub(crate) fn level(
+        &mut self,
+        at: ConnectionIndex,
+        role: Role,
+        level: Option<bool>,
+        now_ns: u64,
+    ) {
+        match (self.outputs.tracks.get(&at), role) {
+            (Some(track), Role::Dir) => track.direct(level, now_ns),
+            (Some(track), Role::Enable) => track.enable(level),
+            (Some(_) | None, _) => {}
+        }
         match level {
             Some(level) => self.outputs.levels.insert((at, role), level),
             None => self.outputs.levels.remove(&(at, role)),
         };
+    }
+
+    /// The motor of a connection, from now on.
+    pub(crate) fn follow(&mut self, at: ConnectionIndex, track: Track) {
+        self.outputs.tracks.insert(at, track);
+    }
+
+    /// The board has lost its supply.
+    pub(crate) fn power_up(&mut self) {
+        self.outputs.tracks.values().for_each(Track::reset);
+    }
+
+    /// A timer has made a single pulse.
+    pub(crate) fn pulse(&mut self, output: TimerOutput, from_ns: u64, width_ns: u64) {
+        if let Some(at) = self.channels.get(&output).copied() {
+            self.step(at, from_ns, width_ns);
+        }
+    }
+
+    /// A motor gets a pulse.
+    pub(crate) fn step(&mut self, at: ConnectionIndex, from_ns: u64, width_ns: u64) {
+        if let Some(track) = self.outputs.tracks.get(&at) {
+            track.pulse(from_ns, width_ns);
+        }
     }
 
     pub(crate) fn timer(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64) {

@@ -3,6 +3,7 @@
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Interface;
+use sensedsl_model::kind::stepper::{Mode, Stepper};
 use sensedsl_model::words::Words;
 use sensedsl_wire::{Direction, Scalar, ScalarType};
 
@@ -13,6 +14,8 @@ use crate::truth::scalar;
 
 /// For 64-bit integers, the numbers that a double holds exactly are enough.
 const WHOLE_MAX: f64 = 9_007_199_254_740_991.0;
+/// How far a motor goes, in seconds of its greatest speed.
+const FAR_SECONDS: f64 = 0.12;
 /// The bound for real numbers that have none.
 const REAL_MAX: f64 = 1_000.0;
 
@@ -104,11 +107,12 @@ fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
 }
 
 /// The least and the greatest raw value that the output can follow and that the type holds.
-fn range(one: &JobDevice<'_>) -> (f64, f64) {
+pub(super) fn range(one: &JobDevice<'_>) -> (f64, f64) {
     let own = match one.device.kind.interface() {
         Interface::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),
         Interface::Pwm(_) => Some((0.0, FULL_LEVEL)),
         Interface::Dac(_) => Some((0.0, FULL_CODE)),
+        Interface::Stepper(own) => Some(of_motor(own)),
         Interface::Analog(_)
         | Interface::I2c(_)
         | Interface::Icu(_)
@@ -116,6 +120,7 @@ fn range(one: &JobDevice<'_>) -> (f64, f64) {
         | Interface::Digital(_)
         | Interface::Uart(_)
         | Interface::Spi(_)
+        | Interface::OneWire(_)
         | Interface::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
     };
     let held = one.device.value.value.scalar.integer_range();
@@ -125,6 +130,16 @@ fn range(one: &JobDevice<'_>) -> (f64, f64) {
         (one, other) => one.or(other).unwrap_or((-REAL_MAX, REAL_MAX)),
     };
     (low.max(-WHOLE_MAX), high.min(WHOLE_MAX))
+}
+
+/// As far as the greatest speed goes in a while, to either side; or that speed.
+fn of_motor(own: &Stepper) -> (f64, f64) {
+    let speed = f64::from(own.speed);
+    let far = match own.mode {
+        Mode::Position => (speed * FAR_SECONDS).round().max(4.0),
+        Mode::Velocity => speed,
+    };
+    (-far, far)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "the ends of 64 bits are rounded")]

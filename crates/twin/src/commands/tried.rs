@@ -5,12 +5,13 @@ use sensedsl_host::Scale;
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Interface;
+use sensedsl_model::kind::stepper::{Mode, Stepper};
 use sensedsl_wire::{Direction, Scalar};
 
 use super::command::Command;
 use super::expect::{self, Expectation, Expected};
 use super::outputs::Outputs;
-use super::{MS, compare};
+use super::{MS, compare, script};
 use crate::arith::number;
 use crate::bench::Bench;
 use crate::truth::{real, scale_of};
@@ -251,6 +252,10 @@ impl Actor {
                 let with = (safe.as_slice(), outputs);
                 self.compare(job, with, (since_ns, now_ns), &after, |_| true);
             }
+            (None, Some(_)) if one.device.kind.stepper().is_some() => {
+                let stopped = expect::stopped(job, one);
+                self.tried.compare(&stopped, outputs, (since_ns, now_ns), &after);
+            }
             (None, Some((reported_ns, value))) => {
                 self.compare(
                     job,
@@ -327,6 +332,7 @@ fn is_lasting(one: &Expected) -> bool {
     match &one.what {
         Expectation::Level(..) | Expectation::Pulses(_) | Expectation::Millivolts(_) => true,
         Expectation::Write(written) => written.is_shared(),
+        Expectation::Motion(_) => true,
         Expectation::Message(..) | Expectation::Frame(_) => false,
     }
 }
@@ -344,7 +350,10 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
         // A new width takes effect at the next period.
         Interface::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
         // A bus serves its chips in turn, and waits for those that measure.
-        Interface::I2c(_) | Interface::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
+        Interface::I2c(_) | Interface::Spi(_) | Interface::OneWire(_) => {
+            cycle_ns + cycle_ns / 2 + measuring_ns(job, one)
+        }
+        Interface::Stepper(own) => moves_ns(one, own),
         Interface::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
         Interface::Analog(_)
         | Interface::Icu(_)
@@ -354,6 +363,24 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
         | Interface::Can(_) => 0,
     };
     SETTLE_NS + link_ns(job) + own_ns
+}
+
+/// The longest time that a motor needs for one step of its script.
+fn moves_ns(one: &JobDevice<'_>, own: &Stepper) -> u64 {
+    let (speed, acceleration) = (f64::from(own.speed), f64::from(own.acceleration));
+    let seconds = match own.mode {
+        Mode::Position => {
+            let (low, high) = script::range(one);
+            // The script goes beyond its ends by a quarter.
+            let steps = 1.5 * (high - low);
+            let ramp = speed / acceleration;
+            let peak = (steps / acceleration).sqrt();
+            if peak < ramp { 2.0 * peak } else { steps / speed + ramp }
+        }
+        // Some steps at the lowest speed of the script, to measure it by.
+        Mode::Velocity => 2.0 * speed / acceleration + 100.0 / speed,
+    };
+    crate::arith::nanoseconds(1.05e9 * seconds)
 }
 
 /// The time that the chips on a device's bus take to measure.

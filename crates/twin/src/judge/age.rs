@@ -33,14 +33,22 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         {
             delay_ns + 1_000 * u64::from(*wait_us)
         }
+        Interface::OneWire(own) => {
+            // A bit-banged reading lasts some milliseconds, and is repeated where something disturbed it.
+            let read_ns = delay_ns.min(50 * MS) + 40 * MS;
+            read_ns
+                + (delay_ns + 1_000 * u64::from(own.wait_us)) * u64::from(!own.trigger.is_empty())
+        }
         Interface::Analog(_) | Interface::I2c(_) | Interface::Spi(_) => delay_ns.min(50 * MS),
         // A spike restarts a contact's debounce, and without interrupts each sample is a cycle late.
         Interface::Digital(own) if own.debounce_us > 0 => {
             delay_ns.min(50 * MS) + 3_000 * u64::from(own.debounce_us) + 20 * MS
         }
         Interface::Digital(_) => delay_ns.min(50 * MS),
+        // An answer has what the part measures then.
+        Interface::Uart(own) if !own.exchange.request.is_empty() => period_ns + 10 * MS,
         Interface::Uart(_) | Interface::Can(_) => period_ns + delay_ns.min(SECOND),
-        Interface::Encoder(_) => 20 * MS,
+        Interface::Encoder(_) | Interface::Stepper(_) => 20 * MS,
         Interface::Icu(icu) => {
             pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some())
         }

@@ -41,13 +41,14 @@ impl Counted {
         let is_plain = filter.change.is_none() && filter.median < 2 && filter.smooth_ms == 0;
         let (read_ns, is_repeated) = match one.device.kind.interface() {
             Interface::Icu(icu) if icu.mode == Mode::Count => (0, true),
-            Interface::Encoder(_) => (READ_NS, true),
+            Interface::Encoder(_) | Interface::Stepper(_) => (READ_NS, true),
             Interface::Digital(own) if own.edge.is_some() && own.debounce_us == 0 => (0, false),
             Interface::Icu(_)
             | Interface::Digital(_)
             | Interface::Analog(_)
             | Interface::I2c(_)
             | Interface::Spi(_)
+            | Interface::OneWire(_)
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)

@@ -56,13 +56,17 @@ impl Pace {
         let reporter_ns = rate_hz.map_or(REPORTER_NS, cycle_ns_of);
         let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
         let (least_ns, most_ns, own_ns) = match device.kind.interface() {
-            Interface::Encoder(_) => (0, REPEAT_NS, 0),
+            Interface::Encoder(_) | Interface::Stepper(_) => (0, REPEAT_NS, 0),
             Interface::Icu(icu) if icu.mode == Mode::Count => (0, REPEAT_NS, 0),
             Interface::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
             Interface::Digital(_) | Interface::Analog(_) => (cycle_ns, cycle_ns, 0),
-            Interface::I2c(_) | Interface::Spi(_) => {
+            Interface::I2c(_) | Interface::Spi(_) | Interface::OneWire(_) => {
                 let (least_ns, most_ns) = of_chip(job, one, cycle_ns);
                 (least_ns, most_ns, 0)
+            }
+            // The round of a line may begin with another part.
+            Interface::Uart(own) if !own.exchange.request.is_empty() => {
+                (cycle_ns, cycle_ns, bench.period_ns(device.part)?)
             }
             Interface::Uart(_) | Interface::Can(_) => {
                 let period_ns = bench.period_ns(device.part)?;
@@ -87,13 +91,16 @@ impl Pace {
         let first_ns = match device.kind.interface() {
             Interface::Analog(_) => Some(MEASURING_NS),
             Interface::I2c(_) | Interface::Spi(_) => Some(of_chip(job, one, MS).1),
+            // Its parts need a pause once they have power.
+            Interface::OneWire(_) => None,
             Interface::Icu(_)
             | Interface::Encoder(_)
             | Interface::Digital(_)
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => None,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => None,
         };
         // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);

@@ -39,6 +39,7 @@ pub(crate) fn range(output: Output) -> (f64, f64) {
     match (output.of, output.number) {
         (Formula::Ntc, _) => (-4_000.0, 12_500.0),
         (Formula::Tsl2561, _) => (0.0, 20_000_000.0),
+        (Formula::Hx711, _) => (-8_388_608.0, 8_388_607.0),
         (Formula::Bmp280 | Formula::Bme280, 0) => (-4_000.0, 8_500.0),
         (Formula::Bmp280 | Formula::Bme280, 1) => (30_000.0 * 256.0, 110_000.0 * 256.0),
         (Formula::Bmp280 | Formula::Bme280, _) => (0.0, 100.0 * 1_024.0),
@@ -50,6 +51,7 @@ pub(crate) fn likely(output: Output) -> (f64, f64) {
     match (output.of, output.number) {
         (Formula::Ntc, _) | (Formula::Bmp280 | Formula::Bme280, 0) => (1_500.0, 3_000.0),
         (Formula::Tsl2561, _) => (50_000.0, 500_000.0),
+        (Formula::Hx711, _) => (-100_000.0, 1_000_000.0),
         (Formula::Bmp280 | Formula::Bme280, 1) => (98_000.0 * 256.0, 103_000.0 * 256.0),
         (Formula::Bmp280 | Formula::Bme280, _) => (30.0 * 1_024.0, 70.0 * 1_024.0),
     }
@@ -60,7 +62,7 @@ pub(crate) fn calibration(formula: Formula) -> &'static [u8] {
     match formula {
         Formula::Bme280 => &CALIBRATION,
         Formula::Bmp280 => CALIBRATION.get(..24).unwrap_or_default(),
-        Formula::Ntc | Formula::Tsl2561 => &[],
+        Formula::Ntc | Formula::Tsl2561 | Formula::Hx711 => &[],
     }
 }
 
@@ -90,6 +92,7 @@ pub(crate) fn raw(formula: Formula, parameters: &[i32], wanted: [Option<f64>; 3]
             let channel0 = whole(channel0, 65_534.0);
             [low16(channel0), low16(channel1)].concat()
         }
+        Formula::Hx711 => load_cell(first.unwrap_or(0.0)),
     }
 }
 
@@ -116,11 +119,24 @@ pub(crate) fn step(output: Output, parameters: &[i32], near: f64) -> f64 {
             let [above, below] = [level + 1.0, level - 1.0].map(|at| thermistor(parameters, at));
             (above - below).abs()
         }
+        (Formula::Hx711, _) => 1.0,
         // A count of either channel; the constants have nine bits.
         (Formula::Tsl2561, _) => {
             near.abs() * 0.004 + 2.0 * 1_000.0 * TSL_M / 16_384.0 * gain(parameters)
         }
     }
+}
+
+/// What an HX711 that is ready answers: low, each bit of the number twice, and high after the last clock.
+fn load_cell(wanted: f64) -> Vec<u8> {
+    #[expect(clippy::cast_possible_truncation, reason = "it is in the range of 24 bits")]
+    let number = wanted.round().clamp(-8_388_608.0, 8_388_607.0) as i32;
+    let doubled = |byte: u8| {
+        (0..8).rev().fold(0_u16, |all, place| (all << 2) | (u16::from(byte >> place & 1) * 0b11))
+    };
+    let [_, bytes @ ..] = number.to_be_bytes();
+    let clocked = bytes.map(|byte| doubled(byte).to_be_bytes()).concat();
+    [vec![0], clocked, vec![0xFF]].concat()
 }
 
 fn fine(raw: f64) -> f64 {

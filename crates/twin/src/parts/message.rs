@@ -26,9 +26,9 @@ pub(crate) struct Field {
 
 /// What the messages of a part look like.
 #[derive(Clone, Debug)]
-struct Form {
-    uart: Uart,
-    fields: Vec<Field>,
+pub(super) struct Form {
+    pub(super) uart: Uart,
+    pub(super) fields: Vec<Field>,
 }
 
 /// A part that sends messages.
@@ -88,14 +88,14 @@ impl MessageSender {
 }
 
 impl Form {
-    fn byte_ns(&self) -> u64 {
+    pub(super) fn byte_ns(&self) -> u64 {
         let parity = u64::from(self.uart.parity != Parity::None);
         let bits = 1 + u64::from(self.uart.data_bits) + parity + u64::from(self.uart.stop_bits);
         bits * 1_000_000_000 / u64::from(self.uart.baud.max(1))
     }
 
     /// One message of each sentence, or the only message.
-    fn compose(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
+    pub(super) fn compose(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
         let is_text = self.fields.iter().any(|field| field.text.is_some());
         if !is_text {
             return framed(&self.uart, &self.binary(subjects, now_ns));
@@ -178,11 +178,46 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
         MessageChecksum::Xor8 => vec![xor(summed)],
         MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
         MessageChecksum::Crc8DvbS2 => vec![crc8(summed, 0xD5, 0)],
+        MessageChecksum::Crc8Ld06 => vec![crc8(summed, 0x4D, 0)],
+        MessageChecksum::Sum16 => sum.to_be_bytes().to_vec(),
         MessageChecksum::Nmea => format!("*{:02X}", xor(body)).into_bytes(),
+        MessageChecksum::Sum7 => vec![sum.to_be_bytes()[1] % 128],
+        MessageChecksum::NotSum8 => vec![255 - sum.to_be_bytes()[1]],
+        MessageChecksum::NegSum8 => vec![(0x1_0000_u32 - u32::from(sum)).to_be_bytes()[3]],
+        MessageChecksum::NegSum16 => {
+            let [_, _, high, low] = (0x1_0000_u32 - u32::from(sum)).to_be_bytes();
+            vec![high, low]
+        }
+        MessageChecksum::Crc16Umts => {
+            let mut sum = crc16(summed, 0x8005);
+            sum.reverse();
+            sum.to_vec()
+        }
+        MessageChecksum::Crc16Xmodem => crc16(summed, 0x1021).to_vec(),
     };
     all.extend(checksum);
     all.extend(&uart.end);
     all
+}
+
+/// A 16-bit CRC from 0, as a division of polynomials: the bits of the message, and sixteen zeros behind them, are
+/// shifted through the remainder. The high byte first.
+fn crc16(bytes: &[u8], polynomial: u32) -> [u8; 2] {
+    let bits =
+        bytes.iter().chain(&[0, 0]).flat_map(|byte| (0..8).rev().map(move |at| byte >> at & 1));
+    let rest = bits.fold(0_u32, |rest, bit| {
+        let next = rest << 1 | u32::from(bit);
+        if next & 0x1_0000 == 0 { next } else { (next ^ polynomial) & 0xFFFF }
+    });
+    let [_, _, high, low] = rest.to_be_bytes();
+    [high, low]
+}
+
+/// A value as the text that a part is sent.
+pub(crate) fn told(text: &TextField, raw: &[f64]) -> Vec<u8> {
+    let all: Vec<String> = raw.iter().flat_map(|raw| written(text, *raw)).collect();
+    let separator = text.separator.map_or_else(String::new, |byte| char::from(byte).to_string());
+    all.join(&separator).into_bytes()
 }
 
 /// A number as it is written in a text; for degrees, the next column as well.

@@ -1,9 +1,11 @@
 //! The parts behind a board's pins, which answer with the world's values as the library's drivers describe.
 
 pub(crate) mod can;
+pub(crate) mod dialogue;
 pub(crate) mod formula;
 pub(crate) mod line;
 pub(crate) mod message;
+pub(crate) mod onewire;
 pub(crate) mod pulses;
 pub(crate) mod ranges;
 pub(crate) mod registers;

@@ -223,7 +223,11 @@ impl Registers {
         }
         // A write also returns bytes, which mean nothing.
         let first = self.sent.first().copied().unwrap_or(0);
-        if first & self.protocol.read_mask != 0 || self.protocol.read_mask == 0 {
+        let is_read = first & self.protocol.read_mask != 0 || self.protocol.read_mask == 0;
+        // Without a mask a setup write looks like a read until it has ended.
+        let is_setup =
+            self.init().nth(self.begun).is_some_and(|bytes| bytes.starts_with(&self.sent));
+        if is_read && !is_setup {
             self.note(place - width - 1);
         }
         self.answer.get(place - width - 1).copied().unwrap_or(0)

@@ -44,6 +44,7 @@ pub(crate) fn range(words: &Words) -> Option<(f64, f64)> {
             let digits = u32::from(words.bits).div_ceil(4).min(15);
             Some((0.0, f64::from(10_u32.pow(digits.min(9))) - 1.0))
         }
+        Code::Magnitude => Some((1.0 - full / 2.0, full / 2.0 - 1.0)),
         Code::Integer | Code::Packed if words.is_signed => Some((-full / 2.0, full / 2.0 - 1.0)),
         Code::Integer | Code::Packed => Some((0.0, full - 1.0)),
     }
@@ -56,6 +57,11 @@ fn word(words: &Words, raw: f64) -> [u8; 8] {
         #[expect(clippy::cast_possible_truncation, reason = "the word has no more digits")]
         Code::Float => u64::from((raw as f32).to_bits()).to_be_bytes(),
         Code::Bcd => (bcd(held(words, raw)) << words.low).to_be_bytes(),
+        Code::Magnitude => {
+            let number = held(words, raw);
+            let sign = u64::from(number < 0) << words.bits.saturating_sub(1);
+            ((number.unsigned_abs() | sign) << words.low).to_be_bytes()
+        }
         Code::Integer | Code::Packed => {
             (masked(held(words, raw), words.bits) << words.low).to_be_bytes()
         }
@@ -142,6 +148,8 @@ mod tests {
         let little = Words { order: ByteOrder::Little, ..words(Code::Integer, 2, 0, 16, false) };
         assert_eq!(bytes(&little, &[0x1234.into()]), [0x34, 0x12]);
         assert_eq!(bytes(&words(Code::Bcd, 1, 0, 8, false), &[59.0]), [0x59]);
+        // AM2302: -10.1 degrees are 0x8065.
+        assert_eq!(bytes(&words(Code::Magnitude, 2, 0, 16, false), &[-101.0]), [0x80, 0x65]);
         assert_eq!(bytes(&words(Code::Integer, 2, 0, 16, false), &[70_000.0]), [0xFF, 0xFF]);
         let float = words(Code::Float, 4, 0, 32, false);
         assert_eq!(bytes(&float, &[1.5]), 1.5_f32.to_be_bytes());

@@ -2,13 +2,15 @@
 
 use sense_rt::{
     Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+    onewire,
 };
+use sensedsl_job::kinds::serial;
 use sensedsl_job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
 use sensedsl_wire::Direction;
 
-use super::{Core, begins, wrapped};
+use super::core::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
 use crate::tables::{self, kept};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Surroundings as _};
@@ -21,9 +23,7 @@ pub(super) struct Bus {
     table: &'static ChipTable,
     schema: &'static Schema,
     chip: Box<Chip<[u8; 16_384]>>,
-    unit: u8,
-    /// For a chip on SPI, the connection that has its chip select.
-    selected: Option<ConnectionIndex>,
+    way: Way,
     start_ms: u32,
     /// The time of its next step.
     wakes_ms: u64,
@@ -61,7 +61,7 @@ impl Bus {
             return;
         }
         for _ in 0..TRANSFERS_MAX {
-            let way = (self.table.address, self.unit, self.selected);
+            let way = self.way;
             let outcome = match self.chip.next(wrapped(since_ms)) {
                 Step::Write(bytes) => transfer(bench, way, bytes, &mut [], now_ns),
                 Step::WriteRead(bytes, answer) => transfer(bench, way, bytes, answer, now_ns),
@@ -87,7 +87,7 @@ impl Bus {
             self.starts = self.chip.counts().starts;
             self.owed.clone_from(&self.set);
         }
-        let way = (self.table.address, self.unit, self.selected);
+        let way = self.way;
         for (command, owed) in self.table.commands.iter().zip(&mut self.owed) {
             let Some(value) = owed.as_deref() else { continue };
             let outcome = match self.chip.write(command, value) {
@@ -103,22 +103,34 @@ impl Bus {
     }
 }
 
-type Way = (u8, u8, Option<ConnectionIndex>);
+/// How a chip is reached.
+#[derive(Clone, Copy)]
+enum Way {
+    /// By its address on a unit.
+    I2c { address: u8, unit: u8 },
+    /// By the connection that has its chip select, on a unit.
+    Spi { unit: u8, connection: ConnectionIndex },
+    /// Over its wire, which it may share.
+    Wire(ConnectionIndex),
+}
 
 /// A transfer: bytes out, then bytes in.
 fn transfer(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
-    let (address, unit, selected) = way;
-    if let Some(connection) = selected {
-        bench.drive_at(connection, Role::Cs, Some(false), now_ns);
-        for byte in out {
-            bench.spi(unit, *byte, now_ns);
+    let (address, unit) = match way {
+        Way::I2c { address, unit } => (address, unit),
+        Way::Wire(connection) => return on_wire(bench, connection, out, answer, now_ns),
+        Way::Spi { unit, connection } => {
+            bench.drive_at(connection, Role::Cs, Some(false), now_ns);
+            for byte in out {
+                bench.spi(unit, *byte, now_ns);
+            }
+            for place in answer {
+                *place = bench.spi(unit, 0, now_ns);
+            }
+            bench.drive_at(connection, Role::Cs, Some(true), now_ns);
+            return Outcome::Fresh;
         }
-        for place in answer {
-            *place = bench.spi(unit, 0, now_ns);
-        }
-        bench.drive_at(connection, Role::Cs, Some(true), now_ns);
-        return Outcome::Fresh;
-    }
+    };
     let outcome = i2c(bench, unit, address, out, answer, now_ns);
     if !matches!(outcome, Outcome::TimedOut) {
         bench.i2c(unit, I2cEvent::Stop, now_ns);
@@ -170,10 +182,33 @@ fn i2c(
     Outcome::Fresh
 }
 
+/// A transfer on one wire, whose checksums the board tests.
+fn on_wire(
+    bench: &mut Bench,
+    connection: ConnectionIndex,
+    out: &[u8],
+    answer: &mut [u8],
+    now_ns: u64,
+) -> Outcome {
+    let Some(bytes) = bench.line_transfer(connection, out, now_ns) else {
+        return Outcome::NotAcknowledged;
+    };
+    if answer.is_empty() {
+        return Outcome::Fresh;
+    }
+    // A part that has not heard the command leaves the wire alone.
+    let bytes = bytes.into_iter().chain(std::iter::repeat(0xFF));
+    answer.iter_mut().zip(bytes).for_each(|(place, byte)| *place = byte);
+    if let [a, b, c, d, sum] = *answer {
+        let is_right = a.wrapping_add(b).wrapping_add(c).wrapping_add(d) == sum;
+        return if is_right { Outcome::Fresh } else { Outcome::WrongCrc };
+    }
+    onewire::check(answer)
+}
+
 /// A transfer with as many bytes in as out.
 fn exchange(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
-    let (_, unit, selected) = way;
-    let Some(connection) = selected else { return Outcome::Invalid };
+    let Way::Spi { unit, connection } = way else { return Outcome::Invalid };
     bench.drive_at(connection, Role::Cs, Some(false), now_ns);
     for (byte, place) in out.iter().zip(answer) {
         *place = bench.spi(unit, *byte, now_ns);
@@ -187,9 +222,11 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
     let units = Units::new(job);
     let mut all = Vec::new();
     for one in &job.connections {
-        let is_spi = match one.connection.kind.interface() {
-            Interface::I2c(_) => false,
-            Interface::Spi(_) => true,
+        let unit = one.unit.and_then(|name| units.number(name)).unwrap_or(0);
+        let way = match one.connection.kind.interface() {
+            Interface::I2c(own) => Way::I2c { address: own.address, unit },
+            Interface::Spi(_) => Way::Spi { unit, connection: one.index },
+            Interface::OneWire(_) => Way::Wire(one.index),
             Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
@@ -197,7 +234,8 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => continue,
+            | Interface::Can(_)
+            | Interface::Stepper(_) => continue,
         };
         let Some(plan) = job.bus_of(one) else {
             continue;
@@ -208,8 +246,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             table,
             schema,
             chip: Box::new(Chip::new(table, schema)),
-            unit: one.unit.and_then(|name| units.number(name)).unwrap_or(0),
-            selected: is_spi.then_some(one.index),
+            way,
             start_ms: one.cycle.start_ms,
             wakes_ms: u64::from(one.cycle.start_ms),
             owed: vec![None; commands],
@@ -280,6 +317,9 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             continue;
         };
         let Some(plan) = tables.message.as_ref() else { continue };
+        if serial::is_dialogue(job, one) {
+            continue;
+        }
         let table: &'static MessageTable = kept(tables::message(plan, |name| place(job, name)));
         all.push(Port {
             table,

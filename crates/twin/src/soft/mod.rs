@@ -6,22 +6,27 @@
 //! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod core;
+mod dialogue;
+mod motors;
 mod outputs;
 mod sensors;
 
 use std::collections::{BTreeMap, VecDeque};
 
 use sense_rt::{
-    BoardHealth, Cause, Channel, Filter, FilterTable, Health, Host, Outcome, Record, Reporter,
-    ReporterConfig, Schema, Store,
+    BoardHealth, Cause, Channel, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
+    Schema, Store,
 };
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_wire::Direction;
 
+use self::core::{Core, wrapped};
 use crate::bench::Bench;
 use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
+use dialogue::Dialogue;
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
 
@@ -32,10 +37,6 @@ const REPORT_MS: u32 = 10;
 const QUEUE_BYTES: usize = 16_384;
 /// The bytes that a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
 const USB_BYTES_A_MS: u64 = 1_000;
-
-type Values = Store<[u8; 16_384]>;
-type Records = Health<[Record; 256]>;
-type AnyFilter = Filter<[u8; 49_152]>;
 
 /// A board that does its job in this program.
 pub struct SoftBoard {
@@ -60,6 +61,7 @@ struct Shape {
     has_link: bool,
     buses: Vec<Bus>,
     ports: Vec<Port>,
+    lines: Vec<Dialogue>,
     stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
@@ -74,6 +76,7 @@ struct State {
     reporter: Box<Reporter<[u8; 65_536]>>,
     buses: Vec<Bus>,
     ports: Vec<Port>,
+    lines: Vec<Dialogue>,
     stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
@@ -83,21 +86,6 @@ struct State {
     /// The values that actuators are set to in this millisecond, by the host or because of its silence.
     owed: Vec<(usize, Vec<u8>)>,
     began_ms: u64,
-}
-
-/// The values and the health of the devices.
-struct Core {
-    store: Box<Values>,
-    health: Box<Records>,
-    filters: BTreeMap<usize, Box<AnyFilter>>,
-    now_ms: u32,
-}
-
-impl Core {
-    fn record(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
-        let filter = self.filters.get_mut(&index).map(|filter| &mut ***filter);
-        self.store.record(&mut self.health, filter, index, outcome, value, self.now_ms);
-    }
 }
 
 /// The bytes between board and host.
@@ -143,6 +131,7 @@ impl Channel for Link {
 struct Side<'a> {
     core: &'a mut Core,
     buses: &'a mut Vec<Bus>,
+    lines: &'a mut Vec<Dialogue>,
     outputs: &'a mut Outputs,
     owed: &'a mut Vec<(usize, Vec<u8>)>,
     received: &'a mut Vec<(u64, usize, Vec<u8>)>,
@@ -156,6 +145,9 @@ impl Side<'_> {
         self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
         for bus in self.buses.iter_mut() {
             bus.set(index, value);
+        }
+        for line in self.lines.iter_mut() {
+            line.set(index, value);
         }
         self.owed.push((index, value.to_vec()));
     }
@@ -173,6 +165,7 @@ impl Host for Side<'_> {
 
     fn failsafe(&mut self) {
         self.outputs.hush();
+        self.lines.iter_mut().for_each(Dialogue::hush);
         let safe: Vec<_> = self.outputs.safe().map(|(index, of)| (index, of.to_vec())).collect();
         for (index, value) in safe {
             self.put(index, &value);
@@ -261,7 +254,7 @@ impl SoftBoard {
             return;
         }
         if self.state.began_ms == u64::MAX {
-            self.bench.power_up();
+            self.bench.power_up(now_ns);
             self.state = State::new(&self.shape, self.now_ms - 1);
             self.starts += 1;
         }
@@ -277,17 +270,31 @@ impl SoftBoard {
     /// Runs all threads but the reporter.
     fn serve(&mut self, since_ms: u64, now_ns: u64) {
         let State {
-            core, buses, ports, stations, converters, captures, contacts, encoders, ..
+            core,
+            buses,
+            ports,
+            lines,
+            stations,
+            converters,
+            captures,
+            contacts,
+            encoders,
+            outputs,
+            ..
         } = &mut self.state;
         core.now_ms = wrapped(since_ms);
         let bench = &mut self.bench;
         buses.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         ports.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        lines.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         stations.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         converters.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         contacts.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
         encoders.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        for (index, mut value) in outputs.motors.step(bench, since_ms, now_ns) {
+            core.record(index, Outcome::Fresh, &mut value);
+        }
     }
 
     fn report(&mut self, since_ms: u64) {
@@ -295,8 +302,8 @@ impl SoftBoard {
             return;
         }
         let (received, starts, now_ms) = (&mut self.received, self.starts, self.now_ms);
-        let State { core, buses, reporter, outputs, owed, .. } = &mut self.state;
-        let mut side = Side { core, buses, outputs, owed, received, now_ms, starts };
+        let State { core, buses, lines, reporter, outputs, owed, .. } = &mut self.state;
+        let mut side = Side { core, buses, lines, outputs, owed, received, now_ms, starts };
         reporter.cycle(since_ms * 1_000, &mut self.link, &mut side);
         for (index, value) in std::mem::take(owed) {
             outputs.set(index, &value, &mut self.bench, now_ms * MS_NS);
@@ -350,6 +357,7 @@ impl Shape {
             has_link: link.transport != Transport::None,
             buses: buses::buses(job, schema),
             ports: buses::ports(job, schema),
+            lines: dialogue::dialogues(job, schema),
             stations: buses::stations(job),
             converters: sensors::converters(job),
             captures: sensors::captures(job),
@@ -363,18 +371,12 @@ impl Shape {
 
 impl State {
     fn new(shape: &Shape, now_ms: u64) -> Self {
-        let filters = shape.filters.iter();
-        let filters = filters.map(|(index, table)| (*index, Box::new(Filter::new(table))));
         Self {
-            core: Core {
-                store: Box::new(Store::new(shape.schema)),
-                health: Box::new(Health::new(shape.cycles_ms)),
-                filters: filters.collect(),
-                now_ms: 0,
-            },
+            core: Core::new(shape.schema, shape.cycles_ms, &shape.filters),
             reporter: Box::new(Reporter::new(shape.config)),
             buses: shape.buses.iter().map(Bus::anew).collect(),
             ports: shape.ports.iter().map(Port::anew).collect(),
+            lines: shape.lines.clone(),
             stations: shape.stations.clone(),
             converters: shape.converters.clone(),
             captures: shape.captures.clone(),
@@ -385,16 +387,4 @@ impl State {
             began_ms: now_ms,
         }
     }
-}
-
-/// Milliseconds as the runtime counts them: they wrap at 32 bits.
-fn wrapped(ms: u64) -> u32 {
-    u32::try_from(ms & u64::from(u32::MAX)).unwrap_or(0)
-}
-
-/// Whether a cycle begins in this millisecond.
-const fn begins(since_ms: u64, cycle: sensedsl_job::Cycle) -> bool {
-    let start = cycle.start_ms as u64;
-    let delay = if cycle.delay_ms == 0 { 1 } else { cycle.delay_ms as u64 };
-    since_ms >= start && (since_ms - start).is_multiple_of(delay)
 }

@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use sense_rt::{
     Bridge, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
 };
-use sensedsl_job::kinds::can;
+use sensedsl_job::kinds::{can, serial};
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Interface, Role};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
+use super::motors::Motors;
 use crate::bench::{Bench, Units};
 use crate::tables;
 use sensedsl_surroundings::{CanFrame, Surroundings as _};
@@ -29,6 +30,7 @@ pub(super) struct Outputs {
     levels: Vec<(ConnectionIndex, bool)>,
     /// The values that are set when the host is silent, by place in the schema.
     safe: BTreeMap<usize, Vec<u8>>,
+    pub(super) motors: Motors,
 }
 
 /// The destination of a value.
@@ -111,7 +113,13 @@ impl Outputs {
             let is_driven = one.connection.direction == Direction::Actuator;
             is_driven.then_some((one.index, own.initial != own.active_low))
         };
-        Self { all, frames, levels: bare.filter_map(level).collect(), safe }
+        Self {
+            all,
+            frames,
+            levels: bare.filter_map(level).collect(),
+            safe,
+            motors: Motors::new(job),
+        }
     }
 
     /// The board starts.
@@ -119,6 +127,7 @@ impl Outputs {
         for (at, level) in &self.levels {
             bench.drive_at(*at, Role::Out, Some(*level), now_ns);
         }
+        self.motors.start(bench, now_ns);
         let mut first = Vec::new();
         for (index, output) in &self.all {
             output.rest(bench, now_ns);
@@ -140,9 +149,10 @@ impl Outputs {
         }
     }
 
-    /// The host is silent: a frame is not repeated until a failsafe or the host sets it again.
+    /// The host is silent: a frame is not repeated until a failsafe or the host sets it again, and motors stop.
     pub(super) fn hush(&mut self) {
         self.frames.iter_mut().for_each(|frame| frame.sent_ns = None);
+        self.motors.stop();
     }
 
     /// The values that are set when the host is silent.
@@ -152,6 +162,7 @@ impl Outputs {
 
     /// The host has set a device.
     pub(super) fn set(&mut self, index: usize, value: &[u8], bench: &mut Bench, now_ns: u64) {
+        self.motors.set(index, value, bench, now_ns);
         let Some(Output { item, sink, .. }) = self.all.get_mut(&index) else { return };
         let size = item.scalar.bytes();
         let element = |place: usize| value.get(place * size..).unwrap_or_default();
@@ -245,6 +256,10 @@ fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
     let tables = job.parts.iter().find(|part| part.index == one.device.part).map(|part| &part.plan);
     let own = job.wires_of(one.device);
     if one.device.kind.uart().is_some() {
+        // What a part is told in a dialogue goes out when the line is free.
+        if own.iter().any(|wire| serial::is_dialogue(job, wire)) {
+            return None;
+        }
         let plan = tables?.message.as_ref()?.commands.iter().find(|of| of.field == one.name())?;
         let unit = one.unit.and_then(|name| Units::new(job).number(name))?;
         return Some(Sink::Message(unit, tables::compose(plan)));
@@ -276,7 +291,9 @@ fn pin(wire: &JobConnection<'_>) -> Option<Pin> {
         | Interface::Encoder(_)
         | Interface::Uart(_)
         | Interface::Spi(_)
-        | Interface::Can(_) => return None,
+        | Interface::OneWire(_)
+        | Interface::Can(_)
+        | Interface::Stepper(_) => return None,
     };
     Some(Pin { at: wire.index, element: usize::from(wire.element()), what })
 }

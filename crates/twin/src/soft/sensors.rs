@@ -12,7 +12,7 @@ use sensedsl_model::kind::digital::{self, Pull};
 use sensedsl_model::kind::icu::{self, Mode};
 use sensedsl_wire::{Direction, ScalarType};
 
-use super::{Core, begins, wrapped};
+use super::core::{Core, begins, wrapped};
 use crate::arith::rounded;
 use crate::bench::{Bench, converted};
 use crate::tables;

@@ -29,6 +29,10 @@ impl Fault {
 pub enum FaultKind {
     /// A chip does not acknowledge.
     NoAnswer,
+    /// A part gives bytes that its checksum does not fit.
+    BadChecksum,
+    /// A part answers too late.
+    Late,
     /// Something holds SDA low.
     StuckSda,
     /// Something holds SCL low.
@@ -45,8 +49,10 @@ pub enum FaultKind {
 
 impl FaultKind {
     /// All of them, as the documentation lists them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::NoAnswer,
+        Self::BadChecksum,
+        Self::Late,
         Self::StuckSda,
         Self::Hang,
         Self::Torn,
@@ -60,6 +66,8 @@ impl FaultKind {
     pub const fn name(self) -> &'static str {
         match self {
             Self::NoAnswer => "no_answer",
+            Self::BadChecksum => "bad_checksum",
+            Self::Late => "late",
             Self::StuckSda => "stuck_sda",
             Self::Hang => "hang",
             Self::Torn => "torn",
@@ -79,7 +87,9 @@ impl FaultKind {
     #[must_use]
     pub const fn needs(self) -> &'static str {
         match self {
-            Self::NoAnswer | Self::StuckSda | Self::Hang => "devices on i2c",
+            Self::NoAnswer => "devices on i2c or onewire",
+            Self::BadChecksum | Self::Late => "devices on onewire",
+            Self::StuckSda | Self::Hang => "devices on i2c",
             Self::Torn => "every sensor",
             Self::Silent => "devices that send by themselves: uart, can, icu, encoder",
             Self::Reset => "the board",
@@ -91,7 +101,9 @@ impl FaultKind {
     #[must_use]
     pub fn fits(self, kind: &Kind) -> bool {
         match self {
-            Self::NoAnswer | Self::StuckSda | Self::Hang => kind.i2c().is_some(),
+            Self::NoAnswer => kind.i2c().is_some() || kind.onewire().is_some(),
+            Self::BadChecksum | Self::Late => kind.onewire().is_some(),
+            Self::StuckSda | Self::Hang => kind.i2c().is_some(),
             Self::Torn => true,
             Self::Silent => match kind.interface() {
                 Interface::Uart(_)
@@ -101,9 +113,11 @@ impl FaultKind {
                 Interface::Analog(_)
                 | Interface::I2c(_)
                 | Interface::Digital(_)
+                | Interface::OneWire(_)
                 | Interface::Spi(_)
                 | Interface::Pwm(_)
-                | Interface::Dac(_) => false,
+                | Interface::Dac(_)
+                | Interface::Stepper(_) => false,
             },
             Self::Reset | Self::Garbage => false,
         }

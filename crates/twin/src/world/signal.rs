@@ -1,6 +1,7 @@
 //! A quantity of the world over time: its value at each moment, and its range in a span.
 
 use crate::arith::{TURN, chance, number, sine};
+use crate::commands::track::Track;
 
 /// The time in which noise goes from one value to the next: shorter than any cycle of a device. The noise does not
 /// jump, because a wheel cannot and an encoder would miss steps.
@@ -77,6 +78,8 @@ pub enum Shape {
         /// The value during a visit.
         to: Visit,
     },
+    /// It is where the board has moved a motor to.
+    Walked(Track),
 }
 
 /// The value that a quantity has during a visit.
@@ -142,6 +145,7 @@ impl Signal {
     pub fn bounds(&self) -> Option<(f64, f64)> {
         match &self.shape {
             Shape::Rate { a_second, .. } if *a_second != 0.0 => None,
+            Shape::Walked(_) => None,
             Shape::Constant(_)
             | Shape::Ramp { .. }
             | Shape::Sine { .. }
@@ -169,7 +173,8 @@ impl Signal {
             Shape::Constant(_)
             | Shape::Sine { .. }
             | Shape::Square { .. }
-            | Shape::Visits { .. } => None,
+            | Shape::Visits { .. }
+            | Shape::Walked(_) => None,
         }
     }
 
@@ -182,7 +187,8 @@ impl Signal {
             | Shape::Ramp { .. }
             | Shape::Rate { .. }
             | Shape::Points { .. }
-            | Shape::Visits { .. } => None,
+            | Shape::Visits { .. }
+            | Shape::Walked(_) => None,
         }
     }
 
@@ -203,7 +209,9 @@ impl Signal {
                     _ => None,
                 })
                 .fold(0.0, f64::max),
-            Shape::Constant(_) | Shape::Square { .. } | Shape::Visits { .. } => 0.0,
+            Shape::Constant(_) | Shape::Square { .. } | Shape::Visits { .. } | Shape::Walked(_) => {
+                0.0
+            }
         };
         shape + a_second(0.0, 2.0 * self.noise, NOISE_NS)
     }
@@ -218,7 +226,7 @@ impl Signal {
             Shape::Sine { amplitude, .. } => *amplitude != 0.0,
             Shape::Square { first, second, .. } => first != second,
             Shape::Points { points, .. } => !points.is_sorted_by(|one, next| one.1 <= next.1),
-            Shape::Visits { .. } => true,
+            Shape::Visits { .. } | Shape::Walked(_) => true,
         }
     }
 }
@@ -248,14 +256,18 @@ impl Shape {
                 let is_there = now_ns % (*every_ns).max(1) >= every_ns.saturating_sub(*for_ns);
                 if is_there { to.of(value) } else { value }
             }
+            Self::Walked(track) => track.at(now_ns),
         }
     }
 
     fn range(&self, from_ns: u64, to_ns: u64) -> (f64, f64) {
         let mut range = ordered(self.at(from_ns), self.at(to_ns));
+        if let Self::Walked(track) = self {
+            return track.range(from_ns, to_ns);
+        }
         let mut take = |value: f64| range = (range.0.min(value), range.1.max(value));
         match self {
-            Self::Constant(_) | Self::Ramp { .. } | Self::Rate { .. } => {}
+            Self::Constant(_) | Self::Ramp { .. } | Self::Rate { .. } | Self::Walked(_) => {}
             Self::Visits { base, every_ns, for_ns, to } => {
                 let every_ns = (*every_ns).max(1);
                 let (least, greatest) = base.range(from_ns, to_ns);

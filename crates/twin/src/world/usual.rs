@@ -141,11 +141,12 @@ fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
         (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
     }
     let shown = [device.shown.min, device.shown.max].map(|end| end.map(|end| scale.raw(end)));
-    if let [Some(one), Some(other)] = shown
-        && one.min(other) < high
-        && one.max(other) > low
-    {
-        (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
+    if let [Some(one), Some(other)] = shown {
+        let (least, greatest) = (one.min(other), one.max(other));
+        let overlaps = least < high && greatest > low;
+        // What the part says of itself is worth more than what is usual.
+        (low, high) =
+            if overlaps { (low.max(least), high.min(greatest)) } else { (least, greatest) };
     }
     largest_piece((low, high), &device.filter.invalid)
 }
@@ -205,11 +206,13 @@ fn likely_range(device: &Device) -> (f64, f64) {
                 Mode::Count => (0.0, 0.0),
             }
         }
-        Interface::Encoder(_) => (-2_000.0, 2_000.0),
+        Interface::Encoder(_) | Interface::Stepper(_) => (-2_000.0, 2_000.0),
         Interface::Analog(_) => (400.0, 3_700.0),
-        Interface::I2c(_) | Interface::Spi(_) | Interface::Uart(_) | Interface::Can(_) => {
-            of_words(device)
-        }
+        Interface::I2c(_)
+        | Interface::Spi(_)
+        | Interface::Uart(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_) => of_words(device),
         Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) => (0.0, 1.0),
     }
 }
@@ -217,6 +220,8 @@ fn likely_range(device: &Device) -> (f64, f64) {
 fn of_words(device: &Device) -> (f64, f64) {
     let Some(words) = Words::of(device) else { return (0.0, 100.0) };
     match (words.code, crate::parts::words::range(&words)) {
+        // A temperature or the like.
+        (Code::Magnitude, _) => (-200.0, 400.0),
         // A month, a weekday, an hour.
         (Code::Bcd, _) => (1.0, 7.0),
         (_, None) => (-100.0, 100.0),

@@ -9,6 +9,7 @@ mod judged;
 mod kinds;
 mod library;
 mod mistakes;
+mod motors;
 mod ranges;
 mod run;
 #[cfg(feature = "machine")]

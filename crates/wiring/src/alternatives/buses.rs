@@ -61,7 +61,9 @@ impl Maker<'_, '_> {
         let roles = self.wanted.kind.roles(self.wanted.direction);
         let roles = roles.into_iter().map(|role| {
             if role.is_on_any_pin() {
-                return self.role(role, &Need::Gpio, None);
+                // A chip select is the device's own; what says who has the line is the line's.
+                let shared = group.as_ref().filter(|_| role == Role::Direction);
+                return self.role(role, &Need::Gpio, shared.map(|group| (unit, group)));
             }
             let serves = |usage: &Usage| {
                 (bus.wire)(usage).is_some_and(|(of, wire)| of.as_str() == unit && wire == role)

@@ -41,10 +41,22 @@ impl Maker<'_, '_> {
                         made.push(self.reached(role, (index, pin), usage));
                     }
                 }
-                Need::Gpio | Need::Interrupt => {
+                Need::Gpio | Need::Interrupt | Need::Shared(_) => {
                     if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let interrupt = matches!(need, Need::Interrupt);
-                        made.push(self.bare(role, index, pin, interrupt));
+                        let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
+                        let shared = match (need, bus) {
+                            (Need::Shared(wire), _) => {
+                                let kind = wanted.kind.name();
+                                Some((*wire, Group::Bus(offer.index, (*wire).to_owned(), kind, 0)))
+                            }
+                            (_, Some((unit, group))) => Some((unit, group.clone())),
+                            (_, None) => None,
+                        };
+                        if let Some((unit, group)) = shared {
+                            self.share(&mut candidate, role, index, (unit, group));
+                        }
+                        made.push((candidate, chosen));
                     }
                 }
             }
@@ -84,6 +96,21 @@ impl Maker<'_, '_> {
         let violates = self.violates(role, pin, Some(usage));
         let candidate = Candidate { holder, claims, violates, ..own };
         (candidate, Chosen { pin: index, usage: Some(at) })
+    }
+
+    /// Lets all devices of a bus have a wire without a signal, at one pin.
+    fn share(
+        &mut self,
+        candidate: &mut Candidate,
+        role: Role,
+        pin: usize,
+        (unit, group): (&str, Group),
+    ) {
+        let board = self.offer.index;
+        let wire = Resource::BusWire(board, unit.to_owned(), role);
+        let on = Group::Pin(board, unit.to_owned(), role, pin, 0);
+        candidate.holder = self.builder.names.group(group);
+        candidate.claims.push(self.builder.names.shared(wire, on));
     }
 
     /// A signal that any number of pins may have at once.
@@ -174,6 +201,8 @@ pub(super) enum Need<'n> {
     Gpio,
     /// Any pin that has a digital circuit, and the interrupt line of its number.
     Interrupt,
+    /// Any pin that has a digital circuit, the same for all who share the wire of that name.
+    Shared(&'n str),
 }
 
 /// Whether the pin is where the device must be.

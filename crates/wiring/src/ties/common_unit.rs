@@ -32,11 +32,11 @@ impl Tier<'_> {
     ) -> Tight {
         let sets: Vec<&Units> = self.sets_on(meaning.board).collect();
         let left = intersections(&sets);
-        let befores: Vec<Option<&Units>> =
+        let previous: Vec<Option<&Units>> =
             if number == 0 { vec![None] } else { left.iter().map(Some).collect() };
         let is_last = usize::from(number) + 1 == self.connections.len();
         let mut all = Tight::new();
-        for before in befores {
+        for before in previous {
             for after in &left {
                 let leads = |set: &Units| match before {
                     Some(before) => before & set == *after,

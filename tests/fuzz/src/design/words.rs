@@ -139,11 +139,27 @@ pub(super) const KINDS: &[Kind] = &[
     },
     Kind {
         may: &[
+            ("mode", &["position", "velocity"], &["torque"]),
+            ("speed", &["4000", "1", "500000"], &["0", "500001", "1 ms"]),
+            ("acceleration", &["8000", "1", "10000000"], &["0", "-1"]),
+            ("pulse", &["2 us", "1 ms"], &["0", "2 ms"]),
+            ("forward", &["high", "low"], &["up"]),
+            ("enabled", &["low", "high"], &["true"]),
+            ("enable", &["none"], &["5"]),
+        ],
+        roles: &["step", "dir"],
+        drivers: &["driver = a4988; reading = target;"],
+        ..actuator("stepper", NUMBERS)
+    },
+    Kind {
+        may: &[
             ("baud", &["9600", "115200", "300", "10000000"], &["1", "9600 Hz"]),
             ("frame", &["\"8N1\"", "\"7E1\"", "\"8O1\""], &["\"9N1\"", "8"]),
             ("start", BYTES, BAD_BYTES),
             ("end", BYTES, BAD_BYTES),
             ("length", &["2", "1024"], &["0", "1025"]),
+            ("behind", BYTES, BAD_BYTES),
+            ("wait", &["5 ms", "1 s"], &["0 ms", "2 s"]),
             ("tx", &["none"], &["5"]),
         ],
         roles: &["tx", "rx"],
@@ -183,6 +199,26 @@ pub(super) const KINDS: &[Kind] = &[
         ],
         roles: &["tx", "rx"],
         ..both("can", ANY)
+    },
+    Kind {
+        needs: &[("protocol", &["w1", "dht"], &["i2c", "1"])],
+        may: &[
+            ("family", &["0x28", "1", "255"], &["0", "256"]),
+            (
+                "rom",
+                &["\"28-0000055f311a\"", "\"02 1C B8 01 00 00 00 A2\""],
+                &["\"28\"", "\"021CB801000000A3\""],
+            ),
+            ("pulse", &["1 ms", "18 ms"], &["0", "1 s"]),
+            ("trigger", &["[0x44]", "[]"], BAD_BYTES),
+            ("read", &["[0xBE]"], &["[]"]),
+            ("wait", &["750 ms", "0", "1 s"], &["-1", "61 s"]),
+            ("length", &["2", "1"], &["0", "9"]),
+            ("order", &["big", "little"], &["middle"]),
+        ],
+        roles: &["pin"],
+        drivers: &["driver = ds18b20;", "driver = dht22; delay = 2 s;"],
+        ..sensor("onewire", ANY)
     },
 ];
 

@@ -57,6 +57,8 @@ pub(super) struct World {
     pub from_can: Vec<(u8, CanFrame)>,
     pub driven: BTreeMap<Pad, Option<bool>>,
     pub waves: BTreeMap<TimerOutput, (u64, u64)>,
+    /// Pulses that were made one by one: when each began, and its width.
+    pub pulses: BTreeMap<TimerOutput, Vec<(u64, u64)>>,
     pub outputs: BTreeMap<u8, f64>,
     chip_selects: u32,
 }
@@ -139,6 +141,10 @@ impl Surroundings for World {
 
     fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, _: u64) {
         self.waves.insert(output, (period_ns, width_ns));
+    }
+
+    fn pulse(&mut self, output: TimerOutput, from_ns: u64, width_ns: u64) {
+        self.pulses.entry(output).or_default().push((from_ns, width_ns));
     }
 
     fn dac(&mut self, channel: u8, millivolts: f64, _: u64) {

@@ -73,13 +73,15 @@ on_both! {
     "i2c": chips_on_an_i2c_bus_are_read_and_written,
     "icu": a_frequency_is_captured,
     "pwm": pulses_have_the_widths_that_the_host_sets,
+    "stepper": motors_make_as_many_steps_as_the_host_asks_for,
     "spi": chips_on_an_spi_bus_are_read_and_written,
     "uart": messages_of_a_serial_port_are_taken,
 }
 
 #[test]
 fn every_kind_is_here() {
-    let here: BTreeSet<&str> = KINDS.iter().copied().collect();
+    // Parts on one wire are judged by their world, in a file of their own.
+    let here: BTreeSet<&str> = KINDS.iter().copied().chain(["onewire"]).collect();
     let all: BTreeSet<&str> = KindName::ALL.map(KindName::name).into();
     assert_eq!(here, all, "a test in {}", file!());
 }
@@ -241,6 +243,48 @@ fn pulses_have_the_widths_that_the_host_sets(mut bench: Bench) {
     bench.machine.link_write(&frame(&[1, 0x00, 0x00]));
     bench.run_until_ms(150);
     steers(&bench, 1_000_000);
+}
+
+/// The times between pulses in nanoseconds.
+fn intervals(pulses: &[(u64, u64)]) -> Vec<u64> {
+    pulses.windows(2).map(|pair| pair[1].0 - pair[0].0).collect()
+}
+
+fn motors_make_as_many_steps_as_the_host_asks_for(mut bench: Bench) {
+    let schema =
+        items(&["1 actuator Feed int32", "2 actuator Target int32", "3 sensor Position int32"]);
+    bench.run_until_ms(100);
+    assert!(bench.world().pulses.is_empty());
+    let target = |bench: &mut Bench, id: u8, value: i32, until_ms: u64| {
+        bench.machine.link_write(&frame(&[&[id][..], &value.to_be_bytes()].concat()));
+        bench.run_until_ms(until_ms);
+    };
+    target(&mut bench, 2, 400, 400);
+    let steps = |bench: &Bench| -> usize { bench.world().pulses.values().map(Vec::len).sum() };
+    assert_eq!(steps(&bench), 400);
+    let (axis, pulses) = bench.world().pulses.pop_first().unwrap();
+    bench.world().pulses.insert(axis, pulses.clone());
+    // Pulses of 2 us; 20000 steps/s^2 from rest: two steps take 10 ms and 4.14 ms, and none comes sooner than at
+    // 4000 steps/s, which is reached in the middle.
+    assert!(pulses.iter().all(|(_, width)| (2_000..2_500).contains(width)), "{pulses:?}");
+    let between = intervals(&pulses);
+    assert!((4_142_000..4_160_000).contains(&between[0]), "{between:?}");
+    let least = between.iter().min().unwrap();
+    assert!((353_000..361_000).contains(least), "{least}");
+    // Back, and a new target on the way: what is overshot is made good.
+    target(&mut bench, 2, -400, 480);
+    target(&mut bench, 2, 300, 900);
+    let position = values(&bench.reports(&schema), 3).last().map(|(_, value)| value.clone());
+    assert_eq!(position, Some(vec![Scalar::Signed(300)]));
+    // Without the host motors stop, and a speed needs it.
+    target(&mut bench, 1, 2_000, 1_300);
+    let feed = bench.world().pulses.iter().find(|(output, _)| **output != axis).unwrap().1.clone();
+    let fastest = *intervals(&feed).iter().min().unwrap();
+    assert!((499_700..506_000).contains(&fastest), "{fastest}");
+    bench.run_until_ms(2_000);
+    let stopped = steps(&bench);
+    bench.run_until_ms(2_500);
+    assert_eq!(steps(&bench), stopped);
 }
 
 fn chips_on_an_spi_bus_are_read_and_written(mut bench: Bench) {

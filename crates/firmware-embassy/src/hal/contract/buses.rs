@@ -46,6 +46,15 @@ pub(crate) trait Spi {
     ) -> Printed<Constructor>;
 }
 
+/// Wires that both ends pull low. The runtime's module `wire` has the type `OneWirePin`, and `pin`, which makes one. The
+/// HAL's clock counts microseconds: a slot is timed by it.
+pub(crate) trait OneWire {
+    /// The feature of `sense-embassy` that the module needs on this line of MCUs.
+    fn feature(&self) -> Option<&'static str> {
+        None
+    }
+}
+
 /// Serial ports of devices.
 pub(crate) trait Serial {
     /// The runtime's module of serial ports, which has `transmit` and what [`Serial::hearing`] says.
@@ -59,6 +68,11 @@ pub(crate) trait Serial {
     /// Whether a port can take wires whose levels are inverted.
     fn can_invert(&self) -> bool {
         true
+    }
+
+    /// Whether a port can have both directions at TX.
+    fn has_one_wire(&self) -> bool {
+        false
     }
 
     /// The type of a port or of one of its directions.

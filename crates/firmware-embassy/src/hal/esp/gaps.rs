@@ -10,7 +10,7 @@ use crate::hal::counted;
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
-    if devices.iter().any(|one| one.device.coding.drive == Some(Drive::DirectionPins)) {
+    if devices.iter().any(|one| one.device.coding.drive.is_some_and(|one| one != Drive::TwoPwm)) {
         return Some(
             "H-bridges with direction pins on ESP32, where those with two PWM inputs are driven",
         );
@@ -28,6 +28,8 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         | Kind::Uart(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::OneWire(_)
+        | Kind::Stepper(_) => None,
     }
 }

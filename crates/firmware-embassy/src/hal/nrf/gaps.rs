@@ -16,7 +16,7 @@ pub(super) fn lacks(
 ) -> Option<&'static str> {
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
-    if devices.iter().any(|one| one.device.coding.drive == Some(Drive::DirectionPins)) {
+    if devices.iter().any(|one| one.device.coding.drive.is_some_and(|one| one != Drive::TwoPwm)) {
         return Some(
             "H-bridges with direction pins on nRF52, where those with two PWM inputs are driven",
         );
@@ -34,7 +34,9 @@ pub(super) fn lacks(
         | Kind::Spi(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::OneWire(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

@@ -6,7 +6,7 @@ use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, Spi};
+use crate::hal::contract::buses::{I2c, OneWire, Spi};
 use crate::hal::contract::outputs::Pins as _;
 use crate::hal::dma::channel;
 use crate::missing::{self, Printed};
@@ -39,6 +39,8 @@ impl I2c for Settings {
         })
     }
 }
+
+impl OneWire for Settings {}
 
 impl Spi for Settings {
     fn bus_type(&self, unit: &UnitName) -> String {

@@ -23,7 +23,9 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         | Kind::Spi(_)
         | Kind::Pwm(_)
         | Kind::Dac(_)
-        | Kind::Can(_) => None,
+        | Kind::Can(_)
+        | Kind::OneWire(_)
+        | Kind::Stepper(_) => None,
     }
 }
 

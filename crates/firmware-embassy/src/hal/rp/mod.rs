@@ -13,7 +13,7 @@ mod serial;
 mod settings;
 mod types;
 
-use super::contract::buses::{I2c, Serial, Spi};
+use super::contract::buses::{I2c, OneWire, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
 use super::contract::outputs::Pulses;
 use super::contract::types::Types;
@@ -61,6 +61,7 @@ drivers! {
     pulses: Pulses,
     i2c: I2c,
     spi: Spi,
+    onewire: OneWire,
     serial: Serial,
     types: Types,
 }

@@ -6,7 +6,7 @@ use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, Spi};
+use crate::hal::contract::buses::{I2c, OneWire, Spi};
 use crate::hal::dma::channel;
 use crate::missing::{self, Printed};
 use crate::section::{Constructor, Section};
@@ -48,6 +48,13 @@ impl I2c for Settings {
                 sda.pin.name
             ),
         })
+    }
+}
+
+impl OneWire for Settings {
+    fn feature(&self) -> Option<&'static str> {
+        // An output of F1 has no resistor.
+        self.has_pulls().then_some("gpio-v2")
     }
 }
 

@@ -8,6 +8,7 @@ mod clock;
 mod dac;
 mod edges;
 mod link;
+mod motors;
 mod moved;
 mod project;
 mod pulses;
@@ -15,8 +16,9 @@ mod serial;
 mod settings;
 mod types;
 
-use super::contract::buses::{Can, I2c, Serial, Spi};
+use super::contract::buses::{Can, I2c, OneWire, Serial, Spi};
 use super::contract::inputs::{Analog, Capture, Edges, Encoder};
+use super::contract::motors::Motors;
 use super::contract::outputs::{Dac, Pulses};
 use super::contract::types::Types;
 use super::contract::{CORTEX_M, Drivers, Hal, Package, drivers};
@@ -72,9 +74,11 @@ drivers! {
     capture: Capture,
     encoder: Encoder,
     pulses: Pulses,
+    motors: Motors,
     dac: Dac,
     i2c: I2c,
     spi: Spi,
+    onewire: OneWire,
     serial: Serial,
     can: Can,
     types: Types,

@@ -1,6 +1,6 @@
 //! Serial ports of devices.
 
-use sensedsl_model::kind::uart::Uart;
+use sensedsl_model::kind::uart::{Duplex, Uart};
 
 use super::settings::Settings;
 use crate::context::Context;
@@ -16,6 +16,10 @@ impl Serial for Settings {
         !self.has_old_ports()
     }
 
+    fn has_one_wire(&self) -> bool {
+        true
+    }
+
     fn half_type(&self, half: Half) -> String {
         format!("hal::usart::{}<'static, hal::mode::Blocking>", half.driver())
     }
@@ -24,6 +28,15 @@ impl Serial for Settings {
     fn port(&self, context: &Context<'_>, port: &Port<'_>, section: &mut Section) -> String {
         section.features.insert(self.port_feature());
         let hal = context.peripheral(port.unit);
+        if let (PortPins::Tx(tx), Duplex::Half) = (port.pins, port.uart.exchange.duplex) {
+            return format!(
+                "crate::rt::usart::port(hal::usart::Uart::new_blocking_half_duplex{}(p.{hal}, p.{}, \
+                 crate::rt::usart::one_wire({}), hal::usart::HalfDuplexReadback::Readback))",
+                self.generics(context, port.unit, &["_"]),
+                tx.pin.name,
+                config(port.uart)
+            );
+        }
         let (half, pins) = match port.pins {
             PortPins::Both { rx, tx } => {
                 (Half::Both, format!("p.{}, p.{}", rx.pin.name, tx.pin.name))

@@ -14,7 +14,7 @@ const INVERTING_BOARD: &str = "NUCLEO_F303RE";
 const LINES_MAX: usize = 10;
 /// Cycle times of the sensors in examples; the longer ones are for sensors that take longer to
 /// measure.
-const DELAYS_MS: [u32; 3] = [100, 200, 1_000];
+const DELAYS_MS: [u32; 4] = [100, 200, 1_000, 2_000];
 
 /// A board with the part, in the canonical layout and at most ten lines: a chip with its first
 /// values, or a device if there is only one.
@@ -102,20 +102,24 @@ fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
     same_way && longer && outer.0 <= inner.0 && inner.1 <= outer.1
 }
 
-/// A cycle time that suits the part; none if the part sends on its own, or is sent to.
+/// A cycle time that suits the part; none if the part sends on its own or is sent to, or if
+/// its driver states one.
 fn delay_ms(part: &PartFacts) -> Option<u32> {
     let asked = |one: &&ValueFacts| {
         one.direction == Direction::Sensor && !matches!(one.kind.interface(), Interface::Uart(_))
     };
     let asked: Vec<&ValueFacts> = part.values.iter().filter(asked).collect();
-    if asked.iter().any(|one| one.kind.measures_itself()) {
+    if part.has_own_delay || asked.iter().any(|one| one.kind.measures_itself()) {
         return None;
     }
     // All values on a bus are measured one after the other.
     let times = || asked.iter().map(|one| one.kind.measuring_us().div_ceil(1_000));
     let is_bus = asked.first()?.kind.name().spec().sharing != Sharing::Own;
     let takes: u32 = if is_bus { times().sum() } else { times().max().unwrap_or(0) };
-    DELAYS_MS.into_iter().find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
+    let rests = asked.iter().filter_map(|one| one.kind.onewire()).map(|own| own.rest_us / 1_000);
+    let rests = rests.max().unwrap_or(0);
+    let mut delays = DELAYS_MS.into_iter().filter(|delay| *delay >= rests);
+    delays.find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
 }
 
 /// `magnetic_field` becomes `MagneticField`.

@@ -25,6 +25,7 @@ use crate::part::{chip, device, properties, reach};
 use crate::spanned::span;
 use crate::value::constants::Constants;
 
+pub use crate::driver::near::{Near, identifier};
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
 
 /// A part of the library.
@@ -56,6 +57,8 @@ pub struct PartFacts {
     pub needs_pull_up: bool,
     /// The addresses that it can have.
     pub addresses: Vec<u8>,
+    /// Whether it states its own cycle time.
+    pub has_own_delay: bool,
     /// Its default address; none if a design must state it.
     pub address: Option<u8>,
     /// What it is for the people who wire it.
@@ -130,7 +133,7 @@ impl ValueFacts {
         }
         let (least, most) = self.value.scalar.integer_range()?;
         let bits = self.coding.bits.map(|(high, low)| high - low + 1);
-        let signed = self.coding.signed.unwrap_or(least < 0);
+        let signed = self.coding.signed.unwrap_or(least < 0) || self.coding.is_magnitude;
         match bits.or(self.coding.packed_bits) {
             Some(1) => None,
             Some(bits) if bits <= 32 && signed => {
@@ -183,10 +186,10 @@ pub fn find(name: &str) -> Option<PartFacts> {
     found.and_then(|(field, driver)| library.facts(field, driver, &mut Vec::new()))
 }
 
-/// The name that a misspelled one may stand for.
+/// What a name may stand for that no driver has.
 #[must_use]
-pub fn nearest_name(name: &str) -> Option<String> {
-    Library::open().drivers.meant(name).map(str::to_owned)
+pub fn near(name: &str) -> Near {
+    Library::open().drivers.near(name)
 }
 
 /// The mistakes in the library; each driver is read as a part that uses everything the driver has.
@@ -240,6 +243,7 @@ impl Library {
         let module = module::read(&mut fields);
         let Bounds { addresses, clock_max_hz, supply_mv } = bounds::read(&mut fields);
         let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
+        let has_own_delay = fields.has("delay");
         let pull = fields.peek_name("pull");
         drop(fields);
         let part = Some(module.title.clone()).filter(|title| !title.is_empty());
@@ -262,6 +266,7 @@ impl Library {
             clock_max_hz,
             needs_pull_up: is_outside && pull.as_deref() == Some("up"),
             addresses,
+            has_own_delay,
             address,
             module,
             protocol: read.part.chip.clone(),

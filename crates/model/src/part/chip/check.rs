@@ -1,18 +1,23 @@
 //! Mistakes in the drivers of a file: drivers in, reports out, whether anything names the drivers or not.
 
-use sensedsl_diagnostics::codes::{e0201_unknown_property, e0229_wrong_driver};
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0206_missing_property, e0229_wrong_driver,
+};
 use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::AstNode as _;
 
-use super::reader::DriverValue;
+use super::reader::{ChipReader, DriverValue};
 use super::sockets::Socket;
+use super::values::RequestedValue;
 use super::{protocol, values_and_sockets};
 use crate::driver::known::Known;
 use crate::driver::{Driver, bounds, module};
 use crate::kind::KindName;
+use crate::part::block::Next;
 use crate::part::coding::{CODING, FILTER, PROTOCOL};
 use crate::part::properties::{ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
-use crate::spanned::span;
+use crate::rule::ranges;
+use crate::spanned::{Spanned, span};
 
 /// Reports mistakes in the drivers of the file.
 pub(crate) fn drivers(known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
@@ -52,6 +57,50 @@ fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnos
         }
     }
     twice(driver, &given, diagnostics);
+    values(driver, &given, sockets, known, diagnostics);
+}
+
+/// Reads each value as a device of the value's own type, so that its mistakes are told at the driver, and whether anything
+/// uses it or not. What a design has to add, such as an address, is not missed here.
+fn values(
+    driver: &Driver,
+    given: &[DriverValue],
+    mut sockets: Vec<Socket>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let block = span(driver.file, driver.node.range());
+    let asked = given.iter().map(|one| RequestedValue {
+        name: Spanned { value: one.name.clone(), span: one.span },
+        block,
+        own: Vec::new(),
+        value: Spanned { value: one.value, span: one.span },
+        given: one.clone(),
+    });
+    let whole = ChipReader {
+        file: driver.file,
+        next: Next::FIRST,
+        name: driver.name.clone(),
+        block,
+        driver,
+        known,
+        properties: Vec::new(),
+        protocol: protocol(driver.file, driver, &[], known, &mut Vec::new()),
+        given: given.to_vec(),
+    };
+    let mut found = Vec::new();
+    let devices = whole.devices(asked.collect(), None, &mut sockets, &mut found);
+    found.extend(devices.iter().filter_map(ranges::beyond));
+    let is_missing = |one: &Diagnostic| one.code == e0206_missing_property::CODE;
+    let is_here = |one: &Diagnostic| {
+        let at = one.primary.span;
+        at.file == block.file && at.start >= block.start && at.end <= block.end
+    };
+    for mistake in found.into_iter().filter(|one| !is_missing(one) && is_here(one)) {
+        // The devices that use the value have the same mistake, and say it less well.
+        diagnostics.retain(|one| one.code != mistake.code || one.message != mistake.message);
+        diagnostics.push(mistake);
+    }
 }
 
 /// Reports contacts of the connector at wires that the part has not.

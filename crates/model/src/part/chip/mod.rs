@@ -22,6 +22,7 @@ use crate::driver::known::Known;
 use crate::driver::{Driver, bounds, module};
 use crate::fields::{Fields, name_or_text};
 use crate::kind::uart::Uart;
+use crate::kind::uart::exchange::ADDRESS;
 use crate::kind::{Kind, KindName, Values};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, FILTER, PROTOCOL};
@@ -150,8 +151,12 @@ fn protocol(
     known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Protocol {
-    let of_protocol =
-        |one: &Property| one.name().is_some_and(|name| PROTOCOL.contains(&name.text()));
+    // What `init` says may have the part's address in it, and the checksum of its messages behind it.
+    let of_protocol = |one: &Property| {
+        one.name().is_some_and(|name| {
+            PROTOCOL.contains(&name.text()) || matches!(name.text(), ADDRESS | "checksum_from")
+        })
+    };
     let at = span(driver.file, driver.node.range());
     let own = properties.iter().filter(|one| of_protocol(one)).cloned();
     let reported = (known.constants, diagnostics);
@@ -320,6 +325,7 @@ impl ChipReader<'_> {
             |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
         let numbers = given.via.iter().map(|wanted| self.next.connection.0 + place(wanted));
         let connections = numbers.map(ConnectionIndex).collect();
+        let delay_ms = properties::delay_ms(own.delay_ms, &kind);
         Some(Device {
             part: self.next.part,
             name: name.clone(),
@@ -327,9 +333,9 @@ impl ChipReader<'_> {
             id: id.unwrap_or(Spanned { value: 0, span: name.span }),
             direction,
             value: *value,
+            delay_ms,
             kind,
             kind_span: name.span,
-            delay_ms: own.delay_ms,
             delay_span: own.delay_span,
             prio: own.prio,
             prio_span: own.prio_span,
@@ -374,7 +380,13 @@ impl ChipReader<'_> {
         let used = sockets.iter().filter(|socket| socket.is_used);
         used.map(|socket| {
             let (kind, placement, level) = socket.read(self, diagnostics);
-            if !self.given.is_empty() && kind.uart().is_some_and(Uart::is_endless) {
+            // Each answer has an end of its own.
+            let speaks = devices.iter().any(|one| {
+                let is_sensor = one.direction == sensedsl_wire::Direction::Sensor;
+                is_sensor && one.kind.uart().is_some_and(|own| own.exchange.request.is_empty())
+            });
+            let has_values = !self.given.is_empty() && speaks;
+            if has_values && kind.uart().is_some_and(Uart::is_endless) {
                 let message = "a message needs a `length`, or an `end`";
                 let at = self.driver.name.span;
                 diagnostics.push(e0229_wrong_driver::wrong_driver(at, message));

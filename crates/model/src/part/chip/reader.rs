@@ -33,6 +33,8 @@ pub(super) struct ChipReader<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct DriverValue {
     pub(super) name: String,
+    /// Where its name stands.
+    pub(super) span: Span,
     pub(super) direction: Direction,
     pub(super) value: ValueType,
     pub(super) properties: Vec<Property>,

@@ -78,7 +78,7 @@ pub(super) fn given(
         let via = via((driver.file, at), &properties, sockets, reported);
         let (Some(value), Some(via)) = (value, via) else { continue };
         let (name, value) = (name.text().to_owned(), value.value);
-        all.push(DriverValue { name, direction, value, properties, via });
+        all.push(DriverValue { name, span: at, direction, value, properties, via });
     }
     all
 }
@@ -166,7 +166,8 @@ pub(super) fn stated(
     let given = if all.is_empty() && !whole.driver.has_values() {
         // A driver of the first edition: one value, which has no name.
         let (name, properties) = (String::new(), Vec::new());
-        DriverValue { name, direction, value: value.value, properties, via: vec![0] }
+        let span = whole.driver.name.span;
+        DriverValue { name, span, direction, value: value.value, properties, via: vec![0] }
     } else {
         choose(whole, all, (&name, direction), &own, diagnostics)?
     };

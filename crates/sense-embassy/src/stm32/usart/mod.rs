@@ -3,7 +3,7 @@
 use embassy_stm32::gpio::Pull;
 use embassy_stm32::mode::Blocking;
 use embassy_stm32::pac::usart::Usart;
-use embassy_stm32::usart::{Config, ConfigError, DataBits, Parity, StopBits, UartTx};
+use embassy_stm32::usart::{Config, ConfigError, DataBits, OutputConfig, Parity, StopBits, UartTx};
 
 use crate::serial::{self, RxQueue, TxQueue};
 
@@ -68,6 +68,13 @@ pub fn inverted(mut config: Config) -> Config {
     config.invert_rx = true;
     config.invert_tx = true;
     config.rx_pull = Pull::Down;
+    config
+}
+
+/// The same for a port with both directions at TX: each end of the wire pulls it low, or lets it go.
+#[must_use]
+pub fn one_wire(mut config: Config) -> Config {
+    config.tx_config = OutputConfig::OpenDrain;
     config
 }
 

@@ -3,10 +3,10 @@
 mod features;
 
 use anyhow::{Context as _, Result, bail};
-use sensedsl_board::{catalog, mcu};
-use sensedsl_generate::target;
+use sensedsl_board::catalog;
+use sensedsl_generate::listing;
 use sensedsl_report::svg;
-use sensedsl_session::{boards, printed_board};
+use sensedsl_session::printed_board;
 
 use self::features::Features;
 use crate::cli::{BoardFormat, BoardsArgs};
@@ -38,14 +38,12 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
 /// Scripts read one board from each line, name first; heads and count are for people.
 fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     let search = search.to_lowercase();
-    let found = |board: &catalog::Entry, row: &[String; 8]| {
+    let found = |board: &catalog::Entry, row: &listing::Row| {
         search.trim().is_empty() || Features::of(board, row).has_all(&search)
     };
-    let rows = catalog::all().iter().map(|board| (board, row(board)));
-    let rows: Vec<[String; 8]> =
-        rows.filter(|(board, row)| found(board, row)).map(|(_, row)| row).collect();
-    let heads = ["Board", "Family", "MCU", "Package", ">Pins", ">Free", "Link", "Firmware"];
-    let listing = table(heads, &rows);
+    let rows = listing::rows().filter(|(board, row)| found(board, row));
+    let rows: Vec<listing::Row> = rows.map(|(_, row)| row).collect();
+    let listing = table(listing::HEADS, &rows);
     let mut lines = listing.lines().map(|line| line.strip_prefix(INDENT).unwrap_or(line));
     terminal.aside(lines.next().unwrap_or_default())?;
     terminal.result(&lines.map(|line| format!("{line}\n")).collect::<String>())?;
@@ -55,23 +53,4 @@ fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     };
     terminal.aside(&format!("{count}; `sensedsl boards NAME` prints the pins of one"))?;
     Ok(Status::Done)
-}
-
-fn row(board: &catalog::Entry) -> [String; 8] {
-    let table = board.table();
-    let links = boards::links(board);
-    let systems = target::systems_of(board);
-    let systems: Vec<&str> =
-        systems.iter().filter_map(|name| Some(name.rsplit_once('-')?.0)).collect();
-    let or_dash = |text: &str| if text.is_empty() { "-" } else { text }.to_owned();
-    [
-        board.name.to_owned(),
-        mcu::family(board.mcu).to_owned(),
-        board.mcu.to_owned(),
-        or_dash(boards::package(board).unwrap_or_default()),
-        table.pins.len().to_string(),
-        boards::free(&table).to_string(),
-        or_dash(&links.join(" ")),
-        or_dash(&systems.join(" ")),
-    ]
 }

@@ -72,6 +72,9 @@ pub(crate) fn cure(why: &OpenError, path: &str, ports: &[String]) -> String {
             format!("close that program; `fuser {path}` says which it is")
         }
         OpenError::Busy => "close that program".to_owned(),
+        OpenError::Unreachable(_) => {
+            "`sensedsl simulate FILE --tcp PORT` says where it is; write tcp:HOST:PORT".to_owned()
+        }
         OpenError::NotSerial | OpenError::Other(_) => instead,
     }
 }

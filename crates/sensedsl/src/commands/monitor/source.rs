@@ -157,7 +157,7 @@ impl Source {
         let Some(path) = found else { return Ok(None) };
         let port = match Port::open(&path, away.baud) {
             Ok(port) => port,
-            Err(OpenError::Missing) => return Ok(None),
+            Err(OpenError::Missing | OpenError::Unreachable(_)) => return Ok(None),
             Err(why) => return Err(why),
         };
         let after = away.since.elapsed();

@@ -7,6 +7,7 @@ mod can;
 mod commands;
 #[cfg(feature = "twin")]
 mod emulated;
+mod outlet;
 #[cfg(unix)]
 mod pty;
 mod run;
@@ -15,6 +16,7 @@ mod simulated;
 mod simulation;
 #[cfg(unix)]
 mod slcan;
+mod tcp;
 mod verdict;
 mod world;
 
@@ -105,6 +107,7 @@ fn simulate(
     let scenery = Simulation { args, terminal, job, at, sources, lasts_ns, said, cases };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
+    #[cfg(unix)]
     let peer = args.can.then(|| bench.open_can(job));
     if args.wires.is_some() {
         bench.start_log();
@@ -112,13 +115,25 @@ fn simulate(
     let Some(firmware) = &args.firmware else {
         explain(&scenery, &SOFT)?;
         let board = board::soft(job, bench.clone());
-        return run::run(&scenery, &bench, board, peer);
+        return run::run(
+            &scenery,
+            &bench,
+            board,
+            #[cfg(unix)]
+            peer,
+        );
     };
     let image = read_bytes(firmware, FileUse::Image)?;
     match machine(&scenery, bench.clone(), firmware, &image) {
         Ok(board) => {
             explain(&scenery, &EMULATED)?;
-            run::run(&scenery, &bench, board, peer)
+            run::run(
+                &scenery,
+                &bench,
+                board,
+                #[cfg(unix)]
+                peer,
+            )
         }
         Err(why) => {
             scenery.say(*why)?;

@@ -8,6 +8,7 @@ use std::time::Duration;
 use anyhow::{Context as _, Result};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{OFlags, fcntl_setfl};
+use rustix::io::{FdFlags, fcntl_setfd};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 
@@ -24,8 +25,9 @@ pub(crate) struct Pty {
 impl Pty {
     pub(crate) fn open() -> Result<Self> {
         let failed = "the system gives no pseudo-terminal; `--stdout` needs none";
-        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC)
-            .context(failed)?;
+        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).context(failed)?;
+        // Not a flag of the call, which macOS does not have: no program is started in between.
+        fcntl_setfd(&board, FdFlags::CLOEXEC).context(failed)?;
         grantpt(&board).context(failed)?;
         unlockpt(&board).context(failed)?;
         let name = ptsname(&board, Vec::new()).context(failed)?.to_string_lossy().into_owned();

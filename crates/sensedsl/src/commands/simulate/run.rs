@@ -1,13 +1,14 @@
-//! The simulation loop: at the pace of the clock on a pseudo-terminal, or as fast as possible for a judge.
+//! The simulation loop: at the pace of the clock for a host application, or as fast as possible for a judge.
 
-#[cfg(unix)]
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{e0546_image_refused, e0548_locked_up};
 use sensedsl_model::design::Transport;
-use sensedsl_twin::bench::{Bench, Peer, seconds};
+#[cfg(unix)]
+use sensedsl_twin::bench::Peer;
+use sensedsl_twin::bench::{Bench, seconds};
 use sensedsl_twin::commands::Commands;
 use sensedsl_twin::judge::Judge;
 use sensedsl_wire::{
@@ -19,12 +20,10 @@ use super::back::Reporters;
 use super::board::Board;
 #[cfg(unix)]
 use super::can::Adapters;
-#[cfg(unix)]
-use super::pty::Pty;
+use super::outlet::Outlet;
 use super::screen::Screen;
 use super::simulation::Simulation;
 use super::verdict::{verdict, write_junit};
-#[cfg(unix)]
 use crate::commands::deadline::interruption;
 use crate::files::write_whole;
 use crate::status::Status;
@@ -40,7 +39,6 @@ const SHELL: &[u8] = b"ch> ";
 /// The interval at which the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
 /// How long the loop waits for the other side, in real time.
-#[cfg(unix)]
 const STEP: Duration = Duration::from_millis(1);
 /// The time that the board has to report its health.
 const HEALTH_NS: u64 = 500 * MS;
@@ -49,10 +47,13 @@ pub(super) fn run(
     scenery: &Simulation<'_>,
     bench: &Bench,
     board: Box<dyn Board>,
-    peer: Option<Peer>,
+    #[cfg(unix)] peer: Option<Peer>,
 ) -> Result<Status> {
     let mut session = Session::new(scenery, bench, board);
-    session.peer = peer;
+    #[cfg(unix)]
+    {
+        session.peer = peer;
+    }
     let args = scenery.args;
     let mut status = if args.judge {
         session.hurry(false)?
@@ -100,6 +101,7 @@ pub(super) struct Session<'a> {
     pub(super) commands: Option<Commands<'a>>,
     screen: Screen,
     /// The peer on the CAN buses that replaces the world's stations.
+    #[cfg(unix)]
     peer: Option<Peer>,
     frames: Vec<u8>,
     pub(super) now_ns: u64,
@@ -130,6 +132,7 @@ impl<'a> Session<'a> {
             reporters: Reporters::default(),
             commands: None,
             screen: Screen::new(job),
+            #[cfg(unix)]
             peer: None,
             frames: Vec::new(),
             now_ns: 0,
@@ -286,27 +289,18 @@ impl<'a> Session<'a> {
     }
 
     /// Runs at the pace of the clock, and shows the table if people can see it.
-    #[cfg(unix)]
     fn pace(&mut self) -> Result<Status> {
         let terminal = self.scenery.terminal;
-        let mut pty = if self.scenery.args.stdout { None } else { Some(Pty::open()?) };
-        if let Some(pty) = &pty {
-            terminal.note(&format!("the board is at {}\n", pty.name()))?;
-            terminal.aside("a host application takes it for the board's device; Ctrl-C ends it")?;
-        }
-        let adapters = self.peer.as_ref().map(|peer| Adapters::open(peer, terminal));
-        let mut adapters = adapters.transpose()?;
+        let mut outlet = Outlet::open(self.scenery.args, terminal)?;
+        #[cfg(unix)]
+        let mut adapters =
+            self.peer.as_ref().map(|peer| Adapters::open(peer, terminal)).transpose()?;
         let stop = interruption()?;
         let end_ns = self.end_ns(None);
         let (began, mut shown) = (Instant::now(), Instant::now());
         while !stop.load(Ordering::Relaxed) && end_ns.is_none_or(|end| self.now_ns < end) {
-            let is_connected = match &pty {
-                Some(pty) => pty.wait(STEP),
-                None => {
-                    std::thread::sleep(STEP);
-                    false
-                }
-            };
+            let is_connected = outlet.wait(STEP);
+            #[cfg(unix)]
             if let Some(adapters) = &mut adapters {
                 adapters.turn();
             }
@@ -317,15 +311,13 @@ impl<'a> Session<'a> {
                     self.ask();
                 }
                 let bytes = self.step(None)?;
-                if let Some(pty) = &mut pty {
-                    pty.write(&bytes, is_connected);
-                }
+                outlet.write(&bytes, is_connected);
                 if began.elapsed() > Duration::from_nanos(due) + REFRESH {
                     break;
                 }
             }
-            if let Some(pty) = pty.as_ref().filter(|_| is_connected) {
-                self.board.link_write(&pty.read());
+            if is_connected {
+                self.board.link_write(&outlet.read());
             }
             if let Some(status) = self.trouble()? {
                 return Ok(status);
@@ -339,13 +331,6 @@ impl<'a> Session<'a> {
             terminal.note(&self.screen.table(self.now_ns))?;
         }
         Ok(Status::Done)
-    }
-
-    #[cfg(not(unix))]
-    fn pace(&mut self) -> Result<Status> {
-        bail!(
-            "this system has no pseudo-terminals: use `--stdout` with its output in a file, or `--judge`"
-        )
     }
 
     fn has_link(&self) -> bool {

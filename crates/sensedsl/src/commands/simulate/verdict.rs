@@ -90,7 +90,7 @@ fn cells(one: &DeviceFindings) -> [String; 6] {
     [one.name.clone(), reports, excused, wrong, every, age]
 }
 
-/// Writes what the run came to as JUnit, where that is asked for. What no device is to blame for is a case of its own.
+/// Writes what the run came to as `JUnit`, where that is asked for. What no device is to blame for is a case of its own.
 pub(super) fn write_junit(scenery: &Simulation<'_>, status: Status) -> Result<()> {
     let Some(path) = &scenery.args.junit else { return Ok(()) };
     let mut cases = scenery.cases.borrow_mut().split_off(0);

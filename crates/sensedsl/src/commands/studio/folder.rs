@@ -18,7 +18,7 @@ use tiny_http::Request;
 
 use super::answer::{Answer, Method, header};
 use crate::files::state::digest;
-use crate::files::{Disk, files_below, remove_file, write_whole};
+use crate::files::{Disk, files_below, remove_file, shown, write_whole};
 
 /// The ends of names of files that a page shows.
 const ENDS: [&str; 3] = ["sense", "csv", "toml"];
@@ -46,7 +46,7 @@ impl Folder {
     /// It is not there, or is neither.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let real =
-            fs::canonicalize(path).with_context(|| format!("cannot open {}", path.display()))?;
+            fs::canonicalize(path).with_context(|| format!("cannot open {}", shown(path)))?;
         let (root, open) = if real.is_dir() {
             (real, None)
         } else {
@@ -55,7 +55,7 @@ impl Folder {
             (folder.to_path_buf(), name.filter(|name| is_shown(name)))
         };
         if !root.is_dir() {
-            bail!("{} is not a folder", path.display());
+            bail!("{} is not a folder", shown(path));
         }
         Ok(Self { root, open, writing: Mutex::new(()) })
     }

@@ -10,7 +10,6 @@ mod guard;
 mod site;
 
 use std::net::Ipv4Addr;
-use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context as _, Result, anyhow};
@@ -124,6 +123,6 @@ fn open(url: &str) -> Result<()> {
     let mut call = std::process::Command::new(program);
     call.args(first).arg(url).stdin(std::process::Stdio::null());
     call.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null());
-    call.spawn().with_context(|| Path::new(program).display().to_string())?;
+    call.spawn().with_context(|| shown(program))?;
     Ok(())
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 
 use super::answer::Answer;
+use crate::files::shown;
 
 include!(concat!(env!("OUT_DIR"), "/studio.rs"));
 
@@ -27,7 +28,7 @@ impl Site {
             Some(folder) if folder.join("index.html").is_file() => {
                 Ok(Self::In(fs::canonicalize(folder)?))
             }
-            Some(folder) => bail!("there is no page in {}: it has no index.html", folder.display()),
+            Some(folder) => bail!("there is no page in {}: it has no index.html", shown(folder)),
             None if FILES.iter().any(|(path, _)| *path == "index.html") => Ok(Self::Own),
             None => bail!(
                 "this program was built without the studio's page: make it with `cargo xtask studio`, \

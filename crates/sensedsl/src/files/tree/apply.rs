@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::layout::{self, Kind, LIST, is_there, link_above, listed, not_ours_above, walk};
 use super::new_tree::NewTree;
 use crate::files::ops::{self, Ops};
-use crate::files::write_whole;
+use crate::files::{shown, write_whole};
 
 /// The subfolder of a working folder with the staged files.
 const FILES: &str = "files";
@@ -46,6 +46,10 @@ pub(super) fn stage(
 }
 
 /// The path of a staged file.
+#[cfg_attr(
+    not(target_os = "linux"),
+    allow(dead_code, reason = "only Linux exchanges two names at once")
+)]
 pub(super) fn staged(work: &Path, path: &Path) -> PathBuf {
     work.join(FILES).join(path)
 }
@@ -123,7 +127,7 @@ fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
 /// been changed since then.
 pub(super) fn never_through_a_link(root: &Path, path: &Path) -> io::Result<()> {
     let Some(link) = link_above(root, path) else { return Ok(()) };
-    Err(io::Error::other(format!("{} is a link", root.join(link).display())))
+    Err(io::Error::other(format!("{} is a link", shown(root.join(link)))))
 }
 
 /// Removes a file, and the folders that are empty without it.

@@ -23,6 +23,10 @@ pub(crate) enum Trouble {
     /// The disk is full, or does not allow writing there.
     Unwritten(io::Error),
     /// An earlier run left something here that no longer belongs to anything.
+    #[cfg_attr(
+        not(target_os = "linux"),
+        allow(dead_code, reason = "only Linux exchanges two names at once")
+    )]
     Orphan(PathBuf),
     /// It looks like an unfinished run, but not one of this machine.
     Strange(PathBuf),

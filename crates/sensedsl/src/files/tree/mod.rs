@@ -40,6 +40,7 @@ use anyhow::{Context as _, Result, bail};
 
 use super::lock::{Lock, NoLock};
 use super::ops::{self, Ops};
+use crate::files::shown;
 pub(crate) use away::Away;
 pub(crate) use failure::{Failure, Trouble};
 use layout::{Siblings, WORK, is_there};
@@ -122,7 +123,7 @@ impl Output {
         }
         let within = self.root.join(WORK);
         let strange = |what: PathBuf| {
-            io::Error::other(format!("{} is not a run's of this machine", what.display()))
+            io::Error::other(format!("{} is not a run's of this machine", shown(&what)))
         };
         match self.lock_within(super::lock::WAIT, &mut || {}) {
             Ok(()) => {}
@@ -203,24 +204,23 @@ impl Drop for Output {
 
 /// The real path of the folder, without links.
 fn resolve(output: &Path) -> Result<PathBuf> {
-    let shown = output.display();
+    let whole = shown(output);
     match fs::metadata(output) {
         Ok(found) if found.is_dir() => {
-            fs::canonicalize(output).with_context(|| format!("cannot read {shown}"))
+            fs::canonicalize(output).with_context(|| format!("cannot read {whole}"))
         }
-        Ok(_) => bail!("{shown} is not a folder"),
+        Ok(_) => bail!("{whole} is not a folder"),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             if is_there(output) {
-                bail!("{shown} is a link to a folder that does not exist: make that folder first");
+                bail!("{whole} is a link to a folder that does not exist: make that folder first");
             }
-            let name = output.file_name().with_context(|| format!("{shown} has no name"))?;
+            let name = output.file_name().with_context(|| format!("{whole} has no name"))?;
             let above = output.parent().filter(|above| *above != Path::new(""));
             let above = above.unwrap_or(Path::new("."));
-            fs::create_dir_all(above)
-                .with_context(|| format!("cannot make {}", above.display()))?;
-            Ok(fs::canonicalize(above).with_context(|| format!("cannot read {shown}"))?.join(name))
+            fs::create_dir_all(above).with_context(|| format!("cannot make {}", shown(above)))?;
+            Ok(fs::canonicalize(above).with_context(|| format!("cannot read {whole}"))?.join(name))
         }
-        Err(error) => Err(error).with_context(|| format!("cannot read {shown}")),
+        Err(error) => Err(error).with_context(|| format!("cannot read {whole}")),
     }
 }
 

@@ -17,6 +17,10 @@ pub(crate) struct NewFile<'a> {
     /// The contents.
     pub(crate) bytes: &'a [u8],
     /// Whether it belongs to the user once it is there.
+    #[cfg_attr(
+        not(target_os = "linux"),
+        allow(dead_code, reason = "only Linux exchanges two names at once")
+    )]
     pub(crate) once: bool,
     /// Whether it is missing or has different bytes.
     pub(crate) changes: bool,

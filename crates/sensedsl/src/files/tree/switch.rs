@@ -22,7 +22,7 @@ use super::layout::{
 use super::new_tree::NewTree;
 use super::seal;
 use crate::files::ops::{self, Ops};
-use crate::files::write_whole;
+use crate::files::{shown, write_whole};
 
 /// The file in the working folder that lists those files of the new tree that will be the user's.
 const ONCE: &str = "once";
@@ -158,7 +158,7 @@ impl Switch<'_> {
         self.ops.exchange(self.root, tree)?;
         sync_above(self.root)?;
         if let Some(left) = self.dismantle()? {
-            return Err(io::Error::other(format!("{} holds files of yours", left.display())));
+            return Err(io::Error::other(format!("{} holds files of yours", shown(&left))));
         }
         clear(self.ops, work, &[ONCE])
     }

@@ -26,6 +26,9 @@
 /* The longest message that a serial device is sent. */
 #define UP_UART_SEND_BYTES_MAX 1U
 
+/* The longest one on a line with answers. */
+#define UP_LINE_SEND_BYTES_MAX 1U
+
 /* CAN buses. */
 #define UP_CAN_BUSES 1U
 
