@@ -24,6 +24,7 @@
 //! ```
 
 mod board;
+mod control;
 pub mod design;
 mod driver;
 mod fields;

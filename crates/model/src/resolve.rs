@@ -12,6 +12,7 @@ use sensedsl_syntax::{Parse, ast};
 
 use crate::board::context::{Context, RemainingBudget};
 use crate::board::{self, link, pins};
+use crate::control;
 use crate::design::{Board, BoardIndex, Design};
 use crate::driver::Drivers;
 use crate::driver::known::Known;
@@ -82,8 +83,9 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         let at = first.unwrap_or_else(|| Span::new(file, 0..0));
         diagnostics.push(e0315_no_board::no_board(at));
     }
-    let (mut design, homeless) = assemble(file, boards, &board_names, parts);
+    let (mut design, homeless, controllers) = assemble(file, boards, &board_names, parts);
     pins::bind(&mut design, &mut diagnostics);
+    control::bind(&mut design, controllers, &mut diagnostics);
     check_places(&design, &mut diagnostics);
     frames::settle(&mut design, &mut diagnostics);
     registers::settle(&mut design, &mut diagnostics);
@@ -182,6 +184,9 @@ fn read_parts(
                 (device::read(at, node, board, known, diagnostics), node.name())
             }
             ast::Item::Chip(node) => (chip::read(at, node, board, known, diagnostics), node.name()),
+            ast::Item::Controller(node) => {
+                (control::read(at, node, board, known, diagnostics), node.name())
+            }
         };
         match read {
             Some(part) => {

@@ -153,12 +153,14 @@ choice!(
     }
 );
 choice!(
-    /// A part: one with one value, or one with several.
+    /// What has identifiers: a part with one value, one with several, or code.
     Item {
         /// A part with one value.
         Device(Device),
         /// A part with several values.
         Chip(Chip),
+        /// Code of the user's.
+        Controller(Controller),
     }
 );
 choice!(

@@ -10,6 +10,7 @@ pub(crate) mod timers;
 // One file for each kind.
 mod analog;
 mod can;
+mod code;
 mod dac;
 mod digital;
 mod encoder;
@@ -125,6 +126,7 @@ pub(crate) fn served(kind: &Kind) -> &dyn Served {
         Kind::Can(can) => can,
         Kind::OneWire(onewire) => onewire,
         Kind::Stepper(stepper) => stepper,
+        Kind::Code(code) => code,
     }
 }
 

@@ -40,3 +40,13 @@ pub fn pin_in_head(span: Span, head: &str, kind: &str, pin: &str) -> Diagnostic 
         .here("expected a type")
         .help(format!("write for example `{head} {{ type = {kind}; pin = {pin}; }}`"))
 }
+
+/// `=` between the sides of a comparison.
+pub fn single_equals(span: Span) -> Diagnostic {
+    unexpected_token(span, "`==`, which compares", "`=`").replace("change to `==`", span, "==")
+}
+
+/// `==` after the name of a property.
+pub fn doubled_equals(span: Span) -> Diagnostic {
+    unexpected_token(span, "`=`, which gives a property its value", "`==`").replace("change to `=`", span, "=")
+}

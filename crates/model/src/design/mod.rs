@@ -2,6 +2,7 @@
 //! units converted. How it is wired is the job of crate `wiring`.
 
 mod bounds;
+mod controller;
 mod index;
 mod module;
 mod pin_ref;
@@ -23,6 +24,7 @@ use crate::value::written::{shown_mv, shown_ohm};
 use protocol::{Coding, Filter, Protocol};
 
 pub use bounds::Bounds;
+pub use controller::Controller;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
 pub use module::Module;
 pub use pin_ref::PinRef;
@@ -44,6 +46,8 @@ pub struct Design {
     pub devices: Vec<Device>,
     /// The sets of wires to be found, in the order of their parts.
     pub connections: Vec<Connection>,
+    /// The code of the user's that runs on the boards, in file order.
+    pub controllers: Vec<Controller>,
 }
 
 /// A board of the file.
@@ -339,6 +343,12 @@ impl Design {
         self.devices.get(index.0)
     }
 
+    /// The controller that sets a device; none if the host does, or hardware.
+    #[must_use]
+    pub fn owner(&self, device: DeviceIndex) -> Option<&Controller> {
+        self.controllers.iter().find(|one| one.sets(device))
+    }
+
     /// The part at `index`.
     #[must_use]
     pub fn part(&self, index: PartIndex) -> Option<&Part> {
@@ -416,15 +426,16 @@ impl Design {
         let mut next = 0;
         self.devices.retain_mut(|one| {
             let part = new_part(one.part);
-            new_devices.push(DeviceIndex(next));
+            new_devices.push(part.map(|_| DeviceIndex(next)));
             next += usize::from(part.is_some());
             let renumbered = |old: &ConnectionIndex| new_connections.get(old.0).copied().flatten();
             one.connections = one.connections.iter().filter_map(renumbered).collect();
             part.map(|part| one.part = part).is_some()
         });
+        let new_device = |old: DeviceIndex| new_devices.get(old.0).copied().flatten();
+        self.controllers.retain_mut(|one| one.renumber(&new_device));
         for connection in &mut self.connections {
-            let new = new_devices.get(connection.device.0);
-            connection.device = new.copied().unwrap_or(connection.device);
+            connection.device = new_device(connection.device).unwrap_or(connection.device);
         }
         let mut number = 0;
         self.parts.retain(|_| {

@@ -8,6 +8,7 @@
 use super::Kind;
 use super::analog::Analog;
 use super::can::Can;
+use super::code::Code;
 use super::dac::Dac;
 use super::digital::Digital;
 use super::encoder::Encoder;
@@ -65,6 +66,8 @@ interfaces! {
     OneWire as onewire;
     /// Pulses of a timer that are counted, and a level for the direction.
     Stepper as stepper;
+    /// None: code makes or takes the value.
+    Code as code;
 }
 
 /// What is sent and waited for before the bytes of a part with registers come, and their number.
@@ -110,6 +113,7 @@ impl Kind {
             Self::Can(own) => Interface::Can(own),
             Self::OneWire(own) => Interface::OneWire(own),
             Self::Stepper(own) => Interface::Stepper(own),
+            Self::Code(own) => Interface::Code(own),
         }
     }
 
@@ -149,7 +153,8 @@ impl Kind {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::Stepper(_) => None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => None,
         }
     }
 
@@ -176,7 +181,8 @@ impl Kind {
             | Interface::Digital(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Stepper(_) => None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => None,
         }
     }
 
@@ -227,7 +233,8 @@ impl Kind {
             | Interface::Spi(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => None,
         }
     }
 

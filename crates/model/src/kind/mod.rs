@@ -14,6 +14,7 @@ use crate::meaning::Meaning;
 
 pub mod analog;
 pub mod can;
+pub mod code;
 pub mod dac;
 pub mod digital;
 pub mod encoder;
@@ -134,6 +135,8 @@ kinds! {
     OneWire in onewire;
     /// A stepper motor behind a driver with step and direction.
     Stepper in stepper;
+    /// A value that code on the board makes, or that it gets from the host.
+    Code in code;
 }
 
 impl KindName {

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::design::{
     Board, BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
 };
+use crate::control::Unbound;
 use crate::spanned::Spanned;
 use sensedsl_diagnostics::FileId;
 
@@ -37,10 +38,12 @@ pub(crate) struct ReadPart {
     pub(crate) part: Part,
     pub(crate) devices: Vec<Device>,
     pub(crate) connections: Vec<Connection>,
+    /// What the part is besides, if it is code.
+    pub(crate) controller: Option<Unbound>,
 }
 
 /// Assembles boards and parts: those that could be read, and the parts that are certain to be on
-/// them. Also returns the names of those left out.
+/// them. Also returns the names of those left out, and the controllers with the numbers of their parts.
 ///
 /// If a board is missing, a part that may go to any board may belong on that one.
 pub(crate) fn assemble(
@@ -48,7 +51,7 @@ pub(crate) fn assemble(
     boards: Vec<Option<Board>>,
     names: &[Option<Spanned<String>>],
     parts: Vec<ReadPart>,
-) -> (Design, Vec<Spanned<String>>) {
+) -> (Design, Vec<Spanned<String>>, Vec<(PartIndex, Unbound)>) {
     let mut next = 0;
     let places: Vec<Option<BoardIndex>> = boards
         .iter()
@@ -63,7 +66,8 @@ pub(crate) fn assemble(
     let mut left_out: Vec<Spanned<String>> = unread.filter_map(|(_, name)| name.clone()).collect();
     let boards = boards.into_iter().flatten().collect();
     let mut design =
-        Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new() };
+        Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new(), controllers: Vec::new() };
+    let mut controllers = Vec::new();
     let mut homeless: BTreeSet<PartIndex> = BTreeSet::new();
     for mut read in parts {
         let place =
@@ -79,12 +83,17 @@ pub(crate) fn assemble(
                 left_out.push(read.part.name.clone());
             }
         }
+        controllers.extend(read.controller.map(|one| (PartIndex(design.parts.len()), one)));
         design.parts.push(read.part);
         design.devices.extend(read.devices);
         design.connections.extend(read.connections);
     }
     if !homeless.is_empty() {
-        design.retain_parts(|index, _| !homeless.contains(&index));
+        let kept = design.retain_parts(|index, _| !homeless.contains(&index));
+        controllers.retain_mut(|(part, _)| {
+            let new = kept.binary_search(part).ok().map(PartIndex);
+            new.map(|new| *part = new).is_some()
+        });
     }
-    (design, left_out)
+    (design, left_out, controllers)
 }

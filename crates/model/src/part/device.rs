@@ -104,7 +104,7 @@ pub(crate) fn read(
     let found = driver.as_deref().and_then(|name| known.drivers.look_up(name));
     let (bounds, module) = (bounds::of(found, known), module::of(found, known));
     let part = Part { name, block, board, driver, allows, chip: None, bounds, module };
-    Some(ReadPart { part, devices: vec![device], connections })
+    Some(ReadPart { part, devices: vec![device], connections, controller: None })
 }
 
 /// The driver that the device names, if that driver names several values.

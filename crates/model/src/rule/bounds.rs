@@ -81,6 +81,7 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
         Interface::Spi(spi) => ("clock", spi.clock_hz, spi.clock_span?),
         Interface::Analog(_)
         | Interface::Can(_)
+        | Interface::Code(_)
         | Interface::Dac(_)
         | Interface::Digital(_)
         | Interface::Encoder(_)

@@ -72,7 +72,8 @@ fn too_slow(design: &Design, device: &Device) -> Option<Diagnostic> {
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::Can(_)
-        | Interface::Stepper(_) => return None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => return None,
     };
     if u64::from(wait_us) <= u64::from(device.delay_ms) * 1_000 {
         return None;
@@ -155,7 +156,8 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         | Interface::Can(_)
         | Interface::OneWire(_) => return None,
         Interface::Icu(_) | Interface::Encoder(_) | Interface::Digital(_) => return None,
-        Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => return None,
+        Interface::Pwm(_) | Interface::Dac(_) => return None,
+        Interface::Stepper(_) | Interface::Code(_) => return None,
     };
     let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
     if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)

@@ -62,6 +62,10 @@ fn blocks_without(part: &ast::Item) -> Vec<(ast::Name, SyntaxNode)> {
     };
     match part {
         ast::Item::Device(device) => of_device(device).into_iter().collect(),
+        ast::Item::Controller(one) if states(Box::new(one.properties())) => Vec::new(),
+        ast::Item::Controller(one) => {
+            one.name().map(|name| (name, one.syntax().clone())).into_iter().collect()
+        }
         // The chip's identifier is that of its first value; the others follow.
         ast::Item::Chip(chip) if states(Box::new(chip.properties())) => Vec::new(),
         ast::Item::Chip(chip) if chip.devices().next().is_none() => {

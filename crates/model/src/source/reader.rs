@@ -20,8 +20,10 @@ pub(crate) struct Items {
     pub(crate) boards: Vec<(FileId, ast::Board)>,
     pub(crate) drivers: Vec<(FileId, ast::Driver)>,
     pub(crate) constants: Vec<(FileId, ast::Constant)>,
-    /// Devices and chips, with the index of their board.
+    /// Devices, chips and controllers, with the index of their board.
     pub(crate) parts: Vec<(FileId, ast::Item, Option<usize>)>,
+    /// What must hold in runs.
+    pub(crate) tests: Vec<(FileId, ast::Test)>,
     /// True if some text could not be parsed, so that something may only seem to be missing.
     pub(crate) broken: bool,
 }
@@ -40,11 +42,13 @@ pub(crate) struct Reader<'a> {
 }
 
 /// The blocks and statements that are counted.
-const ITEMS: [SyntaxKind; 7] = [
+const ITEMS: [SyntaxKind; 9] = [
     SyntaxKind::Board,
     SyntaxKind::Driver,
     SyntaxKind::Device,
     SyntaxKind::Chip,
+    SyntaxKind::Controller,
+    SyntaxKind::Test,
     SyntaxKind::Connection,
     SyntaxKind::Reading,
     SyntaxKind::Command,
@@ -136,6 +140,7 @@ impl<'a> Reader<'a> {
             FileItem::Constant(constant) => self.items.constants.push((file, constant)),
             FileItem::Chip(chip) => self.items.parts.push((file, ast::Item::Chip(chip), None)),
             FileItem::Driver(driver) => self.items.drivers.push((file, driver)),
+            FileItem::Test(test) => self.items.tests.push((file, test)),
             FileItem::Device(device) => {
                 self.items.parts.push((file, ast::Item::Device(device), None));
             }

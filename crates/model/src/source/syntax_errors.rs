@@ -66,6 +66,8 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::StrayCloseBrace => expected("nothing to close", "`}`"),
         Kind::MissingSemicolon => e0104_missing_semicolon::missing_semicolon(at),
         Kind::MissingEquals { property } => expected(&format!("`=` after `{property}`"), "a value"),
+        Kind::SingleEquals => e0101_unexpected_token::single_equals(at),
+        Kind::DoubledEquals => e0101_unexpected_token::doubled_equals(at),
         Kind::MissingValue { property } => expected(&format!("a value for `{property}`"), "none"),
         Kind::MissingCloseBrace { open, .. } => {
             e0105_missing_closing::missing_closing(at, "}", Some(span(file, *open)))
@@ -179,24 +181,27 @@ fn spoils_value(kind: &SyntaxErrorKind) -> bool {
 /// The contents of a block, in words.
 fn inside(block: Block) -> &'static str {
     match block {
-        Block::File => "`board`, `sensor`, `actuator`, `chip`, `driver`, `const` or `use`",
-        Block::Board => "a sensor, an actuator, a chip, a rule, a link or a property",
+        Block::File => "`board`, `sensor`, `actuator`, `chip`, `driver`, `test`, `const` or `use`",
+        Block::Board => "a sensor, an actuator, a chip, a controller, a rule, a link or a property",
         Block::Chip => "a sensor, an actuator, a connection, a rule or a property",
         Block::Sensor | Block::Actuator => "a property or a rule",
         Block::Driver => "a property, a connection, a reading or a command",
         Block::Connection | Block::Reading | Block::Command | Block::Link => "a property",
+        Block::Controller => "a property, such as `reads = [Line];`, or `allow`",
+        Block::Test => "a property, a step (`at`, `fault`) or a rule (`always`, `never`, `eventually`, `when`)",
     }
 }
 
 /// Where an item belongs.
 fn belongs(item: Item, block: Block) -> &'static str {
     match item {
-        Item::Use | Item::Const | Item::Board | Item::Driver => "at the top of a file",
+        Item::Use | Item::Const | Item::Board | Item::Driver | Item::Test => "at the top of a file",
         Item::Chip => "in a board or at the top of a file",
         Item::Sensor | Item::Actuator => "in a board, in a chip or at the top of a file",
         Item::Connection => "in a chip or in a driver",
         Item::Reading | Item::Command => "in a driver",
-        Item::Link => "in a board",
+        Item::Link | Item::Controller => "in a board",
+        Item::Step => "in a test",
         Item::Rule => "in a board or, for `prefer`, `avoid` and `allow`, in a device or a chip",
         Item::Property if block == Block::File => "in a block; a constant begins with `const`",
         Item::Property => "in a board, a device, a chip, a driver or a link",

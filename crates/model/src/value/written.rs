@@ -18,6 +18,22 @@ pub fn shown_ohm(ohm: u32) -> String {
     format!("{} kOhm", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// Microseconds as people write times: `5 ms`, `1.5 s`, `200 us`.
+#[must_use]
+pub fn shown_us(us: u32) -> String {
+    let of = |unit_us: u32, unit: &str| {
+        let text = format!("{}.{:03}", us / unit_us, us % unit_us / (unit_us / 1_000));
+        format!("{} {unit}", text.trim_end_matches('0').trim_end_matches('.'))
+    };
+    if us >= 1_000_000 && us.is_multiple_of(1_000) {
+        of(1_000_000, "s")
+    } else if us >= 1_000 {
+        of(1_000, "ms")
+    } else {
+        format!("{us} us")
+    }
+}
+
 /// Formats a frequency for people: `400 kHz`.
 #[must_use]
 pub fn shown_hz(hz: u32) -> String {

@@ -303,6 +303,7 @@ impl Library {
         match tree.parts().next()? {
             ast::Item::Chip(node) => chip::read(at, &node, None, known, reported),
             ast::Item::Device(node) => device::read(at, &node, None, known, reported),
+            ast::Item::Controller(_) => None,
         }
     }
 

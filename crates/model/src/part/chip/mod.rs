@@ -423,6 +423,6 @@ impl ChipReader<'_> {
         let module = module::of(Some(self.driver), self.known);
         let chip = Some(self.protocol);
         let part = Part { name, block, board, driver, allows, chip, bounds, module };
-        Some(ReadPart { part, devices, connections })
+        Some(ReadPart { part, devices, connections, controller: None })
     }
 }
