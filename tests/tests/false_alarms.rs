@@ -158,7 +158,10 @@ fn part(one: &serde_json::Value, node: usize) -> String {
     let notes = one["notes"].as_array().map_or(&[][..], Vec::as_slice);
     let is_numbered = notes.iter().any(|note| note.as_str().unwrap().contains("`node` is"));
     let node = if is_numbered { format!("node = {node};") } else { String::new() };
-    format!("    chip Part_{name} {{ driver = {name}; {address} {node} delay = 100 ms; }}\n")
+    // What must rest between two readings has that cycle by itself.
+    let rests = one["kinds"].as_array().unwrap().iter().any(|kind| kind == "onewire");
+    let delay = if rests { "" } else { "delay = 100 ms;" };
+    format!("    chip Part_{name} {{ driver = {name}; {address} {node} {delay} }}\n")
 }
 
 fn of_parts(parts: &[String]) -> String {

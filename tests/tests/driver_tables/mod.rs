@@ -225,7 +225,7 @@ fn given_line(unit: &Unit, given: &Given) -> String {
             let is_it = |device: &Device| match what.as_str() {
                 "analog" => matches!(device.kind, Kind::Analog(_)),
                 "level" => matches!(device.kind, Kind::Digital(_)),
-                "counts" => matches!(device.kind, Kind::Encoder(_)),
+                "counts" => matches!(device.kind, Kind::Encoder(_) | Kind::Stepper(_)),
                 _ => matches!(device.kind, Kind::Icu(_)),
             };
             let is_sensor = |device: &Device| device.direction == Direction::Sensor;

@@ -1,6 +1,7 @@
 //! How often a device should report, and how often it does.
 
 use sensedsl_job::{BoardJob, JobDevice};
+use sensedsl_model::design::protocol::InitStep;
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::icu::Mode;
 
@@ -41,6 +42,8 @@ pub(super) struct Pace {
     /// The longest time until the first value, if the board measures it as soon as it is up, however long its cycle is;
     /// `None` if something other than the board's clock determines when there is a value.
     pub(super) first_ns: Option<u64>,
+    /// The pauses that the board's parts need while they are set up, which the first value may have to wait for.
+    pub(super) pauses_ns: u64,
 }
 
 impl Pace {
@@ -104,7 +107,8 @@ impl Pace {
         };
         // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);
-        Some(Self { least_ns, most_ns, jitter_ns, turn_ns: reporter_ns, is_regular, first_ns })
+        let (turn_ns, pauses_ns) = (reporter_ns, pauses_ns(job));
+        Some(Self { least_ns, most_ns, jitter_ns, turn_ns, is_regular, first_ns, pauses_ns })
     }
 
     /// The longest silence that is still normal.
@@ -115,8 +119,19 @@ impl Pace {
     /// The longest silence before the first value that is still normal.
     pub(super) fn first_gap_ns(&self) -> u64 {
         let first_ns = self.first_ns.map(|ns| 3 * ns + self.jitter_ns + FIRST_NS);
-        first_ns.map_or(self.gap_ns(), |ns| ns.min(self.gap_ns()))
+        first_ns.map_or(self.gap_ns(), |ns| ns.min(self.gap_ns())) + self.pauses_ns
     }
+}
+
+/// The pauses of all parts of a board that are set up.
+fn pauses_ns(job: &BoardJob<'_>) -> u64 {
+    let steps =
+        job.parts.iter().filter_map(|one| one.part.chip.as_ref()).flat_map(|chip| &chip.init);
+    let pauses = steps.map(|step| match step {
+        InitStep::Wait { ms } => MS * u64::from(*ms),
+        InitStep::Write(_) => 0,
+    });
+    pauses.sum()
 }
 
 /// The shortest time from one report to the next: the shortest cycle of anything that can become due, or the one that

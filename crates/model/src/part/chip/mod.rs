@@ -162,7 +162,12 @@ fn protocol(
     let reported = (known.constants, diagnostics);
     let mut fields = Fields::new(own, file, "a driver", at, reported);
     fields.drivers_follow();
-    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let connections: Vec<_> = driver.node.connections().collect();
+    // Each of several connections has an address of its own.
+    let is_alone = connections.len() == 1;
+    let blocks = connections.iter().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let blocks = blocks
+        .filter(|one| is_alone || one.name().is_some_and(|name| PROTOCOL.contains(&name.text())));
     let all = driver.node.properties().chain(blocks);
     fields.inherit(all.filter(of_protocol), driver.file);
     coding::protocol(&mut fields)
