@@ -34,7 +34,7 @@ fn serves(drivers: &dyn Drivers, kind: KindName) -> bool {
         KindName::I2c => drivers.i2c().is_some(),
         KindName::Icu => drivers.capture().is_some(),
         KindName::Encoder => drivers.encoder().is_some(),
-        KindName::Digital => true,
+        KindName::Digital | KindName::Code => true,
         KindName::Pwm => drivers.pulses().is_some(),
         KindName::Dac => drivers.dac().is_some(),
         KindName::Uart => drivers.serial().is_some(),
@@ -73,7 +73,8 @@ pub(super) fn lacks(
         | Kind::Pwm(_)
         | Kind::Dac(_)
         | Kind::Can(_)
-        | Kind::Stepper(_) => None,
+        | Kind::Stepper(_)
+        | Kind::Code(_) => None,
     }
 }
 

@@ -231,6 +231,7 @@ pub(crate) mod symbol {
     pub(crate) const PROPERTY: u8 = 7;
     pub(crate) const FIELD: u8 = 8;
     pub(crate) const INTERFACE: u8 = 11;
+    pub(crate) const METHOD: u8 = 6;
     pub(crate) const FUNCTION: u8 = 12;
     pub(crate) const CONSTANT: u8 = 14;
     pub(crate) const OBJECT: u8 = 19;

@@ -180,6 +180,7 @@ fn chips_and_drivers_with_readings() {
     let part = |item: Item| match item {
         Item::Device(device) => format!("device {}", device.name().expect("a name").text()),
         Item::Chip(chip) => format!("chip {}", chip.name().expect("a name").text()),
+        Item::Controller(one) => format!("controller {}", one.name().expect("a name").text()),
     };
     assert_eq!(file.parts().map(part).collect::<Vec<_>>(), ["chip Free", "device Loose"]);
     let length = |ty: Type| {

@@ -106,7 +106,8 @@ pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script>
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::OneWire(_)
-        | Interface::Stepper(_) => None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => None,
     }
 }
 
@@ -124,7 +125,8 @@ pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) 
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::OneWire(_)
-        | Interface::Stepper(_) => None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => None,
     });
     asked.min()
 }

@@ -76,7 +76,8 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => continue,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => continue,
         };
         let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
         let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);

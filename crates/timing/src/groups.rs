@@ -85,7 +85,8 @@ fn period_ms(device: &Device) -> Option<u32> {
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::Can(_)
-        | Interface::Stepper(_) => None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => None,
     }
 }
 

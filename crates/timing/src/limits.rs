@@ -44,6 +44,7 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
             Interface::I2c(_) | Interface::Spi(_) | Interface::Can(_) => None,
             Interface::Stepper(own) => steps::too_fast(context, wired, own),
             Interface::Encoder(_) | Interface::Digital(_) | Interface::Dac(_) => None,
+            Interface::Code(_) => None,
             // The processor makes its bits.
             Interface::OneWire(_) => None,
         });
@@ -174,7 +175,8 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::OneWire(_)
-        | Interface::Stepper(_) => return None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => return None,
     };
     // Without facts about its dividers, nothing is known about the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;

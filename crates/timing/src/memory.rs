@@ -52,7 +52,8 @@ fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::Can(_)
-        | Interface::Stepper(_) => 0,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => 0,
     };
     value + buffers
 }

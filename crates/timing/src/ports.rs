@@ -49,7 +49,8 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => {}
+            | Interface::Stepper(_)
+            | Interface::Code(_) => {}
         }
     }
     rows.extend(lines.iter().flat_map(|(unit, on_line)| line(context, unit.as_str(), on_line)));

@@ -154,7 +154,8 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::Stepper(_) => load.is_unknown = true,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => load.is_unknown = true,
             Interface::OneWire(own) => {
                 load.transfers.push((of_wire(wired, own), wired.device.delay_ms));
                 let is_read = onewire::read(context).any(|other| other.index == wired.index);

@@ -381,7 +381,8 @@ impl Bench {
                 | Interface::Digital(_)
                 | Interface::Pwm(_)
                 | Interface::Dac(_)
-                | Interface::Stepper(_),
+                | Interface::Stepper(_)
+                | Interface::Code(_),
                 _,
             ) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
@@ -455,7 +456,8 @@ impl Bench {
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => return None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => return None,
         })
     }
 

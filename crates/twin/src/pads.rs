@@ -97,7 +97,8 @@ fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>, is_numbered: bool) -> Opti
         | Interface::Encoder(_)
         | Interface::Pwm(_)
         | Interface::Stepper(_)
-        | Interface::Can(_) => led(driven, FREE),
+        | Interface::Can(_)
+        | Interface::Code(_) => led(driven, FREE),
     }
 }
 

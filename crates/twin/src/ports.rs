@@ -95,7 +95,8 @@ fn of_kind(kind: &Kind, fastest_hz: u64) -> Option<RequiredSettings> {
         | Interface::Encoder(_)
         | Interface::Pwm(_)
         | Interface::OneWire(_)
-        | Interface::Stepper(_) => None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => None,
     }
 }
 

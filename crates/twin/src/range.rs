@@ -27,7 +27,8 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::Can(_)
-        | Interface::Stepper(_) => false,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => false,
     }
 }
 
@@ -75,9 +76,11 @@ fn own_range(device: &Device) -> Option<(f64, f64)> {
         | Interface::Uart(_)
         | Interface::Can(_)
         | Interface::OneWire(_) => Words::of(device).as_ref().and_then(words::range),
-        Interface::Encoder(_) | Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => {
-            None
-        }
+        Interface::Encoder(_)
+        | Interface::Pwm(_)
+        | Interface::Dac(_)
+        | Interface::Stepper(_)
+        | Interface::Code(_) => None,
     }
 }
 

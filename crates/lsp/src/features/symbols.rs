@@ -101,6 +101,7 @@ fn outline(file: &ast::SourceFile) -> Vec<Symbol> {
         ast::FileItem::Device(device) => of_device(&device),
         ast::FileItem::Chip(chip) => of_chip(&chip),
         ast::FileItem::Driver(driver) => of_driver(&driver),
+        ast::FileItem::Test(test) => Symbol::new(test.name(), symbol::METHOD, &test),
     });
     items.collect()
 }
@@ -114,6 +115,7 @@ fn of_board(board: &ast::Board) -> Option<Symbol> {
     let parts = board.parts().map(|part| match part {
         ast::Item::Device(device) => of_device(&device),
         ast::Item::Chip(chip) => of_chip(&chip),
+        ast::Item::Controller(one) => of_controller(&one),
     });
     Some(symbol.detail(on.unwrap_or_default()).with(parts))
 }
@@ -133,6 +135,12 @@ fn of_chip(chip: &ast::Chip) -> Option<Symbol> {
     let driver = value_of(chip.properties(), "driver");
     let devices = chip.devices().map(|device| of_device(&device));
     Some(symbol.detail(driver.unwrap_or_default()).with(devices))
+}
+
+fn of_controller(controller: &ast::Controller) -> Option<Symbol> {
+    let symbol = Symbol::new(controller.name(), symbol::METHOD, controller)?;
+    let every = controller.every().map(|every| every.syntax().text().to_string());
+    Some(symbol.detail(every.map(|every| format!("every {}", every.trim())).unwrap_or_default()))
 }
 
 fn of_driver(driver: &ast::Driver) -> Option<Symbol> {

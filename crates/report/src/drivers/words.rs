@@ -251,6 +251,7 @@ pub(super) fn settings(kind: &Kind) -> String {
             format!("{} steps/s^2", motor.acceleration),
             format!("pulses {} us", motor.pulse_us),
         ],
+        Interface::Code(own) => vec![format!("{} at the start", own.default)],
         Interface::Analog(_) | Interface::Dac(_) | Interface::Can(_) => Vec::new(),
     };
     words.join(", ")

@@ -118,7 +118,8 @@ pub(super) fn reported(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> 
             Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
-            | Interface::OneWire(_) => None,
+            | Interface::OneWire(_)
+            | Interface::Code(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -145,7 +146,8 @@ pub(super) fn unreported(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -
             | Interface::Analog(_)
             | Interface::Icu(_)
             | Interface::Encoder(_)
-            | Interface::OneWire(_) => None,
+            | Interface::OneWire(_)
+            | Interface::Code(_) => None,
         }
     };
     wires.iter().filter_map(each).collect()
@@ -223,7 +225,8 @@ fn bridge(job: &BoardJob<'_>, one: &JobDevice<'_>, drive: Drive, raw: f64) -> Ve
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => None,
         }
     };
     one.device.connections.iter().zip(inputs).filter_map(each).collect()

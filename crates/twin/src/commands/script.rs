@@ -121,7 +121,8 @@ pub(super) fn range(one: &JobDevice<'_>) -> (f64, f64) {
         | Interface::Uart(_)
         | Interface::Spi(_)
         | Interface::OneWire(_)
-        | Interface::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
+        | Interface::Can(_)
+        | Interface::Code(_) => Words::of(one.device).as_ref().and_then(words::range),
     };
     let held = one.device.value.value.scalar.integer_range();
     let held = held.map(|(least, most)| (whole(least), whole(most)));

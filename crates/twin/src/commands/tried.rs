@@ -360,7 +360,8 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
         | Interface::Encoder(_)
         | Interface::Digital(_)
         | Interface::Dac(_)
-        | Interface::Can(_) => 0,
+        | Interface::Can(_)
+        | Interface::Code(_) => 0,
     };
     SETTLE_NS + link_ns(job) + own_ns
 }

@@ -52,7 +52,7 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         Interface::Icu(icu) => {
             pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some())
         }
-        Interface::Pwm(_) | Interface::Dac(_) => 0,
+        Interface::Pwm(_) | Interface::Dac(_) | Interface::Code(_) => 0,
     }
 }
 

@@ -52,7 +52,8 @@ impl Counted {
             | Interface::Uart(_)
             | Interface::Pwm(_)
             | Interface::Dac(_)
-            | Interface::Can(_) => return None,
+            | Interface::Can(_)
+            | Interface::Code(_) => return None,
         };
         let most_ns = pace?.turn_ns + read_ns + link_ns(job);
         is_plain.then_some(Self { most_ns, is_repeated, sum_ns: 0, times: 0 })

@@ -85,7 +85,7 @@ impl Pace {
                     if is_asked { (cycle_ns, cycle_ns.max(waits_ns)) } else { (0, 0) };
                 (shortest_ns.max(least_ns), longest_ns.max(most_ns), 2 * longest_ns)
             }
-            Interface::Pwm(_) | Interface::Dac(_) => return None,
+            Interface::Pwm(_) | Interface::Dac(_) | Interface::Code(_) => return None,
         };
         let is_regular = least_ns == most_ns && own_ns == 0;
         let most_ns = most_ns.max(reporter_ns);
@@ -103,7 +103,8 @@ impl Pace {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::Stepper(_) => None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => None,
         };
         // A median may need several values before it has one.
         let first_ns = first_ns.filter(|_| device.filter.median < 2);

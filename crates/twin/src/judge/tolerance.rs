@@ -42,7 +42,7 @@ pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subje
         | Interface::Uart(_)
         | Interface::Can(_)
         | Interface::OneWire(_) => 0.51,
-        Interface::Pwm(_) | Interface::Dac(_) => 0.0,
+        Interface::Pwm(_) | Interface::Dac(_) | Interface::Code(_) => 0.0,
     }
 }
 

@@ -235,7 +235,8 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             | Interface::Pwm(_)
             | Interface::Dac(_)
             | Interface::Can(_)
-            | Interface::Stepper(_) => continue,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => continue,
         };
         let Some(plan) = job.bus_of(one) else {
             continue;

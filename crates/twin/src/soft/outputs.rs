@@ -293,7 +293,8 @@ fn pin(wire: &JobConnection<'_>) -> Option<Pin> {
         | Interface::Spi(_)
         | Interface::OneWire(_)
         | Interface::Can(_)
-        | Interface::Stepper(_) => return None,
+        | Interface::Stepper(_)
+        | Interface::Code(_) => return None,
     };
     Some(Pin { at: wire.index, element: usize::from(wire.element()), what })
 }

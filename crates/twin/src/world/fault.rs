@@ -117,7 +117,8 @@ impl FaultKind {
                 | Interface::Spi(_)
                 | Interface::Pwm(_)
                 | Interface::Dac(_)
-                | Interface::Stepper(_) => false,
+                | Interface::Stepper(_)
+                | Interface::Code(_) => false,
             },
             Self::Reset | Self::Garbage => false,
         }

@@ -213,7 +213,9 @@ fn likely_range(device: &Device) -> (f64, f64) {
         | Interface::Uart(_)
         | Interface::Can(_)
         | Interface::OneWire(_) => of_words(device),
-        Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) => (0.0, 1.0),
+        Interface::Digital(_) | Interface::Pwm(_) | Interface::Dac(_) | Interface::Code(_) => {
+            (0.0, 1.0)
+        }
     }
 }
 

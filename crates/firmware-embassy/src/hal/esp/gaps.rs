@@ -30,6 +30,7 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         | Kind::Dac(_)
         | Kind::Can(_)
         | Kind::OneWire(_)
-        | Kind::Stepper(_) => None,
+        | Kind::Stepper(_)
+        | Kind::Code(_) => None,
     }
 }

@@ -36,7 +36,8 @@ pub(super) fn lacks(
         | Kind::Dac(_)
         | Kind::Can(_)
         | Kind::OneWire(_)
-        | Kind::Stepper(_) => None,
+        | Kind::Stepper(_)
+        | Kind::Code(_) => None,
     }
 }
 

@@ -83,6 +83,7 @@ pub(super) fn name_of(part: &ast::Item) -> Option<ast::Name> {
     match part {
         ast::Item::Device(device) => device.name(),
         ast::Item::Chip(chip) => chip.name(),
+        ast::Item::Controller(one) => one.name(),
     }
 }
 
