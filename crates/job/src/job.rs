@@ -11,7 +11,7 @@ use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{
-    Board, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
+    Board, Connection, ConnectionIndex, Controller, Design, Device, DeviceIndex, Part, PartIndex,
 };
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::{Starts, starts};
@@ -41,10 +41,27 @@ pub struct BoardJob<'a> {
     pub connections: Vec<JobConnection<'a>>,
     /// The parts that need tables of the runtime, in the design's order.
     pub parts: Vec<JobPart<'a>>,
+    /// The user's code, in the file's order.
+    pub controllers: Vec<JobController<'a>>,
     /// The port of a serial link.
     pub link: Option<SerialLink<'a>>,
     /// The schema of the link; its items are `devices`, in the same order.
     pub schema: Schema,
+}
+
+/// Code of the user's that runs in a cycle of its own.
+#[derive(Clone, Debug)]
+pub struct JobController<'a> {
+    /// The controller.
+    pub controller: &'a Controller,
+    /// The identifier in code, in snake case: `follow`.
+    pub ident: String,
+    /// The index into [`BoardJob::devices`] of the device that counts its steps that were late or too long.
+    pub own: usize,
+    /// Indices into [`BoardJob::devices`] of the devices whose values it gets.
+    pub reads: Vec<usize>,
+    /// Indices into [`BoardJob::devices`] of the devices that it sets.
+    pub sets: Vec<usize>,
 }
 
 /// A part whose values the hardware alone cannot handle.
@@ -211,6 +228,7 @@ impl<'a> BoardJob<'a> {
             wiring,
             profile,
             parts: source.tables(&devices),
+            controllers: source.controllers(&devices),
             devices,
             connections,
             link,
@@ -296,6 +314,22 @@ impl<'a> Source<'a> {
             parts.extend(plan.map(|plan| JobPart { part, index, plan }));
         }
         parts
+    }
+
+    /// The user's code on the board.
+    fn controllers(&self, devices: &[JobDevice<'a>]) -> Vec<JobController<'a>> {
+        let place = |device: DeviceIndex| devices.iter().position(|one| one.index == device);
+        let all = self.design.controllers.iter().filter_map(|controller| {
+            let own = place(controller.device)?;
+            Some(JobController {
+                controller,
+                ident: devices.get(own)?.ident.clone(),
+                own,
+                reads: controller.reads.iter().filter_map(|one| place(one.value)).collect(),
+                sets: controller.sets.iter().filter_map(|one| place(one.value)).collect(),
+            })
+        });
+        all.collect()
     }
 
     fn connection(

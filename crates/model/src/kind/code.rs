@@ -14,7 +14,7 @@ pub const SPEC: KindSpec = KindSpec {
     values: Values::Any,
     properties: &["default", "store"],
     sharing: Sharing::Own,
-    triggers_itself: false,
+    triggers_itself: true,
     has_cycle: false,
     codes: None,
     natural: ScalarType::Float32,

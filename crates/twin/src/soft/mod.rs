@@ -6,13 +6,14 @@
 //! wire, the tables and the coding of values, but nothing about registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod control;
 mod core;
 mod dialogue;
 mod motors;
 mod outputs;
 mod sensors;
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use sense_rt::{
     BoardHealth, Cause, Channel, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
@@ -26,6 +27,8 @@ use self::core::{Core, wrapped};
 use crate::bench::Bench;
 use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
+pub use control::UserCode;
+use control::{Controllers, Owner};
 use dialogue::Dialogue;
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
@@ -48,6 +51,9 @@ pub struct SoftBoard {
     /// The values that the host has set: milliseconds, the device's place in the schema, the value's bytes.
     received: Vec<(u64, usize, Vec<u8>)>,
     starts: u32,
+    code: Option<Box<dyn UserCode>>,
+    /// Why the code has stopped.
+    code_ended: Option<String>,
 }
 
 /// The parts of a board that stay the same when it restarts.
@@ -68,6 +74,7 @@ struct Shape {
     contacts: Vec<Contacts>,
     encoders: Vec<Encoders>,
     outputs: Outputs,
+    controllers: Controllers,
 }
 
 /// The parts of a board that a restart resets.
@@ -85,6 +92,8 @@ struct State {
     outputs: Outputs,
     /// The values that actuators are set to in this millisecond, by the host or because of its silence.
     owed: Vec<(usize, Vec<u8>)>,
+    /// The devices of controllers that the host has set itself, and has not fallen silent since.
+    taken: BTreeSet<usize>,
     began_ms: u64,
 }
 
@@ -134,12 +143,27 @@ struct Side<'a> {
     lines: &'a mut Vec<Dialogue>,
     outputs: &'a mut Outputs,
     owed: &'a mut Vec<(usize, Vec<u8>)>,
+    taken: &'a mut BTreeSet<usize>,
+    owners: &'a [Owner],
     received: &'a mut Vec<(u64, usize, Vec<u8>)>,
     now_ms: u64,
     starts: u32,
 }
 
 impl Side<'_> {
+    /// The user's code sets a value: that of an actuator, or one that is reported.
+    fn set_by_code(&mut self, index: usize, value: &[u8]) {
+        if self.taken.contains(&index) {
+            return;
+        }
+        match self.core.store.schema().items.get(index).map(|item| item.direction) {
+            Some(sense_rt::Direction::ToHost) => {
+                self.core.record(index, Outcome::Fresh, &mut value.to_vec());
+            }
+            Some(sense_rt::Direction::ToBoard) | None => self.put(index, value),
+        }
+    }
+
     fn put(&mut self, index: usize, value: &[u8]) {
         self.core.store.put(index, value);
         self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
@@ -159,6 +183,13 @@ impl Host for Side<'_> {
     }
 
     fn apply(&mut self, index: usize, value: &[u8]) {
+        match self.owners.get(index) {
+            Some(Owner::Code) => return,
+            Some(Owner::CodeOrHost) => {
+                self.taken.insert(index);
+            }
+            Some(Owner::Other) | None => {}
+        }
         self.put(index, value);
         self.received.push((self.now_ms, index, value.to_vec()));
     }
@@ -167,6 +198,10 @@ impl Host for Side<'_> {
         self.outputs.hush();
         self.lines.iter_mut().for_each(Dialogue::hush);
         let safe: Vec<_> = self.outputs.safe().map(|(index, of)| (index, of.to_vec())).collect();
+        // What code sets is not the host's: it goes on when the host is silent.
+        self.taken.clear();
+        let is_other = |index: usize| self.owners.get(index).is_none_or(|one| *one == Owner::Other);
+        let safe: Vec<_> = safe.into_iter().filter(|(index, _)| is_other(*index)).collect();
         for (index, value) in safe {
             self.put(index, &value);
         }
@@ -184,7 +219,21 @@ impl SoftBoard {
         let shape = Shape::new(job);
         let state = State::new(&shape, 0);
         let (received, link) = (Vec::new(), Link::default());
-        Self { bench, shape, state, now_ms: 0, link, received, starts: 1 }
+        let (code, code_ended) = (None, None);
+        Self { bench, shape, state, now_ms: 0, link, received, starts: 1, code, code_ended }
+    }
+
+    /// Gives the board the code of its controllers; without it they set nothing.
+    #[must_use]
+    pub fn with_code(mut self, code: Box<dyn UserCode>) -> Self {
+        self.code = Some(code);
+        self
+    }
+
+    /// Why the user's code has stopped; `None` while it runs.
+    #[must_use]
+    pub fn code_ended(&self) -> Option<&str> {
+        self.code_ended.as_deref()
     }
 
     /// The virtual time.
@@ -257,13 +306,17 @@ impl SoftBoard {
             self.bench.power_up(now_ns);
             self.state = State::new(&self.shape, self.now_ms - 1);
             self.starts += 1;
+            self.restart_code();
         }
         let since_ms = self.now_ms - self.state.began_ms - 1;
         if since_ms == 0 {
             self.state.outputs.start(&mut self.bench, now_ns);
+            self.shape.controllers.begin(&mut self.state.core);
         }
         self.serve(since_ms, now_ns);
+        self.control(since_ms);
         self.report(since_ms);
+        self.drive();
         self.carry(now_ns);
     }
 
@@ -301,14 +354,42 @@ impl SoftBoard {
         if !self.shape.has_link || !since_ms.is_multiple_of(u64::from(self.shape.config.cycle_ms)) {
             return;
         }
-        let (received, starts, now_ms) = (&mut self.received, self.starts, self.now_ms);
-        let State { core, buses, lines, reporter, outputs, owed, .. } = &mut self.state;
-        let mut side = Side { core, buses, lines, outputs, owed, received, now_ms, starts };
+        let shared = (&mut self.received, &self.shape.controllers);
+        let (mut side, reporter) = self.state.side(shared, (self.now_ms, self.starts));
         reporter.cycle(since_ms * 1_000, &mut self.link, &mut side);
-        for (index, value) in std::mem::take(owed) {
-            outputs.set(index, &value, &mut self.bench, now_ms * MS_NS);
+    }
+
+    /// Runs the steps of the user's code.
+    fn control(&mut self, since_ms: u64) {
+        let (Some(code), None) = (&mut self.code, &self.code_ended) else { return };
+        match self.shape.controllers.step(&mut **code, &mut self.state.core, since_ms) {
+            Ok(set) => {
+                let shared = (&mut self.received, &self.shape.controllers);
+                let (mut side, _) = self.state.side(shared, (self.now_ms, self.starts));
+                for (index, value) in set {
+                    side.set_by_code(index, &value);
+                }
+            }
+            Err(why) => self.code_ended = Some(why),
         }
-        outputs.repeat(&mut self.bench, now_ms * MS_NS);
+    }
+
+    fn restart_code(&mut self) {
+        if let Some(code) = &mut self.code
+            && let Err(why) = code.restart()
+        {
+            self.code_ended = Some(why);
+        }
+    }
+
+    /// Moves values that were set to pins and lines.
+    fn drive(&mut self) {
+        let now_ns = self.now_ms * MS_NS;
+        let State { outputs, owed, .. } = &mut self.state;
+        for (index, value) in std::mem::take(owed) {
+            outputs.set(index, &value, &mut self.bench, now_ns);
+        }
+        outputs.repeat(&mut self.bench, now_ns);
     }
 
     /// Moves the bytes that the line carries in a millisecond.
@@ -364,6 +445,7 @@ impl Shape {
             contacts: sensors::contacts(job),
             encoders: sensors::encoders(job),
             outputs: Outputs::new(job, schema),
+            controllers: Controllers::new(job),
             cycles_ms: cycles_ms.leak(),
         }
     }
@@ -384,7 +466,21 @@ impl State {
             encoders: shape.encoders.clone(),
             outputs: shape.outputs.clone(),
             owed: Vec::new(),
+            taken: BTreeSet::new(),
             began_ms: now_ms,
         }
+    }
+
+    /// The board as the reporter and the user's code see it, and the reporter.
+    fn side<'a>(
+        &'a mut self,
+        (received, controllers): (&'a mut Vec<(u64, usize, Vec<u8>)>, &'a Controllers),
+        (now_ms, starts): (u64, u32),
+    ) -> (Side<'a>, &'a mut Reporter<[u8; 65_536]>) {
+        let Self { core, buses, lines, reporter, outputs, owed, taken, .. } = self;
+        let owners = &controllers.owners;
+        let side =
+            Side { core, buses, lines, outputs, owed, taken, owners, received, now_ms, starts };
+        (side, reporter)
     }
 }

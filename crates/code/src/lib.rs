@@ -1,0 +1,76 @@
+//! What the user's own code gets and gives: declarations in C and in Rust, first files that the user goes on with, and
+//! the program that runs the code on a computer.
+//!
+//! In: a board's job with controllers. Out: files, by their names in the folder that a system gives them.
+//!
+//! The program reads requests from its standard input and writes answers to its standard output, one for each step, so
+//! that it runs in lockstep with a simulated board. Numbers are in the byte order of the computer:
+//!
+//! | request | bytes |
+//! | --- | --- |
+//! | the controller, from 0 | 1 |
+//! | microseconds since its last step; 0 for the first | 4 |
+//! | for each device that it reads: valid or not, microseconds of age, the value | 1 + 4 + n |
+//!
+//! The answer has, for each device that it sets, whether the step has set it, and the value: 1 + n bytes.
+
+mod plan;
+mod words;
+
+use askama::Template;
+use sensedsl_files::{FileSet, print};
+use sensedsl_job::BoardJob;
+
+pub use plan::{ControllerPlan, FieldPlan, controllers};
+
+/// Declares templates that print one controller.
+macro_rules! of_controller {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                board: &'a str,
+                one: &'a ControllerPlan,
+            }
+        )*
+    };
+}
+
+of_controller! {
+    Header = "templates/controller.h.txt";
+    FirstC = "templates/controller.c.txt";
+}
+
+#[derive(Template)]
+#[template(path = "templates/native.c.txt", escape = "none")]
+struct NativeC<'a> {
+    board: &'a str,
+    all: &'a [ControllerPlan],
+}
+
+/// The declarations of a board's controllers in C, a header for each.
+#[must_use]
+pub fn headers(board: &str, all: &[ControllerPlan]) -> FileSet {
+    let mut files = FileSet::default();
+    for one in all {
+        files.add(format!("{}.h", one.ident), print(&Header { board, one }));
+    }
+    files
+}
+
+/// The files in C that the user goes on with: they compile, and set nothing.
+#[must_use]
+pub fn first_c(board: &str, all: &[ControllerPlan]) -> FileSet {
+    let mut files = FileSet::default();
+    for one in all {
+        files.add_once(format!("{}.c", one.ident), print(&FirstC { board, one }));
+    }
+    files
+}
+
+/// The program around the user's code in C that runs it on a computer.
+#[must_use]
+pub fn native_c(job: &BoardJob<'_>) -> String {
+    print(&NativeC { board: &job.board.name.value, all: &controllers(job) })
+}

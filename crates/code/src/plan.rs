@@ -1,0 +1,77 @@
+//! A board's job in; what the code of each controller gets and gives, with the names of its fields, out.
+
+use sensedsl_job::{BoardJob, JobController, JobDevice};
+use sensedsl_model::design::Presentation;
+use sensedsl_wire::ScalarType;
+
+/// What the code of a controller gets and gives.
+#[derive(Clone, Debug)]
+pub struct ControllerPlan {
+    /// Its name in the file: `Follow`.
+    pub name: String,
+    /// The identifier in code: `follow`.
+    pub ident: String,
+    /// The time from the beginning of a step to that of the next one.
+    pub every_ms: u32,
+    /// What it gets, in the order of the file.
+    pub reads: Vec<FieldPlan>,
+    /// What it sets, in the order of the file.
+    pub sets: Vec<FieldPlan>,
+}
+
+/// A device as a field of a structure.
+#[derive(Clone, Debug)]
+pub struct FieldPlan {
+    /// The device's name in the file: `IRFront`.
+    pub name: String,
+    /// The field: `ir_front`.
+    pub ident: String,
+    /// The index of the device in the board's schema.
+    pub index: usize,
+    /// The type of one element.
+    pub scalar: ScalarType,
+    /// The number of elements; none for a single value.
+    pub length: Option<u16>,
+    /// How people are shown the value.
+    pub shown: Presentation,
+}
+
+impl FieldPlan {
+    fn new(index: usize, one: &JobDevice<'_>) -> Self {
+        let value = one.device.value.value;
+        Self {
+            name: one.name().to_owned(),
+            ident: one.ident.clone(),
+            index,
+            scalar: value.scalar,
+            length: value.length,
+            shown: one.device.shown.clone(),
+        }
+    }
+
+    /// Bytes of the value.
+    #[must_use]
+    pub fn size_bytes(&self) -> usize {
+        self.scalar.size_bytes() * usize::from(self.length.unwrap_or(1))
+    }
+}
+
+/// The code of a board's controllers, in the order of the file.
+#[must_use]
+pub fn controllers(job: &BoardJob<'_>) -> Vec<ControllerPlan> {
+    job.controllers.iter().map(|one| of_controller(job, one)).collect()
+}
+
+fn of_controller(job: &BoardJob<'_>, one: &JobController<'_>) -> ControllerPlan {
+    let fields = |list: &[usize]| {
+        let all = list.iter().filter_map(|index| Some(FieldPlan::new(*index, job.devices.get(*index)?)));
+        all.collect()
+    };
+    ControllerPlan {
+        name: job.devices.get(one.own).map_or_else(String::new, |own| own.name().to_owned()),
+        ident: one.ident.clone(),
+        every_ms: one.controller.every_ms,
+        reads: fields(&one.reads),
+        sets: fields(&one.sets),
+    }
+}
