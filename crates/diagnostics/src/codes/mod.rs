@@ -194,6 +194,7 @@ codes! {
     h0704_printed_elsewhere,
     h0707_of_ten_thousand,
     h0708_drivers_alone,
+    h0709_other_spelling,
     e0801_import_unreadable,
     e0802_import_no_table,
     e0803_import_no_sheet,

@@ -401,6 +401,10 @@ fn init(fields: &mut Fields<'_>) -> Vec<InitStep> {
             None
         }
     };
+    let texts = field.value.list().unwrap_or_default();
+    if texts.iter().any(|one| fields.spells("init", &one.value, one.span)) {
+        return Vec::new();
+    }
     let steps: Option<Vec<InitStep>> =
         field.value.list().and_then(|list| list.iter().map(|one| step(&one.value)).collect());
     match steps {
