@@ -13,6 +13,7 @@ use super::{bounds, ranges};
 use crate::design::{Design, Device};
 use crate::kind::Interface;
 use crate::kind::onewire::Rom;
+use crate::part::reach;
 
 /// Bits of one ADC conversion on all profiles; the driver scales wider ones.
 const ADC_BITS: u32 = 12;
@@ -180,12 +181,19 @@ pub(super) fn like(value: ValueType, scalar: &str) -> String {
 /// Warns of a value of a chip with fewer bits than its driver's reading.
 fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
     let (own, of) = (device.value.value, device.coding.of?);
-    let ((least, most), (of_least, of_most)) =
-        (own.scalar.integer_range()?, of.scalar.integer_range()?);
-    if (least <= of_least && most >= of_most) || device.direction == Direction::Actuator {
+    let (of_least, of_most) = of.scalar.integer_range()?;
+    let (held, of_type) = (reach::of_type(own.scalar)?, reach::of_type(of.scalar)?);
+    // Of a word with fewer `bits` than its type, only what these make comes.
+    let part = reach::of_part(&device.kind, &device.coding, of).unwrap_or(of_type);
+    if (held.0 <= part.0 && held.1 >= part.1) || device.direction == Direction::Actuator {
         return None;
     }
-    let (found, range) = (own.to_string(), format!("{of_least} to {of_most}"));
+    let range = if part == of_type {
+        format!("{of_least} to {of_most}")
+    } else {
+        format!("{} to {}", part.0, part.1)
+    };
+    let found = own.to_string();
     let wider = of.to_string();
     Some(w0603_narrow_type::narrow_type(device.value.span, (&found, &range), &wider, Some(&wider)))
 }
