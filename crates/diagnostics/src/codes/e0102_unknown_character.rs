@@ -44,7 +44,7 @@ pub fn colon(span: Span) -> Diagnostic {
 pub fn range_with_colon(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`:` means nothing here")
         .here("write `..`")
-        .help("write a range with two dots: `31..18`")
+        .help("write a range with two dots, such as `31..18`")
         .replace("change to `..`", span, "..")
 }
 

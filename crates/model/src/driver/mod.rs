@@ -182,6 +182,13 @@ impl Drivers {
         })
     }
 
+    /// The library's driver that a name finds, and the text of its file.
+    fn text_of(&self, name: &str) -> Option<(&'static str, &Driver)> {
+        let driver = self.look_up(name)?;
+        let volume = self.library.iter().find(|volume| volume.file == driver.file)?;
+        Some((volume.text, driver))
+    }
+
     fn all(&self) -> impl Iterator<Item = &Driver> {
         self.own.iter().chain(self.library.iter().flat_map(Volume::drivers))
     }

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
-    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, w0601_unused_property,
-    w0602_slower_than_asked, w0603_narrow_type,
+    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, h0710_motor_goes_on,
+    w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{Direction, ValueType};
 
 use super::{bounds, ranges};
-use crate::design::{Design, Device};
+use crate::design::{Design, Device, Transport};
 use crate::kind::Interface;
 use crate::kind::onewire::Rom;
 use crate::part::reach;
@@ -30,10 +30,22 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(slow);
         diagnostics.extend(narrow(device));
         diagnostics.extend(impossible_length(device));
+        diagnostics.extend(goes_on(design, device));
     }
     diagnostics.extend(same_rom(design));
     bounds::check(design, diagnostics);
     ranges::check(design, diagnostics);
+}
+
+/// Hints at a motor that nothing stops when the host falls silent.
+fn goes_on(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let board = design.part(device.part)?.board.and_then(|board| design.board(board));
+    let is_linked = board.is_none_or(|board| board.link.transport != Transport::None);
+    let is_motor = device.direction == Direction::Actuator && device.coding.drive.is_some();
+    let name = &device.name;
+    let failsafe = device.coding.failsafe.or_else(|| device.kind.failsafe());
+    (is_motor && is_linked && failsafe.is_none())
+        .then(|| h0710_motor_goes_on::motor_goes_on(name.span, &name.value))
 }
 
 /// Warns of a cycle time or priority for a device that the hardware measures on its own.
