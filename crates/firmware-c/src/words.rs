@@ -86,6 +86,7 @@ pub(crate) const fn checksum(checksum: &MessageChecksum) -> &'static str {
         MessageChecksum::NegSum16 => "UP_CHECKSUM_NEG_SUM16",
         MessageChecksum::Crc16Umts => "UP_CHECKSUM_CRC16_UMTS",
         MessageChecksum::Crc16Xmodem => "UP_CHECKSUM_CRC16_XMODEM",
+        MessageChecksum::Slamtec => "UP_CHECKSUM_SLAMTEC",
     }
 }
 

@@ -256,6 +256,7 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
         uart::MessageChecksum::NegSum16 => MessageChecksum::NegSum16,
         uart::MessageChecksum::Crc16Umts => MessageChecksum::Crc16Umts,
         uart::MessageChecksum::Crc16Xmodem => MessageChecksum::Crc16Xmodem,
+        uart::MessageChecksum::Slamtec => MessageChecksum::Slamtec,
     }
 }
 

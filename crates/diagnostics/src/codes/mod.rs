@@ -194,6 +194,8 @@ codes! {
     h0704_printed_elsewhere,
     h0707_of_ten_thousand,
     h0708_drivers_alone,
+    h0709_other_spelling,
+    h0710_motor_goes_on,
     e0801_import_unreadable,
     e0802_import_no_table,
     e0803_import_no_sheet,

@@ -147,6 +147,23 @@ pub(crate) fn check(
     words(kind, coding, value, length).map(|_| ())
 }
 
+/// A value that ends after its message: its first byte and the number of its bytes, and which property gives the body how
+/// many. `whole` is the connection, whose `length` is that of the body.
+pub(crate) fn outside(
+    kind: &Kind,
+    coding: &Coding,
+    whole: &Kind,
+) -> Option<((u16, u16), (&'static str, u16))> {
+    let (uart, whole) = (kind.uart()?, whole.uart()?);
+    let body = if uart.exchange.request.is_empty() {
+        ("length", whole.is_length_given.then_some(whole.length_bytes)?)
+    } else {
+        ("body", uart.exchange.body_bytes?)
+    };
+    let value = (coding.byte, length_bytes(kind, coding)?);
+    (value.0.saturating_add(value.1) > body.1).then_some((value, body))
+}
+
 /// Bytes of the value; none if its kind sends no bytes or the value is text.
 fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
     if coding.text.is_some() {

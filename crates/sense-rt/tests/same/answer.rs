@@ -344,10 +344,10 @@ fn compose(words: &mut Words<'_>, out: &mut String) {
     use MessageChecksum::{
         Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea,
     };
-    use MessageChecksum::{NotSum8, Sum7, Sum8, Sum16, Xor8};
+    use MessageChecksum::{NotSum8, Slamtec, Sum7, Sum8, Sum16, Xor8};
     let first = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
     let second = [Sum7, NotSum8, NegSum8, NegSum16, Crc16Umts, Crc16Xmodem];
-    let all = [&first[..], &second, &[Crc8Ld06, Sum16]].concat();
+    let all = [&first[..], &second, &[Crc8Ld06, Sum16, Slamtec]].concat();
     let checksum = all[words.number() as usize];
     let checksum_from = words.byte();
     let compose =

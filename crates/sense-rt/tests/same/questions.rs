@@ -142,7 +142,7 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     all.push(format!("encode {one} {count} {how}{}", elements(random, one, count)));
     let (start, end) = (random.below(4), random.below(3));
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
-    let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
+    let (sum, from, behind) = (random.below(15), random.below(5), random.below(3));
     let behind = hex(&bytes(random, behind));
     let as_text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
     let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { as_text };

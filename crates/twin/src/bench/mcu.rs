@@ -63,7 +63,9 @@ impl Surroundings for Bench {
         let is_cut = [FaultKind::Torn, FaultKind::Silent]
             .into_iter()
             .any(|kind| self.has(kind, part, now_ns));
+        let is_spoiled = self.has(FaultKind::BadChecksum, part, now_ns);
         let talking = self.talkers.get_mut(&unit)?;
+        talking.talker.set_spoiled(is_spoiled);
         let byte = talking.talker.next(&self.subjects, now_ns);
         if is_cut {
             talking.talker.torn();

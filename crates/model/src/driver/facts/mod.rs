@@ -5,6 +5,7 @@
 //! everything the driver has.
 
 mod example;
+mod source;
 
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap};
 use sensedsl_syntax::ast::{self, AstNode as _};
@@ -27,6 +28,7 @@ use crate::value::constants::Constants;
 
 pub use crate::driver::near::{Near, identifier};
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
+pub use source::source;
 
 /// A part of the library.
 #[derive(Clone, Debug)]
