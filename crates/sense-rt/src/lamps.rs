@@ -34,7 +34,9 @@ pub(crate) const fn wire_bytes(how: &Coding, count: u16) -> usize {
 /// Writes [`wire_bytes`] bytes.
 pub(crate) fn encode(how: &Coding, item: &Item, value: &[u8], bytes: &mut [u8]) {
     bytes.fill(0);
-    let colours = value.chunks(item.scalar.bytes().max(1)).map(|element| {
+    // The value may be in a larger buffer.
+    let elements = value.chunks(item.scalar.bytes().max(1)).take(item.count.into());
+    let colours = elements.map(|element| {
         let (magnitude, is_negative) = load_magnitude(item.scalar, element);
         if is_negative { [0; 4] } else { (magnitude as u32).to_le_bytes() }
     });

@@ -115,7 +115,8 @@ static LETTERS: [[u8; COLUMNS - 1]; 95] = [
 /// Writes [`COLUMNS`] bytes for each element of the value.
 pub(crate) fn encode(item: &Item, value: &[u8], bytes: &mut [u8]) {
     bytes.fill(0);
-    let elements = value.chunks(item.scalar.bytes().max(1));
+    // The value may be in a larger buffer.
+    let elements = value.chunks(item.scalar.bytes().max(1)).take(item.count.into());
     for (element, columns) in elements.zip(bytes.chunks_mut(COLUMNS)) {
         let (code, is_negative) = load_magnitude(item.scalar, element);
         let place = code.checked_sub(FIRST).filter(|_| !is_negative);

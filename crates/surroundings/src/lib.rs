@@ -165,8 +165,8 @@ pub trait Surroundings: Send {
         0xFF
     }
 
-    /// The MCU shifts a byte out of an SPI port whose clock is at no pad: eight levels, the highest bit first, from that
-    /// time on, each of which lasts so many picoseconds.
+    /// The levels at MOSI while an SPI port shifts a byte out, whether its clock is at a pad or not: the highest bit first,
+    /// from that time on, each of which lasts so many picoseconds.
     fn levels(&mut self, unit: u8, byte: u8, from_ps: u64, bit_ps: u64) {
         let _ = (unit, byte, from_ps, bit_ps);
     }

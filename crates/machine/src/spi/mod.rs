@@ -85,14 +85,14 @@ impl Place {
     }
 
     /// Sends a byte; returns the one that comes back.
-    /// Without a clock its output is levels that end at that time, each of so many picoseconds.
+    /// The levels of its output end at that time, and each of them lasts so many picoseconds.
     fn exchange(&self, byte: u8, (end_ps, bit_ps): (u64, u64), wires: &Wires) -> u8 {
         let [clock, input, output] = self.wires.each_ref().map(|wire| wires.pad_of(wire).is_some());
+        if output {
+            let from_ps = end_ps.saturating_sub(8 * bit_ps);
+            wires.world(|world, _| world.levels(self.unit, byte, from_ps, bit_ps));
+        }
         if !clock {
-            if output {
-                let from_ps = end_ps.saturating_sub(8 * bit_ps);
-                wires.world(|world, _| world.levels(self.unit, byte, from_ps, bit_ps));
-            }
             return 0xFF;
         }
         // A wire that is not on any pad sends and receives nothing useful.

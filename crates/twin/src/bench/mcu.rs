@@ -59,7 +59,6 @@ impl Surroundings for Bench {
     }
 
     fn levels(&mut self, unit: u8, byte: u8, from_ps: u64, bit_ps: u64) {
-        self.note(from_ps / 1_000, format_args!("SPI{unit}"), format_args!("0x{byte:02X}"));
         self.levels_out(unit, byte, from_ps, bit_ps);
     }
 

@@ -89,11 +89,9 @@ impl Strip {
         }
     }
 
-    /// A byte comes with a clock.
+    /// A byte comes with a clock, which a strip on one wire does not see.
     pub(crate) fn clocked(&mut self, byte: u8) -> Option<Shown> {
-        let How::Clock(frame) = &mut self.how else {
-            return Some(Err("a byte with a clock, which this strip has no wire for".to_owned()));
-        };
+        let How::Clock(frame) = &mut self.how else { return None };
         let leds = frame.take(byte)?;
         Some(leds.map(|leds| {
             let shown = |[first, colours @ ..]: [u8; 4]| {
@@ -104,11 +102,9 @@ impl Strip {
         }))
     }
 
-    /// Eight levels come, each of which lasts so many picoseconds.
+    /// Eight levels come, each of which lasts so many picoseconds. A strip with a clock looks only at its edges.
     pub(crate) fn levels(&mut self, byte: u8, from_ps: u64, bit_ps: u64) -> Option<Shown> {
-        let How::Wire(wire, pulses) = &mut self.how else {
-            return Some(Err("bits without the clock that this strip needs".to_owned()));
-        };
+        let How::Wire(wire, pulses) = &mut self.how else { return None };
         pulses.follow(from_ps);
         let mut bits = None;
         for place in (0..8).rev() {
