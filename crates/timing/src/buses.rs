@@ -154,9 +154,8 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
             let all = context.elements.iter();
             all.filter(|wired| wired.wiring.unit.as_deref() == Some(unit.as_str()))
         };
-        let pulses = on_unit().find_map(|wired| {
-            strips::on_unit(context, unit.as_str(), wired.device.kind.spi()?)
-        });
+        let pulses = on_unit()
+            .find_map(|wired| strips::on_unit(context, unit.as_str(), wired.device.kind.spi()?));
         let hz = match pulses {
             Some(pulses) => Some(pulses.clock_hz),
             None => asked_hz(on_unit()).and_then(|asked| exact_hz(context, &unit, asked)),

@@ -144,9 +144,7 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     let profile = context.board.profile()?;
     let facts: &Unit = profile.unit(unit.as_str())?;
     let hz = unit_hz(context, facts)?;
-    let is_strip = |wired: &&&Wired<'_>| {
-        wired.device.kind.encoding().windows().is_some()
-    };
+    let is_strip = |wired: &&&Wired<'_>| wired.device.kind.encoding().windows().is_some();
     if let Some(strip) = on_bus.iter().find(is_strip) {
         return strips::out_of_reach(context, unit.as_str(), strip);
     }

@@ -41,7 +41,15 @@ pub struct Pulses {
 
 impl Pulses {
     /// Those of a unit whose clocks are not known.
-    pub const USUAL: Self = Self { clock_hz: 2_500_000, bits: 3, short: 1, long: 2 };
+    #[must_use]
+    pub const fn usual(encoding: Encoding) -> Self {
+        match encoding {
+            Encoding::Sk6812 => Self { clock_hz: 3_333_333, bits: 4, short: 1, long: 2 },
+            Encoding::Plain | Encoding::Ws2812 | Encoding::Apa102 | Encoding::Text => {
+                Self { clock_hz: 2_500_000, bits: 3, short: 1, long: 2 }
+            }
+        }
+    }
 }
 
 /// The pulses that a unit with that clock can make for a strip; none if it can make none.
@@ -127,13 +135,17 @@ pub(crate) fn sent(context: &Context<'_>, wired: &Wired<'_>) -> Option<u64> {
     let elements = wired.device.value.value.count() as u64;
     let spi = kind.spi();
     let own = spi.and_then(|spi| on_unit(context, wired.wiring.unit.as_deref()?, spi));
-    let bits = own.unwrap_or(Pulses::USUAL).bits;
+    let bits = own.unwrap_or(Pulses::usual(kind.encoding())).bits;
     let colours = spi.map_or(0, |spi| spi.colours.len() as u64);
     sent_bytes(kind.encoding(), elements, colours, bits.into())
 }
 
 /// Reports a strip on a unit that can make no pulses for it.
-pub(crate) fn out_of_reach(context: &Context<'_>, unit: &str, wired: &Wired<'_>) -> Option<Diagnostic> {
+pub(crate) fn out_of_reach(
+    context: &Context<'_>,
+    unit: &str,
+    wired: &Wired<'_>,
+) -> Option<Diagnostic> {
     let spi = wired.device.kind.spi()?;
     spi.encoding.windows()?;
     let hz = unit_hz(context, context.board.profile()?.unit(unit)?)?;
@@ -157,12 +169,8 @@ mod tests {
     use super::*;
 
     fn made(unit_hz: u32, powers_of_two: bool, encoding: Encoding) -> Option<(u32, u8, u8, u8)> {
-        let dividers = Dividers {
-            range: [2, 256],
-            powers_of_two,
-            steps: [1, 1],
-            source: String::new(),
-        };
+        let dividers =
+            Dividers { range: [2, 256], powers_of_two, steps: [1, 1], source: String::new() };
         let made = best(&dividers, unit_hz, encoding.windows().unwrap());
         let Pulses { clock_hz, bits, short, long } = made?;
         Some((clock_hz, bits, short, long))

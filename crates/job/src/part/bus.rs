@@ -175,7 +175,7 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
     let identity = identity.or_else(|| IdentityPlan::of_wire(wire?));
     let calibration: Vec<CalibrationPlan> = calibration.collect();
     Some(BusPlan {
-        clock_hz: has_pulses(&commands).then_some(Pulses::USUAL.clock_hz),
+        clock_hz: clock_hz(&commands),
         work_bytes: work_bytes((&init, identity.as_ref(), &calibration), &transfers, &commands),
         prefix,
         connection,
@@ -286,12 +286,14 @@ fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Op
         bytes: words.wire_bytes(),
         encoding: (device.kind.encoding(), words.count),
     };
-    command.pulse(Pulses::USUAL);
+    command.pulse(Pulses::usual(device.kind.encoding()));
     Some(command)
 }
 
-fn has_pulses(commands: &[CommandPlan]) -> bool {
-    commands.iter().any(|one| one.value.code == Code::Pulses)
+/// The clock of pulses on a unit of which nothing is known.
+fn clock_hz(commands: &[CommandPlan]) -> Option<u32> {
+    let strip = commands.iter().find(|one| one.value.code == Code::Pulses)?;
+    Some(Pulses::usual(strip.encoding.0).clock_hz)
 }
 
 impl CommandPlan {
@@ -303,7 +305,8 @@ impl CommandPlan {
             self.value.word_bytes = pulses.long;
         }
         let (encoding, elements) = self.encoding;
-        let sent = sent_bytes(encoding, elements.into(), self.value.words.into(), pulses.bits.into());
+        let sent =
+            sent_bytes(encoding, elements.into(), self.value.words.into(), pulses.bits.into());
         if let Some(bytes) = sent {
             self.bytes = u16::try_from(bytes).unwrap_or(u16::MAX);
         }
@@ -313,7 +316,7 @@ impl CommandPlan {
 impl BusPlan {
     /// Sets the pulses that the unit of a strip makes.
     pub(crate) fn pulse(&mut self, pulses: Pulses) {
-        self.clock_hz = has_pulses(&self.commands).then_some(pulses.clock_hz);
+        self.clock_hz = self.clock_hz.map(|_| pulses.clock_hz);
         self.commands.iter_mut().for_each(|command| command.pulse(pulses));
         let start = (self.init.as_slice(), self.identity.as_ref(), self.calibration.as_slice());
         self.work_bytes = work_bytes(start, &self.transfers, &self.commands);

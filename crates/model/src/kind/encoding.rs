@@ -71,11 +71,9 @@ pub struct Windows {
 }
 
 /// Worldsemi, data sheet WS2812B: 0.4 and 0.85 us for a 0, 0.8 and 0.45 us for a 1, each 150 ns more or less.
-const WS2812: Windows =
-    Windows { zero: ((250, 550), (700, 1_000)), one: ((650, 950), (300, 600)) };
+const WS2812: Windows = Windows { zero: ((250, 550), (700, 1_000)), one: ((650, 950), (300, 600)) };
 /// Opsco, data sheet SK6812: 0.3 and 0.9 us for a 0, 0.6 and 0.6 us for a 1, each 150 ns more or less.
-const SK6812: Windows =
-    Windows { zero: ((150, 450), (750, 1_050)), one: ((450, 750), (450, 750)) };
+const SK6812: Windows = Windows { zero: ((150, 450), (750, 1_050)), one: ((450, 750), (450, 750)) };
 
 impl Encoding {
     /// The times that the pulses of a strip must have; none if it is not sent in pulses.
@@ -133,6 +131,12 @@ impl Encoding {
             Self::Text => Some((ScalarType::Uint8, "letters")),
         }
     }
+}
+
+/// The type of what the encoding of that name sends; none if it sends any.
+pub(crate) fn scalar(name: &str) -> Option<ScalarType> {
+    let mut all = OF_SPI.iter().chain(&OF_I2C);
+    all.find(|(word, _)| *word == name)?.1.sends().map(|(scalar, _)| scalar)
 }
 
 /// Reads the encoding of a command, which must have values of that type.

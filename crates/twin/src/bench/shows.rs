@@ -43,7 +43,8 @@ impl Bench {
 
     /// A byte for a strip with a clock; whether the unit has one.
     pub(super) fn clocked(&mut self, unit: u8, byte: u8, now_ns: u64) -> bool {
-        let Some((at, shown)) = self.strips.get_mut(&unit).map(|(at, one)| (*at, one.clocked(byte)))
+        let Some((at, shown)) =
+            self.strips.get_mut(&unit).map(|(at, one)| (*at, one.clocked(byte)))
         else {
             return false;
         };

@@ -223,7 +223,12 @@ impl Recorder {
     }
 
     /// A strip or a display shows something, or cannot.
-    pub(crate) fn shown(&mut self, at: ConnectionIndex, shown: Result<Vec<u8>, String>, now_ns: u64) {
+    pub(crate) fn shown(
+        &mut self,
+        at: ConnectionIndex,
+        shown: Result<Vec<u8>, String>,
+        now_ns: u64,
+    ) {
         match shown {
             Ok(bytes) => {
                 self.outputs.wrong.remove(&at);

@@ -282,7 +282,8 @@ mod tests {
             bytes.iter().fold(None, |shown, byte| strip.clocked(*byte).or(shown))
         };
         let led = [0xFF, 0x30, 0x20, 0x10];
-        let frame = |start: usize, end: usize| [vec![0; start], led.to_vec(), vec![0; end]].concat();
+        let frame =
+            |start: usize, end: usize| [vec![0; start], led.to_vec(), vec![0; end]].concat();
         assert_eq!(sent(&frame(4, 5)), Some(Ok(vec![31, 0x10, 0x20, 0x30])));
         assert_eq!(sent(&frame(4, 4)), None);
         assert_eq!(sent(&frame(3, 9)), None);

@@ -27,7 +27,8 @@ impl Letters {
                 let Ok(code) = u8::from_str_radix(code, 16) else { continue };
                 let column = |x: usize| {
                     let dots = rows.iter().zip(0..);
-                    let is_set = |row: &str| row.as_bytes().get((WIDTH + 1) * place + x) == Some(&b'#');
+                    let is_set =
+                        |row: &str| row.as_bytes().get((WIDTH + 1) * place + x) == Some(&b'#');
                     dots.fold(0, |dots, (row, y): (_, u32)| dots | u8::from(is_set(row)) << y)
                 };
                 all.push((code, (0..WIDTH).map(column).chain([0]).collect()));

@@ -96,7 +96,8 @@ impl Screen {
                 if byte & 0x3F != 0 {
                     self.complain(format!("0x{byte:02X} in place of a control byte"));
                 }
-                self.next = if byte & 0x40 == 0 { Next::Command(is_one) } else { Next::Data(is_one) };
+                self.next =
+                    if byte & 0x40 == 0 { Next::Command(is_one) } else { Next::Data(is_one) };
                 return;
             }
             Next::Command(_) => self.instruct(byte),
@@ -139,7 +140,9 @@ impl Screen {
             Some("a panel without its charge pump, which is dark".to_owned())
         } else if rows != self.rows || com_pins != right_pins || shift != 0 {
             let own = self.rows;
-            Some(format!("{rows} rows, pins 0x{com_pins:02X}, shifted by {shift}, on a panel of {own} rows"))
+            Some(format!(
+                "{rows} rows, pins 0x{com_pins:02X}, shifted by {shift}, on a panel of {own} rows"
+            ))
         } else if !self.settings.is_turned || !self.settings.is_upside_up {
             Some("a picture that stands on its head or is mirrored".to_owned())
         } else if self.settings.is_lit || self.settings.is_inverted {

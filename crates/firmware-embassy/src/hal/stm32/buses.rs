@@ -79,7 +79,9 @@ impl Spi for Settings {
                 let rx = channel(context, wire, "_RX", section)?;
                 let [sck, mosi, miso] = [sck, mosi, miso].map(|pad| &pad.pin.name);
                 let generics = self.generics(context, unit, &["_"; 3]);
-                format!("new{generics}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, {rest}")
+                format!(
+                    "new{generics}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, {rest}"
+                )
             }
             SpiPins::Sending([sck, mosi]) => {
                 let [sck, mosi] = [sck, mosi].map(|pad| &pad.pin.name);
