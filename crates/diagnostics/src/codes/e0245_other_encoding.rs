@@ -12,9 +12,18 @@ for each LED. A line of text takes a letter for each element: its value is an ar
 Way out: give the actuator the type that the message names, with as many elements as there are LEDs or letters."#,
 });
 
-/// `name` is the encoding, `found` the type as written, `what` the things that it sends, `scalar` the type of one.
-pub fn other_encoding(span: Span, name: &str, found: &str, what: &str, scalar: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`encoding = {name}` sends {what}, and the value is {found}"))
-        .here(format!("sends {what}, a {scalar} each"))
+/// `name` is the encoding, which stands at `source` where that is elsewhere; `what` are the things that it sends,
+/// `scalar` is the type of one, and `found` the type as written.
+pub fn other_encoding(
+    span: Span,
+    source: Option<Span>,
+    (name, what, scalar): (&str, &str, &str),
+    found: &str,
+) -> Diagnostic {
+    let message =
+        format!("`encoding = {name}` sends {what}, a {scalar} each, and the value is {found}");
+    Diagnostic::new(CODE, span, message)
+        .here(format!("must be {scalar}, or an array of them"))
+        .label(source, format!("sends {what}"))
         .help(format!("write `accepts {scalar}[8]` for eight {what}"))
 }

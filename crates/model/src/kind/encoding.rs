@@ -155,8 +155,11 @@ pub(super) fn read(
         return Encoding::Plain;
     }
     if value.scalar != scalar {
-        let name = encoding.name();
-        fields.say(other_encoding(span, name, &value.to_string(), what, &scalar.to_string()));
+        // A driver of the library has the encoding, and whoever uses it the type.
+        let own = fields.own_span("encoding");
+        let at = own.unwrap_or_else(|| fields.owner_span());
+        let words = (encoding.name(), what, scalar.name());
+        fields.say(other_encoding(at, own.is_none().then_some(span), words, &value.to_string()));
         return Encoding::Plain;
     }
     encoding
