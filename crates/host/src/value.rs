@@ -208,7 +208,8 @@ impl Device {
         }
         let code = |letter: char| {
             let code = u8::try_from(letter).ok().filter(u8::is_ascii);
-            code.map(|code| Scalar::Unsigned(code.into())).ok_or_else(|| CommandError::Value(letter.to_string()))
+            code.map(|code| Scalar::Unsigned(code.into()))
+                .ok_or_else(|| CommandError::Value(letter.to_string()))
         };
         let blanks = std::iter::repeat_n(Ok(Scalar::Unsigned(0)), expected - found);
         text.chars().map(code).chain(blanks).collect()

@@ -7,6 +7,7 @@ use sensedsl_board::profile::{Dividers, TargetProfile};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0620_clock_out_of_reach::clock_out_of_reach;
 use sensedsl_model::design::{Board, Design};
+use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::encoding::{Encoding, Window, Windows};
 use sensedsl_model::kind::spi::Spi;
 use sensedsl_wiring::assignment::BoardAssignment;
@@ -127,6 +128,13 @@ pub fn sent_bytes(encoding: Encoding, elements: u64, colours: u64, bits: u64) ->
         }
         Encoding::Text => Some(LETTER_BYTES * elements),
     }
+}
+
+/// Bytes that a device of a unit of which nothing is known sends in place of its value; none if they are the value's own.
+pub(crate) fn usual_bytes(kind: &Kind, elements: u64) -> Option<u64> {
+    let colours = kind.spi().map_or(0, |spi| spi.colours.len() as u64);
+    let encoding = kind.encoding();
+    sent_bytes(encoding, elements, colours, Pulses::usual(encoding).bits.into())
 }
 
 /// Bytes that a command sends in place of its value; none if they are the value's own.
