@@ -58,6 +58,9 @@ pub const fn code(code: &Code) -> &'static str {
         Code::Bcd => "UP_CODE_BCD",
         Code::Magnitude => "UP_CODE_MAGNITUDE",
         Code::Packed => "UP_CODE_PACKED",
+        Code::Pulses => "UP_CODE_PULSES",
+        Code::Leds => "UP_CODE_LEDS",
+        Code::Text => "UP_CODE_TEXT",
     }
 }
 

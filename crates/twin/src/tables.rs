@@ -145,6 +145,9 @@ pub fn coding(plan: &ValuePlan) -> Coding {
             words::Code::Bcd => Code::Bcd,
             words::Code::Magnitude => Code::Magnitude,
             words::Code::Packed => Code::Packed,
+            words::Code::Pulses => Code::Pulses,
+            words::Code::Leds => Code::Leds,
+            words::Code::Text => Code::Text,
         },
         crc: match plan.crc {
             None => Crc::None,

@@ -75,6 +75,7 @@ codes! {
     e0242_same_rom,
     e0243_one_address,
     e0244_asked_and_listened,
+    e0245_other_encoding,
     e0301_unknown_board,
     e0302_table_unreadable,
     e0303_table_empty,

@@ -17,6 +17,7 @@ pub mod can;
 pub mod dac;
 pub mod digital;
 pub mod encoder;
+pub mod encoding;
 pub mod i2c;
 pub mod icu;
 mod interface;

@@ -79,8 +79,7 @@ impl<'a> Words<'a> {
         Coding {
             elements: self.bytes().leak(),
             words: self.number() as u16,
-            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed, Code::Magnitude]
-                [self.number() as usize],
+            code: CODES[self.number() as usize],
             crc: [Crc::None, Crc::Sensirion][self.number() as usize],
             word_bytes: self.byte(),
             low: self.byte(),
@@ -90,6 +89,18 @@ impl<'a> Words<'a> {
         }
     }
 }
+
+/// In the order of C's numbers.
+const CODES: [Code; 8] = [
+    Code::Integer,
+    Code::Float,
+    Code::Bcd,
+    Code::Packed,
+    Code::Magnitude,
+    Code::Pulses,
+    Code::Leds,
+    Code::Text,
+];
 
 fn say_value(out: &mut String, scalar: Scalar, value: &[u8]) {
     for element in value.chunks(scalar.bytes()) {
