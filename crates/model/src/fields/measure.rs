@@ -1,13 +1,11 @@
 //! Units of measure as people write them: a word in, the word that hosts and drivers have for it out; and what is said
 //! where a property is given one in a way that means something else.
 
-use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0209_wrong_value, h0709_other_spelling};
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_syntax::Unit;
 use sensedsl_syntax::ast::{self, AstNode as _, Operator};
 
-use super::Field;
-use super::plain::name_or_text;
 use crate::value::Value;
 
 /// Words for units, in small letters, each with the word that the library and the hosts have.
@@ -88,29 +86,28 @@ pub(super) enum Report {
 }
 
 /// What is said of a property whose value was not to be computed.
-pub(super) fn not_computed(field: &Field, report: &Report) -> Diagnostic {
+pub(super) fn not_computed(name: &str, at: Span, report: &Report) -> Diagnostic {
     match report {
-        Report::Unquoted { text, unit } => {
-            e0209_wrong_value::unquoted_unit(field.value_span, text, unit)
-        }
-        Report::Minus { range } => {
-            e0209_wrong_value::range_with_minus(field.value_span, &field.name, range)
-        }
+        Report::Unquoted { text, unit } => e0209_wrong_value::unquoted_unit(at, text, unit),
+        Report::Minus { range } => e0209_wrong_value::range_with_minus(at, name, range),
     }
 }
 
 /// What is said of a unit of measure in the wrong property, or in other words than hosts have.
-pub(super) fn misplaced(field: &Field) -> Option<Diagnostic> {
-    let word = name_or_text(&field.value)?;
-    match field.name.as_str() {
-        "unit" if is_measure(&word) => {
-            let unit = written(usual(&word).unwrap_or(&word));
-            let whole = field.name_span.cover(field.value_span);
-            Some(e0209_wrong_value::measure_as_unit(field.value_span, whole, &word, &unit))
+pub(super) fn misplaced(
+    (name, name_span): (&str, Span),
+    (value, at): (&Value, Span),
+) -> Option<Diagnostic> {
+    let (Value::Name(word) | Value::Text(word)) = value else { return None };
+    match name {
+        "unit" if is_measure(word) => {
+            let unit = written(usual(word).unwrap_or(word));
+            let whole = name_span.cover(at);
+            Some(e0209_wrong_value::measure_as_unit(at, whole, word, &unit))
         }
         "quantity" => {
-            let unit = written(usual(&word)?);
-            Some(h0709_other_spelling::other_spelling(field.value_span, &word, &unit))
+            let unit = written(usual(word)?);
+            Some(h0709_other_spelling::other_spelling(at, word, &unit))
         }
         _ => None,
     }

@@ -150,8 +150,10 @@ impl<'a> Fields<'a> {
                 layer,
                 taken: false,
             };
-            let report = computed.map(|report| measure::not_computed(&field, &report));
-            self.diagnostics.extend(report.or_else(|| measure::misplaced(&field)));
+            let (name, at) = ((name.text(), name_span), field.value_span);
+            let report = computed.map(|report| measure::not_computed(name.0, at, &report));
+            let misplaced = || measure::misplaced(name, (&field.value, at));
+            self.diagnostics.extend(report.or_else(misplaced));
             self.fields.push(field);
         }
     }

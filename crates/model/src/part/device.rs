@@ -2,18 +2,18 @@
 
 use sensedsl_diagnostics::codes::{
     e0207_unknown_kind, e0211_out_of_range, e0214_wrong_direction, e0220_impossible_type,
-    e0229_wrong_driver, e0239_outside_frame, h0703_default_protocol,
+    e0229_wrong_driver, h0703_default_protocol,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::design::protocol::Protocol;
+use crate::design::protocol::{Coding, Protocol};
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, Part};
 use crate::driver::known::Known;
 use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds, module};
 use crate::fields::{Field, Fields, name_or_text};
-use crate::kind::{KindName, i2c};
+use crate::kind::{Kind, KindName, i2c};
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding;
 use crate::part::properties::{
@@ -64,13 +64,7 @@ pub(crate) fn read(
     if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
         fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));
     }
-    if direction == Direction::Sensor
-        && let Some((place, body)) = words::outside(&kind, &coding, &kind)
-    {
-        let at = fields.value_span("byte").unwrap_or(name.span);
-        let outside = e0239_outside_frame::outside_message;
-        fields.say(outside(at, &format!("`{}`", name.value), place, body));
-    }
+    outside(&mut fields, (&kind, &coding), direction, &name);
     leftovers(&mut fields, kind_name.value);
     let block = span(file, node.range());
     let is_array = kind_name.value.spec().values.wires(value.value).is_some();
@@ -255,6 +249,22 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
     fields
         .peek_integer("address")
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
+}
+
+/// Reports a value that ends after the message that it is in.
+fn outside(
+    fields: &mut Fields<'_>,
+    (kind, coding): (&Kind, &Coding),
+    direction: Direction,
+    name: &Spanned<String>,
+) {
+    let at = fields.value_span("byte").unwrap_or(name.span);
+    let name = format!("`{}`", name.value);
+    if let Some(report) = words::outside((at, &name), (kind, coding), kind)
+        && direction == Direction::Sensor
+    {
+        fields.say(report);
+    }
 }
 
 /// Reports properties that nothing of the device has read.

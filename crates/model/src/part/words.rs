@@ -2,6 +2,8 @@
 //! and bits, or the reason why it cannot be there. The reader of a file uses this to find mistakes;
 //! generators of tables use it for the words.
 
+use sensedsl_diagnostics::codes::e0239_outside_frame;
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{ScalarType, ValueType};
 
 use crate::design::Device;
@@ -154,21 +156,22 @@ pub(crate) fn check(
     words(kind, coding, value, length).map(|_| ())
 }
 
-/// A value that ends after its message: its first byte and the number of its bytes, and which property gives the body how
-/// many. `whole` is the connection, whose `length` is that of the body.
+/// Reports a value that is received and ends after its message. `whole` is the connection, whose `length` is that of the
+/// body.
 pub(crate) fn outside(
-    kind: &Kind,
-    coding: &Coding,
+    (at, name): (Span, &str),
+    (kind, coding): (&Kind, &Coding),
     whole: &Kind,
-) -> Option<((u16, u16), (&'static str, u16))> {
+) -> Option<Diagnostic> {
     let (uart, whole) = (kind.uart()?, whole.uart()?);
-    let body = if uart.exchange.request.is_empty() {
+    let (property, body) = if uart.exchange.request.is_empty() {
         ("length", whole.is_length_given.then_some(whole.length_bytes)?)
     } else {
         ("body", uart.exchange.body_bytes?)
     };
-    let value = (coding.byte, length_bytes(kind, coding)?);
-    (value.0.saturating_add(value.1) > body.1).then_some((value, body))
+    let (first, bytes) = (coding.byte, length_bytes(kind, coding)?);
+    let report = e0239_outside_frame::outside_message;
+    (first.saturating_add(bytes) > body).then(|| report(at, name, (first, bytes), (property, body)))
 }
 
 /// Bytes of the value; none if its kind sends no bytes or the value is text.

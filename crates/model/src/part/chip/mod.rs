@@ -11,7 +11,6 @@ mod values;
 
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0217_driver_of_other_kind, e0220_impossible_type, e0229_wrong_driver,
-    e0239_outside_frame,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
@@ -253,9 +252,8 @@ impl ChipReader<'_> {
     ) -> Option<Diagnostic> {
         kind.uart().filter(|_| given.direction == Direction::Sensor)?;
         let (whole, ..) = main.read(self, &mut Vec::new());
-        let (place, body) = words::outside(kind, coding, &whole)?;
         let name = format!("`{}` of `{}`", given.name, self.driver.name.value);
-        Some(e0239_outside_frame::outside_message(at, &name, place, body))
+        words::outside((at, &name), (kind, coding), &whole)
     }
 
     /// The requested values as devices. Marks their connections as used.
