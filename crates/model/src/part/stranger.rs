@@ -33,7 +33,6 @@ const OTHER_WORDS: &[(&str, &[&str])] = &[
     ("echo", &["pin"]),
     ("en", &["enable"]),
     ("endian", &["order"]),
-    ("endianess", &["order"]),
     ("endianness", &["order"]),
     ("factor", &["scale"]),
     ("fail_safe", &["failsafe"]),
