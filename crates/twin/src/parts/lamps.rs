@@ -248,7 +248,7 @@ mod tests {
             high.chain((0..*low).map(|_| false))
         });
         let mut bits: Vec<bool> = levels.chain((0..rest).map(|_| false)).collect();
-        while bits.len() % 8 != 0 {
+        while !bits.len().is_multiple_of(8) {
             bits.push(false);
         }
         let bytes = bits.chunks(8).map(byte_of).zip(0..);
