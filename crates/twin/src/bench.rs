@@ -16,7 +16,7 @@ use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
-use crate::parts::{can, dialogue, formula, lamps, message, onewire as onewire_part, screen};
+use crate::parts::{can, dialogue, formula, message, onewire as onewire_part};
 use crate::range::is_counter;
 use crate::truth::Subject;
 use crate::world::{FaultKind, World, usual};
@@ -61,9 +61,7 @@ pub struct Bench {
     talkers: BTreeMap<u8, ConnectedSender>,
     lines: BTreeMap<u8, dialogue::Line>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
-    /// The strip of LEDs on a unit of SPI, and the displays on I2C.
-    strips: BTreeMap<u8, (ConnectionIndex, lamps::Strip)>,
-    screens: BTreeMap<ConnectionIndex, screen::Screen>,
+    shows: shows::Shows,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
     /// Period and width of the pulses, by timer and channel.
@@ -114,8 +112,7 @@ impl Bench {
             talkers: BTreeMap::new(),
             lines: BTreeMap::new(),
             senders: BTreeMap::new(),
-            strips: BTreeMap::new(),
-            screens: BTreeMap::new(),
+            shows: shows::Shows::default(),
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
             recorder: Recorder::default(),

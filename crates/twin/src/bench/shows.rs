@@ -2,7 +2,9 @@
 //!
 //! In: bytes and levels as they leave the board. Out: what is lit, kept with the other outputs.
 
-use sensedsl_job::JobConnection;
+use std::collections::BTreeMap;
+
+use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::encoding::Encoding;
 
@@ -10,6 +12,13 @@ use super::Bench;
 use crate::parts::lamps::{Shown, Strip};
 use crate::parts::screen::Screen;
 use crate::world::FaultKind;
+
+/// The strips of LEDs, by their units of SPI, and the displays on I2C.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shows {
+    strips: BTreeMap<u8, (ConnectionIndex, Strip)>,
+    screens: BTreeMap<ConnectionIndex, Screen>,
+}
 
 /// Rows of a display whose driver does not tell.
 const ROWS: usize = 64;
@@ -21,7 +30,7 @@ impl Bench {
     pub(super) fn light(&mut self, one: &JobConnection<'_>, unit: u8) -> bool {
         let strip = Strip::of(one);
         let is_strip = strip.is_some();
-        self.strips.extend(strip.map(|strip| (unit, (one.index, strip))));
+        self.shows.strips.extend(strip.map(|strip| (unit, (one.index, strip))));
         is_strip
     }
 
@@ -31,20 +40,20 @@ impl Bench {
             let driver = one.part.driver.as_deref();
             let own = ROWS_OF.iter().find(|(name, _)| Some(*name) == driver);
             let rows = own.map_or(ROWS, |(_, rows)| *rows);
-            self.screens.insert(one.index, Screen::new(rows));
+            self.shows.screens.insert(one.index, Screen::new(rows));
         }
     }
 
     /// The strips and displays have lost their supply.
     pub(super) fn darken(&mut self) {
-        self.strips.values_mut().for_each(|(_, strip)| strip.reset());
-        self.screens.values_mut().for_each(Screen::reset);
+        self.shows.strips.values_mut().for_each(|(_, strip)| strip.reset());
+        self.shows.screens.values_mut().for_each(Screen::reset);
     }
 
     /// A byte for a strip with a clock; whether the unit has one.
     pub(super) fn clocked(&mut self, unit: u8, byte: u8, now_ns: u64) -> bool {
         let Some((at, shown)) =
-            self.strips.get_mut(&unit).map(|(at, one)| (*at, one.clocked(byte)))
+            self.shows.strips.get_mut(&unit).map(|(at, one)| (*at, one.clocked(byte)))
         else {
             return false;
         };
@@ -54,7 +63,7 @@ impl Bench {
 
     /// Eight levels for a strip on one wire.
     pub(crate) fn levels_out(&mut self, unit: u8, byte: u8, from_ps: u64, bit_ps: u64) {
-        let Some((at, strip)) = self.strips.get_mut(&unit) else { return };
+        let Some((at, strip)) = self.shows.strips.get_mut(&unit) else { return };
         let (at, shown) = (*at, strip.levels(byte, from_ps, bit_ps));
         self.shown(at, shown, (from_ps + 8 * bit_ps) / 1_000);
     }
@@ -71,19 +80,19 @@ impl Bench {
 
     /// A transfer to a display begins.
     pub(super) fn page_begins(&mut self, at: ConnectionIndex) {
-        if let Some(screen) = self.screens.get_mut(&at) {
+        if let Some(screen) = self.shows.screens.get_mut(&at) {
             screen.start();
         }
     }
 
     pub(super) fn page_goes_on(&mut self, at: ConnectionIndex, byte: u8) {
-        if let Some(screen) = self.screens.get_mut(&at) {
+        if let Some(screen) = self.shows.screens.get_mut(&at) {
             screen.write(byte);
         }
     }
 
     pub(super) fn page_ends(&mut self, at: ConnectionIndex, now_ns: u64) {
-        let lines = self.screens.get_mut(&at).map(Screen::stop).unwrap_or_default();
+        let lines = self.shows.screens.get_mut(&at).map(Screen::stop).unwrap_or_default();
         for line in lines {
             self.recorder.shown(at, line, now_ns);
         }
@@ -91,7 +100,7 @@ impl Bench {
 }
 
 /// Whether a device of the connection is text.
-pub(super) fn is_text(job: &sensedsl_job::BoardJob<'_>, one: &JobConnection<'_>) -> bool {
+pub(super) fn is_text(job: &BoardJob<'_>, one: &JobConnection<'_>) -> bool {
     let devices = one.devices.iter().filter_map(|at| job.devices.get(*at));
     devices.into_iter().any(|of| of.device.kind.encoding() == Encoding::Text)
 }
