@@ -18,6 +18,8 @@ use crate::units::SECOND_NS;
 
 /// The most bits of SPI for one bit of a strip.
 const BITS_MAX: u32 = 8;
+/// Later editions of a WS2812B may take a longer 0 for a 1, whatever the sheet of the first ones says.
+const LONG_NS: u64 = 450;
 /// Bits of a strip that the wire is low after a frame: more than 300 us for any pulses that a strip takes.
 const REST_BITS: u64 = 320;
 /// Bytes before the first LED of an APA102 strip.
@@ -78,11 +80,12 @@ fn of_bits(unit_hz: u32, divider: u32, bits: u32, windows: Windows) -> Option<(P
         let low_bits = u64::from(bits - count);
         Some(off_ns(high, tick_ps * u64::from(count))? + off_ns(low, tick_ps * low_bits)?)
     };
-    let nearest = |pair: (Window, Window)| {
-        let all = (1..bits).filter_map(|count| Some((off(pair, count)?, count)));
-        all.min()
+    let all = |pair: (Window, Window)| {
+        (1..bits).filter_map(move |count| Some((off(pair, count)?, count)))
     };
-    let ((off_zero, short), (off_one, long)) = (nearest(windows.zero)?, nearest(windows.one)?);
+    let is_long = |count: u32| tick_ps * u64::from(count) > LONG_NS * 1_000;
+    let (off_zero, short) = all(windows.zero).min_by_key(|(off, count)| (is_long(*count), *off))?;
+    let (off_one, long) = all(windows.one).min()?;
     let [bits, short, long] = [bits, short, long].map(|one| u8::try_from(one).ok());
     let clock_hz = unit_hz.div_ceil(divider);
     let made = Pulses { clock_hz, bits: bits?, short: short?, long: long? };
@@ -174,6 +177,9 @@ pub(crate) fn out_of_reach(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+    use sensedsl_model::{NoFiles, Request, resolve};
+    use sensedsl_wiring::{Search, Solved, Wiring};
+
     use super::*;
 
     fn made(unit_hz: u32, powers_of_two: bool, encoding: Encoding) -> Option<(u32, u8, u8, u8)> {
@@ -190,17 +196,40 @@ mod tests {
         let ws = Encoding::Ws2812;
         assert_eq!(made(84_000_000, true, ws), Some((2_625_000, 3, 1, 2)));
         assert_eq!(made(72_000_000, true, ws), Some((2_250_000, 3, 1, 2)));
-        // 6.25 MHz: 320 and 800 ns high, 960 and 480 ns low.
-        assert_eq!(made(100_000_000, true, ws), Some((6_250_000, 8, 2, 5)));
+        // 6.25 MHz: 320 and 800 ns high, 800 and 320 ns low.
+        assert_eq!(made(100_000_000, true, ws), Some((6_250_000, 7, 2, 5)));
         // 6 MHz: 333 and 833 ns high, 833 and 333 ns low.
         assert_eq!(made(48_000_000, true, ws), Some((6_000_000, 7, 2, 5)));
         // 4 MHz: 250 and 750 ns high, 1000 and 500 ns low.
         assert_eq!(made(64_000_000, true, ws), Some((4_000_000, 5, 1, 3)));
         assert_eq!(made(125_000_000, false, ws).map(|one| one.1), Some(3));
-        // 190 ns a bit: 381 and 571 ns high, 762 and 571 ns low.
-        assert_eq!(made(84_000_000, true, Encoding::Sk6812), Some((5_250_000, 6, 2, 3)));
+        // 190 ns a bit: 190 and 571 ns high, 952 and 571 ns low.
+        assert_eq!(made(84_000_000, true, Encoding::Sk6812), Some((5_250_000, 6, 1, 3)));
+        // 4.5 MHz: 444 and 667 ns high, 889 and 667 ns low.
         assert_eq!(made(72_000_000, true, Encoding::Sk6812), Some((4_500_000, 6, 2, 3)));
         assert_eq!(made(1_000_000, true, ws), None);
+    }
+
+    /// Built-in boards are all fast enough: this one is slowed down.
+    #[test]
+    fn a_unit_that_is_too_slow_is_told() {
+        let text =
+            "board STM32F407G_DISC1 { actuator Ring accepts uint32[4] { driver = ws2812b; } }";
+        let request = Request { path: "x.sense", text, ..Request::default() };
+        let mut design = resolve(&request, &NoFiles).design.unwrap();
+        let reported = |design: &Design| {
+            let Solved::Wired(wiring) = Wiring::new(design, None).solve(&Search::default()) else {
+                return None;
+            };
+            let codes = crate::check(design, &wiring).into_iter();
+            Some(codes.map(|one| one.code.info().code).collect::<Vec<_>>())
+        };
+        assert_eq!(reported(&design), Some(Vec::new()));
+        let facts = design.boards.first_mut().unwrap().facts.as_mut().unwrap();
+        let clocks = facts.system.get_mut("chibios").unwrap().clocks_hz.iter_mut();
+        let buses = clocks.filter(|(name, _)| name.starts_with("STM32_PCLK"));
+        buses.for_each(|(_, hz)| *hz = 4_000_000);
+        assert_eq!(reported(&design), Some(vec!["E0620"]));
     }
 
     #[test]
