@@ -38,6 +38,8 @@ pub const SOURCES: &[(&str, &str)] = files![
     "formula/ntc.rs",
     "formula/tsl2561.rs",
     "health.rs",
+    "lamps.rs",
+    "letters.rs",
     "lib.rs",
     "listener.rs",
     "message.rs",

@@ -254,6 +254,34 @@ static void test_without_start(void) {
   CHECK(port.state.messages == 1U && port.received.numbers[0] == 0x1234);
 }
 
+/* A SLAMTEC capsule of six bytes, its first two being marks and sum: none of its bits can be another one. What announces
+ * capsules has the marks of one. */
+static void test_slamtec(void) {
+  static const up_message_field_t words[] = {{.field = 0U, .byte = 2U, .value = {.word_bytes = 2U}}};
+  static const up_message_t capsules = {.length = 6U, .checksum = UP_CHECKSUM_SLAMTEC, .bytes_max = 6U,
+                                        .fields = words, .fields_count = 1U};
+  static const uint8_t announced[] = {0xA5U, 0x5AU, 0x06U, 0x00U, 0x00U, 0x40U, 0x82U};
+  static const uint8_t capsule[] = {0xACU, 0x5BU, 0x12U, 0x34U, 0x9AU, 0x00U}; /* 12 ^ 34 ^ 9A = BC */
+  port_t port;
+  size_t bit;
+
+  set_up(&port);
+  feed(&port, &capsules, announced, sizeof announced);
+  feed(&port, &capsules, capsule, sizeof capsule);
+  CHECK(port.state.messages == 1U && port.received.numbers[0] == 0x1234);
+  CHECK(port.state.dropped_bytes == sizeof announced && port.state.wrong_checksum == 0U);
+  for (bit = 0U; bit < 8U * sizeof capsule; bit++) {
+    uint8_t wrong[sizeof capsule];
+    memcpy(wrong, capsule, sizeof wrong);
+    wrong[bit / 8U] ^= (uint8_t)(1U << (bit % 8U));
+    set_up(&port);
+    feed(&port, &capsules, wrong, sizeof wrong);
+    feed(&port, &capsules, capsule, sizeof capsule);
+    CHECK(port.state.messages == 1U && port.state.values == 1U && port.received.numbers[0] == 0x1234);
+    CHECK(port.state.wrong_checksum == ((bit % 8U >= 4U && bit < 16U) ? 0U : 1U));
+  }
+}
+
 /* u-blox: a pause, two messages in a row, a pause, one more message. */
 static void test_setting_up(void) {
   static const uint8_t text[] = {'a', 'b', 'c'};
@@ -426,6 +454,7 @@ void test_messages(void) {
   test_nmea();
   test_text();
   test_without_start();
+  test_slamtec();
   test_setting_up();
   test_too_small();
   test_decimals();

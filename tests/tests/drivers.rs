@@ -56,13 +56,29 @@ fn what_disagrees_is_told() {
 #[test]
 fn drivers_to_begin_with_run() {
     let folder = TempDir::new("begin");
-    for kind in ["i2c", "spi", "uart", "analog"] {
+    let kinds =
+        ["i2c", "spi", "uart", "analog", "icu", "pwm", "can", "digital", "encoder", "onewire"];
+    for kind in kinds {
         let text = sensedsl(["drivers", "--new", "my_part", "--kind", kind]).run().exits(0).stdout;
         let file = folder.write(&format!("{kind}.sense"), &text).display().to_string();
         let ran = sensedsl(["check", &file]).run().exits(0);
-        assert!(!ran.stderr.contains("error") && !ran.stderr.contains("warning"), "{}", ran.stderr);
+        let is_clean = ["error", "warning", "hint"].iter().all(|word| !ran.stderr.contains(word));
+        assert!(is_clean, "{}", ran.stderr);
         let _ = sensedsl(["fmt", "--check", &file]).run().exits(0);
         let ran = sensedsl(["simulate", &file, "--judge", "--seconds", "2"]).run().exits(0);
-        assert!(format!("{}{}", ran.stdout, ran.stderr).contains("agree with the world"));
+        let said = format!("{}{}", ran.stdout, ran.stderr);
+        let word = if kind == "pwm" { "what the design says" } else { "agree with the world" };
+        assert!(said.contains(word), "{said}");
     }
+}
+
+/// The text of a driver of the library is one that can be used in its place.
+#[test]
+fn the_source_of_a_driver_is_a_driver() {
+    let folder = TempDir::new("source");
+    let text = sensedsl(["drivers", "GY-521", "--source"]).run().exits(0).stdout;
+    assert!(text.starts_with("// ") && text.contains("driver mpu6050 for i2c {"), "{text}");
+    let file = folder.write("mpu6050.sense", &text).display().to_string();
+    let _ = sensedsl(["check", &file]).run().exits(0);
+    let _ = sensedsl(["fmt", "--check", &file]).run().exits(0);
 }

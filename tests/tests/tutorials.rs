@@ -185,6 +185,7 @@ pages! {
     guides_build "guides/build.md"
     guides_check "guides/check.md"
     guides_flash "guides/flash.md"
+    guides_lamps "guides/lamps.md"
     guides_python "guides/python.md"
     guides_record "guides/record.md"
     guides_ros2 "guides/ros2.md"

@@ -10,6 +10,7 @@
 #define UMTS_POLYNOMIAL 0x8005U
 #define XMODEM_POLYNOMIAL 0x1021U
 #define IBUS_START 0xFFFFU
+#define SLAMTEC_SUM_BYTES 2U
 
 static const uint8_t checksum_bytes[] = {
     [UP_CHECKSUM_NONE] = 0U,       [UP_CHECKSUM_SUM8] = 1U,     [UP_CHECKSUM_XOR8] = 1U,
@@ -17,6 +18,7 @@ static const uint8_t checksum_bytes[] = {
     [UP_CHECKSUM_SUM7] = 1U,       [UP_CHECKSUM_NOT_SUM8] = 1U, [UP_CHECKSUM_NEG_SUM8] = 1U,
     [UP_CHECKSUM_NEG_SUM16] = 2U,  [UP_CHECKSUM_CRC16_UMTS] = 2U,
     [UP_CHECKSUM_CRC16_XMODEM] = 2U, [UP_CHECKSUM_CRC8_LD06] = 1U, [UP_CHECKSUM_SUM16] = 2U,
+    [UP_CHECKSUM_SLAMTEC] = 0U,
 };
 
 size_t up_checksum_bytes(uint8_t checksum) {
@@ -60,6 +62,7 @@ static uint8_t short_sum(up_checksum_t checksum, const uint8_t *bytes, size_t co
   case UP_CHECKSUM_SUM16:
   case UP_CHECKSUM_CRC16_UMTS:
   case UP_CHECKSUM_CRC16_XMODEM:
+  case UP_CHECKSUM_SLAMTEC:
   default:
     return up_sum8(bytes, count);
   }
@@ -75,6 +78,7 @@ size_t up_checksum_put(uint8_t checksum, uint8_t from, uint8_t start_count, cons
 
   switch ((up_checksum_t)checksum) {
   case UP_CHECKSUM_NONE:
+  case UP_CHECKSUM_SLAMTEC:
     break;
   case UP_CHECKSUM_IBUS:
     put_low_first((uint16_t)(IBUS_START - up_sum16(summed, count)), sum);
@@ -129,9 +133,33 @@ typedef enum {
   BAD      /* it cannot become a message */
 } verdict_t;
 
+/* Whether a message of Slamtec's could begin with this byte. */
+static bool begins_slamtec(uint8_t byte) {
+  return (byte >> 4) == 0xAU;
+}
+
+/* Before the messages, the part says once how long they are. This has the marks of a message. */
+static bool announces_slamtec(const up_message_t *message, const uint8_t *bytes, size_t size) {
+  const uint8_t announced[] = {0xA5U, 0x5AU, (uint8_t)message->length, 0U, 0U, 0x40U};
+
+  return size >= sizeof announced && memcmp(bytes, announced, sizeof announced) == 0;
+}
+
+static bool starts_slamtec(const up_message_t *message, const uint8_t *bytes, size_t size) {
+  return (size < 1U || begins_slamtec(bytes[0])) && (size < 2U || (bytes[1] >> 4) == 0x5U) &&
+         !announces_slamtec(message, bytes, size);
+}
+
+static bool is_slamtec(const up_message_t *message) {
+  return message->checksum == (uint8_t)UP_CHECKSUM_SLAMTEC;
+}
+
 static bool starts_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
   const size_t count = (size < message->start_count) ? size : message->start_count;
 
+  if (is_slamtec(message)) {
+    return starts_slamtec(message, bytes, size);
+  }
   return count == 0U || memcmp(bytes, message->start, count) == 0;
 }
 
@@ -150,6 +178,13 @@ static uint8_t upper(uint8_t letter) {
   return (uint8_t)((letter >= (uint8_t)'a' && letter <= (uint8_t)'z') ? (letter - 32U) : letter);
 }
 
+/* Whether the halves in the first two bytes are those of the exclusive or of all others. */
+static bool sums_slamtec(const uint8_t *bytes, size_t size) {
+  const uint8_t found = (uint8_t)((bytes[0] & 0xFU) | (bytes[1] << 4));
+
+  return size >= SLAMTEC_SUM_BYTES && up_xor8(&bytes[SLAMTEC_SUM_BYTES], size - SLAMTEC_SUM_BYTES) == found;
+}
+
 /* Whether the checksum at `at` is right. Hexadecimal digits may be in lower case. */
 static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t at) {
   const bool is_text = message->checksum == (uint8_t)UP_CHECKSUM_NMEA;
@@ -158,6 +193,9 @@ static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t
       up_checksum_put(message->checksum, message->checksum_from, message->start_count, bytes, at, sum);
   size_t i;
 
+  if (is_slamtec(message)) {
+    return sums_slamtec(bytes, at);
+  }
   for (i = 0U; i < size; i++) {
     if (sum[i] != bytes[at + i] && !(is_text && sum[i] == upper(bytes[at + i]))) {
       return false;
@@ -272,7 +310,7 @@ static void say_damaged(const up_message_t *message, const up_message_state_t *s
   const uint8_t *body = &state->buffer[message->start_count];
   size_t i;
 
-  if ((size_t)message->start_count + message->end_count == 0U) {
+  if ((size_t)message->start_count + message->end_count == 0U && !is_slamtec(message)) {
     return;
   }
   for (i = 0U; i < message->fields_count; i++) {
@@ -315,6 +353,10 @@ static void drop_candidate(const up_message_t *message, up_message_state_t *stat
   if (message->start_count > 0U) {
     const uint8_t *next = (state->size > 1U) ? memchr(&state->buffer[1], message->start[0], state->size - 1U) : NULL;
     count = (next != NULL) ? (size_t)(next - state->buffer) : state->size;
+  } else if (is_slamtec(message)) {
+    while (count < state->size && !begins_slamtec(state->buffer[count])) {
+      count++;
+    }
   }
   drop(state, count);
 }

@@ -25,7 +25,9 @@ typedef enum {
   UP_CHECKSUM_CRC16_UMTS,  /* 2 bytes, low byte first: CRC-16 with polynomial 0x8005 and start value 0 */
   UP_CHECKSUM_CRC16_XMODEM, /* 2 bytes, high byte first: CRC-16 with polynomial 0x1021 and start value 0 */
   UP_CHECKSUM_CRC8_LD06,   /* 1 byte: CRC-8 with polynomial 0x4D and start value 0 */
-  UP_CHECKSUM_SUM16        /* 2 bytes, high byte first: the low 16 bits of the sum */
+  UP_CHECKSUM_SUM16,       /* 2 bytes, high byte first: the low 16 bits of the sum */
+  UP_CHECKSUM_SLAMTEC      /* no bytes after the body: its first two are 0xA and the low half, 0x5 and the high half of
+                            * the exclusive or of all others; for messages without `start` and of known length */
 } up_checksum_t;
 
 /* The size of a checksum; 0 for none. */

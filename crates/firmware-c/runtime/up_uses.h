@@ -17,6 +17,12 @@
 #ifndef UP_USES_WORD_CRC
 #define UP_USES_WORD_CRC 1 /* checksums between words */
 #endif
+#ifndef UP_USES_LAMPS
+#define UP_USES_LAMPS 1 /* commands that are colours of a strip */
+#endif
+#ifndef UP_USES_LETTERS
+#define UP_USES_LETTERS 1 /* commands that are letters on a display */
+#endif
 #ifndef UP_USES_MEDIAN
 #define UP_USES_MEDIAN 1
 #endif

@@ -4,6 +4,8 @@
 
 #include "up_checksum.h"
 #include "up_convert.h"
+#include "up_lamps.h"
+#include "up_letters.h"
 
 #define SENSIRION_POLYNOMIAL 0x31U
 #define SENSIRION_START 0xFFU
@@ -22,6 +24,14 @@ static bool has_crc(const up_value_t *how) {
   return UP_USES_WORD_CRC && how->crc == (uint8_t)UP_CRC_SENSIRION;
 }
 
+static bool is_lamps(const up_value_t *how) {
+  return UP_USES_LAMPS && (how->code == (uint8_t)UP_CODE_PULSES || how->code == (uint8_t)UP_CODE_LEDS);
+}
+
+static bool is_letters(const up_value_t *how) {
+  return UP_USES_LETTERS && how->code == (uint8_t)UP_CODE_TEXT;
+}
+
 /* The size of the words alone. */
 static size_t data_bytes(const up_value_t *how, uint16_t count) {
   const size_t words = words_of(how, count);
@@ -32,6 +42,12 @@ static size_t data_bytes(const up_value_t *how, uint16_t count) {
 size_t up_value_bytes(const up_value_t *how, uint16_t count) {
   const size_t data = data_bytes(how, count);
 
+  if (is_lamps(how)) {
+    return up_lamps_bytes(how, count);
+  }
+  if (is_letters(how)) {
+    return (size_t)count * UP_LETTER_COLUMNS;
+  }
   return has_crc(how) ? data + data / 2U : data;
 }
 
@@ -253,6 +269,24 @@ static void put_word(const up_value_t *how, uint8_t *bytes, size_t word, uint64_
   }
 }
 
+/* What is no words. */
+static void encode_dots(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes) {
+#if UP_USES_LAMPS
+  if (is_lamps(how)) {
+    up_lamps_encode(how, field, value, bytes);
+  }
+#endif
+#if UP_USES_LETTERS
+  if (is_letters(how)) {
+    up_letters_encode(field, value, bytes);
+  }
+#endif
+  (void)how;
+  (void)field;
+  (void)value;
+  (void)bytes;
+}
+
 size_t up_value_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes,
                        size_t bytes_room) {
   const size_t bytes_count = up_value_bytes(how, field->count);
@@ -263,6 +297,10 @@ size_t up_value_encode(const up_value_t *how, const up_field_t *field, const voi
 
   if (bits == 0U || bytes_count > bytes_room || (is_code(how, UP_CODE_FLOAT) && how->word_bytes != element_bytes)) {
     return 0U;
+  }
+  if (is_lamps(how) || is_letters(how)) {
+    encode_dots(how, field, value, bytes);
+    return bytes_count;
   }
   memset(bytes, 0, bytes_count);
   for (i = 0U; i < field->count; i++) {

@@ -23,7 +23,10 @@ typedef enum {
   UP_CODE_FLOAT,   /* words that are IEEE 754 numbers: word_bytes is 4 for a float32, 8 for a float64 */
   UP_CODE_BCD,     /* words with two decimal digits per byte */
   UP_CODE_PACKED,  /* words of `bits` bits, one after the other without gaps, least significant bit first */
-  UP_CODE_MAGNITUDE /* words that are binary numbers, whose highest bit is a sign */
+  UP_CODE_MAGNITUDE, /* words that are binary numbers, whose highest bit is a sign */
+  UP_CODE_PULSES, /* commands only: colours of a strip with one wire (up_lamps.h) */
+  UP_CODE_LEDS,   /* commands only: colours of a strip with a clock (up_lamps.h) */
+  UP_CODE_TEXT    /* commands only: letters as dots (up_letters.h) */
 } up_code_t;
 
 typedef enum {
@@ -32,7 +35,7 @@ typedef enum {
 } up_crc_t;
 
 /* How the words of a value are coded; one word is one element. All zero except `word_bytes` is a big-endian unsigned
- * number in whole words. */
+ * number in whole words. Strips use some members in their own way (up_lamps.h). */
 typedef struct {
   const uint8_t *elements; /* the word number of each element of the field; NULL: in order */
   uint8_t words;           /* number of words with `elements` (its greatest entry + 1); 0: as many as elements */

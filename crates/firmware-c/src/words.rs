@@ -58,6 +58,9 @@ pub const fn code(code: &Code) -> &'static str {
         Code::Bcd => "UP_CODE_BCD",
         Code::Magnitude => "UP_CODE_MAGNITUDE",
         Code::Packed => "UP_CODE_PACKED",
+        Code::Pulses => "UP_CODE_PULSES",
+        Code::Leds => "UP_CODE_LEDS",
+        Code::Text => "UP_CODE_TEXT",
     }
 }
 
@@ -86,6 +89,7 @@ pub(crate) const fn checksum(checksum: &MessageChecksum) -> &'static str {
         MessageChecksum::NegSum16 => "UP_CHECKSUM_NEG_SUM16",
         MessageChecksum::Crc16Umts => "UP_CHECKSUM_CRC16_UMTS",
         MessageChecksum::Crc16Xmodem => "UP_CHECKSUM_CRC16_XMODEM",
+        MessageChecksum::Slamtec => "UP_CHECKSUM_SLAMTEC",
     }
 }
 

@@ -35,11 +35,15 @@ static void take(const up_spi_port_t *port, uint8_t address) {
   if (port->driver->config != config) {
     (void)spiStart(port->driver, config);
   }
-  spiSelect(port->driver);
+  if (config->ssline != PAL_NOLINE) {
+    spiSelect(port->driver);
+  }
 }
 
 static void give(const up_spi_port_t *port) {
-  spiUnselect(port->driver);
+  if (port->driver->config->ssline != PAL_NOLINE) {
+    spiUnselect(port->driver);
+  }
   spiReleaseBus(port->driver);
 }
 

@@ -118,6 +118,9 @@ pub(super) fn coding(plan: &ValuePlan) -> String {
         Code::Bcd => "Code::Bcd",
         Code::Magnitude => "Code::Magnitude",
         Code::Packed => "Code::Packed",
+        Code::Pulses => "Code::Pulses",
+        Code::Leds => "Code::Leds",
+        Code::Text => "Code::Text",
     };
     let crc = match plan.crc {
         None => "Crc::None",

@@ -129,6 +129,7 @@ const fn checksum(checksum: MessageChecksum) -> &'static str {
         MessageChecksum::NegSum16 => "MessageChecksum::NegSum16",
         MessageChecksum::Crc16Umts => "MessageChecksum::Crc16Umts",
         MessageChecksum::Crc16Xmodem => "MessageChecksum::Crc16Xmodem",
+        MessageChecksum::Slamtec => "MessageChecksum::Slamtec",
     }
 }
 

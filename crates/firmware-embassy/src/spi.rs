@@ -2,7 +2,6 @@
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::kind::spi;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::spi_divider;
 
@@ -47,14 +46,20 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Re
     let mut reach = Reach::default();
     for Served { plan, wire } in served {
         let spi = missing::kind(wire.connection.kind.spi())?;
-        let select = format!("{}_select", wire.ident);
-        reach.parameters.push(format!("{select}: Output<'static>"));
-        reach.arguments.push(format!("wiring.{select}"));
+        let select = match wire.pad(Role::Cs) {
+            Some(_) => {
+                let select = format!("{}_select", wire.ident);
+                reach.parameters.push(format!("{select}: Output<'static>"));
+                reach.arguments.push(format!("wiring.{select}"));
+                format!("Some({select})")
+            }
+            None => "None".to_owned(),
+        };
         reach.lines.push(format!(
             "let mut {}_line = rt::spi::SpiLine {{ bus, select: {select}, config: rt::spi::config({}, {}) }};",
             plan.prefix,
             spi.mode,
-            clock_hz(context, unit, spi).unwrap_or(spi.clock_hz)
+            clock_hz(context, unit, wire).unwrap_or(spi.clock_hz)
         ));
     }
     Ok(reach)
@@ -69,22 +74,32 @@ fn bus(
 ) -> Printed<()> {
     let ((spi, pins), unit) = (drivers, bus.unit.as_str());
     let made = spi.unit(context, &bus.unit, bus.first, section)?;
-    let pin = |role| Ok(&missing::pad(bus.first, role)?.pin.name);
-    let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
-    let comment =
-        format!("{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}", bus.titles());
+    let comment = format!("{unit} at {}: {}", places(bus.first), bus.titles());
     bus.share(Field::of(snake(unit), comment, made), section);
-    for one in &bus.all {
+    for one in bus.all.iter().filter(|one| one.pad(Role::Cs).is_some()) {
         section.fields.push(select(pins, one)?);
     }
-    let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());
-    let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
+    let hz = bus.all.iter().filter_map(|one| clock_hz(context, unit, one)).min().unwrap_or(1);
     chips::tasks(context, bus, hz, |served| reach(context, unit, served), section)
 }
 
-/// The fastest clock of a unit that a part can follow. The HAL is asked for exactly this one, as it takes the nearest.
-fn clock_hz(context: &Context<'_>, unit: &str, spi: &spi::Spi) -> Option<u32> {
+/// `PA5 (SCK), PA7 (MOSI) and PA6 (MISO)`, as far as there are wires.
+fn places(wire: &JobConnection<'_>) -> String {
+    let named = [(Role::Sck, "SCK"), (Role::Mosi, "MOSI"), (Role::Miso, "MISO")];
+    let place = |(role, name)| Some(format!("{} ({name})", wire.pad(role)?.pin.name));
+    let all: Vec<String> = named.into_iter().filter_map(place).collect();
+    match all.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        _ => all.concat(),
+    }
+}
+
+/// The fastest clock of a unit that a part can follow, or the one that a strip needs. The HAL is asked for exactly this
+/// one, as it takes the nearest.
+fn clock_hz(context: &Context<'_>, unit: &str, wire: &JobConnection<'_>) -> Option<u32> {
     let unit_hz = context.unit_hz(unit)?;
+    let of_strip = context.job.bus_of(wire).and_then(|plan| plan.clock_hz);
+    let asked_hz = of_strip.or_else(|| Some(wire.connection.kind.spi()?.clock_hz))?;
     // A clock that is too slow for the unit has been reported with the timing.
-    Some(unit_hz / spi_divider(context.profile, unit_hz, spi.clock_hz)?.max(1))
+    Some(unit_hz / spi_divider(context.profile, unit_hz, asked_hz)?.max(1))
 }

@@ -168,11 +168,16 @@ impl Device {
         if self.value.length.is_none() { all.concat() } else { format!("[{}]", all.join(", ")) }
     }
 
-    /// The codes of what somebody typed: values that are shown, with or without their unit, or codes behind `raw`.
+    /// The codes of what somebody typed: values that are shown, with or without their unit, codes behind `raw`, or a text
+    /// between quotes for a line of letters.
     ///
     /// # Errors
     /// Fails if a word is no value, if there are too few or too many, or if a value is outside of the limits.
     pub fn parse(&self, text: &str) -> Result<Vec<Scalar>, CommandError> {
+        let quoted = text.trim().strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+        if let Some(text) = quoted.filter(|_| self.is_line()) {
+            return self.letters(text);
+        }
         let mut words: Vec<&str> = text.split([' ', '\t', ',', '[', ']']).collect();
         words.retain(|word| !word.is_empty());
         let is_raw = words.first().is_some_and(|word| word.eq_ignore_ascii_case("raw"));
@@ -188,6 +193,26 @@ impl Device {
             return Err(CommandError::Count { expected, found });
         }
         words.into_iter().map(|word| self.element(word, is_raw, factor)).collect()
+    }
+
+    /// Whether its elements may be the letters of a line.
+    fn is_line(&self) -> bool {
+        self.value.scalar == ScalarType::Uint8 && self.value.length.is_some()
+    }
+
+    /// The codes of letters, with zeros behind a short text.
+    fn letters(&self, text: &str) -> Result<Vec<Scalar>, CommandError> {
+        let (expected, found) = (self.value.count(), text.chars().count());
+        if found > expected {
+            return Err(CommandError::Count { expected, found });
+        }
+        let code = |letter: char| {
+            let code = u8::try_from(letter).ok().filter(u8::is_ascii);
+            code.map(|code| Scalar::Unsigned(code.into()))
+                .ok_or_else(|| CommandError::Value(letter.to_string()))
+        };
+        let blanks = std::iter::repeat_n(Ok(Scalar::Unsigned(0)), expected - found);
+        text.chars().map(code).chain(blanks).collect()
     }
 
     fn element(&self, word: &str, is_raw: bool, factor: f64) -> Result<Scalar, CommandError> {
@@ -375,6 +400,11 @@ mod tests {
         }
     }
 
+    /// Numbers with a sign are no letters.
+    fn pair_of_letters() -> Device {
+        device(ScalarType::Int8, Some(2))
+    }
+
     #[test]
     fn values_are_shown_and_typed() {
         let winch = device(ScalarType::Uint16, None);
@@ -402,6 +432,13 @@ mod tests {
         let on = [true, false, true].map(Scalar::Bool);
         assert_eq!(lamps.parse("on 0 true"), Ok(on.to_vec()));
         assert_eq!(lamps.text(&on), "[true, false, true]");
+        let line = device(ScalarType::Uint8, Some(4));
+        let hey = [b'H', b'e', b'y', 0].map(|code| Scalar::Unsigned(code.into()));
+        assert_eq!(line.parse(" \"Hey\""), Ok(hey.to_vec()));
+        let why = |typed: &str| line.parse(typed).unwrap_err().to_string();
+        assert_eq!(why("\"Hello\""), "5 values for 4: write one for each element");
+        assert_eq!(why("\"\u{e9}\""), "`\u{e9}` is not a valid value");
+        assert!(pair_of_letters().parse("\"ab\"").is_err());
         let pair = device(ScalarType::Int8, Some(2));
         assert_eq!(pair.parse("[30, 10] us"), Ok(vec![Scalar::Signed(40), Scalar::Signed(0)]));
     }

@@ -14,7 +14,7 @@ use sensedsl_model::design::{
     Board, Connection, ConnectionIndex, Controller, Design, Device, DeviceIndex, Part, PartIndex,
 };
 use sensedsl_model::kind::{KindName, Role};
-use sensedsl_timing::{Starts, starts};
+use sensedsl_timing::{Pulses, Starts, pulses_of, starts};
 use sensedsl_wire::{Direction, Schema};
 use sensedsl_wiring::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
@@ -310,8 +310,13 @@ impl<'a> Source<'a> {
         for index in devices.iter().map(|one| one.device.part) {
             let is_known = parts.iter().any(|one| one.index == index);
             let Some(part) = self.design.part(index).filter(|_| !is_known) else { continue };
-            let plan = PartPlan::new(self.design, index);
-            parts.extend(plan.map(|plan| JobPart { part, index, plan }));
+            let Some(mut plan) = PartPlan::new(self.design, index) else { continue };
+            for bus in &mut plan.buses {
+                if let Some(pulses) = self.pulses(bus.connection) {
+                    bus.pulse(pulses);
+                }
+            }
+            parts.push(JobPart { part, index, plan });
         }
         parts
     }
@@ -330,6 +335,13 @@ impl<'a> Source<'a> {
             })
         });
         all.collect()
+    }
+
+    /// The pulses that the unit of a connection makes for a strip.
+    fn pulses(&self, index: ConnectionIndex) -> Option<Pulses> {
+        let spi = self.design.connection(index)?.kind.spi()?;
+        let unit = self.wiring.connection(index)?.unit.as_deref()?;
+        pulses_of(self.design, self.board, self.wiring, (unit, spi))
     }
 
     fn connection(

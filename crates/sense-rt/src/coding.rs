@@ -6,6 +6,8 @@
 use crate::bytes::at;
 use crate::checksum::crc8;
 use crate::convert::{load_magnitude, store_signed, store_unsigned};
+use crate::lamps;
+use crate::letters;
 use crate::outcome::Outcome;
 use crate::scalar::Scalar;
 use crate::schema::Item;
@@ -28,6 +30,16 @@ pub enum Code {
     Magnitude,
     /// `bits` bits per word, without gaps between words, least significant bit first.
     Packed,
+    /// Commands only: colours of a strip with one wire. `elements` are the places of a colour's
+    /// bytes in the order in which they are sent (0 for the lowest), and `words` is their number.
+    /// Each of their bits becomes `bits` bits, of which the first `low` are high for a 0, and the
+    /// first `word_bytes` for a 1.
+    Pulses,
+    /// Commands only: colours of a strip with a clock; `elements` and `words` as for pulses. The
+    /// highest byte of a colour is the brightness, 1 to 31; 0 stands for 31.
+    Leds,
+    /// Commands only: letters as six columns of dots each.
+    Text,
 }
 
 /// Checksums between the words.
@@ -83,6 +95,14 @@ impl Coding {
         if uses::CODES { self.code } else { Code::Integer }
     }
 
+    const fn is_lamps(&self) -> bool {
+        uses::LAMPS && matches!(self.code, Code::Pulses | Code::Leds)
+    }
+
+    const fn is_letters(&self) -> bool {
+        uses::LETTERS && matches!(self.code, Code::Text)
+    }
+
     const fn crc(&self) -> Crc {
         if uses::WORD_CRC { self.crc } else { Crc::None }
     }
@@ -94,12 +114,22 @@ impl Coding {
     /// The size of a value with `count` elements on the wire, checksums included.
     #[must_use]
     pub const fn wire_bytes(&self, count: u16) -> usize {
+        if self.is_lamps() {
+            return lamps::wire_bytes(self, count);
+        }
+        if self.is_letters() {
+            return count as usize * letters::COLUMNS;
+        }
         let words = self.words_of(count);
         let data = match self.code() {
             Code::Packed => (words * self.bits as usize).div_ceil(8),
-            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => {
-                words * self.word_bytes as usize
-            }
+            Code::Integer
+            | Code::Float
+            | Code::Bcd
+            | Code::Magnitude
+            | Code::Pulses
+            | Code::Leds
+            | Code::Text => words * self.word_bytes as usize,
         };
         match self.crc() {
             Crc::None => data,
@@ -184,9 +214,13 @@ impl Coding {
         let code = self.code();
         let number = match code {
             Code::Packed => packed_word(bytes, word, bits as usize),
-            Code::Integer | Code::Float | Code::Bcd | Code::Magnitude => {
-                self.whole_word(bytes, word)
-            }
+            Code::Integer
+            | Code::Float
+            | Code::Bcd
+            | Code::Magnitude
+            | Code::Pulses
+            | Code::Leds
+            | Code::Text => self.whole_word(bytes, word),
         };
         let number = number & mask_of(bits);
         match code {
@@ -200,7 +234,7 @@ impl Coding {
                 store_signed(scalar, value, element);
                 true
             }
-            Code::Integer | Code::Packed => {
+            Code::Integer | Code::Packed | Code::Pulses | Code::Leds | Code::Text => {
                 if self.is_signed {
                     let sign = 1_u64.wrapping_shl(bits - 1);
                     let extended = (number ^ sign).wrapping_sub(sign).cast_signed();
@@ -237,6 +271,14 @@ impl Coding {
         let Some(out) = bytes.get_mut(..size).filter(|_| bits > 0 && !is_other_float) else {
             return 0;
         };
+        if self.is_lamps() {
+            lamps::encode(self, item, value, out);
+            return size;
+        }
+        if self.is_letters() {
+            letters::encode(item, value, out);
+            return size;
+        }
         out.fill(0);
         for index in 0..usize::from(item.count) {
             let place = index.wrapping_mul(item.scalar.bytes());
@@ -267,11 +309,9 @@ impl Coding {
             (Code::Bcd, false) => to_bcd(magnitude, mask),
             (Code::Magnitude, false) => magnitude.min(mask >> 1),
             (Code::Magnitude, true) => magnitude.min(mask >> 1) | (mask ^ (mask >> 1)),
-            (Code::Integer | Code::Packed, false) => magnitude.min(greatest),
-            (Code::Integer | Code::Packed, true) if !self.is_signed => 0,
-            (Code::Integer | Code::Packed, true) => {
-                magnitude.min(greatest + 1).wrapping_neg() & mask
-            }
+            (_, false) => magnitude.min(greatest),
+            (_, true) if !self.is_signed => 0,
+            (_, true) => magnitude.min(greatest + 1).wrapping_neg() & mask,
         }
     }
 

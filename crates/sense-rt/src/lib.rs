@@ -62,6 +62,8 @@ mod exchange;
 mod filter;
 mod formula;
 mod health;
+mod lamps;
+mod letters;
 mod listener;
 mod message;
 pub mod onewire;

@@ -121,14 +121,9 @@ impl MessageStream {
 
     /// Drops the first byte and those after it, up to the next at which a message could begin.
     fn drop_candidate(&mut self) {
-        let count = match self.table.start.first() {
-            None => 1,
-            Some(first) => {
-                let rest = self.held().get(1..).unwrap_or_default();
-                rest.iter().position(|byte| byte == first).unwrap_or(rest.len()) + 1
-            }
-        };
-        self.drop_bytes(count);
+        let rest = self.held().get(1..).unwrap_or_default();
+        let next = rest.iter().position(|byte| self.table.may_begin(*byte));
+        self.drop_bytes(next.unwrap_or(rest.len()) + 1);
     }
 
     /// Before the first end, the start of a message is unknown. True if the byte was consumed.
@@ -177,10 +172,9 @@ impl MessageStream {
         }
     }
 
-    /// A damaged message is reported for all its values. Without a start or an end it cannot be
-    /// recognised as a message.
+    /// A damaged message is reported for all its values, if it can be recognised as one.
     fn say_damaged(&self, sink: &mut Sink<'_>) {
-        if self.table.start.is_empty() && self.table.end.is_empty() {
+        if !self.table.has_marks() {
             return;
         }
         let body = self.table.body(self.held());

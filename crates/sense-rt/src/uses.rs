@@ -10,6 +10,10 @@ pub(crate) const CRC32: bool = cfg!(feature = "crc32");
 pub(crate) const REALS: bool = cfg!(feature = "reals");
 /// Words that are floats, BCD or packed.
 pub(crate) const CODES: bool = cfg!(feature = "codes");
+/// Commands that are colours of a strip.
+pub(crate) const LAMPS: bool = cfg!(feature = "lamps");
+/// Commands that are letters on a display.
+pub(crate) const LETTERS: bool = cfg!(feature = "letters");
 /// Checksums between words.
 pub(crate) const WORD_CRC: bool = cfg!(feature = "word-crc");
 /// Filters that take the median.

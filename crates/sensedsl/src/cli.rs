@@ -355,9 +355,13 @@ pub(crate) struct DriversArgs {
     #[arg(value_parser = DRIVER, hide_possible_values = true)]
     pub(crate) name: Option<String>,
     /// Print a driver to begin with, for a part that the library does not have, with a board to try it on;
-    /// `--kind` says how the part is connected: i2c unless you say, spi, uart or analog
+    /// `--kind` says how the part is connected: i2c unless you say, spi, uart, onewire, can, analog, digital, icu,
+    /// encoder or pwm
     #[arg(long, value_name = "NAME", conflicts_with_all = ["name", "search"])]
     pub(crate) new: Option<String>,
+    /// Print the driver itself, as the library has it: to learn from, or to begin with
+    #[arg(long, requires = "name", conflicts_with = "format")]
+    pub(crate) source: bool,
     /// Only drivers of this kind: i2c, uart, pwm
     #[arg(long, value_parser = kind(), conflicts_with = "name", hide_possible_values = true)]
     pub(crate) kind: Option<KindName>,

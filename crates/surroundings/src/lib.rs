@@ -165,6 +165,12 @@ pub trait Surroundings: Send {
         0xFF
     }
 
+    /// The levels at MOSI while an SPI port shifts a byte out, whether its clock is at a pad or not: the highest bit first,
+    /// from that time on, each of which lasts so many picoseconds.
+    fn levels(&mut self, unit: u8, byte: u8, from_ps: u64, bit_ps: u64) {
+        let _ = (unit, byte, from_ps, bit_ps);
+    }
+
     /// A byte that has arrived at a serial port, if there is one. The machine asks as often as the port can take a
     /// byte, which is about once in the time of one.
     fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {

@@ -26,6 +26,8 @@ pub enum SyntaxErrorKind {
         /// The first character of the run.
         character: char,
     },
+    /// A `:` between two numbers, where a range has `..`.
+    RangeWithColon,
     /// A `/*` without its `*/`.
     UnterminatedComment,
     /// A string that does not end on its line.

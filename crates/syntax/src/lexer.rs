@@ -138,6 +138,10 @@ impl<'a> Lexer<'a> {
             }
             '.' if self.is_between_names(start) => SyntaxKind::Dot,
             '%' if self.is_behind_a_number(start) => SyntaxKind::Ident,
+            ':' if self.is_between_numbers(start) => {
+                self.error(SyntaxErrorKind::RangeWithColon, start, self.position);
+                SyntaxKind::DotDot
+            }
             _ => punctuation(first).unwrap_or_else(|| self.unknown(start, first)),
         }
     }
@@ -225,6 +229,13 @@ impl<'a> Lexer<'a> {
             self.error(kind, start, self.position);
         }
         SyntaxKind::DotDot
+    }
+
+    /// Whether the character at `start`, which was just consumed, has a digit on both sides: `31:18`.
+    fn is_between_numbers(&self, start: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default();
+        let is_digit = |one: char| one.is_ascii_digit();
+        before.ends_with(is_digit) && self.rest().starts_with(is_digit)
     }
 
     /// A run of characters that begin no token, reported once. A `#` includes the rest of its line,
@@ -434,6 +445,7 @@ mod tests {
         check_error("1.;", r#"MissingDigits { number: "1." }"#, "1.");
         check_error("1...5", "UnexpectedCharacter { character: '.' }", ".");
         check_error("a . b", "UnexpectedCharacter { character: '.' }", ".");
+        check_error("31:18", "RangeWithColon", ":");
         check_error("a : b", "UnexpectedCharacter { character: ':' }", ":");
         check_error(".5", r#"MissingDigits { number: ".5" }"#, ".5");
         let large = "18446744073709551616";

@@ -22,6 +22,7 @@ use crate::groups::i2c_period_ms;
 use crate::i2c_clock::{self, BusClock};
 use crate::processor::{Transfers, Work};
 use crate::rows::{Count, Part, Row, clocks_ns, shortest};
+use crate::strips;
 
 /// Clocks of a byte with its acknowledge.
 const I2C_BYTE_CLOCKS: u64 = 9;
@@ -54,13 +55,13 @@ impl Transfers {
 pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) -> Script {
     let device = wired.device;
     let least = context.board.profile().map_or(1, |profile| profile.i2c.read_bytes_min);
-    let length = u64::from(i2c.length_bytes);
+    let length = strips::sent(context, wired).unwrap_or(i2c.length_bytes.into());
     // Only a part whose registers have two bytes can have one beyond 0xFF; its other registers are
     // counted as one byte less.
     let register = i2c.register.map_or(0, |register| 1 + u64::from(register > 0xFF));
     let mut transfers = Transfers::of_value(device, length);
     match device.direction {
-        Direction::Actuator => transfers.bytes = 1 + register + length,
+        Direction::Actuator => transfers.bytes = 1 + register + i2c.start.len() as u64 + length,
         Direction::Sensor => {
             transfers.bytes = 1 + length.max(u64::from(least));
             if register > 0 {
@@ -79,8 +80,9 @@ pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) ->
     Script { transfers, clocks, every_ms: i2c_period_ms(device.delay_ms, i2c.wait_us) }
 }
 
-fn spi_script(wired: &Wired<'_>, spi: &Spi) -> Script {
-    let bytes = spi.read.len() as u64 + u64::from(spi.length_bytes);
+fn spi_script(context: &Context<'_>, wired: &Wired<'_>, spi: &Spi) -> Script {
+    let own = spi.read.len() as u64 + u64::from(spi.length_bytes);
+    let bytes = strips::sent(context, wired).unwrap_or(own);
     let transfers = Transfers { bytes, ..Transfers::of_value(wired.device, bytes) };
     Script { transfers, clocks: bytes * SPI_BYTE_CLOCKS, every_ms: wired.device.delay_ms }
 }
@@ -96,7 +98,7 @@ fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
 pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script> {
     match wired.device.kind.interface() {
         Interface::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
-        Interface::Spi(spi) => Some(spi_script(wired, spi)),
+        Interface::Spi(spi) => Some(spi_script(context, wired, spi)),
         Interface::Can(can) => Some(can_script(wired, can)),
         Interface::Analog(_)
         | Interface::Icu(_)
@@ -150,11 +152,16 @@ pub(crate) fn exact_hz(context: &Context<'_>, unit: &UnitName, asked_hz: u32) ->
 pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     let mut units: BTreeMap<UnitName, (Vec<Row>, Vec<u64>)> = BTreeMap::new();
     for ((unit, cycle), devices) in context.classes(|wired| script(context, wired)) {
-        let on_unit = context
-            .elements
-            .iter()
-            .filter(|wired| wired.wiring.unit.as_deref() == Some(unit.as_str()));
-        let hz = asked_hz(on_unit).and_then(|asked| exact_hz(context, &unit, asked));
+        let on_unit = || {
+            let all = context.elements.iter();
+            all.filter(|wired| wired.wiring.unit.as_deref() == Some(unit.as_str()))
+        };
+        let pulses = on_unit()
+            .find_map(|wired| strips::on_unit(context, unit.as_str(), wired.device.kind.spi()?));
+        let hz = match pulses {
+            Some(pulses) => Some(pulses.clock_hz),
+            None => asked_hz(on_unit()).and_then(|asked| exact_hz(context, &unit, asked)),
+        };
         let indices = devices.iter().map(|(wired, _)| wired.index).collect();
         let mut row = Row::new(Part::Bus, unit.as_str(), indices);
         let scripts = || devices.iter().map(|(_, script)| script);

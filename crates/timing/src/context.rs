@@ -24,6 +24,7 @@ pub(crate) struct Wired<'a> {
 
 /// A board with everything that its parts are computed from.
 pub(crate) struct Context<'a> {
+    pub(crate) design: &'a Design,
     pub(crate) board: &'a Board,
     pub(crate) wiring: &'a BoardAssignment,
     /// Each device once, with its first element.
@@ -49,7 +50,7 @@ impl<'a> Context<'a> {
             elements.extend(all);
         }
         let starts = starts(design, wiring);
-        Self { board, wiring, devices, elements, starts }
+        Self { design, board, wiring, devices, elements, starts }
     }
 
     /// A clock of the clock tree, by name: the system's own, or else the board's.

@@ -45,6 +45,7 @@ mod ports;
 mod processor;
 mod rows;
 mod steps;
+mod strips;
 mod units;
 
 use sensedsl_diagnostics::Diagnostic;
@@ -59,6 +60,7 @@ pub use judge::shown_time;
 pub use link::finish_ms;
 pub use load::{BoardTiming, Timing};
 pub use rows::{Count, Cycle, Part, Row};
+pub use strips::{Pulses, pulses, pulses_of, sent_bytes};
 pub use units::SECOND_NS;
 
 use context::Context;

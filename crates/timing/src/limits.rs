@@ -15,7 +15,7 @@ use sensedsl_model::kind::{Interface, Sharing};
 use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
 use crate::context::{Context, Wired};
-use crate::{buses, i2c_clock, ports, steps};
+use crate::{buses, i2c_clock, ports, steps, strips};
 
 /// How far off a serial port may be: half a bit after ten bits, shared by both ends and the slopes
 /// of the edges.
@@ -145,6 +145,10 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     let profile = context.board.profile()?;
     let facts: &Unit = profile.unit(unit.as_str())?;
     let hz = unit_hz(context, facts)?;
+    let is_strip = |wired: &&&Wired<'_>| wired.device.kind.encoding().windows().is_some();
+    if let Some(strip) = on_bus.iter().find(is_strip) {
+        return strips::out_of_reach(context, unit.as_str(), strip);
+    }
     let asked_hz = buses::asked_hz(on_bus.iter().copied())?;
     let exact = buses::exact_hz(context, unit, asked_hz);
     let asks = |wired: &&&Wired<'_>| buses::asked_hz(std::iter::once(**wired)) == Some(asked_hz);

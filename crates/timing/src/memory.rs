@@ -7,8 +7,9 @@ use sensedsl_model::design::Design;
 use sensedsl_model::kind::{Interface, Kind};
 use sensedsl_wire::{Direction, ScalarType};
 
-use crate::context::Context;
+use crate::context::{Context, Wired};
 use crate::converters::depth;
+use crate::strips;
 
 /// Kernel, drivers, shell, and the stacks for startup and interrupts, with a reserve: 5 to 6 KiB
 /// are used.
@@ -39,16 +40,20 @@ pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic>
 }
 
 fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
+    let elements = value.count() as u64;
     let value = value.size_bytes() as u64;
     let buffers = match kind.interface() {
         Interface::Analog(analog) => u64::from(analog.samples) * SAMPLE_BYTES,
         Interface::I2c(i2c) => value + u64::from(i2c.length_bytes),
+        // A frame of pulses is several times as large as the colours in it.
+        Interface::Spi(spi) => {
+            value + strips::usual_bytes(kind, elements).unwrap_or(spi.length_bytes.into())
+        }
         Interface::OneWire(own) => value + u64::from(own.answer_bytes()),
         Interface::Icu(_)
         | Interface::Encoder(_)
         | Interface::Digital(_)
         | Interface::Uart(_)
-        | Interface::Spi(_)
         | Interface::Pwm(_)
         | Interface::Dac(_)
         | Interface::Can(_)
@@ -72,8 +77,24 @@ fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {
         let rows = u64::from(depth(sensors.iter().map(|(_, samples)| *samples)));
         rows * sensors.len() as u64 * SAMPLE_BYTES
     });
-    let classes = context
-        .classes(|wired| Some(u64::from(wired.device.kind.i2c()?.length_bytes) + 1 + largest));
+    let on_bus = |wired: &Wired<'_>| {
+        let own = match wired.device.kind.interface() {
+            Interface::I2c(i2c) => i2c.start.len() as u64 + u64::from(i2c.length_bytes),
+            Interface::Spi(spi) => u64::from(spi.length_bytes),
+            Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => return None,
+        };
+        Some(strips::sent(context, wired).unwrap_or(own) + 1 + largest)
+    };
+    let classes = context.classes(on_bus);
     let work =
         classes.values().map(|devices| devices.iter().map(|(_, bytes)| *bytes).max().unwrap_or(0));
     let threads = (groups.len() + classes.len() + 1) as u64;

@@ -1,11 +1,12 @@
 //! Exact clocks of devices' serial ports and of timers that output pulses.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::{Device, PartIndex};
 use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::protocol::TextField;
 use sensedsl_model::words::Words;
 
 use crate::clocks::{nearest, unit_hz};
@@ -19,6 +20,7 @@ const SHORT_TEXT_BYTES: u64 = 8;
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut lines: BTreeMap<UnitName, Vec<(&Wired<'_>, &Uart)>> = BTreeMap::new();
+    let mut heard: BTreeMap<UnitName, Vec<&Wired<'_>>> = BTreeMap::new();
     let mut outputs: BTreeMap<(UnitName, u32), Row> = BTreeMap::new();
     for wired in &context.elements {
         let Some(unit) = wired.wiring.unit.as_deref() else { continue };
@@ -28,7 +30,7 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             {
                 lines.entry(UnitName::new(unit)).or_default().push((wired, uart));
             }
-            Interface::Uart(uart) => rows.push(port(context, wired, unit, uart)),
+            Interface::Uart(_) => heard.entry(UnitName::new(unit)).or_default().push(wired),
             Interface::Pwm(pwm) => {
                 let key = (UnitName::new(unit), pwm.frequency_hz);
                 let fresh = || {
@@ -53,6 +55,7 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
             | Interface::Code(_) => {}
         }
     }
+    rows.extend(heard.iter().filter_map(|(unit, all)| port(context, all, unit.as_str())));
     rows.extend(lines.iter().flat_map(|(unit, on_line)| line(context, unit.as_str(), on_line)));
     rows.extend(outputs.into_values());
     rows
@@ -131,11 +134,15 @@ fn told_bytes(device: &Device, uart: &Uart) -> u64 {
     around as u64 + value + u64::from(uart.checksum.bytes())
 }
 
-/// The row of a serial port.
-fn port(context: &Context<'_>, wired: &Wired<'_>, unit: &str, uart: &Uart) -> Row {
-    let mut row = Row::new(Part::Port, unit, vec![wired.index]);
-    let cycle = context.cycle(wired);
-    let bytes = message_bytes(uart);
+/// The row of a serial port at which a part speaks by itself: all its values come in the same messages, once in the
+/// shortest of their cycles.
+fn port(context: &Context<'_>, all: &[&Wired<'_>], unit: &str) -> Option<Row> {
+    let first = all.iter().min_by_key(|wired| wired.device.delay_ms)?;
+    let of_wires = context.design.connection(first.wiring.connection);
+    let uart = of_wires.and_then(|one| one.kind.uart())?;
+    let mut row = Row::new(Part::Port, unit, all.iter().map(|wired| wired.index).collect());
+    let cycle = context.cycle(first);
+    let bytes = message_bytes(uart, all);
     row.clock_hz = exact_baud(context, unit, uart.baud);
     row.cycle = Some(cycle);
     row.a_second = Some(Count::Bytes(per_second(bytes, cycle.delay_ms)));
@@ -143,7 +150,7 @@ fn port(context: &Context<'_>, wired: &Wired<'_>, unit: &str, uart: &Uart) -> Ro
     row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
     row.shortest_ms =
         row.cycle_ns.and_then(|ns| u32::try_from(ns.div_ceil(MILLISECOND_NS).max(1)).ok());
-    row
+    Some(row)
 }
 
 /// The rate that a serial port derives from its clock.
@@ -153,8 +160,23 @@ pub(crate) fn exact_baud(context: &Context<'_>, unit: &str, asked: u32) -> Optio
     nearest(profile.serial_dividers.as_ref()?, hz, asked)
 }
 
-fn message_bytes(uart: &Uart) -> u64 {
-    uart.start.len() as u64 + u64::from(uart.length_bytes) + uart.end.len() as u64
+/// The bytes of the message that has the values, or of all the sentences that have them.
+fn message_bytes(uart: &Uart, all: &[&Wired<'_>]) -> u64 {
+    let around = uart.start.len() as u64 + u64::from(uart.checksum.bytes()) + uart.end.len() as u64;
+    let texts: Vec<(&TextField, u64)> = all.iter().filter_map(|wired| text(wired)).collect();
+    if uart.is_length_given || texts.is_empty() {
+        return around + u64::from(uart.length_bytes);
+    }
+    let sentences: BTreeSet<Option<&str>> =
+        texts.iter().map(|(text, _)| text.sentence.as_deref()).collect();
+    let values: u64 = texts.iter().map(|(_, count)| SHORT_TEXT_BYTES * count).sum();
+    around * sentences.len() as u64 + values
+}
+
+/// A value that is written as a text, and how many numbers that is.
+fn text<'a>(wired: &Wired<'a>) -> Option<(&'a TextField, u64)> {
+    let text = wired.device.coding.text.as_ref()?;
+    Some((text, wired.device.value.value.count() as u64))
 }
 
 fn byte_bits(uart: &Uart) -> u64 {

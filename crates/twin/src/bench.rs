@@ -31,6 +31,7 @@ mod motors;
 mod onewire;
 mod peer;
 mod recorded;
+mod shows;
 mod stations;
 mod units;
 
@@ -60,6 +61,7 @@ pub struct Bench {
     talkers: BTreeMap<u8, ConnectedSender>,
     lines: BTreeMap<u8, dialogue::Line>,
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
+    shows: shows::Shows,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
     /// Period and width of the pulses, by timer and channel.
@@ -110,6 +112,7 @@ impl Bench {
             talkers: BTreeMap::new(),
             lines: BTreeMap::new(),
             senders: BTreeMap::new(),
+            shows: shows::Shows::default(),
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
             recorder: Recorder::default(),
@@ -206,6 +209,7 @@ impl Bench {
         for chip in &mut self.chips {
             chip.registers.reset();
         }
+        self.darken();
         self.talked_to.clear();
         self.recorder.power_up();
     }
@@ -354,8 +358,10 @@ impl Bench {
         let first = over.map(|of| of.device).find(|of| of.direction == Direction::Sensor);
         let element = usize::from(one.element());
         match (one.connection.kind.interface(), unit) {
+            (Interface::Spi(_), Some(unit)) if self.light(one, unit) => {}
             (Interface::I2c(_) | Interface::Spi(_), Some(unit)) => {
                 self.chips.push(self.chip(job, one, unit));
+                self.display(one, shows::is_text(job, one));
             }
             (Interface::Uart(uart), Some(unit)) if serial::is_dialogue(job, one) => {
                 let station = self.station(job, one);

@@ -79,6 +79,8 @@ fn of_kind(kind: &Kind, fastest_hz: u64) -> Option<RequiredSettings> {
             },
             stop_bits: own.stop_bits,
         }),
+        // The times of its pulses tell whether the clock of a strip is right.
+        Interface::Spi(own) if own.encoding.windows().is_some() => None,
         Interface::Spi(own) => {
             Some(RequiredSettings::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode })
         }

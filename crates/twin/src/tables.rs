@@ -145,6 +145,9 @@ pub fn coding(plan: &ValuePlan) -> Coding {
             words::Code::Bcd => Code::Bcd,
             words::Code::Magnitude => Code::Magnitude,
             words::Code::Packed => Code::Packed,
+            words::Code::Pulses => Code::Pulses,
+            words::Code::Leds => Code::Leds,
+            words::Code::Text => Code::Text,
         },
         crc: match plan.crc {
             None => Crc::None,
@@ -256,6 +259,7 @@ const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
         uart::MessageChecksum::NegSum16 => MessageChecksum::NegSum16,
         uart::MessageChecksum::Crc16Umts => MessageChecksum::Crc16Umts,
         uart::MessageChecksum::Crc16Xmodem => MessageChecksum::Crc16Xmodem,
+        uart::MessageChecksum::Slamtec => MessageChecksum::Slamtec,
     }
 }
 

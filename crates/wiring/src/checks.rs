@@ -31,6 +31,9 @@ use crate::levels::{Tolerates, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 use crate::requested::{RequestedWires, free};
 
+/// What tables call the part at a pin that only the MCU reads, at reset.
+const STRAPPING: &str = "strapping";
+
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
@@ -128,6 +131,14 @@ impl<'d> Placed<'d> {
                 "a `reserve` rule".to_owned(),
                 Some(*rule),
                 "take another pin, or change the rule".to_owned(),
+            ),
+            Withheld::Onboard(part) if part.eq_ignore_ascii_case(STRAPPING) => (
+                "the MCU, which reads it at reset to know how to start (a strapping pin)"
+                    .to_owned(),
+                None,
+                format!(
+                    "take another pin, or write `release {name};` if nothing drives or pulls it at reset"
+                ),
             ),
             Withheld::Onboard(part) => (
                 format!("{part} on the board"),

@@ -290,6 +290,8 @@ class Case:
             return [f"pin = {values[0] ^ (properties.get('active') == 'low')}"]
         if driver["kind"] == "uart" and str(get(part, driver, "format")) == "decimal":
             return [f"written {told(part, driver, str(values[0]).encode()).hex(' ').upper()}"]
+        if get(part, driver, "encoding"):
+            return [f"written {self.shown_bytes(part, values).hex(' ').upper()}"]
         length = get(part, driver, "length", part["count"] * SIZES[part["type"]])
         width = length // part["count"]
         high, low = get(part, driver, "bits", (8 * width - 1, 0))
@@ -303,6 +305,22 @@ class Case:
         if part["count"] == 1 and len(data) <= 8:
             data = self.joined(head, data, int.from_bytes(data, order), (1 << high + 1) - (1 << low), order)
         return [f"written {(head + data).hex(' ').upper()}"]
+
+    def shown_bytes(self, part, values):
+        """The bytes of a strip of LEDs, or of a line of text."""
+        encoding = str(get(part, self.driver, "encoding"))
+        if encoding == "text":
+            return bytes_of(get(part, self.driver, "start")) + b"".join(letter(value) for value in values)
+        order = str(get(part, self.driver, "colours") or ("bgr" if encoding == "apa102" else "grb"))
+        colours = [[(value >> 8 * "bgrw".index(one)) & 0xFF for one in order] for value in values]
+        if encoding == "apa102":
+            leds = [bytes([0xE0 | ((value >> 24) & 31 or 31), *own]) for value, own in zip(values, colours)]
+            return bytes(4) + b"".join(leds) + bytes(4 + -(-len(values) // 16))
+        # Of a WS2812B a bit is 1.2 us of 2.5 MHz, of an SK6812 1.2 us of 3.33 MHz.
+        pulse = {"ws2812": ("100", "110"), "sk6812": ("1000", "1100")}[encoding]
+        bits = "".join(f"{byte:08b}" for own in colours for byte in own)
+        sent = "".join(pulse[int(bit)] for bit in bits)
+        return bytes(1) + int(sent, 2).to_bytes(len(sent) // 8, "big") + bytes(40 * len(pulse[0]))
 
     def joined(self, head, data, value, own, order):
         """The value among the bits of its register that others have, as they were written last."""
@@ -349,6 +367,20 @@ class Case:
             if effects != lines:
                 told.append(f"{name} = {values}: {effects}, not {lines}")
         return told
+
+
+DRAWING = (ROOT / "crates/twin/src/parts/letters.txt").read_text().split("\n\n")
+
+
+def letter(code):
+    """Six columns of a letter as it is drawn, the dot at the top in the lowest bit."""
+    for block in DRAWING:
+        codes, *rows = block.split("\n")
+        if f"{code:02X}" in codes.split():
+            left = 6 * codes.split().index(f"{code:02X}")
+            columns = ["".join(row[left + x] for row in reversed(rows[:7])) for x in range(5)]
+            return bytes(int(dots.replace("#", "1").replace(".", "0"), 2) for dots in columns) + bytes(1)
+    return bytes(6)
 
 
 def read(path, driver):

@@ -198,7 +198,7 @@ def decode(part, driver, data):
     for word, bits in words:
         span = get(part, driver, "bits")
         if span:
-            high, low = span
+            high, low = span if isinstance(span, tuple) else (span, span)
             word, bits = word >> low & (1 << (high - low + 1)) - 1, high - low + 1
         if part["type"] == "float32":
             word = unfractional(struct.unpack(">f", word.to_bytes(4, "big"))[0])
@@ -319,11 +319,30 @@ def checksum(kind, body):
     return bytes([value]) if kind != "nmea" else b"%02X" % value
 
 
+def capsules(stream, size):
+    """The capsules of a SLAMTEC scanner: A and 5 are the high halves of the first two bytes, the low ones are a sum."""
+    at = 0
+    while at + size <= len(stream):
+        one, announced = stream[at:at + size], bytes([0xA5, 0x5A, size, 0, 0, 0x40])
+        if one.startswith(announced) or one[:2].hex()[::2] != "a5":
+            at += 1
+            continue
+        total = 0
+        for byte in one[2:]:
+            total ^= byte
+        is_whole = f"{total:02x}" == one[:2].hex()[:0:-2]
+        yield one if is_whole else None
+        at += size if is_whole else 1
+
+
 def messages(driver, stream):
     """The messages in the stream: their bytes between start and checksum or end; None where the checksum is wrong."""
     give = driver["properties"].get
     start, end = bytes_of(give("start", [])), bytes_of(give("end", []))
     kind = str(give("checksum", "none"))
+    if kind == "slamtec":
+        yield from capsules(stream, give("length", 0))
+        return
     at = 0
     while (at := stream.find(start, at)) >= 0:
         first = at + len(start)

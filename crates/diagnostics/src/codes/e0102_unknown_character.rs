@@ -40,6 +40,24 @@ pub fn colon(span: Span) -> Diagnostic {
         .replace("change to `=`", span, "=")
 }
 
+/// A `:` between two numbers.
+pub fn range_with_colon(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "`:` means nothing here")
+        .here("write `..`")
+        .help("write a range with two dots, such as `31..18`")
+        .replace("change to `..`", span, "..")
+}
+
+/// A character of a unit, which has another spelling here.
+pub fn of_unit(span: Span, found: char, spelling: &str) -> Diagnostic {
+    let units = "units are written with plain letters: `degC`, `deg`, `us`, `Ohm`; a `quantity` that has more than \
+                 letters stands between quotes: `quantity = \"m/s^2\";`";
+    Diagnostic::new(CODE, span, format!("`{found}` means nothing here"))
+        .here(format!("write `{spelling}`"))
+        .help(units)
+        .replace(format!("change to `{spelling}`"), span, spelling)
+}
+
 /// The single character that word processors make out of three dots.
 pub fn ellipsis(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "`…` means nothing here")

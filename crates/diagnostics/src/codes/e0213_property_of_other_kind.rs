@@ -9,6 +9,9 @@ pub const CODE: Code = Code(&CodeInfo {
     explanation: r#"The property exists, but not for a device of this kind: an `address` means something to i2c only, a
 `baud` to uart only.
 
+In a driver these are the properties of how a part is started and of how its values stand in bytes: `identity` needs
+a bus with registers, and `init` something that takes bytes.
+
 Way out: remove the line, or change the device's `type`."#,
 });
 
@@ -21,7 +24,10 @@ pub fn property_of_other_kind(
     instead: &[&str],
 ) -> Diagnostic {
     let help = match instead {
-        [] => "remove the line, or change the device's `type`".to_owned(),
+        [] if kind.ends_with("device") => {
+            "remove the line, or change the device's `type`".to_owned()
+        }
+        [] => "remove the line".to_owned(),
         words => format!("name each wire: write `{} = …;`", words.join(" = …;` or `")),
     };
     Diagnostic::new(CODE, span, format!("`{name}` means nothing for {kind}"))

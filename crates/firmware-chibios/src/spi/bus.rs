@@ -153,8 +153,10 @@ impl Port {
         for one in on_bus {
             let spi = one.connection.kind.spi()?;
             // A clock that is too slow for the unit has been reported with the timing.
-            let divider = spi_divider(context.profile, *unit_hz, spi.clock_hz)?;
-            let bytes = chips::plan_of(context.job, one).map_or(0, |plan| plan.work_bytes);
+            let plan = chips::plan_of(context.job, one);
+            let clock_hz = plan.and_then(|plan| plan.clock_hz).unwrap_or(spi.clock_hz);
+            let divider = spi_divider(context.profile, *unit_hz, clock_hz)?;
+            let bytes = plan.map_or(0, |plan| plan.work_bytes);
             // Eight clocks per byte, and twice the time as a margin.
             let clocks = u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(8 * 2);
             let time_ms = clocks.saturating_mul(1_000).div_ceil((unit_hz / divider).max(1));
@@ -188,7 +190,11 @@ impl Select {
         (unit_hz, divider): (u32, u32),
         config: Config,
     ) -> Option<Self> {
-        let pin = &connection.pad(Role::Cs)?.pin.name;
+        // Nothing selects a strip.
+        let line = match connection.pad(Role::Cs) {
+            Some(pad) => context.line(&pad.pin.name)?,
+            None => "PAL_NOLINE".to_owned(),
+        };
         let clock = Clock {
             halvings: power_of_two(divider),
             is_idle_high: spi.mode & 2 != 0,
@@ -196,7 +202,7 @@ impl Select {
         };
         Some(Self {
             title: format!("{}: mode {}, {} Hz", connection.title, spi.mode, unit_hz / divider),
-            line: context.line(pin)?,
+            line,
             config: config(&clock),
         })
     }

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Connection, ConnectionIndex, Design, Device};
+use sensedsl_model::kind::encoding::Encoding;
 use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
 use sensedsl_model::registers::{self, Register};
-use sensedsl_model::words::Words;
+use sensedsl_model::words::{Code, Words};
+use sensedsl_timing::{Pulses, sent_bytes};
 use sensedsl_wire::Direction;
 
 use super::source::Source;
@@ -42,6 +44,8 @@ pub struct BusPlan {
     pub commands: Vec<CommandPlan>,
     /// The start values of the registers that commands share, one after the other.
     pub kept: Vec<u8>,
+    /// The clock of the bus, if a strip has no clock and so needs a certain one.
+    pub clock_hz: Option<u32>,
     /// The runtime's formula.
     pub formula: Option<Formula>,
     /// The formula's constants.
@@ -115,8 +119,10 @@ pub struct CommandPlan {
     pub value: ValuePlan,
     /// The command's own bits, if other commands have bits of the same register; `None` if it has the whole register.
     pub own: Option<OwnBitsPlan>,
-    /// The bytes of the value.
+    /// The bytes that are sent for the value.
     bytes: u16,
+    /// How it is sent, with the number of its elements.
+    encoding: (Encoding, u16),
 }
 
 /// The bits of a command in a register that it shares.
@@ -169,6 +175,7 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
     let identity = identity.or_else(|| IdentityPlan::of_wire(wire?));
     let calibration: Vec<CalibrationPlan> = calibration.collect();
     Some(BusPlan {
+        clock_hz: clock_hz(&commands),
         work_bytes: work_bytes((&init, identity.as_ref(), &calibration), &transfers, &commands),
         prefix,
         connection,
@@ -268,18 +275,53 @@ fn commands<'a>(
 fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Option<CommandPlan> {
     let words = Words::of(device)?;
     let number = device.kind.register_access().and_then(|own| own.register);
-    let prefix = number.map(|number| protocol.register(u32::from(number))).unwrap_or_default();
-    Some(CommandPlan {
+    let register = number.map(|number| protocol.register(u32::from(number)));
+    let start = device.kind.i2c().map_or(&[][..], |own| own.start.as_slice());
+    let mut command = CommandPlan {
         field: device.name.value.clone(),
         ident: snake(&device.name.value),
-        prefix,
+        prefix: [register.unwrap_or_default(), start.to_vec()].concat(),
         value: ValuePlan::new(&words),
         own,
         bytes: words.wire_bytes(),
-    })
+        encoding: (device.kind.encoding(), words.count),
+    };
+    command.pulse(Pulses::usual(device.kind.encoding()));
+    Some(command)
+}
+
+/// The clock of pulses on a unit of which nothing is known.
+fn clock_hz(commands: &[CommandPlan]) -> Option<u32> {
+    let strip = commands.iter().find(|one| one.value.code == Code::Pulses)?;
+    Some(Pulses::usual(strip.encoding.0).clock_hz)
+}
+
+impl CommandPlan {
+    /// Sets the pulses of a strip, and the bytes that are sent in place of the value.
+    fn pulse(&mut self, pulses: Pulses) {
+        if self.value.code == Code::Pulses {
+            self.value.bits = pulses.bits;
+            self.value.low = pulses.short;
+            self.value.word_bytes = pulses.long;
+        }
+        let (encoding, elements) = self.encoding;
+        let sent =
+            sent_bytes(encoding, elements.into(), self.value.words.into(), pulses.bits.into());
+        if let Some(bytes) = sent {
+            self.bytes = u16::try_from(bytes).unwrap_or(u16::MAX);
+        }
+    }
 }
 
 impl BusPlan {
+    /// Sets the pulses that the unit of a strip makes.
+    pub(crate) fn pulse(&mut self, pulses: Pulses) {
+        self.clock_hz = self.clock_hz.map(|_| pulses.clock_hz);
+        self.commands.iter_mut().for_each(|command| command.pulse(pulses));
+        let start = (self.init.as_slice(), self.identity.as_ref(), self.calibration.as_slice());
+        self.work_bytes = work_bytes(start, &self.transfers, &self.commands);
+    }
+
     /// Whether a formula computes any of its values.
     pub(crate) fn is_computed(&self) -> bool {
         self.formula.is_some() || !self.calibration.is_empty()

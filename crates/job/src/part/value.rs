@@ -8,19 +8,20 @@ use sensedsl_model::words::{Code, Words};
 /// An `up_value_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ValuePlan {
-    /// The word of each element; empty if the words are in the order of the elements.
+    /// The word of each element; empty if the words are in the order of the elements. Of a strip, the place of each
+    /// colour in its number.
     pub elements: Vec<u8>,
-    /// The number of words if `elements` selects among them; otherwise 0.
+    /// The number of words if `elements` selects among them; otherwise 0. Of a strip, the number of colours.
     pub words: u16,
     /// The format of a word.
     pub code: Code,
     /// The checksums between the words.
     pub crc: Option<Crc>,
-    /// The bytes of a word; 0 for packed words.
+    /// The bytes of a word; 0 for packed words. Of pulses, the bits that are high for a 1.
     pub word_bytes: u8,
-    /// The lowest significant bit.
+    /// The lowest significant bit. Of pulses, the bits that are high for a 0.
     pub low: u8,
-    /// The number of significant bits; 0 for all.
+    /// The number of significant bits; 0 for all. Of pulses, the bits of the bus for one of the strip.
     pub bits: u8,
     /// True if the highest of them is a sign.
     pub is_signed: bool,

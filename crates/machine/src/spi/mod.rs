@@ -85,8 +85,13 @@ impl Place {
     }
 
     /// Sends a byte; returns the one that comes back.
-    fn exchange(&self, byte: u8, wires: &Wires) -> u8 {
+    /// The levels of its output end at that time, and each of them lasts so many picoseconds.
+    fn exchange(&self, byte: u8, (end_ps, bit_ps): (u64, u64), wires: &Wires) -> u8 {
         let [clock, input, output] = self.wires.each_ref().map(|wire| wires.pad_of(wire).is_some());
+        if output {
+            let from_ps = end_ps.saturating_sub(8 * bit_ps);
+            wires.world(|world, _| world.levels(self.unit, byte, from_ps, bit_ps));
+        }
         if !clock {
             return 0xFF;
         }
@@ -134,6 +139,8 @@ struct Unit<V> {
     /// The item on the wires.
     shifting: Option<u16>,
     until: u64,
+    /// When the last item ended.
+    ended: u64,
     /// Whether DR was read with an overrun, which a read of SR then clears.
     has_read_data: bool,
     version: V,
@@ -147,6 +154,7 @@ impl<V: Version> Unit<V> {
             other: [7, 0, 0, 0, 2],
             shifting: None,
             until: NEVER,
+            ended: 0,
             has_read_data: false,
             version: V::default(),
         }
@@ -162,6 +170,14 @@ impl<V: Version> Unit<V> {
             let periods = V::bits(self) << ((self.cr[0] >> 3 & 7) + 1);
             self.until = at + periods_ns(periods, self.place.clock_hz(wires));
         }
+    }
+
+    /// Sends a byte of the item that has ended, behind which so many others come; returns the one that comes back.
+    fn exchange(&self, byte: u8, others: u64, wires: &Wires) -> u8 {
+        let periods = 1_000_000_000_000_u64 << ((self.cr[0] >> 3 & 7) + 1);
+        let bit_ps = periods / self.place.clock_hz(wires).max(1);
+        let end_ps = 1_000 * self.ended - 8 * bit_ps * others;
+        self.place.exchange(byte, (end_ps, bit_ps), wires)
     }
 
     fn report(&self, wires: &mut Wires) {
@@ -196,6 +212,7 @@ impl<V: Version> Spi for Unit<V> {
         while self.until <= wires.now {
             let at = self.until;
             let Some(item) = self.shifting.take() else { break };
+            self.ended = at;
             V::finish(self, item, wires);
             self.begin(at, wires);
         }

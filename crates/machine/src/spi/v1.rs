@@ -40,11 +40,11 @@ impl super::Version for Version {
 
     fn finish(unit: &mut Unit<Self>, item: u16, wires: &Wires) {
         let [high, low] = item.to_be_bytes();
-        let exchange = |byte: u8| unit.place.exchange(byte, wires);
+        let exchange = |byte: u8, others: u64| unit.exchange(byte, others, wires);
         let answer = if unit.cr[0] & WIDE != 0 {
-            u16::from_be_bytes([exchange(high), exchange(low)])
+            u16::from_be_bytes([exchange(high, 1), exchange(low, 0)])
         } else {
-            u16::from(exchange(low))
+            u16::from(exchange(low, 0))
         };
         let own = &mut unit.version;
         if own.sr & RECEIVED != 0 {

@@ -62,10 +62,10 @@ impl super::Version for Version {
 
     fn finish(unit: &mut Unit<Self>, item: u16, wires: &Wires) {
         let [high, low] = item.to_be_bytes();
-        let exchange = |byte: u8| unit.place.exchange(byte, wires);
+        let exchange = |byte: u8, others: u64| unit.exchange(byte, others, wires);
         let answer = match item_bytes(unit) {
-            2 => vec![exchange(high), exchange(low)],
-            _ => vec![exchange(low)],
+            2 => vec![exchange(high, 1), exchange(low, 0)],
+            _ => vec![exchange(low, 0)],
         };
         let own = &mut unit.version;
         if own.received.len() + answer.len() > FIFO_BYTES {

@@ -9,6 +9,7 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/field_bus.sense", include_str!("../../drivers/field_bus.sense")),
     ("drivers/force_pressure_flow.sense", include_str!("../../drivers/force_pressure_flow.sense")),
     ("drivers/input.sense", include_str!("../../drivers/input.sense")),
+    ("drivers/lamps.sense", include_str!("../../drivers/lamps.sense")),
     ("drivers/light.sense", include_str!("../../drivers/light.sense")),
     ("drivers/magnetic.sense", include_str!("../../drivers/magnetic.sense")),
     ("drivers/motion.sense", include_str!("../../drivers/motion.sense")),

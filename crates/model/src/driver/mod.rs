@@ -82,6 +82,8 @@ impl Volume {
 #[derive(Debug, Default)]
 pub(crate) struct Drivers {
     own: Vec<Driver>,
+    /// The names of the file's drivers whose head is wrong, which has been reported.
+    broken: Vec<String>,
     library: Vec<Volume>,
 }
 
@@ -92,7 +94,14 @@ impl Drivers {
         sources: &mut SourceMap,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let own = own.iter().filter_map(|(file, node)| read(*file, node, diagnostics)).collect();
+        let mut broken = Vec::new();
+        let mut head = |(file, node): &(FileId, ast::Driver)| {
+            let driver = read(*file, node, diagnostics);
+            let name = node.name().filter(|_| driver.is_none());
+            broken.extend(name.map(|name| name.text().to_owned()));
+            driver
+        };
+        let own = own.iter().filter_map(&mut head).collect();
         let volume = |(name, text): &(&'static str, &'static str)| Volume {
             name,
             file: sources.add(*name, *text),
@@ -100,7 +109,7 @@ impl Drivers {
             drivers: OnceCell::new(),
         };
         let library = library::LIBRARY.iter().map(volume).collect();
-        Self { own, library }
+        Self { own, broken, library }
     }
 
     /// The file's own drivers.
@@ -125,7 +134,7 @@ impl Drivers {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<&Driver> {
         let found = self.look_up(&wanted.value);
-        if found.is_none() {
+        if found.is_none() && !self.broken.contains(&wanted.value) {
             let (span, name) = (wanted.span, &wanted.value);
             let near = self.near(name);
             let similar: Vec<&str> = near.similar.iter().map(String::as_str).collect();
@@ -171,6 +180,13 @@ impl Drivers {
             let field = name.strip_suffix(".sense").unwrap_or(name);
             volume.drivers().iter().map(move |driver| (field, driver))
         })
+    }
+
+    /// The library's driver that a name finds, and the text of its file.
+    fn text_of(&self, name: &str) -> Option<(&'static str, &Driver)> {
+        let driver = self.look_up(name)?;
+        let volume = self.library.iter().find(|volume| volume.file == driver.file)?;
+        Some((volume.text, driver))
     }
 
     fn all(&self) -> impl Iterator<Item = &Driver> {

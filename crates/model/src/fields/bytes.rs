@@ -2,8 +2,12 @@
 
 use std::ops::RangeInclusive;
 
+use sensedsl_diagnostics::Span;
+use sensedsl_diagnostics::codes::e0209_wrong_value;
+
 #[cfg(test)]
 use super::asked;
+use super::measure::{listed, spelled_bytes};
 use super::plain::byte_list;
 use super::{Field, Fields, with_address};
 use crate::kind::uart::exchange::{ADDRESS, is_address};
@@ -13,6 +17,15 @@ use crate::spanned::Spanned;
 use crate::value::Value;
 
 impl Fields<'_> {
+    /// Reports a text that spells bytes out, if the value is one.
+    pub(crate) fn spells(&mut self, name: &str, value: &Value, at: Span) -> bool {
+        let Some(bytes) = spelled_bytes(value) else { return false };
+        let letters = value.text().map_or(0, |text| text.chars().count());
+        let report = e0209_wrong_value::spelled_bytes;
+        self.diagnostics.push(report(at, name, letters, &listed(&bytes)));
+        true
+    }
+
     /// A list of bytes; a text stands for its bytes, and a single number for a list of one.
     pub(crate) fn bytes(
         &mut self,
@@ -51,6 +64,9 @@ impl Fields<'_> {
         value: &Value,
         lengths: RangeInclusive<usize>,
     ) -> Option<Spanned<Vec<u8>>> {
+        if self.spells(&field.name, value, field.value_span) {
+            return None;
+        }
         let Some(numbers) = byte_list(value) else {
             self.wrong(field, "a list of whole numbers such as [0x00, 0x51]");
             return None;

@@ -7,6 +7,7 @@
 pub(crate) mod asked;
 mod bytes;
 mod contradictions;
+mod measure;
 mod plain;
 mod quantities;
 mod shown;
@@ -27,7 +28,7 @@ use crate::meaning::Takes;
 use crate::spanned::{Spanned, span};
 use crate::value::constants::Constants;
 use crate::value::{Evaluator, Value};
-use plain::describe;
+use plain::{describe, is_plain_number};
 pub(crate) use plain::{name_or_text, plain_integer, plain_number, points, with_address};
 pub(crate) use shown::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
 
@@ -135,8 +136,12 @@ impl<'a> Fields<'a> {
             }
             self.names.insert(name.text().into(), self.fields.len());
             let (constants, diagnostics) = (self.constants, &mut *self.diagnostics);
-            let value = Evaluator::new(file, constants, diagnostics).value(&node);
-            self.fields.push(Field {
+            let computed = measure::computed(name.text(), &node);
+            let value = match computed {
+                None => Evaluator::new(file, constants, diagnostics).value(&node),
+                Some(_) => Value::Unknown,
+            };
+            let field = Field {
                 name: name.text().into(),
                 name_span,
                 value_span: span(file, node.range()),
@@ -144,7 +149,12 @@ impl<'a> Fields<'a> {
                 node,
                 layer,
                 taken: false,
-            });
+            };
+            let (name, at) = ((name.text(), name_span), field.value_span);
+            let report = computed.map(|report| measure::not_computed(name.0, at, &report));
+            let misplaced = || measure::misplaced(name, (&field.value, at));
+            self.diagnostics.extend(report.or_else(misplaced));
+            self.fields.push(field);
         }
     }
 
@@ -247,9 +257,13 @@ impl<'a> Fields<'a> {
         if field.value == Value::Unknown {
             return;
         }
-        let found = describe(&field.value);
-        let wrong = e0209_wrong_value::wrong_value(field.value_span, &field.name, takes, found);
-        self.diagnostics.push(wrong);
+        let (at, name) = (field.value_span, &field.name);
+        let is_number = |text: &&String| is_plain_number(text) && takes.contains("number");
+        let quoted = field.value.text().filter(is_number);
+        self.diagnostics.push(match quoted {
+            Some(number) => e0209_wrong_value::quoted_number(at, name, takes, number),
+            None => e0209_wrong_value::wrong_value(at, name, takes, describe(&field.value)),
+        });
     }
 
     /// What a property's value says, read in some way; `takes` is what else it should be.

@@ -25,6 +25,12 @@ pub(crate) fn plain_integer(value: &Value) -> Option<i128> {
     }
 }
 
+/// Whether a text is a whole number as the language has it.
+pub(super) fn is_plain_number(text: &str) -> bool {
+    let hex = text.strip_prefix("0x").map(|digits| u64::from_str_radix(digits, 16).is_ok());
+    hex.unwrap_or_else(|| text.parse::<u64>().is_ok())
+}
+
 /// The text of a name or a string.
 pub(crate) fn name_or_text(value: &Value) -> Option<String> {
     match value {

@@ -6,6 +6,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
+use super::encoding::{self, Encoding};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
 use crate::fields::Fields;
@@ -27,6 +28,8 @@ pub const SPEC: KindSpec = KindSpec {
         "register",
         "length",
         "order",
+        "start",
+        "encoding",
         "scl",
         "sda",
     ],
@@ -97,6 +100,20 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         "The order of the bytes of each element: the highest or the lowest one first.",
         "order = little;",
     ),
+    Meaning::new(
+        ("start", Takes::Bytes(0, 32)),
+        "none",
+        "Written before the value of a command, behind its register.",
+        "start = [0x80, 0xB0, 0x40];",
+    )
+    .only(Direction::Actuator),
+    Meaning::new(
+        ("encoding", Takes::Words(|| first(&encoding::OF_I2C))),
+        "`none`",
+        "How the bytes of a command are sent. `text` sends each letter as six columns of eight dots.",
+        "encoding = text;",
+    )
+    .only(Direction::Actuator),
 ];
 
 /// The properties that define a protocol. A device with none of them does not have its own protocol.
@@ -148,6 +165,10 @@ pub struct I2c {
     pub length_bytes: u16,
     /// Order of the bytes of each number.
     pub order: ByteOrder,
+    /// Bytes written before the value of a command; may be empty.
+    pub start: Vec<u8>,
+    /// How the bytes of a command are sent.
+    pub encoding: Encoding,
 }
 
 fn serves(role: Role, function: &Function) -> bool {
@@ -159,7 +180,7 @@ fn serves(role: Role, function: &Function) -> bool {
 }
 
 impl Properties for I2c {
-    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
+    fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let address = read_address(fields);
         let speed = fields.frequency_hz("speed", 1_000..=1_000_000);
         let exclusive = fields.boolean("exclusive").is_some_and(|flag| flag.value);
@@ -182,6 +203,8 @@ impl Properties for I2c {
             register,
             length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
             order,
+            start: start(fields, direction),
+            encoding: encoding::read(fields, &encoding::OF_I2C, direction, value),
         }
     }
 
@@ -214,6 +237,15 @@ pub(super) fn order(fields: &mut Fields<'_>, is_one_byte: bool) -> ByteOrder {
         fields.say(unused);
     }
     fields.word("order", &ORDERS).map(|word| word.value).unwrap_or_default()
+}
+
+/// The bytes before the value of a command.
+fn start(fields: &mut Fields<'_>, direction: Direction) -> Vec<u8> {
+    let Some(bytes) = fields.bytes("start", 0..=32) else { return Vec::new() };
+    if direction == Direction::Sensor {
+        fields.needs_direction(bytes.span, "start", Direction::Actuator);
+    }
+    bytes.value
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
@@ -258,6 +290,8 @@ impl I2c {
             register: None,
             length_bytes: 1,
             order: ByteOrder::Big,
+            start: Vec::new(),
+            encoding: Encoding::Plain,
         }
     }
 }

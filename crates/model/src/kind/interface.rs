@@ -12,6 +12,7 @@ use super::code::Code;
 use super::dac::Dac;
 use super::digital::Digital;
 use super::encoder::Encoder;
+use super::encoding::Encoding;
 use super::i2c::{ByteOrder, I2c};
 use super::icu::{Icu, Mode};
 use super::onewire::OneWire;
@@ -183,6 +184,25 @@ impl Kind {
             | Interface::Dac(_)
             | Interface::Stepper(_)
             | Interface::Code(_) => None,
+        }
+    }
+
+    /// How the bytes of a command are sent, where they are not the words of its value.
+    #[must_use]
+    pub const fn encoding(&self) -> Encoding {
+        match self.interface() {
+            Interface::I2c(own) => own.encoding,
+            Interface::Spi(own) => own.encoding,
+            Interface::Analog(_)
+            | Interface::Icu(_)
+            | Interface::Encoder(_)
+            | Interface::Digital(_)
+            | Interface::Uart(_)
+            | Interface::Pwm(_)
+            | Interface::Dac(_)
+            | Interface::Can(_)
+            | Interface::OneWire(_)
+            | Interface::Stepper(_) => Encoding::Plain,
         }
     }
 

@@ -18,6 +18,7 @@ pub mod code;
 pub mod dac;
 pub mod digital;
 pub mod encoder;
+pub mod encoding;
 pub mod i2c;
 pub mod icu;
 mod interface;

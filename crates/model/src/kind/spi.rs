@@ -1,5 +1,6 @@
 //! `spi`: a device on an SPI bus, with its own chip select.
 
+use super::encoding::{self, COLOURS, Colours, Encoding};
 use super::i2c::{self, ByteOrder, ORDERS};
 use super::role::Role;
 use super::spec::{KindSpec, Properties, Serves, Sharing, Values};
@@ -15,8 +16,8 @@ pub const SPEC: KindSpec = KindSpec {
     directions: &[Direction::Sensor, Direction::Actuator],
     values: Values::Any,
     properties: &[
-        "clock", "mode", "trigger", "wait", "register", "read", "length", "order", "sck", "miso",
-        "mosi", "cs",
+        "clock", "mode", "trigger", "wait", "register", "read", "length", "order", "encoding",
+        "colours", "sck", "miso", "mosi", "cs",
     ],
     sharing: Sharing::BusAndSelect,
     triggers_itself: false,
@@ -26,7 +27,7 @@ pub const SPEC: KindSpec = KindSpec {
     inputs_have: &[],
     of_part: &[],
     serves: Serves::Signal(serves),
-    wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
+    wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own. MOSI, or SCK and MOSI, of a unit that it takes for an LED strip",
     example: "",
     colour: "#001138",
     colour_on_dark: "#A09EE9",
@@ -83,6 +84,21 @@ pub(crate) const MEANINGS: &[Meaning] = &[
         "The order of the bytes of each element: the highest or the lowest one first.",
         "order = little;",
     ),
+    Meaning::new(
+        ("encoding", Takes::Words(|| first(&encoding::OF_SPI))),
+        "`none`",
+        "How the bytes of a command are sent. `ws2812`, `sk6812` and `apa102` send a colour, 0xRRGGBB, to each LED \
+         of a strip.",
+        "encoding = ws2812;",
+    )
+    .only(Direction::Actuator),
+    Meaning::new(
+        ("colours", Takes::Words(|| first(&COLOURS))),
+        "`grb`; `bgr` with `apa102`",
+        "The order in which the colours of an LED are sent.",
+        "colours = grbw;",
+    )
+    .only(Direction::Actuator),
 ];
 
 /// Clock if the file gives none.
@@ -109,6 +125,10 @@ pub struct Spi {
     pub length_bytes: u16,
     /// Order of the bytes of each number.
     pub order: ByteOrder,
+    /// How the bytes of a command are sent.
+    pub encoding: Encoding,
+    /// The order of the colours of a strip.
+    pub colours: Colours,
 }
 
 fn serves(role: Role, function: &Function) -> bool {
@@ -122,7 +142,7 @@ fn serves(role: Role, function: &Function) -> bool {
 }
 
 impl Properties for Spi {
-    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
+    fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let clock = fields.frequency_hz("clock", 1_000..=100_000_000);
         let mode = fields.integer("mode", 0..=3).and_then(|n| u8::try_from(n.value).ok());
         let trigger = fields.bytes("trigger", 0..=32).map(|bytes| bytes.value);
@@ -131,6 +151,7 @@ impl Properties for Spi {
         let read = fields.bytes("read", 0..=32).map(|bytes| bytes.value).unwrap_or_default();
         let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
         let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
+        let encoding = encoding::read(fields, &encoding::OF_SPI, direction, value);
         Self {
             clock_hz: clock.map_or(CLOCK_DEFAULT_HZ, |clock| clock.value),
             clock_span: clock.map(|clock| clock.span),
@@ -141,6 +162,8 @@ impl Properties for Spi {
             read,
             length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
             order: i2c::order(fields, length == i64::from(value.length.unwrap_or(1))),
+            encoding,
+            colours: encoding::colours(fields, encoding),
         }
     }
 
@@ -149,7 +172,7 @@ impl Properties for Spi {
     }
 
     fn roles(&self, _: Direction) -> Vec<Role> {
-        vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs]
+        self.encoding.wires()
     }
 
     fn measuring_us(&self) -> u32 {
@@ -169,6 +192,8 @@ impl Default for Spi {
             read: Vec::new(),
             length_bytes: 1,
             order: ByteOrder::Big,
+            encoding: Encoding::Plain,
+            colours: &[],
         }
     }
 }

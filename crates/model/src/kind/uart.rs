@@ -4,8 +4,8 @@
 mod checksum;
 pub(crate) mod exchange;
 
-pub(crate) use checksum::CHECKSUMS;
 pub use checksum::MessageChecksum;
+pub(crate) use checksum::{CHECKSUMS, SUMS_BEHIND};
 pub use exchange::{Duplex, Exchange};
 
 use super::i2c::{self, ByteOrder, ORDERS};
@@ -108,7 +108,8 @@ pub(crate) const MEANINGS: &[Meaning] = &[
          inverted; `neg_sum8`, `neg_sum16`: what makes the sum 0 in one byte, or in two, high one first; `xor8`: all \
          bytes exclusive or; `ibus`: 0xFFFF minus the sum, two bytes, low one first; `sum16`: the sum, two bytes, high one first; `crc8_dvb_s2`, `crc8_ld06`: CRC-8 of polynomial 0xD5 or \
          0x4D; `crc16_umts`: CRC-16 of polynomial 0x8005, low byte first; `crc16_xmodem`: CRC-16 of polynomial 0x1021, \
-         high byte first; `nmea`: `*` and two hexadecimal digits.",
+         high byte first; `nmea`: `*` and two hexadecimal digits. `slamtec` stands before, in the first two bytes of the \
+         body: 0xA and the low half, 0x5 and the high half of the exclusive or of all other bytes.",
         "checksum = xor8;",
     ),
     Meaning::new(
@@ -236,6 +237,9 @@ impl Properties for Uart {
         let frame =
             exchange::Frame { has_end: !end.is_empty(), checksum, from: checksum_from.into() };
         let exchange = exchange::read(fields, direction, address, &frame);
+        if checksum == MessageChecksum::Slamtec {
+            check_slamtec(fields, length, direction);
+        }
         let is_sensor = direction == Direction::Sensor;
         let receive_only = is_sensor && fields.take_word_if("tx", "none");
         Self {
@@ -281,10 +285,29 @@ fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8
     if let Some(from) = from
         && !checksum.has_from()
     {
-        let why = "`checksum_from` is not for `none` and `nmea`";
+        let why = "`checksum_from` is not for `none`, `nmea` and `slamtec`";
         fields.contradiction(from.span, "checksum", why);
     }
     (checksum, from.and_then(|n| u8::try_from(n.value).ok()).unwrap_or(0))
+}
+
+/// Reports what a message cannot have whose first two bytes are its marks and its checksum.
+fn check_slamtec(fields: &mut Fields<'_>, length: Option<i64>, direction: Direction) {
+    let Some(at) = fields.value_span("checksum") else { return };
+    let message = "`slamtec` is for messages that a part sends by itself, with neither `start` nor `end`: their first \
+                   two bytes are marks and checksum";
+    for other in ["start", "end", "request", "answer"] {
+        if fields.value_span(other).is_some() {
+            fields.contradiction(at, other, message);
+        }
+    }
+    if fields.is_of_reading() {
+        if direction == Direction::Actuator {
+            fields.needs_direction(at, "checksum = slamtec", Direction::Sensor);
+        }
+    } else if length.is_none() {
+        fields.missing("length", "length = 84;");
+    }
 }
 
 impl Uart {

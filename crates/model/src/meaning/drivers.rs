@@ -5,7 +5,7 @@ use sensedsl_wire::Direction;
 use super::takes::{RESISTANCE, TIME, VOLTAGE};
 use super::{Meaning, Takes, first};
 use crate::design::protocol::Formula;
-use crate::kind::uart::CHECKSUMS;
+use crate::kind::uart::SUMS_BEHIND;
 use crate::part::coding::{CRCS, DRIVES, FORMATS};
 
 /// Where a value stands, in a reading or command or in the driver for all of them.
@@ -135,7 +135,7 @@ pub(super) const PROTOCOL: &[Meaning] = &[
         "init = [[0x6B, 0x80], 100 ms, [0x6B, 0x01]];",
     ),
     Meaning::new(
-        ("init_checksum", Takes::Words(|| first(&CHECKSUMS))),
+        ("init_checksum", Takes::Words(|| first(SUMS_BEHIND))),
         "`none`",
         "On a serial line, what stands after each list of bytes in `init`; of its bytes from `checksum_from` on.",
         "init_checksum = crc16_umts;",

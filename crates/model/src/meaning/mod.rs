@@ -16,6 +16,7 @@ use crate::kind::{KindName, Values};
 use crate::part::chip::{CHIP, OF_DEVICE, PLACED};
 use crate::part::coding::{CODING, FILTER, PROTOCOL};
 use crate::part::properties::{COMMON_PROPERTIES, PRESENTATION};
+use crate::part::stranger;
 use crate::rule;
 
 pub use entry::Meaning;
@@ -103,7 +104,9 @@ impl Block<'_> {
     /// The properties that are not of a kind.
     fn others(self, kinds: &[KindName]) -> Vec<&'static Meaning> {
         let is_coded = kinds.iter().any(|kind| kind.spec().values == Values::Any);
-        let coding = CODING.iter().filter(|_| is_coded);
+        let suits = |name: &&&str| kinds.iter().any(|kind| stranger::is_for(name, *kind));
+        let coding = CODING.iter().filter(|_| is_coded).filter(suits);
+        let protocol = PROTOCOL.iter().filter(suits);
         let shown = PRESENTATION.iter().chain(FILTER);
         match self {
             Self::Board => boards::BOARD.iter().collect(),
@@ -113,19 +116,19 @@ impl Block<'_> {
                 named(COMMON_PROPERTIES.iter().chain(shown).chain(coding).chain(&["failsafe"]))
             }
             Self::Value(..) => {
-                named(CHIP.iter().chain(PLACED).chain(OF_DEVICE).chain(shown).chain(PROTOCOL))
+                named(CHIP.iter().chain(PLACED).chain(OF_DEVICE).chain(shown).chain(protocol))
             }
-            Self::Chip(_) => named(CHIP.iter().chain(PLACED).chain(PROTOCOL)),
+            Self::Chip(_) => named(CHIP.iter().chain(PLACED).chain(protocol)),
             Self::OfChip(_) => named(OF_DEVICE.iter().chain(shown)),
             Self::Connection(_) => named(OF_CONNECTION.iter()),
             Self::Driver(_) => {
                 let about = drivers::ABOUT.iter();
-                let given = GIVEN.iter().chain(PROTOCOL).chain(shown).chain(coding);
+                let given = GIVEN.iter().chain(protocol).chain(shown).chain(coding);
                 about.chain(named(given)).collect()
             }
-            Self::OfDriver(..) => {
-                named(["delay", "prio", "group"].iter().chain(shown).chain(CODING))
-            }
+            Self::OfDriver(..) => named(
+                ["delay", "prio", "group"].iter().chain(shown).chain(CODING.iter().filter(suits)),
+            ),
             Self::Wish => named(rule::wishes().collect::<Vec<_>>().iter()),
         }
     }

@@ -215,11 +215,16 @@ fn the_example_of_a_kinds_property_is_right() {
 #[test]
 fn the_examples_of_drivers_are_right() {
     for meaning in drivers::ABOUT.iter().chain(drivers::PROTOCOL) {
-        let text = format!(
-            "board B on {BOARD} {{ }}\ndriver own for i2c {{ address = 0x20; {} \
-             reading r returns uint16 {{ register = 1; }} }}",
-            meaning.example
-        );
+        let i2c = "i2c { address = 0x20; reading r returns uint16 { register = 1; }";
+        let uart = "uart { start = [0x59]; length = 2; reading r returns uint16 { byte = 0; }";
+        let spi = "spi { reading r returns uint16 { register = 1; }";
+        let of = match meaning.name {
+            "init_checksum" => uart,
+            "read_mask" => spi,
+            _ => i2c,
+        };
+        let example = meaning.example;
+        let text = format!("board B on {BOARD} {{ }}\ndriver own for {of} {example} }}");
         assert_eq!(misshapen(&text), [] as [&str; 0], "{text}");
     }
 }

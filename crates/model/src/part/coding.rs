@@ -11,7 +11,7 @@ use crate::design::protocol::{
 use crate::fields::{
     Codes, Fields, name_or_text, plain_integer, plain_number, points, with_address,
 };
-use crate::kind::uart::{CHECKSUMS, exchange::ADDRESS};
+use crate::kind::uart::{SUMS_BEHIND, exchange::ADDRESS};
 use crate::kind::{Kind, KindName};
 use crate::part::reach;
 use crate::spanned::Spanned;
@@ -369,7 +369,7 @@ pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
 
 fn init(fields: &mut Fields<'_>) -> Vec<InitStep> {
     const TAKES: &str = "a list of byte lists and times such as [[0x6B, 0x80], 100 ms]";
-    let sum = fields.word("init_checksum", &CHECKSUMS).map(|word| word.value).unwrap_or_default();
+    let sum = fields.word("init_checksum", SUMS_BEHIND).map(|word| word.value).unwrap_or_default();
     let Some(field) = fields.take("init") else { return Vec::new() };
     let address = fields.peek_integer(ADDRESS).and_then(|number| u8::try_from(number).ok());
     let from = fields.peek_integer("checksum_from").and_then(|from| usize::try_from(from).ok());
@@ -401,6 +401,10 @@ fn init(fields: &mut Fields<'_>) -> Vec<InitStep> {
             None
         }
     };
+    let texts = field.value.list().unwrap_or_default();
+    if texts.iter().any(|one| fields.spells("init", &one.value, one.span)) {
+        return Vec::new();
+    }
     let steps: Option<Vec<InitStep>> =
         field.value.list().and_then(|list| list.iter().map(|one| step(&one.value)).collect());
     match steps {

@@ -1,26 +1,25 @@
 //! A device on its own: from its block to a part with one value.
 
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0207_unknown_kind, e0211_out_of_range, e0213_property_of_other_kind,
-    e0214_wrong_direction, e0220_impossible_type, e0229_wrong_driver, h0703_default_protocol,
+    e0207_unknown_kind, e0211_out_of_range, e0214_wrong_direction, e0220_impossible_type,
+    e0229_wrong_driver, h0703_default_protocol,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::design::protocol::Protocol;
+use crate::design::protocol::{Coding, Protocol};
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, Part};
 use crate::driver::known::Known;
 use crate::driver::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES, bounds, module};
 use crate::fields::{Field, Fields, name_or_text};
-use crate::kind::{KindName, Role, i2c};
+use crate::kind::{Kind, KindName, i2c};
 use crate::part::block::{Next, ReadPart};
-use crate::part::coding::{self, CODING, FILTER};
+use crate::part::coding;
 use crate::part::properties::{
-    COMMON_PROPERTIES, PRESENTATION, delay_ms as paced_ms, direction, divided, is_about_part,
-    level, own,
+    delay_ms as paced_ms, direction, divided, is_about_part, level, own,
 };
-use crate::part::{chip, placement, reach, words};
+use crate::part::{chip, placement, reach, stranger, words};
 use crate::rule;
 use crate::spanned::{Spanned, named, span};
 use crate::value::types;
@@ -65,6 +64,7 @@ pub(crate) fn read(
     if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
         fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));
     }
+    outside(&mut fields, (&kind, &coding), direction, &name);
     leftovers(&mut fields, kind_name.value);
     let block = span(file, node.range());
     let is_array = kind_name.value.spec().values.wires(value.value).is_some();
@@ -251,29 +251,21 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
 }
 
-/// Words that people write for properties, each with the property that is meant.
-const OTHER_WORDS: &[(&str, &str)] = &[
-    ("addr", "address"),
-    ("accel", "acceleration"),
-    ("baudrate", "baud"),
-    ("baud_rate", "baud"),
-    ("direction", "dir"),
-    ("echo", "pin"),
-    ("en", "enable"),
-    ("freq", "frequency"),
-    ("gpio", "pin"),
-    ("interval", "delay"),
-    ("kind", "type"),
-    ("max_speed", "speed"),
-    ("name", "label"),
-    ("period", "delay"),
-    ("port", "pin"),
-    ("priority", "prio"),
-    ("pull_up", "pull"),
-    ("pullup", "pull"),
-    ("rate", "delay"),
-    ("trig", "trigger"),
-];
+/// Reports a value that ends after the message that it is in.
+fn outside(
+    fields: &mut Fields<'_>,
+    (kind, coding): (&Kind, &Coding),
+    direction: Direction,
+    name: &Spanned<String>,
+) {
+    let at = fields.value_span("byte").unwrap_or(name.span);
+    let name = format!("`{}`", name.value);
+    if let Some(report) = words::outside((at, &name), (kind, coding), kind)
+        && direction == Direction::Sensor
+    {
+        fields.say(report);
+    }
+}
 
 /// Reports properties that nothing of the device has read.
 fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
@@ -282,41 +274,7 @@ fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
             continue;
         }
         let Field { name, name_span, .. } = field;
-        let report = unknown(&name, name_span, kind);
+        let report = stranger::of_device(&name, name_span, kind);
         fields.say(report);
     }
-}
-
-pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
-    let others: Vec<&str> = KindName::ALL
-        .into_iter()
-        .filter(|other| *other != kind && other.spec().properties.contains(&name))
-        .map(KindName::name)
-        .collect();
-    let own = kind.spec().properties;
-    let meant = OTHER_WORDS.iter().find(|(word, _)| *word == name).map(|(_, meant)| *meant);
-    let meant = meant.filter(|word| {
-        own.contains(word) || COMMON_PROPERTIES.contains(word) || PRESENTATION.contains(word)
-    });
-    if let Some(meant) = meant {
-        let unknown = e0201_unknown_property::unknown_property;
-        return unknown(at, name, &kind.with_article(), Some(meant));
-    }
-    if others.is_empty() {
-        let common = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
-        let known = kind.spec().properties.iter().chain(common).copied();
-        let meant = nearest(name, known);
-        return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
-    }
-    // A user who fixes `pin` for a kind with several wires means one of these.
-    let is_wire =
-        |word: &&str| name == "pin" && Role::ALL.iter().any(|role| role.property() == *word);
-    let instead: Vec<&str> = own.iter().copied().filter(is_wire).collect();
-    e0213_property_of_other_kind::property_of_other_kind(
-        at,
-        name,
-        &kind.with_article(),
-        &others.join(", "),
-        &instead,
-    )
 }

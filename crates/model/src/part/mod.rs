@@ -13,4 +13,5 @@ pub(crate) mod properties;
 pub mod reach;
 pub mod registers;
 pub(crate) mod serial;
+pub(crate) mod stranger;
 pub mod words;

@@ -10,6 +10,7 @@ use sensedsl_wire::Direction;
 
 use crate::design::protocol::{InitStep, Protocol};
 use crate::design::{ConnectionIndex, Design, Device, PartIndex};
+use crate::kind::encoding::Encoding;
 use crate::part::words::Words;
 
 /// Most bytes of a register that commands share.
@@ -42,7 +43,9 @@ impl Register {
     #[must_use]
     pub fn of(device: &Device) -> Option<Self> {
         let number = device.kind.register_access()?.register;
-        let words = Words::of(device).filter(|words| words.crc.is_none())?;
+        // A line of text is no register with bits, whatever its length.
+        let is_plain = device.kind.encoding() == Encoding::Plain;
+        let words = Words::of(device).filter(|words| words.crc.is_none() && is_plain)?;
         let bytes = words.wire_bytes();
         let is_written = device.direction == Direction::Actuator && bytes <= BYTES_MAX;
         let connection = *device.connections.first()?;

@@ -2,12 +2,15 @@
 //! and bits, or the reason why it cannot be there. The reader of a file uses this to find mistakes;
 //! generators of tables use it for the words.
 
+use sensedsl_diagnostics::codes::e0239_outside_frame;
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{ScalarType, ValueType};
 
 use crate::design::Device;
 use crate::design::protocol::{Coding, Crc, Protocol};
 use crate::kind::Kind;
 use crate::kind::can::BitField;
+use crate::kind::encoding::Encoding;
 use crate::kind::i2c::ByteOrder;
 
 /// How to read or write the bytes of a value; a word is an element.
@@ -48,6 +51,12 @@ pub enum Code {
     Magnitude,
     /// A binary number that follows the one before it without a gap.
     Packed,
+    /// A colour, each bit of which is a pulse.
+    Pulses,
+    /// A colour in the frame of an LED with a clock.
+    Leds,
+    /// A letter as columns of dots.
+    Text,
 }
 
 impl Words {
@@ -147,6 +156,24 @@ pub(crate) fn check(
     words(kind, coding, value, length).map(|_| ())
 }
 
+/// Reports a value that is received and ends after its message. `whole` is the connection, whose `length` is that of the
+/// body.
+pub(crate) fn outside(
+    (at, name): (Span, &str),
+    (kind, coding): (&Kind, &Coding),
+    whole: &Kind,
+) -> Option<Diagnostic> {
+    let (uart, whole) = (kind.uart()?, whole.uart()?);
+    let (property, body) = if uart.exchange.request.is_empty() {
+        ("length", whole.is_length_given.then_some(whole.length_bytes)?)
+    } else {
+        ("body", uart.exchange.body_bytes?)
+    };
+    let (first, bytes) = (coding.byte, length_bytes(kind, coding)?);
+    let report = e0239_outside_frame::outside_message;
+    (first.saturating_add(bytes) > body).then(|| report(at, name, (first, bytes), (property, body)))
+}
+
 /// Bytes of the value; none if its kind sends no bytes or the value is text.
 fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
     if coding.text.is_some() {
@@ -169,6 +196,9 @@ fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<
         return in_frame(kind, coding, of.scalar, value.scalar, field);
     }
     let elements = u16::try_from(of.count()).unwrap_or(u16::MAX).max(1);
+    if let Some(words) = encoded(kind, of, elements) {
+        return Ok(words);
+    }
     if let Some(bits) = coding.packed_bits {
         return packed(coding, of, (elements, bits), length);
     }
@@ -210,6 +240,30 @@ fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<
         order: order(kind),
         crc: coding.crc,
         data_bytes: length,
+    })
+}
+
+/// The words of a value that its encoding sends otherwise: they are what is sent, not its bytes. `elements` are then
+/// the colours in the order in which they are sent.
+fn encoded(kind: &Kind, of: ValueType, count: u16) -> Option<Words> {
+    let code = match kind.encoding() {
+        Encoding::Plain => return None,
+        Encoding::Ws2812 | Encoding::Sk6812 => Code::Pulses,
+        Encoding::Apa102 => Code::Leds,
+        Encoding::Text => Code::Text,
+    };
+    let word_bytes = u8::try_from(of.scalar.size_bytes()).unwrap_or(8);
+    Some(Words {
+        code,
+        word_bytes,
+        count,
+        elements: kind.spi().map(|spi| spi.colours.to_vec()).unwrap_or_default(),
+        low: 0,
+        bits: 8 * word_bytes,
+        is_signed: false,
+        order: ByteOrder::Big,
+        crc: None,
+        data_bytes: u16::from(word_bytes).saturating_mul(count),
     })
 }
 

@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
-    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, w0601_unused_property,
-    w0602_slower_than_asked, w0603_narrow_type,
+    e0241_asked_too_often, e0242_same_rom, e0506_hardware_limit, h0710_motor_goes_on,
+    w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_wire::{Direction, ValueType};
 
 use super::{bounds, ranges};
-use crate::design::{Design, Device};
+use crate::design::{Design, Device, Transport};
 use crate::kind::Interface;
 use crate::kind::onewire::Rom;
+use crate::part::reach;
 
 /// Bits of one ADC conversion on all profiles; the driver scales wider ones.
 const ADC_BITS: u32 = 12;
@@ -29,10 +30,22 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(slow);
         diagnostics.extend(narrow(device));
         diagnostics.extend(impossible_length(device));
+        diagnostics.extend(goes_on(design, device));
     }
     diagnostics.extend(same_rom(design));
     bounds::check(design, diagnostics);
     ranges::check(design, diagnostics);
+}
+
+/// Hints at a motor that nothing stops when the host falls silent.
+fn goes_on(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let board = design.part(device.part)?.board.and_then(|board| design.board(board));
+    let is_linked = board.is_none_or(|board| board.link.transport != Transport::None);
+    let is_motor = device.direction == Direction::Actuator && device.coding.drive.is_some();
+    let name = &device.name;
+    let failsafe = device.coding.failsafe.or_else(|| device.kind.failsafe());
+    (is_motor && is_linked && failsafe.is_none())
+        .then(|| h0710_motor_goes_on::motor_goes_on(name.span, &name.value))
 }
 
 /// Warns of a cycle time or priority for a device that the hardware measures on its own.
@@ -182,12 +195,19 @@ pub(super) fn like(value: ValueType, scalar: &str) -> String {
 /// Warns of a value of a chip with fewer bits than its driver's reading.
 fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
     let (own, of) = (device.value.value, device.coding.of?);
-    let ((least, most), (of_least, of_most)) =
-        (own.scalar.integer_range()?, of.scalar.integer_range()?);
-    if (least <= of_least && most >= of_most) || device.direction == Direction::Actuator {
+    let (of_least, of_most) = of.scalar.integer_range()?;
+    let (held, of_type) = (reach::of_type(own.scalar)?, reach::of_type(of.scalar)?);
+    // Of a word with fewer `bits` than its type, only what these make comes.
+    let part = reach::of_part(&device.kind, &device.coding, of).unwrap_or(of_type);
+    if (held.0 <= part.0 && held.1 >= part.1) || device.direction == Direction::Actuator {
         return None;
     }
-    let (found, range) = (own.to_string(), format!("{of_least} to {of_most}"));
+    let range = if part == of_type {
+        format!("{of_least} to {of_most}")
+    } else {
+        format!("{} to {}", part.0, part.1)
+    };
+    let found = own.to_string();
     let wider = of.to_string();
     Some(w0603_narrow_type::narrow_type(device.value.span, (&found, &range), &wider, Some(&wider)))
 }

@@ -24,6 +24,7 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         |what: &str, found: &str| e0101_unexpected_token::unexpected_token(at, what, found);
     match &error.kind {
         Kind::UnexpectedCharacter { character } => unexpected_character(at, *character),
+        Kind::RangeWithColon => e0102_unknown_character::range_with_colon(at),
         Kind::UnterminatedComment => e0103_unterminated::unterminated(at, "comment", "*/"),
         Kind::UnterminatedString => e0103_unterminated::unterminated(at, "string", "\""),
         Kind::UnknownEscape { escape } => e0109_bad_string::bad_string(at, escape),
@@ -100,6 +101,11 @@ fn unexpected_character(at: Span, character: char) -> Diagnostic {
         '\'' | '`' | '\u{2018}'..='\u{201f}' | '«' | '»' | '‹' | '›' => {
             e0102_unknown_character::other_quotes(at)
         }
+        '°' | 'º' => e0102_unknown_character::of_unit(at, character, "deg"),
+        '\u{b5}' | '\u{3bc}' => e0102_unknown_character::of_unit(at, character, "u"),
+        '\u{3a9}' | '\u{2126}' => e0102_unknown_character::of_unit(at, character, "Ohm"),
+        '²' => e0102_unknown_character::of_unit(at, character, "^2"),
+        '³' => e0102_unknown_character::of_unit(at, character, "3"),
         _ => e0102_unknown_character::unknown_character(at, &character.to_string()),
     }
 }

@@ -39,6 +39,11 @@ impl Value {
         if let Self::List(list) = self { Some(list) } else { None }
     }
 
+    /// The value as a text between quotes.
+    pub(crate) fn text(&self) -> Option<&String> {
+        if let Self::Text(text) = self { Some(text) } else { None }
+    }
+
     /// The value as a number.
     pub(crate) fn number(&self) -> Option<&Number> {
         if let Self::Number(number) = self { Some(number) } else { None }

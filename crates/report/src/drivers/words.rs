@@ -208,6 +208,10 @@ fn hertz(hz: u32) -> String {
 pub(super) fn settings(kind: &Kind) -> String {
     let words: Vec<String> = match kind.interface() {
         Interface::I2c(i2c) => vec![hertz(i2c.speed_hz)],
+        // The clock is the one that its pulses need.
+        Interface::Spi(spi) if spi.encoding.windows().is_some() => {
+            vec![format!("pulses of {}", spi.encoding.name())]
+        }
         Interface::Spi(spi) => vec![hertz(spi.clock_hz), format!("mode {}", spi.mode)],
         Interface::OneWire(own) => match own.protocol {
             OneWireProtocol::W1 => vec!["1-Wire".to_owned()],

@@ -24,8 +24,8 @@ pub type SpiBus = Mutex<CriticalSectionRawMutex, Master>;
 pub struct SpiLine {
     /// Its bus.
     pub bus: &'static SpiBus,
-    /// Its chip select, active low.
-    pub select: Output<'static>,
+    /// Its chip select, active low; none of a strip of LEDs, which has the bus for itself.
+    pub select: Option<Output<'static>>,
     /// Its mode and clock.
     pub config: Config,
 }
@@ -63,9 +63,13 @@ impl Line for SpiLine {
         if bus.apply_config(&self.config).is_err() {
             return Outcome::BusError;
         }
-        self.select.set_low();
+        if let Some(select) = &mut self.select {
+            select.set_low();
+        }
         let outcome = exchange(bus, step, timeout).await;
-        self.select.set_high();
+        if let Some(select) = &mut self.select {
+            select.set_high();
+        }
         outcome
     }
 }

@@ -17,8 +17,8 @@ pub type SpiBus = Mutex<CriticalSectionRawMutex, Spim<'static>>;
 pub struct SpiLine {
     /// Its bus.
     pub bus: &'static SpiBus,
-    /// Its chip select, active low.
-    pub select: Output<'static>,
+    /// Its chip select, active low; none of a strip of LEDs, which has the bus for itself.
+    pub select: Option<Output<'static>>,
     /// Its mode and clock.
     pub config: Config,
 }
@@ -50,9 +50,13 @@ impl Line for SpiLine {
         let mut bus = self.bus.lock().await;
         // The clock rests at the part's level before the part looks at it. There is nothing to be refused.
         let _ = bus.set_config(&self.config);
-        self.select.set_low();
+        if let Some(select) = &mut self.select {
+            select.set_low();
+        }
         let outcome = exchange(&mut *bus, step, timeout).await;
-        self.select.set_high();
+        if let Some(select) = &mut self.select {
+            select.set_high();
+        }
         outcome
     }
 }

@@ -16,8 +16,8 @@ pub type SpiBus<T> = Mutex<CriticalSectionRawMutex, Spi<'static, T, Async>>;
 pub struct SpiLine<T: Instance + 'static> {
     /// Its bus.
     pub bus: &'static SpiBus<T>,
-    /// Its chip select, active low.
-    pub select: Output<'static>,
+    /// Its chip select, active low; none of a strip of LEDs, which has the bus for itself.
+    pub select: Option<Output<'static>>,
     /// Its mode and clock.
     pub config: Config,
 }
@@ -40,9 +40,13 @@ impl<T: Instance> Line for SpiLine<T> {
         let mut bus = self.bus.lock().await;
         // The clock rests at the part's level before the part looks at it.
         bus.set_config(&self.config);
-        self.select.set_low();
+        if let Some(select) = &mut self.select {
+            select.set_low();
+        }
         let outcome = exchange(&mut *bus, step, timeout).await;
-        self.select.set_high();
+        if let Some(select) = &mut self.select {
+            select.set_high();
+        }
         outcome
     }
 }

@@ -45,6 +45,9 @@ pub enum MessageChecksum {
     Crc16Umts,
     /// 2 bytes, high byte first: CRC-16 with polynomial 0x1021 and start value 0.
     Crc16Xmodem,
+    /// No bytes after the body: its first two are 0xA and the low half, 0x5 and the high half of the
+    /// exclusive or of all others. For messages without `start` and of known length.
+    Slamtec,
 }
 
 impl MessageChecksum {
@@ -52,7 +55,7 @@ impl MessageChecksum {
     #[must_use]
     pub const fn bytes(self) -> usize {
         match self {
-            Self::None => 0,
+            Self::None | Self::Slamtec => 0,
             Self::Sum8
             | Self::Sum7
             | Self::NotSum8
@@ -71,7 +74,7 @@ impl MessageChecksum {
         let summed = before.get(from..).unwrap_or_default();
         let two = |[first, second]: [u8; 2]| [first, second, 0];
         let bytes = match self {
-            Self::None => [0; 3],
+            Self::None | Self::Slamtec => [0; 3],
             Self::Sum7 => [sum8(summed) & 0x7F, 0, 0],
             Self::NotSum8 => [!sum8(summed), 0, 0],
             Self::NegSum8 => [sum8(summed).wrapping_neg(), 0, 0],
@@ -95,12 +98,23 @@ impl MessageChecksum {
     /// Whether the bytes from `place` on begin with the checksum of those before.
     fn is_right(self, bytes: &[u8], place: usize, start_bytes: usize, from: u8) -> bool {
         let before = bytes.get(..place).unwrap_or_default();
+        if self == Self::Slamtec {
+            return sums_slamtec(before);
+        }
         let (sum, size) = self.of(before, start_bytes, from);
         (0..size).all(|index| {
             let (wanted, found) = (at(&sum, index), at(bytes, place + index));
             // Hexadecimal digits may be in lower case.
             found == wanted || self == Self::Nmea && found.to_ascii_uppercase() == wanted
         })
+    }
+}
+
+/// Whether the halves in the first two bytes are those of the exclusive or of all others.
+fn sums_slamtec(message: &[u8]) -> bool {
+    match message {
+        [first, second, rest @ ..] => xor8(rest) == (first & 0xF) | (second << 4),
+        _ => false,
     }
 }
 
@@ -276,10 +290,39 @@ impl MessageTable {
         is_bare && has_two && bytes.ends_with(self.start)
     }
 
+    fn starts_right(&self, bytes: &[u8]) -> bool {
+        if self.checksum == MessageChecksum::Slamtec {
+            let begins = bytes.first().is_none_or(|byte| self.may_begin(*byte));
+            let goes_on = bytes.get(1).is_none_or(|byte| byte >> 4 == 0x5);
+            return begins && goes_on && !self.announces_slamtec(bytes);
+        }
+        let begun = self.start.len().min(bytes.len());
+        self.start.get(..begun) == bytes.get(..begun)
+    }
+
+    /// Before the messages, the part says once how long they are. This has the marks of a message.
+    fn announces_slamtec(&self, bytes: &[u8]) -> bool {
+        let [length, _] = self.length.to_le_bytes();
+        bytes.starts_with(&[0xA5, 0x5A, length, 0, 0, 0x40])
+    }
+
+    /// Whether a message could begin with this byte.
+    pub(super) fn may_begin(&self, byte: u8) -> bool {
+        if self.checksum == MessageChecksum::Slamtec {
+            return byte >> 4 == 0xA;
+        }
+        self.start.first().is_none_or(|first| *first == byte)
+    }
+
+    /// Whether a message with a wrong checksum can be told from other bytes.
+    pub(super) fn has_marks(&self) -> bool {
+        let is_slamtec = self.checksum == MessageChecksum::Slamtec;
+        is_slamtec || !(self.start.is_empty() && self.end.is_empty())
+    }
+
     pub(super) fn judge(&self, bytes: &[u8]) -> Verdict {
         let least = self.frame_bytes() + usize::from(self.length);
-        let begun = self.start.len().min(bytes.len());
-        if self.start.get(..begun) != bytes.get(..begun) {
+        if !self.starts_right(bytes) {
             return Verdict::Bad;
         }
         let ends_right = bytes.ends_with(self.end);

@@ -79,8 +79,7 @@ impl<'a> Words<'a> {
         Coding {
             elements: self.bytes().leak(),
             words: self.number() as u16,
-            code: [Code::Integer, Code::Float, Code::Bcd, Code::Packed, Code::Magnitude]
-                [self.number() as usize],
+            code: CODES[self.number() as usize],
             crc: [Crc::None, Crc::Sensirion][self.number() as usize],
             word_bytes: self.byte(),
             low: self.byte(),
@@ -90,6 +89,18 @@ impl<'a> Words<'a> {
         }
     }
 }
+
+/// In the order of C's numbers.
+const CODES: [Code; 8] = [
+    Code::Integer,
+    Code::Float,
+    Code::Bcd,
+    Code::Packed,
+    Code::Magnitude,
+    Code::Pulses,
+    Code::Leds,
+    Code::Text,
+];
 
 fn say_value(out: &mut String, scalar: Scalar, value: &[u8]) {
     for element in value.chunks(scalar.bytes()) {
@@ -344,10 +355,10 @@ fn compose(words: &mut Words<'_>, out: &mut String) {
     use MessageChecksum::{
         Crc8DvbS2, Crc8Ld06, Crc16Umts, Crc16Xmodem, Ibus, NegSum8, NegSum16, Nmea,
     };
-    use MessageChecksum::{NotSum8, Sum7, Sum8, Sum16, Xor8};
+    use MessageChecksum::{NotSum8, Slamtec, Sum7, Sum8, Sum16, Xor8};
     let first = [MessageChecksum::None, Sum8, Xor8, Ibus, Crc8DvbS2, Nmea];
     let second = [Sum7, NotSum8, NegSum8, NegSum16, Crc16Umts, Crc16Xmodem];
-    let all = [&first[..], &second, &[Crc8Ld06, Sum16]].concat();
+    let all = [&first[..], &second, &[Crc8Ld06, Sum16, Slamtec]].concat();
     let checksum = all[words.number() as usize];
     let checksum_from = words.byte();
     let compose =

@@ -85,6 +85,16 @@ fn coding(random: &mut Random, scalar: usize, count: usize) -> (String, usize) {
     (text, wire)
 }
 
+/// How colours or letters are sent.
+fn shown(random: &mut Random) -> String {
+    let code = 5 + random.below(3);
+    let colours = if code == 7 { 0 } else { 1 + random.below(4) };
+    let order: Vec<u8> = (0..colours).map(|_| random.below(4) as u8).collect();
+    let bits = 1 + random.below(8);
+    let (short, long) = (random.below(bits + 1), random.below(bits + 1));
+    format!("{} {colours} {code} 0 {long} {short} {bits} 0 0", hex(&order))
+}
+
 /// Bytes with a CRC-8 after every two, usually right.
 fn with_crc(random: &mut Random, count: usize) -> Vec<u8> {
     let mut all = bytes(random, count);
@@ -140,9 +150,11 @@ fn codings(random: &mut Random, all: &mut Vec<String>) {
     let given = size.saturating_sub(usize::from(random.below(9) == 0));
     all.push(format!("decode {one} {count} {how} {}", hex(&with_crc(random, given))));
     all.push(format!("encode {one} {count} {how}{}", elements(random, one, count)));
+    let how_shown = shown(random);
+    all.push(format!("encode {one} {count} {how_shown}{}", elements(random, one, count)));
     let (start, end) = (random.below(4), random.below(3));
     let (start, end) = (hex(&bytes(random, start)), hex(&bytes(random, end)));
-    let (sum, from, behind) = (random.below(14), random.below(5), random.below(3));
+    let (sum, from, behind) = (random.below(15), random.below(5), random.below(3));
     let behind = hex(&bytes(random, behind));
     let as_text = (random.below(4), *random.pick(&[0, 44, 32]).unwrap(), random.below(19));
     let (format, separator, decimals) = if random.below(2) == 0 { (0, 0, 0) } else { as_text };

@@ -13,6 +13,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(args: &DriversArgs, terminal: &Terminal) -> Result<Status> {
     match (&args.new, &args.name) {
         (Some(name), _) => begin(name, args.kind.unwrap_or(KindName::I2c), terminal)?,
+        (None, Some(name)) if args.source => source(name, terminal)?,
         (None, Some(name)) => one(name, args.format, terminal)?,
         (None, None) => list(args, terminal)?,
     }
@@ -20,11 +21,17 @@ pub(crate) fn run(args: &DriversArgs, terminal: &Terminal) -> Result<Status> {
 }
 
 /// The kinds that there is a driver to begin with for.
-const BEGINNINGS: [(KindName, &str); 4] = [
+const BEGINNINGS: [(KindName, &str); 10] = [
     (KindName::I2c, include_str!("../../templates/drivers/i2c.sense")),
     (KindName::Spi, include_str!("../../templates/drivers/spi.sense")),
     (KindName::Uart, include_str!("../../templates/drivers/uart.sense")),
     (KindName::Analog, include_str!("../../templates/drivers/analog.sense")),
+    (KindName::Icu, include_str!("../../templates/drivers/icu.sense")),
+    (KindName::Pwm, include_str!("../../templates/drivers/pwm.sense")),
+    (KindName::Can, include_str!("../../templates/drivers/can.sense")),
+    (KindName::Digital, include_str!("../../templates/drivers/digital.sense")),
+    (KindName::Encoder, include_str!("../../templates/drivers/encoder.sense")),
+    (KindName::OneWire, include_str!("../../templates/drivers/onewire.sense")),
 ];
 
 /// Prints a driver to begin with.
@@ -48,6 +55,13 @@ fn begin(name: &str, kind: KindName, terminal: &Terminal) -> Result<()> {
             .aside(&format!("the library has `{}` for {}; yours wins", part.name, part.part))?;
     }
     terminal.result(&text.replace("NAME", name))?;
+    Ok(())
+}
+
+/// Prints the driver itself, as the library has it.
+fn source(name: &str, terminal: &Terminal) -> Result<()> {
+    let Some(text) = facts::source(name) else { bail!("{}", missing(name)) };
+    terminal.result(&text)?;
     Ok(())
 }
 

@@ -44,6 +44,9 @@ impl Surroundings for Bench {
 
     fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
         self.note(now_ns, format_args!("SPI{unit}"), format_args!("0x{out:02X}"));
+        if self.clocked(unit, out, now_ns) {
+            return 0xFF;
+        }
         let selected = |one: &Chip| one.unit == unit && one.is_selected && one.address.is_none();
         let Some(place) = self.chips.iter().position(selected) else { return 0xFF };
         let part = self.chips.get(place).map(|one| one.part);
@@ -55,6 +58,10 @@ impl Surroundings for Bench {
         chip.registers.exchange(out, &self.subjects)
     }
 
+    fn levels(&mut self, unit: u8, byte: u8, from_ps: u64, bit_ps: u64) {
+        self.levels_out(unit, byte, from_ps, bit_ps);
+    }
+
     fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
         if let Some(line) = self.lines.get_mut(&unit) {
             return line.next(now_ns);
@@ -63,7 +70,9 @@ impl Surroundings for Bench {
         let is_cut = [FaultKind::Torn, FaultKind::Silent]
             .into_iter()
             .any(|kind| self.has(kind, part, now_ns));
+        let is_spoiled = self.has(FaultKind::BadChecksum, part, now_ns);
         let talking = self.talkers.get_mut(&unit)?;
+        talking.talker.set_spoiled(is_spoiled);
         let byte = talking.talker.next(&self.subjects, now_ns);
         if is_cut {
             talking.talker.torn();
@@ -154,7 +163,9 @@ impl Bench {
                 return I2cReply::Nack;
             }
             chip.registers.start(read, &self.subjects, now_ns);
-            self.recorder.addressed(unit, (!read).then_some(chip.connection), now_ns);
+            let connection = chip.connection;
+            self.recorder.addressed(unit, (!read).then_some(connection), now_ns);
+            self.page_begins(connection);
             self.talked_to.insert(unit, place);
             return I2cReply::Ack;
         }
@@ -162,13 +173,17 @@ impl Bench {
         match (event, talked_to) {
             (I2cEvent::Write(byte), Some(chip)) => {
                 chip.registers.write(byte);
+                let connection = chip.connection;
                 self.recorder.taken(unit, byte);
+                self.page_goes_on(connection, byte);
                 I2cReply::Ack
             }
             (I2cEvent::Read { .. }, Some(chip)) => I2cReply::Byte(chip.registers.read()),
             (I2cEvent::Stop, Some(chip)) => {
                 chip.registers.stop(now_ns);
+                let connection = chip.connection;
                 self.recorder.addressed(unit, None, now_ns);
+                self.page_ends(connection, now_ns);
                 self.talked_to.remove(&unit);
                 I2cReply::Ack
             }

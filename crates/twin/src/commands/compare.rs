@@ -34,6 +34,9 @@ pub(super) fn differs(
             let found = outputs.millivolts(one.at).unwrap_or(0.0);
             ((found - wanted).abs() > 0.5).then(|| format!("{found:.0} mV"))
         }
+        Expectation::Write(_) if outputs.wrong(one.at).is_some() => {
+            outputs.wrong(one.at).map(str::to_owned)
+        }
         Expectation::Write(wanted) => {
             let found = last_write(one.at, outputs, since_ns, wanted);
             let is_it = found.as_deref().is_some_and(|found| wanted.is(found));

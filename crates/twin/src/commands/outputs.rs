@@ -24,6 +24,8 @@ pub struct Outputs {
     bytes: BTreeMap<u8, VecDeque<(u64, u8)>>,
     frames: BTreeMap<u8, VecDeque<(u64, CanFrame)>>,
     tracks: BTreeMap<ConnectionIndex, Track>,
+    /// What was wrong with what a strip or a display was sent last.
+    wrong: BTreeMap<ConnectionIndex, String>,
 }
 
 fn keep<T>(log: &mut VecDeque<T>, one: T) {
@@ -61,6 +63,12 @@ impl Outputs {
     pub fn writes(&self, at: ConnectionIndex, since_ns: u64) -> impl Iterator<Item = &[u8]> {
         let all = self.writes.get(&at).into_iter().flatten();
         all.filter(move |(when, _)| *when >= since_ns).map(|(_, bytes)| bytes.as_slice())
+    }
+
+    /// What is wrong with what a strip or a display was sent last; none if it shows something.
+    #[must_use]
+    pub fn wrong(&self, at: ConnectionIndex) -> Option<&str> {
+        self.wrong.get(&at).map(String::as_str)
     }
 
     /// The bytes that a serial port has sent since a given time.
@@ -211,6 +219,24 @@ impl Recorder {
     pub(crate) fn shifted(&mut self, chip: ConnectionIndex, byte: u8) {
         if let Some(bytes) = self.selected.get_mut(&chip).filter(|all| all.len() < KEPT) {
             bytes.push(byte);
+        }
+    }
+
+    /// A strip or a display shows something, or cannot.
+    pub(crate) fn shown(
+        &mut self,
+        at: ConnectionIndex,
+        shown: Result<Vec<u8>, String>,
+        now_ns: u64,
+    ) {
+        match shown {
+            Ok(bytes) => {
+                self.outputs.wrong.remove(&at);
+                self.written(at, bytes, now_ns);
+            }
+            Err(wrong) => {
+                self.outputs.wrong.insert(at, wrong);
+            }
         }
     }
 

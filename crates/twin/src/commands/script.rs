@@ -3,6 +3,7 @@
 
 use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Interface;
+use sensedsl_model::kind::encoding::Encoding;
 use sensedsl_model::kind::stepper::{Mode, Stepper};
 use sensedsl_model::words::Words;
 use sensedsl_wire::{Direction, Scalar, ScalarType};
@@ -16,6 +17,8 @@ use crate::truth::scalar;
 const WHOLE_MAX: f64 = 9_007_199_254_740_991.0;
 /// How far a motor goes, in seconds of its greatest speed.
 const FAR_SECONDS: f64 = 0.12;
+/// The codes of letters.
+const LETTERS: (f64, f64) = (32.0, 126.0);
 /// The bound for real numbers that have none.
 const REAL_MAX: f64 = 1_000.0;
 
@@ -113,6 +116,7 @@ pub(super) fn range(one: &JobDevice<'_>) -> (f64, f64) {
         Interface::Pwm(_) => Some((0.0, FULL_LEVEL)),
         Interface::Dac(_) => Some((0.0, FULL_CODE)),
         Interface::Stepper(own) => Some(of_motor(own)),
+        Interface::I2c(own) if own.encoding == Encoding::Text => Some(LETTERS),
         Interface::Analog(_)
         | Interface::I2c(_)
         | Interface::Icu(_)

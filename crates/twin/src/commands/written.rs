@@ -1,12 +1,13 @@
 //! The expected writes to chips.
 
 use sensedsl_job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_model::kind::encoding::Encoding;
 use sensedsl_model::protocol::{InitStep, Protocol};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::expect::{Expectation, Expected, expected};
-use crate::parts::words;
+use crate::parts::{lamps, letters, words};
 
 /// A transfer to a chip.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +53,9 @@ pub(super) fn write(
     raw: &[f64],
 ) -> Option<Expected> {
     let number = register(one)?;
+    if let Some(shown) = shown(one, raw) {
+        return Some(expected(wire, 0, Expectation::Write(shown)));
+    }
     let chip = job.design.part(one.device.part)?.chip.as_ref();
     let is_wide = chip.is_some_and(|chip| chip.register_bytes == 2);
     let mut bytes: Vec<u8> = match number {
@@ -75,6 +79,25 @@ pub(super) fn write(
         }
     }
     Some(expected(wire, 0, Expectation::Write(Written { bytes, begins, mask })))
+}
+
+/// What a strip or a display shows of a value: the colours of its LEDs, or the number of a line and its letters.
+fn shown(one: &JobDevice<'_>, raw: &[f64]) -> Option<Written> {
+    let encoding = one.device.kind.encoding();
+    let (bytes, begins) = match encoding {
+        Encoding::Plain => return None,
+        Encoding::Ws2812 | Encoding::Sk6812 | Encoding::Apa102 => {
+            let colours = one.device.kind.spi()?.colours.len();
+            (lamps::colours(encoding, colours, raw), 0)
+        }
+        Encoding::Text => {
+            // The command that says the line is 0xB0 to 0xB7.
+            let start = &one.device.kind.i2c()?.start;
+            let line = start.iter().find(|byte| (0xB0..=0xB7).contains(*byte))? & 7;
+            ([vec![line], letters::shown(raw)].concat(), 1)
+        }
+    };
+    Some(Written { mask: vec![0xFF; bytes.len()], bytes, begins })
 }
 
 /// The last transfer of the initialisation with the same length and start.

@@ -43,6 +43,8 @@ pub(crate) struct MessageSender {
     sent: usize,
     /// The number of messages started so far.
     number: u64,
+    /// Whether one bit of each message is another one than the part meant.
+    is_spoiled: bool,
 }
 
 impl MessageSender {
@@ -52,7 +54,15 @@ impl MessageSender {
         let longest_ns =
             2 * form.byte_ns() * u64::try_from(form.compose(subjects, 0).len()).unwrap_or(0);
         let period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
-        Self { form, period_ns, message: Vec::new(), began_ns: 0, sent: 0, number: 0 }
+        Self {
+            form,
+            period_ns,
+            message: Vec::new(),
+            began_ns: 0,
+            sent: 0,
+            number: 0,
+            is_spoiled: false,
+        }
     }
 
     /// The time from one message to the next.
@@ -68,6 +78,7 @@ impl MessageSender {
             self.number = now_ns / self.period_ns;
             self.began_ns = self.period_ns.saturating_mul(self.number);
             self.message = self.form.compose(subjects, self.began_ns);
+            self.spoil();
             self.sent = 0;
         }
         let byte = *self.message.get(self.sent)?;
@@ -78,6 +89,22 @@ impl MessageSender {
         }
         self.sent += 1;
         Some(byte)
+    }
+
+    /// From the next message on, one bit of each is wrong, or none.
+    pub(crate) const fn set_spoiled(&mut self, is_spoiled: bool) {
+        self.is_spoiled = is_spoiled;
+    }
+
+    /// Turns one bit of the message round, another one each time: the steps are prime, so all have their turn.
+    fn spoil(&mut self) {
+        const STEP: u64 = 7_919;
+        let bits = 8 * u64::try_from(self.message.len()).unwrap_or(0).max(1);
+        let bit = self.number.wrapping_mul(STEP) % bits;
+        let place = usize::try_from(bit / 8).unwrap_or(0);
+        if let Some(byte) = self.message.get_mut(place).filter(|_| self.is_spoiled) {
+            *byte ^= 1 << (bit % 8);
+        }
     }
 
     /// Drops the message on the wire: the cable is torn.
@@ -174,6 +201,10 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
     let xor = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum ^ byte);
     let checksum = match uart.checksum {
         MessageChecksum::None => Vec::new(),
+        MessageChecksum::Slamtec => {
+            headed(&mut all);
+            Vec::new()
+        }
         MessageChecksum::Sum8 => vec![sum.to_be_bytes()[1]],
         MessageChecksum::Xor8 => vec![xor(summed)],
         MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
@@ -198,6 +229,14 @@ pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
     all.extend(checksum);
     all.extend(&uart.end);
     all
+}
+
+/// Puts the marks of a Slamtec capsule and the two halves of its sum over its first two bytes.
+fn headed(capsule: &mut [u8]) {
+    if let [first, second, rest @ ..] = capsule {
+        let sum = rest.iter().fold(0, |sum, byte| sum ^ byte);
+        (*first, *second) = (0xA0 + sum % 16, 0x50 + sum / 16);
+    }
 }
 
 /// A 16-bit CRC from 0, as a division of polynomials: the bits of the message, and sixteen zeros behind them, are

@@ -46,7 +46,9 @@ pub(crate) fn range(words: &Words) -> Option<(f64, f64)> {
         }
         Code::Magnitude => Some((1.0 - full / 2.0, full / 2.0 - 1.0)),
         Code::Integer | Code::Packed if words.is_signed => Some((-full / 2.0, full / 2.0 - 1.0)),
-        Code::Integer | Code::Packed => Some((0.0, full - 1.0)),
+        Code::Integer | Code::Packed | Code::Pulses | Code::Leds | Code::Text => {
+            Some((0.0, full - 1.0))
+        }
     }
 }
 
@@ -62,7 +64,7 @@ fn word(words: &Words, raw: f64) -> [u8; 8] {
             let sign = u64::from(number < 0) << words.bits.saturating_sub(1);
             ((number.unsigned_abs() | sign) << words.low).to_be_bytes()
         }
-        Code::Integer | Code::Packed => {
+        Code::Integer | Code::Packed | Code::Pulses | Code::Leds | Code::Text => {
             (masked(held(words, raw), words.bits) << words.low).to_be_bytes()
         }
     }

@@ -110,6 +110,8 @@ enum Way {
     I2c { address: u8, unit: u8 },
     /// By the connection that has its chip select, on a unit.
     Spi { unit: u8, connection: ConnectionIndex },
+    /// By whatever is on its wires; how many picoseconds a bit lasts, if it has no clock.
+    Strip { unit: u8, bit_ps: Option<u64> },
     /// Over its wire, which it may share.
     Wire(ConnectionIndex),
 }
@@ -119,6 +121,18 @@ fn transfer(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: 
     let (address, unit) = match way {
         Way::I2c { address, unit } => (address, unit),
         Way::Wire(connection) => return on_wire(bench, connection, out, answer, now_ns),
+        Way::Strip { unit, bit_ps } => {
+            for (byte, place) in out.iter().zip(0..) {
+                match bit_ps {
+                    Some(bit_ps) => {
+                        let from_ps = 1_000 * now_ns + 8 * bit_ps * place;
+                        bench.levels_out(unit, *byte, from_ps, bit_ps);
+                    }
+                    None => _ = bench.spi(unit, *byte, now_ns),
+                }
+            }
+            return Outcome::Fresh;
+        }
         Way::Spi { unit, connection } => {
             bench.drive_at(connection, Role::Cs, Some(false), now_ns);
             for byte in out {
@@ -225,6 +239,11 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
         let unit = one.unit.and_then(|name| units.number(name)).unwrap_or(0);
         let way = match one.connection.kind.interface() {
             Interface::I2c(own) => Way::I2c { address: own.address, unit },
+            Interface::Spi(own) if own.encoding.is_strip() => {
+                let hz = job.bus_of(one).and_then(|plan| plan.clock_hz);
+                let bit_ps = hz.map(|hz| 1_000_000_000_000 / u64::from(hz.max(1)));
+                Way::Strip { unit, bit_ps }
+            }
             Interface::Spi(_) => Way::Spi { unit, connection: one.index },
             Interface::OneWire(_) => Way::Wire(one.index),
             Interface::Analog(_)

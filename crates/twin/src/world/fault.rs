@@ -1,6 +1,7 @@
 //! Faults: what breaks, when, and for how long.
 
 use sensedsl_model::design::DeviceIndex;
+use sensedsl_model::kind::uart::{MessageChecksum, Uart};
 use sensedsl_model::kind::{Interface, Kind};
 
 /// A fault.
@@ -88,7 +89,10 @@ impl FaultKind {
     pub const fn needs(self) -> &'static str {
         match self {
             Self::NoAnswer => "devices on i2c or onewire",
-            Self::BadChecksum | Self::Late => "devices on onewire",
+            Self::BadChecksum => {
+                "devices on onewire, and devices on uart whose messages have a checksum"
+            }
+            Self::Late => "devices on onewire",
             Self::StuckSda | Self::Hang => "devices on i2c",
             Self::Torn => "every sensor",
             Self::Silent => "devices that send by themselves: uart, can, icu, encoder",
@@ -102,7 +106,8 @@ impl FaultKind {
     pub fn fits(self, kind: &Kind) -> bool {
         match self {
             Self::NoAnswer => kind.i2c().is_some() || kind.onewire().is_some(),
-            Self::BadChecksum | Self::Late => kind.onewire().is_some(),
+            Self::BadChecksum => kind.onewire().is_some() || kind.uart().is_some_and(has_checksum),
+            Self::Late => kind.onewire().is_some(),
             Self::StuckSda | Self::Hang => kind.i2c().is_some(),
             Self::Torn => true,
             Self::Silent => match kind.interface() {
@@ -123,4 +128,9 @@ impl FaultKind {
             Self::Reset | Self::Garbage => false,
         }
     }
+}
+
+/// Whether a part sends messages by itself in which damage is noticed.
+fn has_checksum(uart: &Uart) -> bool {
+    uart.checksum != MessageChecksum::None && !uart.exchange.is_dialogue()
 }

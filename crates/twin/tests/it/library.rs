@@ -1,7 +1,9 @@
 //! Every driver of the library that measures: the value that a world gives its part comes back through the tables and
 //! the runtime.
 
+use sensedsl_job::BoardJob;
 use sensedsl_model::facts;
+use sensedsl_model::protocol::InitStep;
 use sensedsl_wire::Direction;
 
 use crate::run::{plainly, with_job};
@@ -19,7 +21,8 @@ fn every_driver_reports_what_the_world_does() {
             continue;
         }
         tried += 1;
-        let run = plainly(&text, "", 1);
+        // Some parts need seconds until they measure.
+        let run = plainly(&text, "", 1 + with_job(&text, pauses_s));
         let silent = run.judged.iter().filter(|one| one.reports == 0).map(|one| &one.name);
         let silent: Vec<_> = silent.collect();
         if !silent.is_empty() {
@@ -31,6 +34,17 @@ fn every_driver_reports_what_the_world_does() {
     }
     assert!(failed.is_empty(), "{} of {tried}: {}", failed.len(), failed.join("\n\n"));
     assert!(tried > 60 / crate::step(4), "{tried}");
+}
+
+/// The pauses while the parts of a board are set up, in whole seconds.
+fn pauses_s(job: &BoardJob<'_>) -> u64 {
+    let steps =
+        job.parts.iter().filter_map(|one| one.part.chip.as_ref()).flat_map(|chip| &chip.init);
+    let pauses = steps.map(|step| match step {
+        InitStep::Wait { ms } => u64::from(*ms),
+        InitStep::Write(_) => 0,
+    });
+    pauses.sum::<u64>().div_ceil(1_000)
 }
 
 /// A board with only one part, and all of its values, for each part.

@@ -7,6 +7,7 @@ mod boards;
 mod commanded;
 mod judged;
 mod kinds;
+mod lamps;
 mod library;
 mod mistakes;
 mod motors;

@@ -103,6 +103,36 @@ fn what_breaks_is_silent_and_comes_back() {
     }
 }
 
+/// Every bit of a message that is turned round costs the message, and gives no wrong value: the fault turns another one
+/// each time, and a capsule of a scanner has 672 of them.
+#[test]
+fn a_spoiled_message_is_no_value() {
+    for (chip, sensor) in [
+        ("rplidar", "sensor Value returns uint16[16] { id = 1; reading = distances_1; }"),
+        ("ld06", "sensor Value returns uint16[12] { id = 1; reading = distances; }"),
+        ("tfmini", "sensor Value returns uint16 { id = 1; reading = distance; }"),
+    ] {
+        let board = format!(
+            "board NUCLEO_F446RE {{ link {{ transport = uart; baud = 921600; }}
+                chip Part {{ driver = {chip}; delay = 20 ms; {sensor} }} }}"
+        );
+        let world = "[[fault]]\nkind = \"bad_checksum\"\ndevice = \"Value\"\nat = 2\nfor = 16\n";
+        let run = plainly(&board, world, 20);
+        assert!(run.wrong().is_empty(), "{chip}: {:#?}", run.wrong());
+        let times: Vec<u64> = run.reports.iter().map(|(at, _)| at / 1_000_000).collect();
+        let during = times.iter().filter(|at| (2_100..18_000).contains(*at)).count();
+        assert_eq!(during, 0, "{chip}");
+        let around = |from, to| times.iter().filter(|at| (from..to).contains(*at)).count();
+        assert!(around(1_000, 2_000) > 40 && around(19_000, 20_000) > 40, "{chip}: {times:?}");
+    }
+    // What has no checksum cannot be spoiled so that it would be noticed.
+    let bare =
+        "board NUCLEO_F446RE { sensor Raw returns uint16 { id = 1; type = uart; start = [1]; } }";
+    let world = "[[fault]]\nkind = \"bad_checksum\"\ndevice = \"Raw\"\nat = 2\n";
+    let refused = with_job(bare, |job| read(job, world, 1).1);
+    assert_eq!(refused.len(), 1, "{refused:#?}");
+}
+
 #[test]
 fn a_board_that_was_reset_begins_anew() {
     let times = times("[[fault]]\nkind = \"reset\"\nat = 3\nfor = \"500 ms\"\n", 1);

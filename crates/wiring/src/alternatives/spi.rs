@@ -1,4 +1,5 @@
-//! `spi`: SCK, MISO and MOSI of one unit, shared; a GPIO as chip select for each device.
+//! `spi`: SCK, MISO and MOSI of one unit, shared; a GPIO as chip select for each device. A strip of LEDs
+//! has the unit for itself, and no chip select.
 
 use sensedsl_board::signal::{Function, SpiLine, UnitName};
 use sensedsl_board::table::Usage;
@@ -10,7 +11,10 @@ use super::{Alternatives, Maker, Served};
 
 impl Served for Spi {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
-        maker.units(&Bus { wire, sharing: Sharing::Bus(0), address: None })
+        // A strip takes whatever is on its wire, as nothing selects it.
+        let is_alone = self.encoding.is_strip();
+        let sharing = if is_alone { Sharing::Exclusive } else { Sharing::Bus(0) };
+        maker.units(&Bus { wire, sharing, address: None })
     }
 }
 

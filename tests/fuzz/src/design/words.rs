@@ -107,6 +107,8 @@ pub(super) const KINDS: &[Kind] = &[
             ("register", &["0", "2", "255"], &["256", "[1]"]),
             ("length", &["2"], &["0", "2049", "6", "1", "32", "2048"]),
             ("order", &["big", "little"], &["middle"]),
+            ("start", BYTES, BAD_BYTES),
+            ("encoding", &["none"], &["text", "morse"]),
         ],
         roles: &["scl", "sda"],
         drivers: &[
@@ -171,8 +173,10 @@ pub(super) const KINDS: &[Kind] = &[
             ("mode", &["0", "3"], &["4"]),
             ("read", BYTES, BAD_BYTES),
             ("length", &["6", "1024"], &["0"]),
+            ("encoding", &["none"], &["ws2812", "text"]),
         ],
         roles: &["sck", "miso", "mosi", "cs"],
+        drivers: &["driver = ws2812b;", "driver = apa102;"],
         ..both("spi", ANY)
     },
     Kind {

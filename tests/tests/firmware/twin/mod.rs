@@ -14,6 +14,7 @@ mod g474;
 mod hosted;
 mod images;
 mod kinds;
+mod lamps;
 mod lines;
 mod mcus;
 mod onewire;

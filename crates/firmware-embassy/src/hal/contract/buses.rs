@@ -3,10 +3,11 @@
 use sensedsl_board::signal::UnitName;
 use sensedsl_job::kinds::can::{self, Identifier};
 use sensedsl_job::{JobConnection, Pad};
+use sensedsl_model::kind::Role;
 use sensedsl_model::kind::uart::{Parity, Uart};
 
 use crate::context::Context;
-use crate::missing::Printed;
+use crate::missing::{self, Printed};
 use crate::section::{Constructor, Section};
 
 /// I²C buses.
@@ -44,6 +45,28 @@ pub(crate) trait Spi {
         wire: &JobConnection<'_>,
         section: &mut Section,
     ) -> Printed<Constructor>;
+}
+
+/// The pins of an SPI bus. A strip of LEDs sends nothing back, and some have no clock.
+pub(crate) enum SpiPins<'a> {
+    /// SCK, MOSI and MISO.
+    All([&'a Pad<'a>; 3]),
+    /// SCK and MOSI.
+    Sending([&'a Pad<'a>; 2]),
+    /// MOSI.
+    Data(&'a Pad<'a>),
+}
+
+impl<'a> SpiPins<'a> {
+    /// The pins of a connection.
+    pub(crate) fn of(wire: &'a JobConnection<'a>) -> Printed<Self> {
+        let mosi = missing::pad(wire, Role::Mosi)?;
+        Ok(match (wire.pad(Role::Sck), wire.pad(Role::Miso)) {
+            (Some(sck), Some(miso)) => Self::All([sck, mosi, miso]),
+            (Some(sck), None) => Self::Sending([sck, mosi]),
+            (None, _) => Self::Data(mosi),
+        })
+    }
 }
 
 /// Wires that both ends pull low. The runtime's module `wire` has the type `OneWirePin`, and `pin`, which makes one. The

@@ -6,8 +6,8 @@ use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, Spi};
-use crate::missing::{self, Printed};
+use crate::hal::contract::buses::{I2c, Spi, SpiPins};
+use crate::missing::{self, Missing, Printed};
 use crate::section::{Constructor, Section};
 
 impl I2c for Settings {
@@ -53,11 +53,20 @@ impl Spi for Settings {
         _section: &mut Section,
     ) -> Printed<Constructor> {
         let hal = context.peripheral(unit.as_str());
-        let pin = |role| Ok(&missing::pad(wire, role)?.pin.name);
-        let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+        let make = match SpiPins::of(wire)? {
+            SpiPins::All(pads) => {
+                let [sck, mosi, miso] = pads.map(|pad| &pad.pin.name);
+                format!("bus(p.{hal}, p.{sck}, p.{mosi}, p.{miso})")
+            }
+            SpiPins::Sending(pads) => {
+                let [sck, mosi] = pads.map(|pad| &pad.pin.name);
+                format!("bus(p.{hal}, p.{sck}, p.{mosi}, esp_hal::gpio::NoPin)")
+            }
+            SpiPins::Data(_) => return Err(Missing::wire("SCK".to_owned())),
+        };
         Ok(Constructor {
             type_: "crate::rt::spi::Master".to_owned(),
-            make: format!("crate::rt::spi::bus(p.{hal}, p.{sck}, p.{mosi}, p.{miso})"),
+            make: format!("crate::rt::spi::{make}"),
         })
     }
 }

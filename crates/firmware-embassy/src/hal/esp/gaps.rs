@@ -19,6 +19,10 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         Kind::Digital(own) if counted::is_counted(own, &devices) => {
             Some("edges counted without `debounce` on ESP32")
         }
+        // Its SPI pauses wherever its 64 bytes are used up.
+        Kind::Spi(own) if own.encoding.windows().is_some() => Some(
+            "LED strips on one wire on ESP32, where those with a clock (`driver = apa102`) are served",
+        ),
         Kind::Icu(_)
         | Kind::Digital(_)
         | Kind::Analog(_)

@@ -1,12 +1,12 @@
 //! I²C and SPI, whose units take any pins and have DMA of their own.
 
 use sensedsl_board::signal::UnitName;
-use sensedsl_job::JobConnection;
+use sensedsl_job::{JobConnection, Pad};
 use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, Spi};
+use crate::hal::contract::buses::{I2c, Spi, SpiPins};
 use crate::hal::contract::outputs::Pins as _;
 use crate::missing::{self, Printed};
 use crate::section::{Constructor, Section};
@@ -63,13 +63,24 @@ impl Spi for Settings {
         let hal = context.peripheral(unit.as_str());
         let interrupt = context.interrupt(unit.as_str(), "GLOBAL")?;
         section.bind(interrupt, format!("hal::spim::InterruptHandler<{hal}>"));
-        let pin = |role| Ok(self.pin(&missing::pad(wire, role)?.pin.name));
-        let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+        let pin = |pad: &Pad<'_>| self.pin(&pad.pin.name);
+        let rest = "Default::default())";
+        let make = match SpiPins::of(wire)? {
+            SpiPins::All(pads) => {
+                let [sck, mosi, miso] = pads.map(pin);
+                format!("new(p.{hal}, Irqs, p.{sck}, p.{miso}, p.{mosi}, {rest}")
+            }
+            SpiPins::Sending(pads) => {
+                let [sck, mosi] = pads.map(pin);
+                format!("new_txonly(p.{hal}, Irqs, p.{sck}, p.{mosi}, {rest}")
+            }
+            SpiPins::Data(mosi) => {
+                format!("new_txonly_nosck(p.{hal}, Irqs, p.{}, {rest}", pin(mosi))
+            }
+        };
         Ok(Constructor {
             type_: "hal::spim::Spim<'static>".to_owned(),
-            make: format!(
-                "hal::spim::Spim::new(p.{hal}, Irqs, p.{sck}, p.{miso}, p.{mosi}, Default::default())"
-            ),
+            make: format!("hal::spim::Spim::{make}"),
         })
     }
 }

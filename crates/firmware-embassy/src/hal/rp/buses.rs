@@ -1,12 +1,12 @@
 //! I²C and SPI, whose drivers have the unit in their types.
 
 use sensedsl_board::signal::UnitName;
-use sensedsl_job::JobConnection;
+use sensedsl_job::{JobConnection, Pad};
 use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, OneWire, Spi};
+use crate::hal::contract::buses::{I2c, OneWire, Spi, SpiPins};
 use crate::hal::contract::outputs::Pins as _;
 use crate::hal::dma::channel;
 use crate::missing::{self, Printed};
@@ -56,14 +56,25 @@ impl Spi for Settings {
     ) -> Printed<Constructor> {
         let hal = context.peripheral(unit.as_str());
         let tx = channel(context, wire, "_TX", section)?;
-        let rx = channel(context, wire, "_RX", section)?;
-        let pin = |role| Ok(self.pin(&missing::pad(wire, role)?.pin.name));
-        let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+        let pin = |pad: &Pad<'_>| self.pin(&pad.pin.name);
+        let rest = "Irqs, Default::default())";
+        let make = match SpiPins::of(wire)? {
+            SpiPins::All(pads) => {
+                let rx = channel(context, wire, "_RX", section)?;
+                let [sck, mosi, miso] = pads.map(pin);
+                format!("new(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, {rest}")
+            }
+            SpiPins::Sending(pads) => {
+                let [sck, mosi] = pads.map(pin);
+                format!("new_txonly(p.{hal}, p.{sck}, p.{mosi}, p.{tx}, {rest}")
+            }
+            SpiPins::Data(mosi) => {
+                format!("new_txonly_nosck(p.{hal}, p.{}, p.{tx}, {rest}", pin(mosi))
+            }
+        };
         Ok(Constructor {
             type_: format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
-            make: format!(
-                "hal::spi::Spi::new(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())"
-            ),
+            make: format!("hal::spi::Spi::{make}"),
         })
     }
 }

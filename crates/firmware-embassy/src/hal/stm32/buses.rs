@@ -6,7 +6,7 @@ use sensedsl_model::kind::Role;
 
 use super::settings::Settings;
 use crate::context::Context;
-use crate::hal::contract::buses::{I2c, OneWire, Spi};
+use crate::hal::contract::buses::{I2c, OneWire, Spi, SpiPins};
 use crate::hal::dma::channel;
 use crate::missing::{self, Printed};
 use crate::section::{Constructor, Section};
@@ -73,15 +73,29 @@ impl Spi for Settings {
         let unit = unit.as_str();
         let hal = context.peripheral(unit);
         let tx = channel(context, wire, "_TX", section)?;
-        let rx = channel(context, wire, "_RX", section)?;
-        let pin = |role| Ok(&missing::pad(wire, role)?.pin.name);
-        let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+        let rest = "Irqs, Default::default())";
+        let make = match SpiPins::of(wire)? {
+            SpiPins::All([sck, mosi, miso]) => {
+                let rx = channel(context, wire, "_RX", section)?;
+                let [sck, mosi, miso] = [sck, mosi, miso].map(|pad| &pad.pin.name);
+                let generics = self.generics(context, unit, &["_"; 3]);
+                format!(
+                    "new{generics}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, {rest}"
+                )
+            }
+            SpiPins::Sending([sck, mosi]) => {
+                let [sck, mosi] = [sck, mosi].map(|pad| &pad.pin.name);
+                let generics = self.generics(context, unit, &["_"; 2]);
+                format!("new_txonly{generics}(p.{hal}, p.{sck}, p.{mosi}, p.{tx}, {rest}")
+            }
+            SpiPins::Data(mosi) => {
+                let generics = self.generics(context, unit, &["_"; 2]);
+                format!("new_txonly_nosck{generics}(p.{hal}, p.{}, p.{tx}, {rest}", mosi.pin.name)
+            }
+        };
         Ok(Constructor {
             type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
-            make: format!(
-                "hal::spi::Spi::new{}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())",
-                self.generics(context, unit, &["_"; 3])
-            ),
+            make: format!("hal::spi::Spi::{make}"),
         })
     }
 }

@@ -5,6 +5,7 @@
 //! everything the driver has.
 
 mod example;
+mod source;
 
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap};
 use sensedsl_syntax::ast::{self, AstNode as _};
@@ -17,7 +18,7 @@ use crate::driver::known::Known;
 use crate::driver::library::SEARCH;
 use crate::driver::{Driver, Drivers, bounds, module};
 use crate::fields::Fields;
-use crate::kind::{Kind, KindName, Role, Values};
+use crate::kind::{Kind, KindName, Role, Values, encoding};
 use crate::meaning::first;
 use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{CODING, CRCS, DRIVES, FORMATS, PROTOCOL};
@@ -27,6 +28,7 @@ use crate::value::constants::Constants;
 
 pub use crate::driver::near::{Near, identifier};
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
+pub use source::source;
 
 /// A part of the library.
 #[derive(Clone, Debug)]
@@ -312,6 +314,10 @@ impl Library {
         let mut reported = Vec::new();
         let fields = self.fields(driver, &mut reported);
         let kind = driver.kind?;
+        if let Some(scalar) = fields.peek_name("encoding").and_then(|word| encoding::scalar(&word))
+        {
+            return Some((Direction::Actuator, ValueType { scalar, length: Some(EXAMPLE_LEDS) }));
+        }
         let inputs_have = kind.spec().inputs_have;
         let is_read = inputs_have.is_empty() || inputs_have.iter().any(|name| fields.has(name));
         let direction = match kind.spec().directions {
@@ -324,6 +330,9 @@ impl Library {
         Some((direction, natural_type(kind, length, signed)))
     }
 }
+
+/// The LEDs of a strip in an example.
+const EXAMPLE_LEDS: u16 = 8;
 
 /// The type that suits a part's only value; where bytes are counted, it has that many.
 fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {

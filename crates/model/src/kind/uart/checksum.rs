@@ -32,10 +32,13 @@ pub enum MessageChecksum {
     Crc16Xmodem,
     /// `*` and two hexadecimal digits: the exclusive or of the bytes between the start and `*`.
     Nmea,
+    /// Nothing behind the body: its first two bytes are 0xA and the low half, 0x5 and the high half of the exclusive
+    /// or of all others.
+    Slamtec,
 }
 
 /// The words after `checksum`.
-pub(crate) const CHECKSUMS: [(&str, MessageChecksum); 14] = [
+pub(crate) const CHECKSUMS: [(&str, MessageChecksum); 15] = [
     ("none", MessageChecksum::None),
     ("sum8", MessageChecksum::Sum8),
     ("sum7", MessageChecksum::Sum7),
@@ -50,20 +53,27 @@ pub(crate) const CHECKSUMS: [(&str, MessageChecksum); 14] = [
     ("crc16_umts", MessageChecksum::Crc16Umts),
     ("crc16_xmodem", MessageChecksum::Crc16Xmodem),
     ("nmea", MessageChecksum::Nmea),
+    ("slamtec", MessageChecksum::Slamtec),
 ];
+
+/// Those that stand behind what they are of: all but the last.
+pub(crate) const SUMS_BEHIND: &[(&str, MessageChecksum)] = match CHECKSUMS.split_last() {
+    Some((_, all)) => all,
+    None => &[],
+};
 
 impl MessageChecksum {
     /// Whether the first byte that it covers can be chosen.
     #[must_use]
     pub const fn has_from(self) -> bool {
-        !matches!(self, Self::None | Self::Nmea)
+        !matches!(self, Self::None | Self::Nmea | Self::Slamtec)
     }
 
     /// Bytes of the checksum.
     #[must_use]
     pub const fn bytes(self) -> u16 {
         match self {
-            Self::None => 0,
+            Self::None | Self::Slamtec => 0,
             Self::Sum8
             | Self::Sum7
             | Self::NotSum8
@@ -84,7 +94,7 @@ impl MessageChecksum {
         let [_, low] = sum.to_be_bytes();
         let xor = || summed.iter().fold(0, |sum, byte| sum ^ byte);
         match self {
-            Self::None => Vec::new(),
+            Self::None | Self::Slamtec => Vec::new(),
             Self::Sum8 => vec![low],
             Self::Sum7 => vec![low & 0x7F],
             Self::NotSum8 => vec![!low],

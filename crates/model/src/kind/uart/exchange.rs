@@ -3,7 +3,7 @@
 //! In: the properties of a device, and the frame of its messages. Out: an [`Exchange`], with all bytes that are known
 //! before a value is: addresses are in their places, and checksums are computed.
 
-use super::{CHECKSUMS, MessageChecksum};
+use super::{MessageChecksum, SUMS_BEHIND};
 use crate::fields::Fields;
 use crate::meaning::{Meaning, Takes, first};
 use crate::value::Value;
@@ -38,7 +38,7 @@ pub(super) const MEANINGS: [Meaning; 10] = [
     )
     .only(Direction::Sensor),
     Meaning::new(
-        ("request_checksum", Takes::Words(|| first(&CHECKSUMS))),
+        ("request_checksum", Takes::Words(|| first(SUMS_BEHIND))),
         "as `checksum`",
         "What stands after `request`.",
         "request_checksum = none;",
@@ -68,7 +68,7 @@ pub(super) const MEANINGS: [Meaning; 10] = [
         "answer = [0xFF];",
     ),
     Meaning::new(
-        ("answer_checksum", Takes::Words(|| first(&CHECKSUMS))),
+        ("answer_checksum", Takes::Words(|| first(SUMS_BEHIND))),
         "as `checksum`",
         "What stands after `answer`.",
         "answer_checksum = none;",
@@ -178,12 +178,12 @@ pub(super) fn read(
 ) -> Exchange {
     let duplex = fields.word("duplex", &DUPLEXES).map(|word| word.value).unwrap_or_default();
     let request = fields.addressed("request", 1..=24, address);
-    let sums = fields.word("request_checksum", &CHECKSUMS).map(|word| word.value);
+    let sums = fields.word("request_checksum", SUMS_BEHIND).map(|word| word.value);
     let request_end = fields.bytes("request_end", 0..=8).map(|bytes| bytes.value);
     let body = fields.integer("body", 1..=255);
     let sums_request = fields.boolean("sums_request").is_some_and(|word| word.value);
     let answer = fields.addressed("answer", 1..=16, address);
-    let answer_sum = fields.word("answer_checksum", &CHECKSUMS).map(|word| word.value);
+    let answer_sum = fields.word("answer_checksum", SUMS_BEHIND).map(|word| word.value);
     let behind = fields.addressed("behind", 0..=16, address);
     let wait = fields.time_ms("wait", 1..=1_000).map_or(WAIT_DEFAULT_MS, |time| time.value);
     let resend = fields.time_ms("resend", 1..=60_000);

@@ -1,9 +1,7 @@
 //! Mistakes in the drivers of a file: drivers in, reports out, whether anything names the drivers or not.
 
-use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0206_missing_property, e0229_wrong_driver,
-};
-use sensedsl_diagnostics::{Diagnostic, nearest};
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::{e0206_missing_property, e0229_wrong_driver};
 use sensedsl_syntax::ast::AstNode as _;
 
 use super::reader::{ChipReader, DriverValue};
@@ -16,6 +14,7 @@ use crate::kind::KindName;
 use crate::part::block::Next;
 use crate::part::coding::{CODING, FILTER, PROTOCOL};
 use crate::part::properties::{ABOUT_PART, COMMON_PROPERTIES, PRESENTATION};
+use crate::part::stranger;
 use crate::rule::ranges;
 use crate::spanned::{Spanned, span};
 
@@ -39,21 +38,16 @@ fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnos
     let all = of_part.chain(blocks.chain(of_values).map(|one| (one, false)));
     for (property, is_of_part) in all {
         let Some(name) = property.name() else { continue };
-        let known = || {
-            let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
-            let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
-            let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
-            of_kinds.chain(shared).chain(PROTOCOL).chain(about).copied()
-        };
-        if known().all(|one| one != name.text()) {
+        let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
+        let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER);
+        let is_for = |one: &&&str| kinds.iter().any(|kind| stranger::is_for(one, *kind));
+        let coded = CODING.iter().chain(PROTOCOL).filter(is_for);
+        let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
+        let known: Vec<&str> = of_kinds.chain(shared).chain(coded).chain(about).copied().collect();
+        if !known.contains(&name.text()) {
             let at = span(driver.file, name.range());
-            let unknown = e0201_unknown_property::unknown_property;
-            diagnostics.push(unknown(
-                at,
-                name.text(),
-                &driver.what(),
-                nearest(name.text(), known()),
-            ));
+            let of = driver.what();
+            diagnostics.push(stranger::report((name.text(), at), &of, &kinds, &known));
         }
     }
     twice(driver, &given, diagnostics);

@@ -12,11 +12,11 @@ mod values;
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0217_driver_of_other_kind, e0220_impossible_type, e0229_wrong_driver,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
-use sensedsl_wire::ValueType;
+use sensedsl_wire::{Direction, ValueType};
 
-use crate::design::protocol::Protocol;
+use crate::design::protocol::{Coding, Protocol};
 use crate::design::{BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part};
 use crate::driver::known::Known;
 use crate::driver::{Driver, bounds, module};
@@ -28,7 +28,7 @@ use crate::part::block::{Next, ReadPart};
 use crate::part::coding::{self, FILTER, PROTOCOL};
 use crate::part::ids::ID_MAX;
 use crate::part::properties::{self, COMMON_PROPERTIES, PRESENTATION};
-use crate::part::words;
+use crate::part::{stranger, words};
 use crate::rule;
 use crate::spanned::{Spanned, named, span};
 use crate::value::Evaluator;
@@ -181,20 +181,18 @@ impl ChipReader<'_> {
         own: &[&str],
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let known = || {
-            let of_kinds = sockets.iter().flat_map(|socket| socket.kind.spec().properties);
-            let wires = sockets.iter().filter_map(|socket| socket.name.as_deref());
-            let own = own.iter().chain(PROTOCOL).chain(PLACED).copied();
-            of_kinds.copied().chain(own).chain(wires)
-        };
+        let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
+        let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties).copied();
+        let wires = sockets.iter().filter_map(|socket| socket.name.as_deref());
+        let is_for = |one: &&&str| kinds.iter().any(|kind| stranger::is_for(one, *kind));
+        let own = own.iter().chain(PROTOCOL.iter().filter(is_for)).chain(PLACED).copied();
+        let known: Vec<&str> = of_kinds.chain(own).chain(wires).collect();
         for property in &self.properties {
             let Some(name) = property.name() else { continue };
-            if known().all(|one| one != name.text()) {
+            if !known.contains(&name.text()) {
                 let at = span(self.file, name.range());
-                let meant = nearest(name.text(), known());
-                let unknown = e0201_unknown_property::unknown_property;
                 let of = format!("a chip of `{}`", self.driver.name.value);
-                diagnostics.push(unknown(at, name.text(), &of, meant));
+                diagnostics.push(stranger::report((name.text(), at), &of, &kinds, &known));
             }
         }
     }
@@ -219,7 +217,7 @@ impl ChipReader<'_> {
                 let (property, chip) = (name.text(), &self.name.value);
                 e0201_unknown_property::property_of_chip(at, property, chip)
             } else {
-                let meant = nearest(name.text(), own());
+                let meant = stranger::meant(name.text(), own());
                 let of = "a device of a chip";
                 e0201_unknown_property::unknown_property(at, name.text(), of, meant)
             });
@@ -242,6 +240,20 @@ impl ChipReader<'_> {
             let its = self.driver.what();
             diagnostics.push(wrong(at, name, &its, &written, Some(at)));
         }
+    }
+
+    /// Reports a value that ends after the message it is in.
+    fn outside(
+        &self,
+        (kind, coding): (&Kind, &Coding),
+        main: &Socket,
+        given: &DriverValue,
+        at: Span,
+    ) -> Option<Diagnostic> {
+        kind.uart().filter(|_| given.direction == Direction::Sensor)?;
+        let (whole, ..) = main.read(self, &mut Vec::new());
+        let name = format!("`{}` of `{}`", given.name, self.driver.name.value);
+        words::outside((at, &name), (kind, coding), &whole)
     }
 
     /// The requested values as devices. Marks their connections as used.
@@ -323,6 +335,7 @@ impl ChipReader<'_> {
             let message = format!("`{}` of `{driver}`: {message}", given.name);
             diagnostics.push(e0229_wrong_driver::wrong_driver(name.span, &message));
         }
+        diagnostics.extend(self.outside((&kind, &coding), main, given, name.span));
         self.accept(&kind, value, given, diagnostics);
         let id = own.id.or(id.map(|value| Spanned { value, span: name.span }));
         // Unused connections are not among the part's connections.
@@ -387,7 +400,7 @@ impl ChipReader<'_> {
             let (kind, placement, level) = socket.read(self, diagnostics);
             // Each answer has an end of its own.
             let speaks = devices.iter().any(|one| {
-                let is_sensor = one.direction == sensedsl_wire::Direction::Sensor;
+                let is_sensor = one.direction == Direction::Sensor;
                 is_sensor && one.kind.uart().is_some_and(|own| own.exchange.request.is_empty())
             });
             let has_values = !self.given.is_empty() && speaks;

@@ -87,7 +87,7 @@ static SPIM2_BUS: StaticCell<rt::spi::SpiBus> = StaticCell::new();
 /// SPIM2 1000 ms.
 #[embassy_executor::task]
 async fn spim2_1000ms(bus: &'static rt::spi::SpiBus, gyro_select: Output<'static>) {
-    let mut gyro_line = rt::spi::SpiLine { bus, select: gyro_select, config: rt::spi::config(0, 1000000) };
+    let mut gyro_line = rt::spi::SpiLine { bus, select: Some(gyro_select), config: rt::spi::config(0, 1000000) };
     let mut gyro: Chip<[u8; tables::GYRO_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::GYRO_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(10);
     loop {

@@ -137,7 +137,7 @@ static SPI3_BUS: StaticCell<rt::spi::SpiBus> = StaticCell::new();
 /// SPI3 10 ms.
 #[embassy_executor::task]
 async fn spi3_10ms(bus: &'static rt::spi::SpiBus, angle_select: Output<'static>) {
-    let mut angle_line = rt::spi::SpiLine { bus, select: angle_select, config: rt::spi::config(1, 656250) };
+    let mut angle_line = rt::spi::SpiLine { bus, select: Some(angle_select), config: rt::spi::config(1, 656250) };
     let mut angle: Chip<[u8; tables::ANGLE_CHIP.chip_bytes(&SCHEMA)]> = Chip::new(&tables::ANGLE_CHIP, &SCHEMA);
     let timeout = Duration::from_millis(10);
     loop {
