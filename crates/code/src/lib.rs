@@ -4,7 +4,7 @@
 //! In: a board's job with controllers. Out: files, by their names in the folder that a system gives them.
 //!
 //! The program reads requests from its standard input and writes answers to its standard output, one for each step, so
-//! that it runs in lockstep with a simulated board. Numbers are in the byte order of the computer:
+//! that it runs in lockstep with a simulated board. Numbers are in network byte order:
 //!
 //! | request | bytes |
 //! | --- | --- |

@@ -49,10 +49,14 @@ impl FieldPlan {
         }
     }
 
-    /// Bytes of the value.
-    #[must_use]
-    pub fn size_bytes(&self) -> usize {
-        self.scalar.size_bytes() * usize::from(self.length.unwrap_or(1))
+    /// Bytes of one element.
+    pub(crate) const fn element_bytes(&self) -> usize {
+        self.scalar.size_bytes()
+    }
+
+    /// The number of elements; 1 for a single value.
+    pub(crate) fn count(&self) -> u16 {
+        self.length.unwrap_or(1)
     }
 }
 

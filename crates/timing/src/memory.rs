@@ -90,7 +90,8 @@ fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) => return None,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => return None,
         };
         Some(strips::sent(context, wired).unwrap_or(own) + 1 + largest)
     };

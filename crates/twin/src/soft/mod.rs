@@ -52,8 +52,9 @@ pub struct SoftBoard {
     received: Vec<(u64, usize, Vec<u8>)>,
     starts: u32,
     code: Option<Box<dyn UserCode>>,
-    /// Why the code has stopped.
-    code_ended: Option<String>,
+    has_code_ended: bool,
+    /// When and why the code has stopped, until somebody asks.
+    code_news: Option<(u64, String)>,
 }
 
 /// The parts of a board that stay the same when it restarts.
@@ -164,6 +165,16 @@ impl Side<'_> {
         }
     }
 
+    /// Sets the failsafe values of devices that belong to somebody.
+    fn fall_back(&mut self, is_it: impl Fn(Owner) -> bool) {
+        let owner = |index: usize| self.owners.get(index).copied().unwrap_or(Owner::Other);
+        let safe = self.outputs.safe().filter(|(index, _)| is_it(owner(*index)));
+        let safe: Vec<_> = safe.map(|(index, of)| (index, of.to_vec())).collect();
+        for (index, value) in safe {
+            self.put(index, &value);
+        }
+    }
+
     fn put(&mut self, index: usize, value: &[u8]) {
         self.core.store.put(index, value);
         self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
@@ -197,14 +208,9 @@ impl Host for Side<'_> {
     fn failsafe(&mut self) {
         self.outputs.hush();
         self.lines.iter_mut().for_each(Dialogue::hush);
-        let safe: Vec<_> = self.outputs.safe().map(|(index, of)| (index, of.to_vec())).collect();
-        // What code sets is not the host's: it goes on when the host is silent.
         self.taken.clear();
-        let is_other = |index: usize| self.owners.get(index).is_none_or(|one| *one == Owner::Other);
-        let safe: Vec<_> = safe.into_iter().filter(|(index, _)| is_other(*index)).collect();
-        for (index, value) in safe {
-            self.put(index, &value);
-        }
+        // What code sets is not the host's: it goes on when the host is silent.
+        self.fall_back(|owner| owner == Owner::Other);
     }
 
     fn describe(&mut self, board: &mut BoardHealth) {
@@ -219,8 +225,19 @@ impl SoftBoard {
         let shape = Shape::new(job);
         let state = State::new(&shape, 0);
         let (received, link) = (Vec::new(), Link::default());
-        let (code, code_ended) = (None, None);
-        Self { bench, shape, state, now_ms: 0, link, received, starts: 1, code, code_ended }
+        let (code, has_code_ended, code_news) = (None, false, None);
+        Self {
+            bench,
+            shape,
+            state,
+            now_ms: 0,
+            link,
+            received,
+            starts: 1,
+            code,
+            has_code_ended,
+            code_news,
+        }
     }
 
     /// Gives the board the code of its controllers; without it they set nothing.
@@ -230,10 +247,9 @@ impl SoftBoard {
         self
     }
 
-    /// Why the user's code has stopped; `None` while it runs.
-    #[must_use]
-    pub fn code_ended(&self) -> Option<&str> {
-        self.code_ended.as_deref()
+    /// When and why the user's code has stopped, said once; `None` while it runs.
+    pub fn code_ended(&mut self) -> Option<(u64, String)> {
+        self.code_news.take()
     }
 
     /// The virtual time.
@@ -361,7 +377,7 @@ impl SoftBoard {
 
     /// Runs the steps of the user's code.
     fn control(&mut self, since_ms: u64) {
-        let (Some(code), None) = (&mut self.code, &self.code_ended) else { return };
+        let Some(code) = self.code.as_mut().filter(|_| !self.has_code_ended) else { return };
         match self.shape.controllers.step(&mut **code, &mut self.state.core, since_ms) {
             Ok(set) => {
                 let shared = (&mut self.received, &self.shape.controllers);
@@ -370,7 +386,7 @@ impl SoftBoard {
                     side.set_by_code(index, &value);
                 }
             }
-            Err(why) => self.code_ended = Some(why),
+            Err(why) => self.end_code(why),
         }
     }
 
@@ -378,8 +394,17 @@ impl SoftBoard {
         if let Some(code) = &mut self.code
             && let Err(why) = code.restart()
         {
-            self.code_ended = Some(why);
+            self.end_code(why);
         }
+    }
+
+    /// The code has stopped: what it would have set falls back, as it does when the host is silent.
+    fn end_code(&mut self, why: String) {
+        self.has_code_ended = true;
+        self.code_news = Some((self.now_ns(), why));
+        let shared = (&mut self.received, &self.shape.controllers);
+        let (mut side, _) = self.state.side(shared, (self.now_ms, self.starts));
+        side.fall_back(|owner| owner != Owner::Other);
     }
 
     /// Moves values that were set to pins and lines.

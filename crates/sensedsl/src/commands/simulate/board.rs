@@ -1,10 +1,11 @@
 //! The simulated board: its job in this program, or a firmware image on an emulated MCU.
 
+use sensedsl_diagnostics::codes::e0536_user_code_stopped;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
 use sensedsl_twin::bench::{Bench, UncheckedIdentity};
 use sensedsl_twin::commands::outputs::Outputs;
-use sensedsl_twin::soft::SoftBoard;
+use sensedsl_twin::soft::{SoftBoard, UserCode};
 
 /// A board, however it is simulated.
 pub(super) trait Board {
@@ -75,6 +76,14 @@ impl Board for SoftBoard {
         all.map(|(_, index, value)| (index, value)).collect()
     }
 
+    fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
+        let report = |(ns, why): (u64, String)| {
+            let seconds = format!("{}.{:03} s", ns / 1_000_000_000, ns / 1_000_000 % 1_000);
+            e0536_user_code_stopped::user_code_stopped(at, &seconds, &why)
+        };
+        self.code_ended().map(report).into_iter().collect()
+    }
+
     fn outputs(&self) -> Outputs {
         self.bench().outputs().clone()
     }
@@ -88,7 +97,15 @@ impl Board for SoftBoard {
     }
 }
 
-/// The board's job in this program.
-pub(super) fn soft(job: &BoardJob<'_>, bench: Bench) -> Box<dyn Board> {
-    Box::new(SoftBoard::new(job, bench))
+/// The board's job in this program, with the code of its controllers, if there is any.
+pub(super) fn soft(
+    job: &BoardJob<'_>,
+    bench: Bench,
+    code: Option<Box<dyn UserCode>>,
+) -> Box<dyn Board> {
+    let board = SoftBoard::new(job, bench);
+    Box::new(match code {
+        Some(code) => board.with_code(code),
+        None => board,
+    })
 }

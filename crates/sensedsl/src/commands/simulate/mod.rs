@@ -4,6 +4,7 @@ mod back;
 mod board;
 #[cfg(unix)]
 mod can;
+mod code;
 mod commands;
 #[cfg(feature = "twin")]
 mod emulated;
@@ -23,7 +24,7 @@ mod world;
 use std::path::Path;
 
 use anyhow::Result;
-use sensedsl_diagnostics::codes::e0519_which_board;
+use sensedsl_diagnostics::codes::{e0519_which_board, e0536_user_code_stopped};
 #[cfg(feature = "twin")]
 use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
@@ -35,6 +36,7 @@ use sensedsl_machine::Mcu;
 use sensedsl_model::FileUse;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
+use sensedsl_twin::soft::UserCode;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
 
@@ -113,8 +115,15 @@ fn simulate(
         bench.start_log();
     }
     let Some(firmware) = &args.firmware else {
+        let code = match code(&scenery)? {
+            Ok(code) => code,
+            Err(why) => {
+                scenery.say(*why)?;
+                return Ok(Status::Wrong);
+            }
+        };
         explain(&scenery, &SOFT)?;
-        let board = board::soft(job, bench.clone());
+        let board = board::soft(job, bench.clone(), code);
         return run::run(
             &scenery,
             &bench,
@@ -140,6 +149,31 @@ fn simulate(
             Ok(Status::Wrong)
         }
     }
+}
+
+/// The user's code, built and started; none if the board has no controller, or no code was made yet.
+fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Box<Diagnostic>>> {
+    let (job, args) = (scenery.job, scenery.args);
+    if job.controllers.is_empty() {
+        return Ok(Ok(None));
+    }
+    let beside = args.file.parent().unwrap_or_else(|| Path::new(""));
+    let usual = || beside.join("out").join("firmware").join(&job.board.name.value);
+    let folder = args.code.clone().unwrap_or_else(usual);
+    if args.code.is_none() && !folder.is_dir() {
+        let names: Vec<&str> = job.controllers.iter().map(|one| one.ident.as_str()).collect();
+        let missing = format!("no code of {}: it sets nothing. `sensedsl generate` makes its first file", names.join(", "));
+        scenery.terminal.aside(&missing)?;
+        return Ok(Ok(None));
+    }
+    let built = match code::build(job, &folder, scenery.at)? {
+        Ok(built) => built,
+        Err(why) => return Ok(Err(why)),
+    };
+    Ok(match code::Running::new(built) {
+        Ok(running) => Ok(Some(Box::new(running))),
+        Err(why) => Err(e0536_user_code_stopped::user_code_stopped(scenery.at, "0 s", &why).into()),
+    })
 }
 
 /// Prints what the run proves; as an aside, because programs also read a judge's verdict.

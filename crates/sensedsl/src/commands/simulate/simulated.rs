@@ -32,7 +32,7 @@ impl Simulated {
     ) -> Result<Option<Self>> {
         let Some(world) = world(args, terminal, job, beside)? else { return Ok(None) };
         let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
-        let mut board = board::soft(job, bench);
+        let mut board = board::soft(job, bench, None);
         board.link_open(true);
         Ok(Some(Self { board, began: Instant::now(), now_ns: 0 }))
     }

@@ -1,0 +1,181 @@
+//! The user's code as a program on this computer: compiled by the user's compiler, and stepped in lockstep with the
+//! simulated board over its standard input and output.
+
+use std::io::{Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+use anyhow::{Context as _, Result};
+use sensedsl_code::{ControllerPlan, controllers, headers, native_c};
+use sensedsl_diagnostics::codes::{e0534_no_user_code, e0535_user_code_not_built};
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_job::BoardJob;
+use sensedsl_twin::soft::UserCode;
+
+use crate::files::shown;
+
+/// The longest that a step may take on this computer.
+const STEP_MAX: Duration = Duration::from_secs(2);
+/// The longest answer of a step: more than all values of a board have.
+const ANSWER_BYTES_MAX: usize = 65_536;
+
+/// The program of a board's controllers, ready to run.
+pub(super) struct Built {
+    program: PathBuf,
+}
+
+/// Compiles the code of a board's controllers; `folder` is that of its firmware. A mistake is a diagnostic at `at`.
+///
+/// # Errors
+/// What could not be written or run.
+pub(super) fn build(
+    job: &BoardJob<'_>,
+    folder: &Path,
+    at: Span,
+) -> Result<Result<Built, Box<Diagnostic>>> {
+    let plans = controllers(job);
+    let sources = match sources(folder, &plans, at) {
+        Ok(sources) => sources,
+        Err(missing) => return Ok(Err(missing)),
+    };
+    let into = folder.join("build").join("native");
+    let generated = into.join("generated");
+    std::fs::create_dir_all(&generated).with_context(|| format!("cannot make {}", shown(&generated)))?;
+    let mut all = headers(&job.board.name.value, &plans);
+    all.add("native.c", native_c(job));
+    for (name, file) in all.iter() {
+        let path = generated.join(name);
+        std::fs::write(&path, &file.bytes).with_context(|| format!("cannot write {}", shown(&path)))?;
+    }
+    let program = into.join("controllers");
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let flags = std::env::var("CFLAGS").unwrap_or_default();
+    let mut command = Command::new(&compiler);
+    command.args(["-std=c11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
+    command.args(flags.split_whitespace()).args(&sources).arg(generated.join("native.c"));
+    command.arg("-o").arg(&program).arg("-lm").stdin(Stdio::null());
+    let refused = |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
+    match command.status() {
+        Ok(status) if status.success() => Ok(Ok(Built { program })),
+        Ok(status) => refused(&format!("{compiler} ended with {status}")),
+        Err(why) => refused(&format!("{compiler} cannot be run ({why})")),
+    }
+}
+
+/// The user's files: those of the controllers, and all others in C beside them.
+fn sources(
+    folder: &Path,
+    plans: &[ControllerPlan],
+    at: Span,
+) -> Result<Vec<PathBuf>, Box<Diagnostic>> {
+    let user = folder.join("user");
+    let mut files = Vec::new();
+    for one in plans {
+        let file = user.join(format!("{}.c", one.ident));
+        if !file.is_file() {
+            let report = e0534_no_user_code::no_user_code(at, &one.name, &shown(&file));
+            return Err(report.into());
+        }
+        files.push(file);
+    }
+    Ok(files)
+}
+
+/// The program while it runs.
+pub(super) struct Running {
+    built: Built,
+    child: Option<Talk>,
+}
+
+/// The ends of a running program.
+struct Talk {
+    child: Child,
+    requests: ChildStdin,
+    answers: Receiver<Vec<u8>>,
+    /// Bytes that have come and that no step has taken.
+    held: Vec<u8>,
+}
+
+impl Running {
+    /// Starts the program.
+    ///
+    /// # Errors
+    /// Why it does not start.
+    pub(super) fn new(built: Built) -> Result<Self, String> {
+        let mut running = Self { built, child: None };
+        running.restart()?;
+        Ok(running)
+    }
+}
+
+impl Talk {
+    fn new(program: &Path) -> Result<Self, String> {
+        let spawned = Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+        let mut child = spawned.map_err(|why| format!("it cannot be started ({why})"))?;
+        let (Some(requests), Some(mut output)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err("it has no input or output".to_owned());
+        };
+        let (sender, answers) = sync_channel(16);
+        std::thread::spawn(move || {
+            let mut bytes = vec![0; ANSWER_BYTES_MAX];
+            while let Ok(count @ 1..) = output.read(&mut bytes) {
+                let Some(read) = bytes.get(..count) else { return };
+                if sender.send(read.to_vec()).is_err() {
+                    return;
+                }
+            }
+        });
+        Ok(Self { child, requests, answers, held: Vec::new() })
+    }
+
+    /// Takes as many bytes of answers as there is room for.
+    fn take(&mut self, answer: &mut [u8]) -> Result<(), String> {
+        while self.held.len() < answer.len() {
+            match self.answers.recv_timeout(STEP_MAX) {
+                Ok(bytes) => self.held.extend(bytes),
+                Err(RecvTimeoutError::Timeout) => {
+                    return Err(format!("a step took longer than {} s", STEP_MAX.as_secs()));
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(self.why()),
+            }
+        }
+        let length = answer.len();
+        let taken = self.held.drain(..length);
+        for (to, from) in answer.iter_mut().zip(taken) {
+            *to = from;
+        }
+        Ok(())
+    }
+
+    /// How the program ended.
+    fn why(&mut self) -> String {
+        self.child.wait().map_or_else(|why| why.to_string(), |status| format!("it ended with {status}"))
+    }
+}
+
+impl Drop for Talk {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl UserCode for Running {
+    fn restart(&mut self) -> Result<(), String> {
+        self.child = None;
+        self.child = Some(Talk::new(&self.built.program)?);
+        Ok(())
+    }
+
+    fn step(&mut self, which: u8, request: &[u8], answer: &mut [u8]) -> Result<(), String> {
+        let Some(talk) = &mut self.child else { return Err("it was not started".to_owned()) };
+        let sent = talk.requests.write_all(&[&[which], request].concat());
+        if sent.and_then(|()| talk.requests.flush()).is_err() {
+            return Err(talk.why());
+        }
+        talk.take(answer)
+    }
+}
