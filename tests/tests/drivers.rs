@@ -30,7 +30,10 @@ fn what_disagrees_is_told() {
         return;
     }
     let copy = TempDir::new("driver-vectors");
-    for (folder, ending) in [("crates/model/drivers", "sense"), (VECTORS, "txt"), (VECTORS, "py")] {
+    let letters = "crates/twin/src/parts";
+    for (folder, ending) in
+        [("crates/model/drivers", "sense"), (letters, "txt"), (VECTORS, "txt"), (VECTORS, "py")]
+    {
         fs::create_dir_all(copy.join(folder)).unwrap();
         for file in files(&root().join(folder), ending) {
             fs::copy(&file, copy.join(folder).join(file.file_name().unwrap())).unwrap();
@@ -46,7 +49,7 @@ fn what_disagrees_is_told() {
     fs::remove_file(copy.join("tests/vectors/drivers/srf02.txt")).unwrap();
     let ran = check(copy.path());
     let log = String::from_utf8_lossy(&ran.stdout).into_owned();
-    assert_eq!(ran.status.code(), Some(1), "{log}");
+    assert_eq!(ran.status.code(), Some(1), "{log}{}", String::from_utf8_lossy(&ran.stderr));
     for driver in ["adxl345:", "as5047p:", "srf02: no vectors"] {
         assert!(log.contains(driver), "{driver} in {log}");
     }

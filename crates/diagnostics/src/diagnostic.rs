@@ -178,6 +178,20 @@ impl Diagnostic {
         self.change(format!("add `{statement}`"), span, statement, Scope::Block)
     }
 
+    /// Adds a way out: a longer cycle time. `delay` is the place of the one that is written; where none is, the statement
+    /// is added to the block in whose head `name` is.
+    pub fn longer_delay(self, name: Span, delay: Option<Span>, needs_ms: &str) -> Self {
+        let statement = format!("delay = {needs_ms} ms;");
+        match delay {
+            Some(delay) => {
+                self.replace(format!("write `{statement}`"), delay, statement.trim_end_matches(';'))
+            }
+            None => {
+                self.change(format!("write `{statement}`"), name, statement.clone(), Scope::Block)
+            }
+        }
+    }
+
     /// Adds a way out as one edit.
     pub fn change(
         mut self,

@@ -180,7 +180,7 @@ static uint8_t upper(uint8_t letter) {
 
 /* Whether the halves in the first two bytes are those of the exclusive or of all others. */
 static bool sums_slamtec(const uint8_t *bytes, size_t size) {
-  const uint8_t found = (uint8_t)((bytes[0] & 0xFU) | (bytes[1] << 4));
+  const uint8_t found = (uint8_t)((bytes[0] & 0xFU) | ((uint32_t)bytes[1] << 4));
 
   return size >= SLAMTEC_SUM_BYTES && up_xor8(&bytes[SLAMTEC_SUM_BYTES], size - SLAMTEC_SUM_BYTES) == found;
 }

@@ -1,7 +1,6 @@
 //! All decisions about the firmware of a board, ready to be printed.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_wire::Direction;
 
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
@@ -14,8 +13,8 @@ use super::peripherals;
 use super::section::{Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
 use sensedsl_firmware_c::{Role, SchemaPlan};
+use sensedsl_job::BoardJob;
 use sensedsl_job::part::uses;
-use sensedsl_job::{BoardJob, JobDevice};
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -76,7 +75,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         schema: SchemaPlan::new(&context.job.schema, Role::Board),
         left_out: left_out(context.job),
         report_ms: link::report_ms(context, &tasks),
-        cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
+        cycles_ms: context.job.cycles_ms(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
         fall_backs: fallback::plan(context),
         button: link::button(context),
@@ -89,12 +88,6 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         tasks,
         link,
     })
-}
-
-fn cycle_ms(device: &JobDevice<'_>) -> u32 {
-    let is_read = device.device.direction == Direction::Sensor;
-    let has_cycle = is_read && device.device.kind.name().spec().has_cycle;
-    if has_cycle { device.cycle.delay_ms } else { 0 }
 }
 
 impl BoardPlan {

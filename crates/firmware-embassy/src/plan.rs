@@ -227,12 +227,6 @@ fn schema(context: &Context<'_>) -> SchemaPlan {
             Checksum::Crc32 => "Checksum::Crc32",
         },
         items: items.collect(),
-        cycles_ms: context.job.devices.iter().map(|one| cycle_ms(one.device)).collect(),
+        cycles_ms: context.job.cycles_ms(),
     }
-}
-
-/// How often a value is read; 0 if it comes by itself, or is set.
-fn cycle_ms(device: &sensedsl_model::design::Device) -> u32 {
-    let is_read = device.direction == Direction::Sensor && device.kind.icu().is_none();
-    if is_read { device.delay_ms } else { 0 }
 }

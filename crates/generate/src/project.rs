@@ -84,14 +84,14 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
         .map(|(on, board)| {
             let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
             let shown = devices.iter().filter_map(|index| design.device(*index));
-            let paced = shown.clone().filter(|device| device.kind.name().spec().comes_each_cycle());
+            let paced = shown.clone().filter_map(|one| Some((one.id.value, one.paced_ms()?)));
             HostBoard {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),
                 baud: board.link.baud,
                 silence_ms: board.link.silence_ms,
                 presentations: shown.map(|one| (one.id.value, one.shown.clone())).collect(),
-                cycles_ms: paced.map(|one| (one.id.value, one.delay_ms)).collect(),
+                cycles_ms: paced.collect(),
             }
         })
         .collect();

@@ -242,6 +242,13 @@ impl<'a> BoardJob<'a> {
         self.profile.map(TargetProfile::system)
     }
 
+    /// How often each device's value can be counted on, in milliseconds; 0 for one that cannot. It is stale when it has
+    /// not come for three of these.
+    #[must_use]
+    pub fn cycles_ms(&self) -> Vec<u32> {
+        self.devices.iter().map(|one| one.device.paced_ms().unwrap_or(0)).collect()
+    }
+
     /// Whether the host sets any value.
     #[must_use]
     pub fn has_actuators(&self) -> bool {

@@ -1,6 +1,6 @@
 //! What was checked, as `JUnit` XML: the form in which build servers show results.
 //!
-//! Suites of cases come in, each with what is wrong with it; a document goes out. `JUnit` has no schema of its own: it
+//! In: test suites, with the failures of each case. Out: a `JUnit` document. `JUnit` has no official schema: this one
 //! has the elements and attributes that Jenkins, GitLab and GitHub's reporters read.
 
 use crate::markup::escaped;

@@ -46,10 +46,7 @@ fn item(design: &Design, device: &Device) -> Option<Value> {
     object.insert("type".into(), scalar.name().into());
     object.insert("length".into(), device.value.value.length.map_or(Value::Null, Value::from));
     object.insert("kind".into(), device.kind.name().name().into());
-    let is_paced =
-        device.direction == Direction::Sensor && device.kind.name().spec().comes_each_cycle();
-    let cycle = is_paced.then_some(device.delay_ms);
-    object.insert("cycle_ms".into(), cycle.map_or(Value::Null, Value::from));
+    object.insert("cycle_ms".into(), device.paced_ms().map_or(Value::Null, Value::from));
     let chip = part.chip.is_some();
     let chip = chip.then(|| json!({ "name": part.name.value, "driver": part.driver }));
     object.insert("chip".into(), chip.unwrap_or_default());

@@ -31,6 +31,7 @@ mod motors;
 mod onewire;
 mod peer;
 mod recorded;
+mod seen;
 mod shows;
 mod stations;
 mod units;

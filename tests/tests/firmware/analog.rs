@@ -51,7 +51,8 @@ fn runtime_says(scratch_name: &str, change: Option<(&str, &str)>) -> Option<(boo
         adc.replace(original, changed)
     });
     std::fs::write(folder.join("up_adc.c"), changed).unwrap();
-    let core = ["convert", "schema", "value", "checksum", "formula_ntc", "text"];
+    let core =
+        ["convert", "schema", "value", "lamps", "letters", "checksum", "formula_ntc", "text"];
     let core = core.map(|name| root.join(format!("crates/firmware-c/runtime/up_{name}.c")));
     let warnings =
         ["-Wall", "-Wextra", "-Wundef", "-Wstrict-prototypes", "-Wconversion", "-Wshadow"];

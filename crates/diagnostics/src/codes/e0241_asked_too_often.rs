@@ -1,7 +1,6 @@
 //! E0241: a part is asked before it may be asked again.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
-use crate::diagnostic::Scope;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -22,11 +21,6 @@ pub fn asked_too_often(
     delay_ms: &str,
     source: Option<Span>,
 ) -> Diagnostic {
-    let title = format!("write `delay = {needs_ms} ms;`");
-    let (at, text, scope) = match delay {
-        Some(delay) => (delay, format!("delay = {needs_ms} ms"), Scope::Text),
-        None => (name, format!("delay = {needs_ms} ms;"), Scope::Block),
-    };
     Diagnostic::new(
         CODE,
         span,
@@ -35,5 +29,5 @@ pub fn asked_too_often(
     .here("read too often")
     .help(format!("write `delay = {needs_ms} ms;` or more, or leave it out"))
     .label(source, format!("left alone for {needs_ms} ms"))
-    .change(title, at, text, scope)
+    .longer_delay(name, delay, needs_ms)
 }

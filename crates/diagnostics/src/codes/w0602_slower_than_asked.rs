@@ -1,7 +1,6 @@
 //! W0602: the device is slower than asked for.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
-use crate::diagnostic::Scope;
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
@@ -22,18 +21,13 @@ pub fn slower_than_asked(
     delay_ms: &str,
     source: Option<Span>,
 ) -> Diagnostic {
-    let title = format!("write `delay = {needs_ms} ms;`");
-    let (at, text, scope) = match delay {
-        Some(delay) => (delay, format!("delay = {needs_ms} ms"), Scope::Text),
-        None => (name, format!("delay = {needs_ms} ms;"), Scope::Block),
-    };
     Diagnostic::new(
         CODE,
         span,
         format!("{device} needs {needs_ms} ms for a measurement and is asked every {delay_ms} ms"),
     )
     .here("asked here")
-    .help(format!("write `delay = {needs_ms};` or more: there are no new values sooner"))
+    .help(format!("write `delay = {needs_ms} ms;` or more: there are no new values sooner"))
     .label(source, format!("waits {needs_ms} ms"))
-    .change(title, at, text, scope)
+    .longer_delay(name, delay, needs_ms)
 }

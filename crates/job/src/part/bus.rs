@@ -44,7 +44,7 @@ pub struct BusPlan {
     pub commands: Vec<CommandPlan>,
     /// The start values of the registers that commands share, one after the other.
     pub kept: Vec<u8>,
-    /// The clock of the bus, if a strip has no clock and so needs a certain one.
+    /// The clock that the bus must run at for a strip of LEDs without a clock line; `None` if any will do.
     pub clock_hz: Option<u32>,
     /// The runtime's formula.
     pub formula: Option<Formula>,

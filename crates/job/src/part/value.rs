@@ -48,7 +48,7 @@ impl ValuePlan {
         }
     }
 
-    /// The coding of what is no words but a text.
+    /// The coding of a value that is sent as text.
     pub(super) const fn none() -> Self {
         Self {
             elements: Vec::new(),

@@ -225,6 +225,16 @@ pub struct Device {
     pub connections: Vec<ConnectionIndex>,
 }
 
+impl Device {
+    /// How often a value can be counted on, in milliseconds; none if it is set, or comes when something happens. What
+    /// counts on its own is told when it has changed.
+    #[must_use]
+    pub fn paced_ms(&self) -> Option<u32> {
+        let is_measured = self.direction == Direction::Sensor;
+        (is_measured && !self.kind.name().spec().triggers_itself).then_some(self.delay_ms)
+    }
+}
+
 /// Wires that belong together: those of a device, of one element of an array, or of one connection
 /// of a chip. One peripheral instance serves them.
 #[derive(Clone, Debug, PartialEq)]

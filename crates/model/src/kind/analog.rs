@@ -19,7 +19,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["samples", "sampling", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
-    has_cycle: true,
     codes: Some((0.0, CONVERTED_MAX)),
     natural: ScalarType::Uint16,
     inputs_have: &[],

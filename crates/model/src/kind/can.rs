@@ -26,7 +26,6 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Bus,
     triggers_itself: false,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],

@@ -18,7 +18,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["failsafe", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
-    has_cycle: true,
     codes: Some((0.0, CONVERTED_MAX)),
     natural: ScalarType::Uint16,
     inputs_have: &[],

@@ -15,7 +15,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["pull", "edge", "active", "debounce", "initial", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Bool,
     inputs_have: &["pull", "edge", "debounce"],

@@ -16,7 +16,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["counts", "a", "b"],
     sharing: Sharing::Own,
     triggers_itself: true,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Int32,
     inputs_have: &[],

@@ -35,7 +35,6 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Addresses,
     triggers_itself: false,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],

@@ -19,7 +19,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["mode", "edge", "resolution", "pulse", "wait", "pin", "trigger"],
     sharing: Sharing::Own,
     triggers_itself: true,
-    has_cycle: false,
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],

@@ -24,7 +24,6 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Own,
     triggers_itself: false,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],

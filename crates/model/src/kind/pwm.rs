@@ -17,7 +17,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["frequency", "min", "max", "failsafe", "pin"],
     sharing: Sharing::Own,
     triggers_itself: false,
-    has_cycle: true,
     codes: Some((0.0, FULL)),
     natural: ScalarType::Uint16,
     inputs_have: &[],

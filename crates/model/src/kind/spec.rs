@@ -23,8 +23,6 @@ pub struct KindSpec {
     pub sharing: Sharing,
     /// Whether the hardware measures on its own, regardless of the cycle time.
     pub triggers_itself: bool,
-    /// Whether a sensor's values come once a cycle; false if only when something happens.
-    pub has_cycle: bool,
     /// The least and the greatest code of a value; none if its type and its bits decide.
     pub codes: Option<(f64, f64)>,
     /// The type of one number of a driver that gives none.
@@ -47,14 +45,6 @@ pub struct KindSpec {
     pub colour_on_dark: &'static str,
     /// Its letter in pictures, for people who cannot distinguish the colours.
     pub letter: char,
-}
-
-impl KindSpec {
-    /// Whether a host can count on a sensor's value each cycle. What counts on its own is told when it has changed.
-    #[must_use]
-    pub fn comes_each_cycle(&self) -> bool {
-        self.has_cycle && !self.triggers_itself
-    }
 }
 
 /// The pins that can be a kind's wires, besides those for which any pin will do.

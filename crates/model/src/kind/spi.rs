@@ -21,7 +21,6 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::BusAndSelect,
     triggers_itself: false,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Uint16,
     inputs_have: &[],

@@ -26,7 +26,6 @@ pub const SPEC: KindSpec = KindSpec {
     ],
     sharing: Sharing::Own,
     triggers_itself: true,
-    has_cycle: true,
     codes: None,
     natural: ScalarType::Int32,
     inputs_have: &[],

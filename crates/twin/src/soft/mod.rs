@@ -21,7 +21,6 @@ use sense_rt::{
 };
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{DeviceIndex, Transport};
-use sensedsl_wire::Direction;
 
 use self::core::{Core, wrapped};
 use crate::bench::Bench;
@@ -435,14 +434,7 @@ impl SoftBoard {
 impl Shape {
     fn new(job: &BoardJob<'_>) -> Self {
         let schema = kept(tables::schema(job));
-        let devices = job.devices.iter();
-        let cycles_ms: Vec<u32> = devices
-            .map(|one| {
-                let is_read = one.device.direction == Direction::Sensor;
-                let has_cycle = is_read && one.device.kind.name().spec().has_cycle;
-                if has_cycle { one.cycle.delay_ms } else { 0 }
-            })
-            .collect();
+        let cycles_ms = job.cycles_ms();
         let filters = job.parts.iter().flat_map(|part| &part.plan.filters).filter_map(|plan| {
             let index = job.devices.iter().position(|one| one.name() == plan.field)?;
             Some((index, kept(tables::filter(plan))))

@@ -115,10 +115,7 @@ fn changes(was: &sensedsl_host::Device, device: &Device, value: Option<f64>) -> 
             short(shown_is)
         ));
     }
-    let is_paced =
-        was.direction == Direction::Sensor && device.kind.name().spec().comes_each_cycle();
-    let cycle_ms = is_paced.then_some(device.delay_ms);
-    if let (Some(was_ms), Some(is_ms)) = (was.cycle_ms, cycle_ms)
+    if let (Some(was_ms), Some(is_ms)) = (was.cycle_ms, device.paced_ms())
         && was_ms != is_ms
     {
         all.push(format!("{name} came every {was_ms} ms and comes every {is_ms} ms"));

@@ -205,6 +205,24 @@ fn wrong_names(judged: &[DeviceFindings]) -> Vec<&str> {
     judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect()
 }
 
+/// A count that does not change comes once a second, whatever `delay` says: the board must not call it stale.
+#[test]
+fn what_is_at_rest_is_not_stale() {
+    for (text, name, value) in [
+        ("sensor Wheel returns int32 { type = encoder; delay = 5 ms; }", "Wheel", "0"),
+        ("sensor Pulses returns uint32 { type = icu; mode = count; delay = 5 ms; }", "Pulses", "0"),
+        ("chip Axis { driver = a4988; delay = 5 ms; }", "AxisPosition", ""),
+    ] {
+        let board = format!("board STM32F407G_DISC1 {{ {text} }}");
+        let world = format!("[devices]\n{name} = {value}\n");
+        let run = plainly(&board, if value.is_empty() { "" } else { &world }, 4);
+        assert_eq!(run.wrong(), [""; 0], "{text}");
+        assert!(run.of(name).reports > 1, "{text}");
+        let is_stale = run.statuses.iter().any(|(_, status)| *status == Status::Stale);
+        assert!(!is_stale, "{text}: {:?}", run.statuses);
+    }
+}
+
 /// A board reports the health of each of its devices once, and of no others.
 #[test]
 fn health_of_other_devices_is_wrong() {

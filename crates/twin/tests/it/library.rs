@@ -21,8 +21,8 @@ fn every_driver_reports_what_the_world_does() {
             continue;
         }
         tried += 1;
-        // Some parts need seconds until they measure.
-        let run = plainly(&text, "", 1 + with_job(&text, pauses_s));
+        // Some parts need seconds until they measure, and others may be asked but once in two.
+        let run = plainly(&text, "", 3 + with_job(&text, pauses_s));
         let silent = run.judged.iter().filter(|one| one.reports == 0).map(|one| &one.name);
         let silent: Vec<_> = silent.collect();
         if !silent.is_empty() {
@@ -64,5 +64,8 @@ fn board(part: &facts::PartFacts) -> String {
         (_, _) => String::new(),
     };
     let (name, board) = (&part.name, facts::example_board(part));
-    format!("board B on {board} {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}")
+    let delay_ms = facts::delay_ms(part).unwrap_or(100);
+    format!(
+        "board B on {board} {{ chip Part {{ driver = {name}; {address} delay = {delay_ms} ms; }} }}"
+    )
 }

@@ -8,7 +8,7 @@ use sensedsl_twin::bench::{Bench, UncheckedIdentity};
 use sensedsl_twin::judge::{DeviceFindings, Judge};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene, World};
-use sensedsl_wire::{Decoder, Direction, Event, Scalar, encode_health_request};
+use sensedsl_wire::{Decoder, Direction, Event, Scalar, Status, encode_health_request};
 
 pub(crate) type Values = Vec<(u8, Vec<Scalar>)>;
 
@@ -18,6 +18,8 @@ pub(crate) struct Run {
     pub(crate) reports: Vec<(u64, Values)>,
     pub(crate) judged: Vec<DeviceFindings>,
     pub(crate) dropped: u64,
+    /// What the board says of its devices at the end, with their numbers.
+    pub(crate) statuses: Vec<(u8, Status)>,
     pub(crate) unasked: Vec<UncheckedIdentity>,
     /// The parts on buses that the board has treated in a way that their drivers do not describe,
     /// each with what happened.
@@ -101,9 +103,10 @@ fn run(
         let mut board = SoftBoard::new(board, bench);
         let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
         let (mut all, mut reports) = (Vec::new(), Vec::new());
-        let (end_ms, mut is_healthy) = (seconds * 1_000, false);
+        let (end_ms, mut statuses) = (seconds * 1_000, Vec::new());
         for ms in 1..=end_ms + 100 {
-            if ms == end_ms {
+            // Not at a full second, at which much comes.
+            if ms == end_ms + 50 {
                 board.link_write(&encode_health_request(&job.schema));
             }
             board.run_until(ms * 1_000_000);
@@ -119,7 +122,7 @@ fn run(
                     judge.answered();
                     let received = judge.received();
                     judge.health(ms * 1_000_000, &output, received);
-                    is_healthy = true;
+                    statuses = output.devices.iter().map(|row| (row.id, row.status)).collect();
                 }
                 Event::Hello(_)
                 | Event::OtherHealth(_)
@@ -127,13 +130,14 @@ fn run(
                 | Event::HealthRequest => {}
             });
         }
-        if !is_healthy {
+        if statuses.is_empty() {
             judge.no_health(board.now_ns(), "the board");
         }
         let judged = judge.finish(board.now_ns());
         let unasked = board.bench().unasked();
         let odd = board.bench().odd_transfers();
-        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes(), unasked, odd }
+        let dropped = decoder.dropped_bytes();
+        Run { bytes: all, reports, judged, dropped, statuses, unasked, odd }
     }
 }
 

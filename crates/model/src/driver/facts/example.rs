@@ -104,7 +104,8 @@ fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
 
 /// A cycle time that suits the part; none if the part sends on its own or is sent to, or if
 /// its driver states one.
-fn delay_ms(part: &PartFacts) -> Option<u32> {
+#[must_use]
+pub fn delay_ms(part: &PartFacts) -> Option<u32> {
     let asked = |one: &&ValueFacts| {
         one.direction == Direction::Sensor && !matches!(one.kind.interface(), Interface::Uart(_))
     };

@@ -27,7 +27,7 @@ use crate::spanned::span;
 use crate::value::constants::Constants;
 
 pub use crate::driver::near::{Near, identifier};
-pub use example::{EXAMPLE_BOARD, example, example_board, example_on, snippet};
+pub use example::{EXAMPLE_BOARD, delay_ms, example, example_board, example_on, snippet};
 pub use source::source;
 
 /// A part of the library.

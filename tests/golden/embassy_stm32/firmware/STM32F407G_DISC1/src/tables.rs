@@ -68,7 +68,7 @@ pub const SCHEMA: Schema = Schema {
 };
 
 /// How often each is read, in milliseconds; 0: when something happens.
-pub const CYCLES_MS: &[u32] = &[20, 100, 20, 0, 10, 0, 1000, 50, 1000, 20, 20, 0, 0, 0, 1000, 0, 0];
+pub const CYCLES_MS: &[u32] = &[20, 100, 20, 0, 10, 0, 0, 50, 1000, 20, 20, 0, 0, 0, 0, 0, 0];
 
 // The tasks that the watchdog watches.
 pub const ADC1_20MS: usize = 0;
