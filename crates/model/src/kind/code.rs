@@ -15,7 +15,6 @@ pub const SPEC: KindSpec = KindSpec {
     properties: &["default", "store"],
     sharing: Sharing::Own,
     triggers_itself: true,
-    has_cycle: false,
     codes: None,
     natural: ScalarType::Float32,
     inputs_have: &[],
