@@ -68,7 +68,8 @@ pub fn controllers(job: &BoardJob<'_>) -> Vec<ControllerPlan> {
 
 fn of_controller(job: &BoardJob<'_>, one: &JobController<'_>) -> ControllerPlan {
     let fields = |list: &[usize]| {
-        let all = list.iter().filter_map(|index| Some(FieldPlan::new(*index, job.devices.get(*index)?)));
+        let all =
+            list.iter().filter_map(|index| Some(FieldPlan::new(*index, job.devices.get(*index)?)));
         all.collect()
     };
     ControllerPlan {

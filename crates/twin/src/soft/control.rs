@@ -1,7 +1,7 @@
 //! The user's code on a board: the newest values in, what its steps set out. The code itself runs elsewhere.
 
 use sense_rt::{Outcome, Status};
-use sensedsl_job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_wire::Direction;
 
 use super::core::{Core, wrapped};
@@ -21,17 +21,6 @@ pub trait UserCode {
     /// # Errors
     /// Why there is no answer, for people.
     fn step(&mut self, which: u8, request: &[u8], answer: &mut [u8]) -> Result<(), String>;
-}
-
-/// Whom a device belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Owner {
-    /// The host, or hardware.
-    Other,
-    /// A controller; what the host commands is refused.
-    Code,
-    /// A controller, unless the host has commanded something and still speaks.
-    CodeOrHost,
 }
 
 /// A controller's cycle and its devices, by place in the schema.
@@ -86,19 +75,9 @@ impl Controllers {
                 .collect(),
             sets: one.sets.iter().map(|&index| (index, bytes(index))).collect(),
         };
-        let mut owners = vec![Owner::Other; job.devices.len()];
-        for one in &job.controllers {
-            let owner =
-                if one.controller.host_overrides { Owner::CodeOrHost } else { Owner::Code };
-            for &index in &one.sets {
-                if let Some(place) = owners.get_mut(index) {
-                    *place = owner;
-                }
-            }
-        }
         Self {
             all: job.controllers.iter().map(of).collect(),
-            owners,
+            owners: (0..job.devices.len()).map(|index| job.owner(index)).collect(),
             first: job.devices.iter().enumerate().filter_map(first).collect(),
         }
     }

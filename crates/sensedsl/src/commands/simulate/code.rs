@@ -42,12 +42,14 @@ pub(super) fn build(
     };
     let into = folder.join("build").join("native");
     let generated = into.join("generated");
-    std::fs::create_dir_all(&generated).with_context(|| format!("cannot make {}", shown(&generated)))?;
+    std::fs::create_dir_all(&generated)
+        .with_context(|| format!("cannot make {}", shown(&generated)))?;
     let mut all = headers(&job.board.name.value, &plans);
     all.add("native.c", native_c(job));
     for (name, file) in all.iter() {
         let path = generated.join(name);
-        std::fs::write(&path, &file.bytes).with_context(|| format!("cannot write {}", shown(&path)))?;
+        std::fs::write(&path, &file.bytes)
+            .with_context(|| format!("cannot write {}", shown(&path)))?;
     }
     let program = into.join("controllers");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
@@ -56,7 +58,8 @@ pub(super) fn build(
     command.args(["-std=c11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
     command.args(flags.split_whitespace()).args(&sources).arg(generated.join("native.c"));
     command.arg("-o").arg(&program).arg("-lm").stdin(Stdio::null());
-    let refused = |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
+    let refused =
+        |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
     match command.status() {
         Ok(status) if status.success() => Ok(Ok(Built { program })),
         Ok(status) => refused(&format!("{compiler} ended with {status}")),
@@ -151,7 +154,9 @@ impl Talk {
 
     /// How the program ended.
     fn why(&mut self) -> String {
-        self.child.wait().map_or_else(|why| why.to_string(), |status| format!("it ended with {status}"))
+        self.child
+            .wait()
+            .map_or_else(|why| why.to_string(), |status| format!("it ended with {status}"))
     }
 }
 

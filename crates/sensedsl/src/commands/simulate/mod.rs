@@ -24,11 +24,11 @@ mod world;
 use std::path::Path;
 
 use anyhow::Result;
-use sensedsl_diagnostics::codes::{e0519_which_board, e0536_user_code_stopped};
 #[cfg(feature = "twin")]
 use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
 use sensedsl_diagnostics::codes::e0547_no_machine;
+use sensedsl_diagnostics::codes::{e0519_which_board, e0536_user_code_stopped};
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_job::{BoardJob, jobs};
 #[cfg(feature = "twin")]
@@ -36,9 +36,9 @@ use sensedsl_machine::Mcu;
 use sensedsl_model::FileUse;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
-use sensedsl_twin::soft::UserCode;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
+use sensedsl_twin::soft::UserCode;
 
 use super::input;
 use crate::cli::{On, SimulateArgs};
@@ -162,7 +162,10 @@ fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Bo
     let folder = args.code.clone().unwrap_or_else(usual);
     if args.code.is_none() && !folder.is_dir() {
         let names: Vec<&str> = job.controllers.iter().map(|one| one.ident.as_str()).collect();
-        let missing = format!("no code of {}: it sets nothing. `sensedsl generate` makes its first file", names.join(", "));
+        let missing = format!(
+            "no code of {}: it sets nothing. `sensedsl generate` makes its first file",
+            names.join(", ")
+        );
         scenery.terminal.aside(&missing)?;
         return Ok(Ok(None));
     }
