@@ -14,6 +14,9 @@
 /* The guard wakes once in the shortest cycle, and lets a controller miss one. */
 #define MISSED_CYCLES 2U
 
+/* How often an unchanged count is reported. */
+#define REPEAT_MS 1000U
+
 static const up_controls_t *all;
 static mutex_t lock;
 static uint8_t is_hosts[UP_FIELD_BITMAP_BYTES];
@@ -151,10 +154,11 @@ static uint32_t clock_us(systime_t since) {
 }
 #endif
 
-static void count_late(const up_control_t *control) {
-  uint32_t late = ++control->state->late;
+static void tell(const up_control_t *control) {
+  uint32_t late = control->state->late;
 
   up_result(control->field, UP_FRESH, &late);
+  control->state->told_ms = up_now_ms();
 }
 
 void up_control_cycle(const void *work) {
@@ -176,7 +180,10 @@ void up_control_cycle(const void *work) {
   }
   /* A cycle was left out, or the step itself took too long. */
   if ((uint32_t)since >= every + (every + 1U) / 2U || took_us > control->takes_us) {
-    count_late(control);
+    state->late++;
+    tell(control);
+  } else if (up_now_ms() - state->told_ms >= REPEAT_MS) {
+    tell(control);
   } else {
     up_note_good(control->field);
   }
@@ -201,7 +208,8 @@ static void look_at(const up_control_t *control) {
     control->fall_back();
     up_io_unlock();
   }
-  count_late(control);
+  state->late++;
+  tell(control);
 }
 
 static THD_FUNCTION(guard, argument) {

@@ -21,6 +21,7 @@ typedef enum {
 typedef struct {
   systime_t began;
   uint32_t ended_ms;
+  uint32_t told_ms;
   uint32_t late;
   bool has_begun;
   bool has_hung; /* what it sets has fallen back */

@@ -23,6 +23,9 @@ pub trait UserCode {
     fn step(&mut self, which: u8, request: &[u8], answer: &mut [u8]) -> Result<(), String>;
 }
 
+/// How often an unchanged count is reported.
+const REPEAT_MS: u64 = 1_000;
+
 /// A controller's cycle and its devices, by place in the schema.
 #[derive(Clone, Debug)]
 struct Loop {
@@ -109,14 +112,23 @@ impl Controllers {
             let mut answer = vec![0; one.sets.iter().map(|(_, bytes)| 1 + bytes).sum()];
             code.step(which, &request, &mut answer)?;
             set.extend(one.answered(&answer));
-            let now_ms = core.now_ms;
-            core.health.note(one.own, Outcome::Fresh, now_ms);
+            one.count(core, since_ms);
         }
         Ok(set)
     }
 }
 
 impl Loop {
+    /// A step was in time. What counts those that were not is told now and then, though nothing has changed.
+    fn count(&self, core: &mut Core, since_ms: u64) {
+        let steps = REPEAT_MS.div_ceil(self.every_ms);
+        let late = core.store.get(self.own).map(<[u8]>::to_vec);
+        match late.filter(|_| (since_ms / self.every_ms).is_multiple_of(steps)) {
+            Some(mut late) => core.record(self.own, Outcome::Fresh, &mut late),
+            None => core.health.note(self.own, Outcome::Fresh, core.now_ms),
+        }
+    }
+
     fn request(&self, core: &Core, dt_us: u32) -> Vec<u8> {
         let mut bytes = dt_us.to_be_bytes().to_vec();
         for input in &self.reads {

@@ -55,7 +55,7 @@ pub(super) fn build(
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     let flags = std::env::var("CFLAGS").unwrap_or_default();
     let mut command = Command::new(&compiler);
-    command.args(["-std=c11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
+    command.args(["-std=gnu11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
     command.args(flags.split_whitespace()).args(&sources).arg(generated.join("native.c"));
     command.arg("-o").arg(&program).arg("-lm").stdin(Stdio::null());
     let refused =
