@@ -197,6 +197,11 @@ impl Machine {
         std::mem::take(&mut self.core.chip().wires.events)
     }
 
+    /// What is around the MCU may have other edges to come than those that it was asked for.
+    pub fn surroundings_changed(&mut self) {
+        self.core.chip().wires.version += 1;
+    }
+
     /// Takes the supply away or gives it back: as after a brown-out, the program starts again and memory is lost.
     pub fn power(&mut self, is_on: bool) {
         self.core.power(is_on);

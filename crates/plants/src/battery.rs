@@ -36,6 +36,12 @@ impl Battery {
         }
     }
 
+    /// Amperes; negative while it is charged.
+    #[must_use]
+    pub const fn amperes(&self) -> f64 {
+        self.amperes
+    }
+
     /// Volts at its contacts.
     #[must_use]
     pub fn volts(&self) -> f64 {

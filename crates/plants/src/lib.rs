@@ -18,7 +18,7 @@ pub use balancer::{Balancer, BalancerFacts};
 pub use battery::{Battery, BatteryFacts};
 pub use drive::{Drive, DriveFacts, Pose};
 pub use heater::{Heater, HeaterFacts};
-pub use map::{Map, Point};
+pub use map::{Map, Point, Stroke};
 pub use motor::{Motor, MotorFacts};
 pub use servo::{Servo, ServoFacts};
 pub use shapes::{MapError, read};

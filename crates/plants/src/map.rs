@@ -23,6 +23,17 @@ pub(crate) struct Line {
     pub(crate) half_width_m: f64,
 }
 
+/// A line or a wall as it is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// The ends of each straight piece.
+    pub pieces: Vec<(Point, Point)>,
+    /// How wide it is, in metres; walls have no width.
+    pub width_m: f64,
+    /// Whether it stops a robot.
+    pub is_wall: bool,
+}
+
 /// Lines and walls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Map {
@@ -33,6 +44,28 @@ pub struct Map {
 }
 
 impl Map {
+    /// All lines, then all walls.
+    #[must_use]
+    pub fn strokes(&self) -> Vec<Stroke> {
+        let ends = |pieces: &[Piece]| pieces.iter().map(|one| (one.from, one.to)).collect();
+        let line = |line: &Line| Stroke {
+            pieces: ends(&line.pieces),
+            width_m: 2.0 * line.half_width_m,
+            is_wall: false,
+        };
+        let walls = Stroke { pieces: ends(&self.walls), width_m: 0.0, is_wall: true };
+        self.lines.iter().map(line).chain((!self.walls.is_empty()).then_some(walls)).collect()
+    }
+
+    /// Where its first line begins, and where that goes (radians, counter-clockwise from the right); `None` without
+    /// lines.
+    #[must_use]
+    pub fn begin(&self) -> Option<(Point, f64)> {
+        let first = self.lines.first()?.pieces.first()?;
+        let (dx, dy) = (first.to.x - first.from.x, first.to.y - first.from.y);
+        Some((first.from, libm::atan2(dy, dx)))
+    }
+
     /// How dark the floor is under a round spot: 0 beside all lines, 1 on one, and in between while the spot is over an
     /// edge.
     #[must_use]

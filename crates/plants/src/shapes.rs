@@ -2,8 +2,8 @@
 //!
 //! An element is a line or a wall if its `class`, or that of a group around it, says so; anything else is decoration.
 //! Paths, lines, polylines, polygons, rectangles, circles and ellipses count, moved by `transform` of themselves and of
-//! their groups. A line is as wide as its `stroke-width`. The drawing is as large as its `width` says (`2000mm`, `2m`,
-//! `200cm`); without a unit, a user unit is a millimetre.
+//! their groups. A line is as wide as its `stroke-width`. The drawing is as large as its `width` or its `height` says
+//! (`2000mm`, `2m`, `200cm`); without a unit it has no scale, and is not a map.
 
 use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Rect, Shape as _};
 use roxmltree::{Document, Node};
@@ -44,7 +44,7 @@ enum Class {
 ///
 /// # Errors
 ///
-/// The text is not SVG, a shape cannot be read, it has neither lines nor walls, or too many of them.
+/// The text is not SVG, a shape cannot be read, it has neither lines nor walls, or too many of them, or no scale.
 pub fn read(text: &str) -> Result<Map, MapError> {
     let document = Document::parse(text).map_err(|error| MapError {
         at: offset(text, error.pos()),
@@ -64,6 +64,9 @@ pub fn read(text: &str) -> Result<Map, MapError> {
     if map.lines.is_empty() && map.walls.is_empty() {
         return Err(wrong("nothing in it has the class `line` or `wall`"));
     }
+    if !has_scale(root) {
+        return Err(wrong("it has no scale: its `width` needs a unit, such as `2000mm`"));
+    }
     Ok(map)
 }
 
@@ -72,6 +75,13 @@ fn offset(text: &str, at: roxmltree::TextPos) -> usize {
     let before: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
     let column = usize::try_from(at.col).unwrap_or(1).saturating_sub(1);
     (before + column).min(text.len())
+}
+
+/// Whether the width or the height of the drawing has a unit that is a length outside of a screen.
+fn has_scale(root: Node<'_, '_>) -> bool {
+    let sizes = ["width", "height"].into_iter().filter_map(|name| root.attribute(name));
+    let mut texts = sizes.map(str::trim);
+    texts.any(|text| text.ends_with('m') || text.ends_with("in"))
 }
 
 type Frame = (f64, (f64, f64), (f64, f64));
@@ -140,7 +150,7 @@ fn element(
             _ => {}
         }
     }
-    if let Some(text) = node.attribute("stroke-width") {
+    if let Some(text) = stroke_width(node) {
         let width = text.trim().trim_end_matches("px").parse();
         around.width =
             width.map_err(|_| wrong(format!("`stroke-width` is not a number: `{text}`")))?;
@@ -157,6 +167,14 @@ fn element(
         element(child, around, scale, depth + 1, map)?;
     }
     Ok(())
+}
+
+/// The width of its stroke, as an attribute or in its style, where Inkscape writes it.
+fn stroke_width<'n>(node: Node<'n, '_>) -> Option<&'n str> {
+    let styles = node.attribute("style").unwrap_or_default().split(';');
+    let mut pairs = styles.filter_map(|one| one.split_once(':'));
+    let of_style = pairs.find(|(name, _)| name.trim() == "stroke-width").map(|(_, value)| value);
+    of_style.or_else(|| node.attribute("stroke-width"))
 }
 
 /// The outline of an element; `None` if it has none.
@@ -301,6 +319,18 @@ mod tests {
     }
 
     #[test]
+    fn a_width_may_be_in_the_style() {
+        let text = "<svg xmlns='x' width='1m' viewBox='0 0 1000 1000'>
+            <path class='line' style='fill:none;stroke-width:20px' d='M0 500 H1000'/></svg>";
+        let map = read(text).unwrap();
+        assert_eq!(map.darkness(Point { x: 0.5, y: -0.509 }, 0.0), 1.0);
+        assert_eq!(map.darkness(Point { x: 0.5, y: -0.511 }, 0.0), 0.0);
+        assert_eq!(map.begin(), Some((Point { x: 0.0, y: -0.5 }, 0.0)));
+        let [stroke] = map.strokes().try_into().unwrap();
+        assert!((stroke.width_m - 0.02).abs() < 1e-12 && !stroke.is_wall);
+    }
+
+    #[test]
     fn what_is_no_map_is_told_with_its_place() {
         for (text, why) in [
             ("<svg", "this is not SVG"),
@@ -309,6 +339,8 @@ mod tests {
             ("<svg xmlns='x'><path class='line' d='M0 0 X'/></svg>", "the path cannot be read"),
             ("<svg xmlns='x'><circle class='wall' r='big'/></svg>", "`r` is not a number"),
             ("<svg xmlns='x' width='wide'/>", "must be lengths"),
+            ("<svg xmlns='x' width='2000'><path class='line' d='M0 0 H9'/></svg>", "no scale"),
+            ("<svg xmlns='x'><path class='line' d='M0 0 H9'/></svg>", "no scale"),
             ("<svg xmlns='x'><g transform='bend(3)'/></svg>", "`transform` cannot be read"),
         ] {
             let error = read(text).unwrap_err();

@@ -32,6 +32,7 @@ pub mod junit;
 mod markup;
 mod place;
 mod rows;
+pub mod run;
 pub mod schema;
 pub mod sheet;
 pub mod svg;

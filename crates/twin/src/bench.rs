@@ -17,6 +17,7 @@ use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, dialogue, formula, message, onewire as onewire_part};
+use crate::plants::SharedPlants;
 use crate::range::is_counter;
 use crate::truth::Subject;
 use crate::world::{FaultKind, World, usual};
@@ -30,6 +31,7 @@ mod mcu;
 mod motors;
 mod onewire;
 mod peer;
+mod planted;
 mod recorded;
 mod seen;
 mod shows;
@@ -74,6 +76,10 @@ pub struct Bench {
     units: Units,
     /// The peer on the CAN buses that replaces the world's stations.
     peer: Option<Peer>,
+    /// What turns the outputs into what sensors measure.
+    pub(crate) plants: Option<SharedPlants>,
+    /// What parts on buses were told, if the board says so.
+    codes: BTreeMap<DeviceIndex, Vec<f64>>,
     seed: u64,
     log: Option<log::Log>,
 }
@@ -122,6 +128,8 @@ impl Bench {
             held: Held::default(),
             units: Units::new(job),
             peer: None,
+            plants: SharedPlants::new(job, world),
+            codes: BTreeMap::new(),
             seed,
             log: None,
         };

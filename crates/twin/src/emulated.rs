@@ -34,6 +34,8 @@ const RESETS_MAX: u32 = 3;
 pub struct EmulatedBoard {
     machine: Machine,
     bench: Arc<Mutex<Bench>>,
+    /// Whether something follows what the board does.
+    is_planted: bool,
     planned: Vec<Planned>,
     ports: Vec<PlannedPort>,
     garbage: Vec<u8>,
@@ -77,6 +79,7 @@ impl EmulatedBoard {
             (Transport::Uart, Some(unit)) => LinkPort::Serial(unit),
             (Transport::Uart | Transport::Usb | Transport::None, _) => LinkPort::Usb,
         };
+        let is_planted = bench.has_plants();
         let bench = Arc::new(Mutex::new(bench));
         let crystal_hz = job.board.facts.as_ref().and_then(|facts| facts.crystal.hse_hz);
         let part = job.board.mcu.as_deref().unwrap_or("MCU that nobody knows");
@@ -87,6 +90,7 @@ impl EmulatedBoard {
         Ok(Self {
             machine,
             bench,
+            is_planted,
             planned: planned(job, mcu.numbers_functions()),
             ports: ports::planned(job),
             garbage: Vec::new(),
@@ -132,6 +136,10 @@ impl EmulatedBoard {
             self.garbage_ms += 1;
             let now_ns = self.garbage_ms * MS_NS;
             self.supply(now_ns);
+            if self.is_planted {
+                self.bench().advance(now_ns);
+                self.machine.surroundings_changed();
+            }
             self.machine.run_until(now_ns);
             let garbage = self.bench().garbage(now_ns);
             self.garbage.extend(garbage);
@@ -141,6 +149,11 @@ impl EmulatedBoard {
         }
         self.machine.run_until(until_ns);
         self.follow();
+    }
+
+    /// What went wrong with a program of the world, said once.
+    pub fn trouble(&self) -> Option<crate::plants::Trouble> {
+        self.bench().trouble()
     }
 
     /// Takes the supply away and gives it back, as the world says.

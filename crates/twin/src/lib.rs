@@ -6,7 +6,7 @@
 //! [`Surroundings`](sensedsl_surroundings::Surroundings) is the interface: an emulated MCU (feature `machine`) asks for
 //! the signals on its pads and buses, and the parts here answer.
 //!
-//! [`world`] describes what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's
+//! [`world`] describes what happens around a board, [`plants`] turn what it does into what it measures, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's
 //! job in this program with [`tables`] of its parts, `emulated` does it with an image on the machine, and [`judge`]
 //! compares the board's reports with the world. Nothing in this crate reads a file or a clock.
 //!
@@ -63,6 +63,7 @@ pub mod judge;
 #[cfg(feature = "machine")]
 pub mod pads;
 mod parts;
+pub mod plants;
 #[cfg(feature = "machine")]
 mod ports;
 pub mod range;

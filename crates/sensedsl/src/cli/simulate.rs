@@ -58,6 +58,12 @@ pub(crate) struct SimulateArgs {
     /// Write all bytes that the board sends to a file
     #[arg(long, value_name = "FILE")]
     pub(crate) frames: Option<PathBuf>,
+    /// Record what the board reports and what its actuators are set to (MCAP): for `convert`, for `--world`
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
+    /// At the end, draw what the world's plants did (SVG): the path on the map, and the signals over time
+    #[arg(long, value_name = "FILE", requires = "world")]
+    pub(crate) picture: Option<PathBuf>,
     /// Make an adapter (slcan) of each CAN bus on a pseudo-terminal, and leave the devices on it to
     /// whoever opens it
     #[cfg(unix)]

@@ -24,8 +24,13 @@ const REAL_MAX: f64 = 1_000.0;
 
 /// The values of every actuator of a board, in the order of its devices: steps, and in each a value for each element.
 pub(super) fn usual(job: &BoardJob<'_>) -> Vec<(usize, Vec<Vec<Scalar>>)> {
+    // What code sets, the host does not; and other parameters would be another robot's.
+    let owned = |index: usize| job.controllers.iter().any(|one| one.sets.contains(&index));
     let actuators = job.devices.iter().enumerate();
-    let actuators = actuators.filter(|(_, one)| one.device.direction == Direction::Actuator);
+    let actuators = actuators.filter(|(index, one)| {
+        let is_free = !owned(*index) && one.device.kind.code().is_none();
+        one.device.direction == Direction::Actuator && is_free
+    });
     let actuators: Vec<(usize, &JobDevice<'_>)> = actuators.collect();
     let count = |(_, one): &(usize, &JobDevice<'_>)| one.device.value.value.count();
     let total: usize = actuators.iter().filter(|one| is_switch(one.1)).map(count).sum();

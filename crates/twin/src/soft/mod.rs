@@ -21,6 +21,7 @@ use sense_rt::{
 };
 use sensedsl_job::{BoardJob, Owner};
 use sensedsl_model::design::{DeviceIndex, Transport};
+use sensedsl_wire::ScalarType;
 
 use self::core::{Core, wrapped};
 use crate::bench::Bench;
@@ -47,7 +48,7 @@ pub struct SoftBoard {
     state: State,
     now_ms: u64,
     link: Link,
-    /// The values that the host has set: milliseconds, the device's place in the schema, the value's bytes.
+    /// The values that the host or the user's code has set: milliseconds, the device's place in the schema, the value's bytes.
     received: Vec<(u64, usize, Vec<u8>)>,
     starts: u32,
     code: Option<Box<dyn UserCode>>,
@@ -75,6 +76,8 @@ struct Shape {
     encoders: Vec<Encoders>,
     outputs: Outputs,
     controllers: Controllers,
+    /// The devices in the order of the schema, with the types of their elements.
+    devices: Vec<(DeviceIndex, ScalarType)>,
 }
 
 /// The parts of a board that a restart resets.
@@ -160,7 +163,10 @@ impl Side<'_> {
             Some(sense_rt::Direction::ToHost) => {
                 self.core.record(index, Outcome::Fresh, &mut value.to_vec());
             }
-            Some(sense_rt::Direction::ToBoard) | None => self.put(index, value),
+            Some(sense_rt::Direction::ToBoard) | None => {
+                self.put(index, value);
+                self.received.push((self.now_ms, index, value.to_vec()));
+            }
         }
     }
 
@@ -294,8 +300,8 @@ impl SoftBoard {
         self.link.sent.drain(..).collect()
     }
 
-    /// The values that the host has set since the last call: milliseconds, the device's place in the schema, the
-    /// value's bytes.
+    /// The values that the host or the user's code has set since the last call: milliseconds, the device's place in the
+    /// schema, the value's bytes.
     pub fn received(&mut self) -> Vec<(u64, usize, Vec<u8>)> {
         std::mem::take(&mut self.received)
     }
@@ -311,6 +317,7 @@ impl SoftBoard {
     fn step(&mut self) {
         self.now_ms += 1;
         let now_ns = self.now_ns();
+        self.bench.advance(now_ns);
         if self.bench.is_off(now_ns) {
             self.state.began_ms = u64::MAX;
             self.link.queue.clear();
@@ -411,6 +418,10 @@ impl SoftBoard {
         let now_ns = self.now_ms * MS_NS;
         let State { outputs, owed, .. } = &mut self.state;
         for (index, value) in std::mem::take(owed) {
+            if let Some((device, of)) = self.shape.devices.get(index) {
+                let all = value.chunks_exact(of.size_bytes()).filter_map(|one| of.read(one));
+                self.bench.tell(*device, all.map(crate::truth::real).collect());
+            }
             outputs.set(index, &value, &mut self.bench, now_ns);
         }
         outputs.repeat(&mut self.bench, now_ns);
@@ -463,6 +474,11 @@ impl Shape {
             encoders: sensors::encoders(job),
             outputs: Outputs::new(job, schema),
             controllers: Controllers::new(job),
+            devices: job
+                .devices
+                .iter()
+                .map(|one| (one.index, one.device.value.value.scalar))
+                .collect(),
             cycles_ms: cycles_ms.leak(),
         }
     }

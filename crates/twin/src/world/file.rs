@@ -118,14 +118,19 @@ impl<'a> Reader<'a> {
                 "devices" => self.devices(value),
                 "fault" => self.faults(value),
                 "command" => self.commands(value),
+                "plants" => {}
                 other => {
-                    let all = ["seed", "devices", "fault", "command"];
+                    let all = ["seed", "devices", "plants", "fault", "command"];
                     let near = nearest(other, all);
                     let span = self.span(key);
-                    let list = "`seed`, `[devices]`, `[[fault]]` and `[[command]]`";
+                    let list =
+                        "`seed`, `[devices]`, `[plants.NAME]`, `[[fault]]` and `[[command]]`";
                     self.reported.push(unknown::unknown_word(span, other, "a world", near, list));
                 }
             }
+        }
+        if let Some(plants) = table.get("plants") {
+            self.plants(plants);
         }
     }
 

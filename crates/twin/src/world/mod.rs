@@ -5,12 +5,15 @@
 //! diagnostics with places. A sensor that the text does not name has its [usual](usual()) signal.
 
 mod command;
+mod course;
 mod entry;
 mod fault;
 mod file;
+mod plants;
 mod recorded;
 mod samples;
 mod signal;
+mod units;
 mod usual;
 
 use std::collections::BTreeMap;
@@ -18,7 +21,9 @@ use std::collections::BTreeMap;
 use sensedsl_model::design::DeviceIndex;
 
 use crate::commands::Command;
+use crate::plants::Plant;
 
+pub use course::Course;
 pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
 pub use recorded::{Again, Point, Recorded, recorded};
@@ -36,6 +41,8 @@ pub struct World {
     pub faults: Vec<Fault>,
     /// The host's commands, in the order of the text.
     pub commands: Vec<Command>,
+    /// What turns the board's outputs into what its sensors measure; one that drives another comes before it.
+    pub plants: Vec<Plant>,
     /// The length of the run that it is a record of.
     pub lasts_ns: Option<u64>,
 }

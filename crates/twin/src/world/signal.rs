@@ -1,5 +1,6 @@
 //! A quantity of the world over time: its value at each moment, and its range in a span.
 
+use super::course::Course;
 use crate::arith::{TURN, chance, number, sine};
 use crate::commands::track::Track;
 
@@ -80,6 +81,8 @@ pub enum Shape {
     },
     /// It is where the board has moved a motor to.
     Walked(Track),
+    /// It is what a plant makes of it.
+    Followed(Course),
 }
 
 /// The value that a quantity has during a visit.
@@ -146,6 +149,9 @@ impl Signal {
         match &self.shape {
             Shape::Rate { a_second, .. } if *a_second != 0.0 => None,
             Shape::Walked(_) => None,
+            Shape::Followed(course) => {
+                course.bounds().map(|(least, most)| (least - self.noise, most + self.noise))
+            }
             Shape::Constant(_)
             | Shape::Ramp { .. }
             | Shape::Sine { .. }
@@ -174,6 +180,7 @@ impl Signal {
             | Shape::Sine { .. }
             | Shape::Square { .. }
             | Shape::Visits { .. }
+            | Shape::Followed(_)
             | Shape::Walked(_) => None,
         }
     }
@@ -188,6 +195,7 @@ impl Signal {
             | Shape::Rate { .. }
             | Shape::Points { .. }
             | Shape::Visits { .. }
+            | Shape::Followed(_)
             | Shape::Walked(_) => None,
         }
     }
@@ -209,9 +217,11 @@ impl Signal {
                     _ => None,
                 })
                 .fold(0.0, f64::max),
-            Shape::Constant(_) | Shape::Square { .. } | Shape::Visits { .. } | Shape::Walked(_) => {
-                0.0
-            }
+            Shape::Constant(_)
+            | Shape::Square { .. }
+            | Shape::Visits { .. }
+            | Shape::Followed(_)
+            | Shape::Walked(_) => 0.0,
         };
         shape + a_second(0.0, 2.0 * self.noise, NOISE_NS)
     }
@@ -226,7 +236,7 @@ impl Signal {
             Shape::Sine { amplitude, .. } => *amplitude != 0.0,
             Shape::Square { first, second, .. } => first != second,
             Shape::Points { points, .. } => !points.is_sorted_by(|one, next| one.1 <= next.1),
-            Shape::Visits { .. } | Shape::Walked(_) => true,
+            Shape::Visits { .. } | Shape::Walked(_) | Shape::Followed(_) => true,
         }
     }
 }
@@ -257,6 +267,7 @@ impl Shape {
                 if is_there { to.of(value) } else { value }
             }
             Self::Walked(track) => track.at(now_ns),
+            Self::Followed(course) => course.at(now_ns),
         }
     }
 
@@ -265,9 +276,16 @@ impl Shape {
         if let Self::Walked(track) = self {
             return track.range(from_ns, to_ns);
         }
+        if let Self::Followed(course) = self {
+            return course.range(from_ns, to_ns);
+        }
         let mut take = |value: f64| range = (range.0.min(value), range.1.max(value));
         match self {
-            Self::Constant(_) | Self::Ramp { .. } | Self::Rate { .. } | Self::Walked(_) => {}
+            Self::Constant(_)
+            | Self::Ramp { .. }
+            | Self::Rate { .. }
+            | Self::Walked(_)
+            | Self::Followed(_) => {}
             Self::Visits { base, every_ns, for_ns, to } => {
                 let every_ns = (*every_ns).max(1);
                 let (least, greatest) = base.range(from_ns, to_ns);

@@ -11,6 +11,7 @@ mod lamps;
 mod library;
 mod mistakes;
 mod motors;
+mod plants;
 mod ranges;
 mod run;
 #[cfg(feature = "machine")]

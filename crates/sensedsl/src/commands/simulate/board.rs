@@ -1,10 +1,11 @@
 //! The simulated board: its job in this program, or a firmware image on an emulated MCU.
 
-use sensedsl_diagnostics::codes::e0536_user_code_stopped;
+use sensedsl_diagnostics::codes::{e0536_user_code_stopped, e0573_process_failed};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
 use sensedsl_twin::bench::{Bench, UncheckedIdentity};
 use sensedsl_twin::commands::outputs::Outputs;
+use sensedsl_twin::plants::Trouble;
 use sensedsl_twin::soft::{SoftBoard, UserCode};
 
 /// A board, however it is simulated.
@@ -54,6 +55,16 @@ pub(super) trait Board {
     }
 }
 
+/// A program of the world has failed.
+pub(super) fn failed(at: Span, trouble: &Trouble) -> Diagnostic {
+    let seconds = moment(trouble.at_ns);
+    e0573_process_failed::process_failed(at, &trouble.plant, &seconds, &trouble.why)
+}
+
+fn moment(ns: u64) -> String {
+    format!("{}.{:03} s", ns / 1_000_000_000, ns / 1_000_000 % 1_000)
+}
+
 impl Board for SoftBoard {
     fn run_until(&mut self, until_ns: u64) {
         SoftBoard::run_until(self, until_ns);
@@ -78,10 +89,10 @@ impl Board for SoftBoard {
 
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
         let report = |(ns, why): (u64, String)| {
-            let seconds = format!("{}.{:03} s", ns / 1_000_000_000, ns / 1_000_000 % 1_000);
-            e0536_user_code_stopped::user_code_stopped(at, &seconds, &why)
+            e0536_user_code_stopped::user_code_stopped(at, &moment(ns), &why)
         };
-        self.code_ended().map(report).into_iter().collect()
+        let code = self.code_ended().map(report);
+        code.into_iter().chain(self.bench().trouble().map(|one| failed(at, &one))).collect()
     }
 
     fn outputs(&self) -> Outputs {

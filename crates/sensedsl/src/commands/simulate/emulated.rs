@@ -8,7 +8,7 @@ use sensedsl_twin::bench::{UncheckedIdentity, seconds};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::emulated::EmulatedBoard;
 
-use super::board::Board;
+use super::board::{Board, failed};
 
 impl Board for EmulatedBoard {
     fn run_until(&mut self, until_ns: u64) {
@@ -61,7 +61,8 @@ impl Board for EmulatedBoard {
         let reported = reported
             .map(|one| not_as_planned(at, &one.title, &one.place, &one.expected, &one.found, &now));
         let watchdog = self.unwatched().map(|found| no_watchdog(at, &found, &now));
-        reported.chain(watchdog).collect()
+        let program = self.trouble().map(|one| failed(at, &one));
+        reported.chain(watchdog).chain(program).collect()
     }
 
     fn news(&mut self) -> Vec<String> {

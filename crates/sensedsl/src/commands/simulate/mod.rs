@@ -9,6 +9,8 @@ mod commands;
 #[cfg(feature = "twin")]
 mod emulated;
 mod outlet;
+mod picture;
+mod process;
 #[cfg(unix)]
 mod pty;
 mod run;
@@ -18,6 +20,7 @@ mod simulation;
 #[cfg(unix)]
 mod slcan;
 mod tcp;
+mod trace;
 mod verdict;
 mod world;
 
@@ -34,6 +37,7 @@ use sensedsl_job::{BoardJob, jobs};
 #[cfg(feature = "twin")]
 use sensedsl_machine::Mcu;
 use sensedsl_model::FileUse;
+use sensedsl_report::schema::schema;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
@@ -94,7 +98,8 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
         let others: Vec<&str> = names.iter().skip(1).copied().collect();
         terminal.aside(&format!("`--board` simulates another one: {}", others.join(", ")))?;
     }
-    simulate(args, terminal, job, snapshot.sources())
+    let schema = args.trace.is_some().then(|| schema(design, wiring).to_string());
+    simulate(args, terminal, job, snapshot.sources(), schema)
 }
 
 fn simulate(
@@ -102,13 +107,17 @@ fn simulate(
     terminal: &Terminal,
     job: &BoardJob<'_>,
     sources: &SourceMap,
+    schema_json: Option<String>,
 ) -> Result<Status> {
     let Some(world) = world(args, terminal, job, &[])? else { return Ok(Status::Wrong) };
     let (at, lasts_ns) = (input::place(job.design), world.lasts_ns);
     let (said, cases) = Default::default();
-    let scenery = Simulation { args, terminal, job, at, sources, lasts_ns, said, cases };
+    let scenery =
+        Simulation { args, terminal, job, at, sources, lasts_ns, schema_json, said, cases };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
+    let folder = args.world.as_deref().and_then(Path::parent).unwrap_or_else(|| Path::new(""));
+    process::attach_all(&mut bench, &world, folder);
     #[cfg(unix)]
     let peer = args.can.then(|| bench.open_can(job));
     if args.wires.is_some() {
@@ -133,6 +142,7 @@ fn simulate(
         );
     };
     let image = read_bytes(firmware, FileUse::Image)?;
+    at_rest(&scenery, &bench)?;
     match machine(&scenery, bench.clone(), firmware, &image) {
         Ok(board) => {
             explain(&scenery, &EMULATED)?;
@@ -177,6 +187,19 @@ fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Bo
         Ok(running) => Ok(Some(Box::new(running))),
         Err(why) => Err(e0536_user_code_stopped::user_code_stopped(scenery.at, "0 s", &why).into()),
     })
+}
+
+/// Names the actuators that an image tells over a bus: nothing reads there what they were told.
+fn at_rest(scenery: &Simulation<'_>, bench: &Bench) -> Result<()> {
+    let design = scenery.job.design;
+    let told = bench.told().into_iter().filter_map(|at| design.device(at));
+    let names: Vec<&str> = told.map(|one| one.name.value.as_str()).collect();
+    if !names.is_empty() {
+        let names = names.join(", ");
+        let what = format!("{names}: plants do not follow what an image tells parts on buses");
+        scenery.terminal.aside(&what)?;
+    }
+    Ok(())
 }
 
 /// Prints what the run proves; as an aside, because programs also read a judge's verdict.

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
-use sensedsl_diagnostics::codes::{e0546_image_refused, e0548_locked_up};
+use sensedsl_diagnostics::codes::{e0546_image_refused, e0548_locked_up, e0573_process_failed};
 use sensedsl_model::design::Transport;
 #[cfg(unix)]
 use sensedsl_twin::bench::Peer;
@@ -21,8 +21,10 @@ use super::board::Board;
 #[cfg(unix)]
 use super::can::Adapters;
 use super::outlet::Outlet;
+use super::picture;
 use super::screen::Screen;
 use super::simulation::Simulation;
+use super::trace::Trace;
 use super::verdict::{verdict, write_junit};
 use crate::commands::deadline::interruption;
 use crate::files::write_whole;
@@ -50,6 +52,7 @@ pub(super) fn run(
     #[cfg(unix)] peer: Option<Peer>,
 ) -> Result<Status> {
     let mut session = Session::new(scenery, bench, board);
+    session.trace = Trace::begin(scenery)?;
     #[cfg(unix)]
     {
         session.peer = peer;
@@ -68,11 +71,15 @@ pub(super) fn run(
         let _ = session.ask_health()?;
     }
     let judged_ns = session.now_ns;
+    picture::tell(scenery, bench)?;
     if args.judge && status == Status::Done {
         status = session.come_back()?;
     }
     if let Some(path) = &args.frames {
         write_whole(path, &session.frames)?;
+    }
+    if let Some(trace) = session.trace.take() {
+        trace.end()?;
     }
     if let Some((path, log)) = args.wires.as_ref().zip(session.board.log()) {
         write_whole(path, log.as_bytes())?;
@@ -104,6 +111,10 @@ pub(super) struct Session<'a> {
     #[cfg(unix)]
     peer: Option<Peer>,
     frames: Vec<u8>,
+    /// The record of the run, where one is asked for.
+    trace: Option<Trace>,
+    /// Whether a program of the world has failed, so that nothing more can be told of it.
+    has_lost_world: bool,
     pub(super) now_ns: u64,
     /// Whether the board has identified itself.
     pub(super) is_known: bool,
@@ -135,6 +146,8 @@ impl<'a> Session<'a> {
             #[cfg(unix)]
             peer: None,
             frames: Vec::new(),
+            trace: None,
+            has_lost_world: false,
             now_ns: 0,
             is_known: false,
             has_shell: false,
@@ -172,6 +185,7 @@ impl<'a> Session<'a> {
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
         let (reporters, is_judged) = (&mut self.reporters, self.is_judged);
         let hash = self.scenery.job.schema.hash();
+        let trace = &mut self.trace;
         let (is_known, is_other_design, last, reports) =
             (&mut self.is_known, &mut self.is_other_design, &mut self.last, &mut self.reports);
         if is_judged {
@@ -183,6 +197,7 @@ impl<'a> Session<'a> {
                 if is_judged {
                     judge.take(now_ns, &values);
                 }
+                trace.iter_mut().for_each(|trace| trace.report(now_ns, &values));
                 values.iter().for_each(|(id, _)| reporters.take(*id, now_ns));
                 screen.take(now_ns, &values, Direction::Sensor);
                 if let Some(line) = &mut line {
@@ -204,6 +219,7 @@ impl<'a> Session<'a> {
         }
         for wrong in self.board.wrongs(self.scenery.at) {
             self.is_wrong = true;
+            self.has_lost_world |= wrong.code.name() == e0573_process_failed::CODE.name();
             self.scenery.say(wrong)?;
         }
         for news in self.board.news() {
@@ -225,6 +241,9 @@ impl<'a> Session<'a> {
         let Some(item) = self.scenery.job.schema.items.get(index) else { return };
         let elements = value.chunks_exact(item.value.scalar.size_bytes());
         let scalars: Vec<Scalar> = elements.filter_map(|one| item.value.scalar.read(one)).collect();
+        if let Some(trace) = &mut self.trace {
+            trace.set(self.now_ns, item.id, &scalars);
+        }
         self.screen.take(self.now_ns, &[(item.id, scalars)], Direction::Actuator);
     }
 
@@ -261,6 +280,9 @@ impl<'a> Session<'a> {
             let why = "it was made from another file, or from an older state of this one";
             let name = name.unwrap_or_default();
             self.scenery.say(e0546_image_refused::refused(self.scenery.at, &name, why))?;
+            return Ok(Some(Status::Wrong));
+        }
+        if self.has_lost_world {
             return Ok(Some(Status::Wrong));
         }
         let Some((pc, why)) = self.board.halted() else { return Ok(None) };

@@ -21,6 +21,8 @@ pub(super) struct Simulation<'a> {
     pub(super) sources: &'a SourceMap,
     /// The length of the recorded run that is its world.
     pub(super) lasts_ns: Option<u64>,
+    /// The description of all boards, for a record.
+    pub(super) schema_json: Option<String>,
     /// What was said of the run so far.
     pub(super) said: RefCell<Vec<Diagnostic>>,
     /// What was checked so far, for `--junit`.

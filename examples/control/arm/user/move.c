@@ -1,0 +1,36 @@
+/*
+ * Goes round a square in the space of the two joints, straight from corner to corner in two seconds each.
+ */
+#include "move.h"
+
+#define CORNERS 4
+#define EACH_US 2000000u
+
+static const float corner[CORNERS][2] = {{60.0f, 60.0f}, {120.0f, 60.0f}, {120.0f, 120.0f}, {60.0f, 120.0f}};
+static uint32_t since_us;
+
+void move_init(void) {
+  since_us = 0;
+}
+
+/* A servo of 180 degrees between its ends; what a pulse is in code goes to 10000. */
+static uint16_t code(float degrees) {
+  return (uint16_t)(degrees / 180.0f * 10000.0f + 0.5f);
+}
+
+void move_step(const struct move_in *in, struct move_out *out, uint32_t dt_us) {
+  since_us += dt_us;
+  const uint32_t piece = since_us / EACH_US % CORNERS;
+  const float share = (float)(since_us % EACH_US) / (float)EACH_US;
+  const float *from = corner[piece];
+  const float *to = corner[(piece + 1) % CORNERS];
+  const float shoulder = from[0] + (to[0] - from[0]) * share;
+  const float elbow = from[1] + (to[1] - from[1]) * share;
+  move_put_shoulder(out, code(shoulder));
+  move_put_elbow(out, code(elbow));
+  if (in->joints.is_valid) {
+    const float one = shoulder - move_get_joints(in, 0);
+    const float other = elbow - move_get_joints(in, 1);
+    move_put_behind(out, (one > 0 ? one : -one) > (other > 0 ? other : -other) ? one : other);
+  }
+}
