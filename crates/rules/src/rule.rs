@@ -61,6 +61,21 @@ pub struct Outcome {
     pub open: usize,
 }
 
+impl Shape {
+    /// Calls back with the number of each signal in it.
+    pub fn for_each_signal(&self, seen: &mut dyn FnMut(usize)) {
+        match self {
+            Self::Always(one) | Self::Never(one) | Self::Eventually(one, _) => {
+                one.for_each_signal(seen);
+            }
+            Self::When(condition, then, _) => {
+                condition.for_each_signal(seen);
+                then.for_each_signal(seen);
+            }
+        }
+    }
+}
+
 impl Rule {
     /// Judges a run.
     #[must_use]

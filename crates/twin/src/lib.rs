@@ -68,5 +68,6 @@ mod ports;
 pub mod range;
 pub mod soft;
 pub mod tables;
+pub mod trial;
 pub mod truth;
 pub mod world;

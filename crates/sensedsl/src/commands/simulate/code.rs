@@ -22,7 +22,8 @@ const STEP_MAX: Duration = Duration::from_secs(2);
 const ANSWER_BYTES_MAX: usize = 65_536;
 
 /// The program of a board's controllers, ready to run.
-pub(super) struct Built {
+#[derive(Clone)]
+pub(crate) struct Built {
     program: PathBuf,
 }
 
@@ -30,7 +31,7 @@ pub(super) struct Built {
 ///
 /// # Errors
 /// What could not be written or run.
-pub(super) fn build(
+pub(crate) fn build(
     job: &BoardJob<'_>,
     folder: &Path,
     at: Span,
@@ -84,7 +85,7 @@ fn sources(
 }
 
 /// The program while it runs.
-pub(super) struct Running {
+pub(crate) struct Running {
     built: Built,
     child: Option<Talk>,
 }
@@ -103,7 +104,7 @@ impl Running {
     ///
     /// # Errors
     /// Why it does not start.
-    pub(super) fn new(built: Built) -> Result<Self, String> {
+    pub(crate) fn new(built: Built) -> Result<Self, String> {
         let mut running = Self { built, child: None };
         running.restart()?;
         Ok(running)
