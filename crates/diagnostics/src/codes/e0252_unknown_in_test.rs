@@ -16,11 +16,7 @@ Way out: write a name that there is; the message has the nearest one, or all of 
 fn unknown(span: Span, message: String, near: Option<&str>, help: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, message);
     match near {
-        Some(near) => report.here(format!("did you mean `{near}`?")).replace(
-            format!("change to `{near}`"),
-            span,
-            near,
-        ),
+        Some(word) => report.meant(near).help(format!("write `{word}`")),
         None => report.here("unknown").help(help),
     }
 }

@@ -6,10 +6,11 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0253",
     title: "these two cannot be compared",
-    explanation: r#"Conditions of tests compare values as hosts show them. Both sides measure the same: `Front < 20 cm` where `Front` shows
-cm, mm or m; `Front < Rear` where both show lengths. A number without a unit is in the unit that the device shows. A
-device without a `quantity` has no unit, so it is compared with plain numbers, and with devices that have none either.
-A `pwm` output without a `quantity` is compared with percentages, pulse widths, and codes from 0 to 10000.
+    explanation: r#"Conditions of tests compare values as hosts show them. Both sides measure the same: `Front < 20 cm` where `Front`
+shows cm, mm or m; `Front < Rear` where both show lengths. A number without a unit is in the unit that the device
+shows. A device without a `quantity` has no unit, so it is compared with plain numbers, and with devices that have
+none either. A `pwm` output without a `quantity` is compared with percentages, pulse widths, and codes from 0 to
+10000.
 
 Way out: write the number in a unit of the device, or give the device its `quantity`."#,
 });

@@ -6,8 +6,8 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0255",
     title: "a test without rules",
-    explanation: r#"A test holds the run of a board to rules: `always`, `never`, `eventually … within`, `when … then … within`. Without one it
-could not fail.
+    explanation: r#"A test holds the run of a board to rules: `always`, `never`, `eventually … within`, `when … then … within`. Without
+one it could not fail.
 
 Way out: say what must hold, such as `always Heat < 250 degC;`."#,
 });

@@ -6,9 +6,9 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0256",
     title: "this is not a condition",
-    explanation: r#"After `always`, `never`, `eventually`, `when` and `then`, and on both sides of `and` and `or`, stands what is true or false at
-each moment: a comparison such as `Front < 20 cm`, a range such as `Left in 0 % .. 100 %`, `rising(…)` and `falling(…)` of a condition, or a
-device that is itself true or false. Comparisons and `+ - * /` take numbers.
+    explanation: r#"After `always`, `never`, `eventually`, `when` and `then`, and on both sides of `and` and `or`, stands what is true or
+false at each moment: a comparison such as `Front < 20 cm`, a range such as `Left in 0 % .. 100 %`, `rising(…)` and
+`falling(…)` of a condition, or a device that is itself true or false. Comparisons and `+ - * /` take numbers.
 
 Way out: compare the value with something."#,
 });

@@ -9,8 +9,8 @@ pub const CODE: Code = Code(&CodeInfo {
     explanation: r#"`at 1 s set Speed = 30 %;` is what a host does: it sets an actuator. What a sensor measures is in the world, and an
 actuator that a controller sets refuses the host, unless the controller has `host = override;`.
 
-Way out: set an actuator, often a parameter (`actuator Speed accepts float32 { type = code; }`) that the controller reads; say in
-the world what sensors measure."#,
+Way out: set an actuator, often a parameter (`actuator Speed accepts float32 { type = code; }`) that the controller
+reads; say in the world what sensors measure."#,
 });
 
 /// A sensor.
@@ -32,11 +32,7 @@ pub fn owned(span: Span, name: &str, controller: &str, at: Span) -> Diagnostic {
 pub fn unknown(span: Span, name: &str, near: Option<&str>) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("`{name}` is not an actuator of this design"));
     match near {
-        Some(near) => report.here(format!("did you mean `{near}`?")).replace(
-            format!("change to `{near}`"),
-            span,
-            near,
-        ),
+        Some(word) => report.meant(near).help(format!("write `{word}`")),
         None => report.here("unknown").help("set an actuator of the design"),
     }
 }

@@ -7,8 +7,8 @@ pub const CODE: Code = Code(&CodeInfo {
     code: "E0258",
     title: "a fault of a test that there is not",
     explanation: r#"`fault no_answer of Front at 6 s for 500 ms;` breaks something for a while. The faults are those of worlds: no_answer,
-bad_checksum, late, stuck_sda, hang, torn and silent of a sensor, `reset` and `garbage` of the board, which name no device.
-`for` says how long it lasts; `reset` lasts 100 ms and `garbage` 20 ms without it.
+bad_checksum, late, stuck_sda, hang, torn and silent of a sensor, `reset` and `garbage` of the board, which name no
+device. `for` says how long it lasts; `reset` lasts 100 ms and `garbage` 20 ms without it.
 
 Way out: write one of these, with the sensor it is about and how long it lasts."#,
 });
@@ -17,11 +17,7 @@ Way out: write one of these, with the sensor it is about and how long it lasts."
 pub fn unknown(span: Span, name: &str, near: Option<&str>, all: &str) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("there is no fault `{name}`"));
     match near {
-        Some(near) => report.here(format!("did you mean `{near}`?")).replace(
-            format!("change to `{near}`"),
-            span,
-            near,
-        ),
+        Some(word) => report.meant(near).help(format!("write `{word}`")),
         None => report.here("unknown").help(format!("the faults are {all}")),
     }
 }
@@ -42,11 +38,7 @@ pub fn of_board(span: Span, name: &str) -> Diagnostic {
 pub fn not_a_sensor(span: Span, name: &str, near: Option<&str>) -> Diagnostic {
     let report = Diagnostic::new(CODE, span, format!("`{name}` is not a sensor of this design"));
     match near {
-        Some(near) => report.here(format!("did you mean `{near}`?")).replace(
-            format!("change to `{near}`"),
-            span,
-            near,
-        ),
+        Some(word) => report.meant(near).help(format!("write `{word}`")),
         None => report.help("a fault is of a sensor, or of the board"),
     }
 }

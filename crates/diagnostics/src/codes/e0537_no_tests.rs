@@ -6,8 +6,8 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0537",
     title: "no tests to run",
-    explanation: r#"`sensedsl test FILE` runs the `test` blocks of a file and of those it uses; names after the file choose some of them. A file
-without tests fails, so that a build server does not take it for one whose tests all passed.
+    explanation: r#"`sensedsl test FILE` runs the `test` blocks of a file and of those it uses; names after the file choose some of them.
+A file without tests fails, so that a build server does not take it for one whose tests all passed.
 
 Way out: write a test:
 

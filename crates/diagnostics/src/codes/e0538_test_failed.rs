@@ -6,9 +6,9 @@ use super::{Code, CodeInfo, Diagnostic, Span};
 pub const CODE: Code = Code(&CodeInfo {
     code: "E0538",
     title: "a rule of a test did not hold",
-    explanation: r#"The board ran, and at some moment a rule of the test did not hold. The message has the first such moment with the values
-as the host had them, and by how much the rule was missed. A rule that is about values that never came fails as well:
-nobody knows whether it holds.
+    explanation: r#"The board ran, and at some moment a rule of the test did not hold. The message has the first such moment with the
+values as the host had them, and by how much the rule was missed. A rule that is about values that never came fails as
+well: nobody knows whether it holds.
 
 Way out: look at the code of the controller or at the world first, then at the rule. `--picture FILE.svg` draws the
 signals around that moment."#,
