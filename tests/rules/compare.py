@@ -10,7 +10,9 @@ left out, and counted:
 - Beyond the end. RTAMT cuts an interval that reaches beyond the trace and answers from the rest; here the answer is not
   known there. Compared is where the whole interval lies within the trace.
 - The first moment of `rise`. RTAMT takes what was before the trace for false; here nothing has risen then. Compared is
-  from the second sample on.
+  from the second sample on, of a `rise` of a `rise` from the third, and so on.
+
+Each comparison has a signal: one of constants alone has no samples after the first, and conditions of tests refuse it.
 
 Needs `pip install rtamt` (BSD-3-Clause). Exit status: 0 they agree, 1 they do not, 2 RTAMT or cargo is missing.
 """
@@ -53,20 +55,22 @@ def value_of(chance):
 
 
 def formula(chance, depth):
-    """A formula: prefix words, RTAMT's text, how far it looks ahead, and whether it looks back."""
+    """A formula: prefix words, RTAMT's text, how far it looks ahead, and how many `rise` stand in each other."""
     if depth == 0 or chance.random() < 0.25:
         how = chance.choice(COMPARISONS)
         one, one_text = term(chance, 2)
+        while not any(word.startswith("s") for word in one):
+            one, one_text = term(chance, 2)
         other, other_text = term(chance, 1)
         # RTAMT has `==` and `!==`.
         written = {"!=": "!=="}.get(how, how)
-        return [how] + one + other, f"({one_text} {written} {other_text})", 0, False
+        return [how] + one + other, f"({one_text} {written} {other_text})", 0, 0
     what = chance.choice(["not", "and", "or", "implies", "rising", "always", "eventually", "always", "eventually"])
     one, one_text, ahead, back = formula(chance, depth - 1)
     if what == "not":
         return ["not"] + one, f"(not {one_text})", ahead, back
     if what == "rising":
-        return ["rising"] + one, f"(rise({one_text}))", ahead, True
+        return ["rising"] + one, f"(rise({one_text}))", ahead, back + 1
     if what in ("always", "eventually"):
         begin = chance.randint(0, 3)
         end = begin + chance.randint(0, 5)
@@ -75,7 +79,7 @@ def formula(chance, depth):
     other, other_text, other_ahead, other_back = formula(chance, depth - 1)
     written = {"implies": "->"}.get(what, what)
     text = f"({one_text} {written} {other_text})"
-    return [what] + one + other, text, max(ahead, other_ahead), back or other_back
+    return [what] + one + other, text, max(ahead, other_ahead), max(back, other_back)
 
 
 def case(seed):
@@ -91,16 +95,18 @@ def case(seed):
     head = [str(SIGNALS), str(length)] + [repr(value) for values in trace for value in values]
     sort = chance.choice("FFWE")
     words, text, ahead, back = formula(chance, 3)
-    begin = 1 if back else 0
+    begin = back
     if sort == "F":
         return " ".join(head + ["F"] + words), text, trace, sort, begin, length - 1 - ahead
     within = chance.randint(0, 6)
     start = chance.randint(begin, length // 2)
     if sort == "E":
         line = head + ["E", str(start), str(within)] + words
-        return " ".join(line), text, trace, sort, start, min(start + within, length) if start + within <= length - 1 - ahead else -1
+        # What is not known in the interval as a whole is left out.
+        end = start + within if start + within <= length - 1 - ahead else -1
+        return " ".join(line), text, trace, sort, start, end
     then, then_text, then_ahead, then_back = formula(chance, 2)
-    begin = 1 if back or then_back else 0
+    begin = max(back, then_back)
     start = chance.randint(begin, length // 2)
     to = chance.randint(start, length - 1)
     line = head + ["W", str(start), str(to), str(within)] + words + then

@@ -9,6 +9,7 @@
 //! arrived. Of an actuator it is the value that the board has applied, whether the host, a controller or a failsafe set
 //! it.
 
+mod edges;
 mod verdict;
 
 use std::collections::BTreeMap;
@@ -58,6 +59,13 @@ impl Recording {
             signal.samples.push((at_ns, value));
         }
     }
+
+    /// Takes the value that a signal has once more, so that an edge before it has passed.
+    fn repeat(&mut self, number: usize, at_ns: u64) {
+        let Some(signal) = self.trace.signals.get_mut(number) else { return };
+        let last = signal.samples.last().copied();
+        signal.samples.extend(last.filter(|last| last.0 < at_ns).map(|last| (at_ns, last.1)));
+    }
 }
 
 /// The faults of a test beside those of its world, as far as they are of a board or its devices.
@@ -82,6 +90,8 @@ struct Watched {
     index: usize,
     id: u8,
     is_sensor: bool,
+    /// Whether a rule asks when something of it rises: that holds until the next sample, so there is one a millisecond.
+    has_edges: bool,
     scale: Scale,
 }
 
@@ -105,13 +115,15 @@ impl<'a> Trial<'a> {
     /// A host that also sends the commands of the world.
     #[must_use]
     pub fn new(job: &'a BoardJob<'a>, test: &'a Test, of_world: &[Command]) -> Self {
+        let edges = edges::signals(test);
         let watched: Vec<Watched> =
             (0..).zip(&test.signals).filter_map(|(number, signal)| {
                 let index = job.devices.iter().position(|one| one.index == signal.device)?;
                 let device = job.devices.get(index)?.device;
                 let is_sensor = device.direction == Direction::Sensor;
                 let (id, scale) = (device.id.value, scale_of(&device.shown));
-                Some(Watched { number, of: signal.of, index, id, is_sensor, scale })
+                let has_edges = edges.contains(&number);
+                Some(Watched { number, of: signal.of, index, id, is_sensor, has_edges, scale })
             }).collect();
         let mut owed: Vec<Command> = test.sets.iter().filter_map(|set| {
             let device = job.devices.iter().find(|one| one.index == set.device)?.device;
@@ -213,6 +225,15 @@ impl<'a> Trial<'a> {
         });
     }
 
+    /// The value that the board has applied to an actuator; empty until it has one.
+    fn applied(&self, one: &Watched, board: &SoftBoard) -> Vec<Scalar> {
+        let item = self.job.schema.items.get(one.index);
+        let Some((item, bytes)) = item.zip(board.applied(one.index)) else { return Vec::new() };
+        let scalar = item.value.scalar;
+        let elements = bytes.chunks_exact(scalar.size_bytes());
+        elements.filter_map(|one| scalar.read(one)).collect()
+    }
+
     /// Looks at what the board has applied, and at the clock.
     fn see(&self, now_ns: u64, board: &SoftBoard, recording: &mut Recording) {
         for one in &self.watched {
@@ -220,18 +241,18 @@ impl<'a> Trial<'a> {
                 SignalOf::Age => {
                     let since_ns = self.came_ns.get(&one.id).copied().unwrap_or(0);
                     let age_ms = crate::arith::number((now_ns - since_ns) / MS);
-                    let Some(signal) = self.test.signals.get(one.number) else { continue };
-                    recording.take(one.number, now_ns, signal.unit.computed(age_ms));
+                    if let Some(signal) = self.test.signals.get(one.number) {
+                        recording.take(one.number, now_ns, signal.unit.computed(age_ms));
+                    }
                 }
                 SignalOf::Value(_) if !one.is_sensor => {
-                    let Some(item) = self.job.schema.items.get(one.index) else { continue };
-                    let Some(bytes) = board.applied(one.index) else { continue };
-                    let scalar = item.value.scalar;
-                    let elements = bytes.chunks_exact(scalar.size_bytes());
-                    let value: Vec<Scalar> = elements.filter_map(|one| scalar.read(one)).collect();
+                    let value = self.applied(one, board);
                     take_value(one, &value, now_ns, self.test, recording);
                 }
                 SignalOf::Value(_) | SignalOf::Health => {}
+            }
+            if one.has_edges {
+                recording.repeat(one.number, now_ns);
             }
         }
     }

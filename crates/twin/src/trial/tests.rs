@@ -4,7 +4,6 @@
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_job::jobs;
 use sensedsl_model::NoFiles;
-use sensedsl_rules::Verdict;
 use sensedsl_session::{Ask, On, Workspace};
 
 use super::*;
@@ -129,13 +128,20 @@ fn faults_of_the_test_break_what_they_say() {
 
 #[test]
 fn a_rule_about_what_never_came_is_not_held() {
-    let all = judged("", "fault torn of Heat at 0 s for 3 s; always Fan < 5 %; when Fan > 50 % then Fan > 5 %;", "");
-    // Nobody sets the fan, and it has no first value.
-    match &all[0].verdict {
-        RuleVerdict::Unknown(name) => assert_eq!(name, "Fan"),
-        RuleVerdict::Held => assert_eq!(all[0].outcome.verdict, Verdict::Held),
-        other => panic!("{other:?}"),
-    }
+    let all = judged("", "fault no_answer of Air at 0 s for 3 s; always Air < 5; always Heat < 5000;", "");
+    assert_eq!(all[0].verdict, RuleVerdict::Unknown("Air".to_owned()));
+    assert!(all[1].is_held());
+}
+
+#[test]
+fn what_rises_has_risen_a_millisecond_later() {
+    let steps = "at 1 s set Fan = 30 %; at 1200 ms set Heater = 10 %; at 1400 ms set Heater = 0; at 2 s set Heater = 20 %;
+        when rising(Fan > 0) then Heater > 15 %  within 300 ms;
+        when rising(Fan > 0) then Heater > 5 % within 300 ms;";
+    // The fan stays on for two seconds, in most of which the heater is off: that is not asked.
+    let all = judged("", steps, "");
+    assert!(is_violated(&all[0]) && all[1].is_held(), "{all:?}");
+    assert_eq!(all[1].outcome.occasions, 1);
 }
 
 #[test]
