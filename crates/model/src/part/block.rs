@@ -72,6 +72,7 @@ pub(crate) fn assemble(
         devices: Vec::new(),
         connections: Vec::new(),
         controllers: Vec::new(),
+        tests: Vec::new(),
     };
     let mut controllers = Vec::new();
     let mut homeless: BTreeSet<PartIndex> = BTreeSet::new();

@@ -23,7 +23,8 @@ const STEP_MAX: Duration = Duration::from_secs(2);
 const ANSWER_BYTES_MAX: usize = 65_536;
 
 /// The program of a board's controllers, ready to run.
-pub(super) struct Built {
+#[derive(Clone)]
+pub(crate) struct Built {
     program: PathBuf,
 }
 
@@ -31,7 +32,7 @@ pub(super) struct Built {
 ///
 /// # Errors
 /// What could not be written or run.
-pub(super) fn build(
+pub(crate) fn build(
     job: &BoardJob<'_>,
     folder: &Path,
     at: Span,
@@ -165,7 +166,7 @@ opt-level = 1
 ";
 
 /// The program while it runs.
-pub(super) struct Running {
+pub(crate) struct Running {
     built: Built,
     child: Option<Talk>,
 }
@@ -184,7 +185,7 @@ impl Running {
     ///
     /// # Errors
     /// Why it does not start.
-    pub(super) fn new(built: Built) -> Result<Self, String> {
+    pub(crate) fn new(built: Built) -> Result<Self, String> {
         let mut running = Self { built, child: None };
         running.restart()?;
         Ok(running)
