@@ -23,10 +23,11 @@ use sensedsl_wire::{
 };
 
 use crate::commands::Command;
+use crate::plants::Trouble;
 use crate::soft::SoftBoard;
 use crate::truth::{real, scalar, scale_of};
 use crate::world::{Fault, World};
-pub use verdict::{Judged, Moment, RuleVerdict, judge};
+pub use verdict::{Judged, Moment, RuleVerdict, judge, not_judged};
 
 const MS: u64 = 1_000_000;
 /// How often the host asks for the board's identity until it answers.
@@ -79,6 +80,17 @@ pub fn add_faults(world: &mut World, test: &Test, job: &BoardJob<'_>) {
         until_ns: fault.at_ns.saturating_add(fault.lasts_ns),
     }));
     world.faults.sort_by_key(|fault| fault.at_ns);
+}
+
+/// Why a run ended before its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stopped {
+    /// When.
+    pub at_ns: u64,
+    /// The program of the world that has failed; none if it is the code of controllers.
+    pub plant: Option<String>,
+    /// Why, for people.
+    pub why: String,
 }
 
 /// What a signal of the test is on this board.
@@ -147,8 +159,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Runs a board to the end of the test. Returns when and why the code of its controllers has stopped.
-    pub fn run(mut self, board: &mut SoftBoard, recording: &mut Recording) -> Option<(u64, String)> {
+    /// Runs a board to the end of the test. Returns why it could not.
+    pub fn run(mut self, board: &mut SoftBoard, recording: &mut Recording) -> Option<Stopped> {
         board.link_open(true);
         while board.now_ns() < self.test.lasts_ns {
             let bytes = self.to_send(board.now_ns());
@@ -158,8 +170,14 @@ impl<'a> Trial<'a> {
             let bytes = board.link_read();
             self.hear(next_ns, &bytes, recording);
             self.see(next_ns, board, recording);
-            if let Some(ended) = board.code_ended() {
-                return Some(ended);
+            // Nobody asks for what was set: it is in the values.
+            let _ = board.received();
+            if let Some((at_ns, why)) = board.code_ended() {
+                return Some(Stopped { at_ns, plant: None, why });
+            }
+            if let Some(trouble) = board.bench().trouble() {
+                let Trouble { at_ns, plant, why, .. } = trouble;
+                return Some(Stopped { at_ns, plant: Some(plant), why });
             }
         }
         None

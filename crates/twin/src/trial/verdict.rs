@@ -70,6 +70,17 @@ pub fn judge(design: &Design, test: &Test, trace: &Trace) -> Vec<Judged> {
     test.rules.iter().map(|rule| judge.rule(rule)).collect()
 }
 
+/// The verdicts on a run that ended too early to say anything.
+#[must_use]
+pub fn not_judged(test: &Test) -> Vec<Judged> {
+    let nothing = Trace::default();
+    let open = |rule: &TestRule| {
+        let outcome = rule.rule.judge(&nothing);
+        Judged { verdict: RuleVerdict::Open, outcome, margin: None, note: None }
+    };
+    test.rules.iter().map(open).collect()
+}
+
 struct Judge<'a> {
     design: &'a Design,
     test: &'a Test,
@@ -217,7 +228,10 @@ fn note(rule: &TestRule, outcome: &Outcome) -> Option<String> {
         return None;
     }
     match (outcome.occasions, outcome.open) {
-        (0, _) => Some("its condition was never true".to_owned()),
+        (0, _) if outcome.verdict == Verdict::Held => {
+            Some("its condition was never true".to_owned())
+        }
+        (0, _) => None,
         (_, 0) => None,
         (all, open) => Some(format!("of {all} occasions {open} open at the end")),
     }

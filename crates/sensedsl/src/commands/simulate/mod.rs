@@ -53,6 +53,7 @@ use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
 pub(crate) use code::{Built, Running, build};
+pub(crate) use process::attach_all;
 #[cfg(unix)]
 pub(crate) use pty::Pty;
 pub(crate) use simulated::Simulated;
@@ -118,7 +119,7 @@ fn simulate(
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
     let folder = args.world.as_deref().and_then(Path::parent).unwrap_or_else(|| Path::new(""));
-    process::attach_all(&mut bench, &world, folder);
+    attach_all(&mut bench, &world, folder);
     #[cfg(unix)]
     let peer = args.can.then(|| bench.open_can(job));
     if args.wires.is_some() {

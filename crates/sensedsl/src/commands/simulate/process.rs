@@ -24,7 +24,7 @@ const LINE_BYTES_MAX: usize = 1 << 20;
 const SHOWN_CHARS: usize = 60;
 
 /// Starts all programs of a world, in its folder. One that does not start fails when it is first asked.
-pub(super) fn attach_all(bench: &mut Bench, world: &World, folder: &Path) {
+pub(crate) fn attach_all(bench: &mut Bench, world: &World, folder: &Path) {
     for plant in &world.plants {
         let Some(command) = plant.command() else { continue };
         bench.attach(&plant.name, Box::new(Program::start(command, folder)));

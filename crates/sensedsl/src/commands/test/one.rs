@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0538_test_failed as failed;
-use sensedsl_diagnostics::codes::{e0534_no_user_code, e0536_user_code_stopped};
+use sensedsl_diagnostics::codes::{
+    e0534_no_user_code, e0536_user_code_stopped, e0573_process_failed,
+};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{DeviceIndex, Test};
@@ -13,11 +15,13 @@ use sensedsl_model::{FileRequest, FileUse, normal_path};
 use sensedsl_report::trial_picture::{Course, Scene};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::SoftBoard;
-use sensedsl_twin::trial::{Judged, Recording, RuleVerdict, Trial, add_faults, judge};
+use sensedsl_twin::trial::{
+    Judged, Recording, RuleVerdict, Stopped, Trial, add_faults, judge, not_judged,
+};
 
 use super::Bed;
 use crate::cli::SimulateArgs;
-use crate::commands::simulate::{Built, Running, SEED, build, usual_code, world};
+use crate::commands::simulate::{Built, Running, SEED, attach_all, build, usual_code, world};
 use crate::files::{Disk, shown};
 
 /// How much of a run is drawn before and after a violation, at most.
@@ -33,8 +37,8 @@ pub(super) struct Ran<'a> {
     pub(super) recording: Recording,
     /// For each rule, in their order.
     pub(super) judged: Vec<Judged>,
-    /// When and why the code of controllers has stopped.
-    pub(super) stopped: Option<(u64, String)>,
+    /// Why it ended too early.
+    pub(super) stopped: Option<Stopped>,
 }
 
 impl Ran<'_> {
@@ -44,12 +48,20 @@ impl Ran<'_> {
 
     /// Why the test failed: a message for each rule.
     pub(super) fn failures(&self) -> Vec<Diagnostic> {
-        let stopped = self.stopped.iter().map(|(ns, why)| {
-            let seconds = format!("{}.{:03} s", ns / 1_000_000_000, ns / 1_000_000 % 1_000);
-            e0536_user_code_stopped::user_code_stopped(self.test.name.span, &seconds, why)
-        });
+        if let Some(stopped) = &self.stopped {
+            return vec![self.stop(stopped)];
+        }
         let rules = self.test.rules.iter().zip(&self.judged);
-        stopped.chain(rules.filter_map(|(rule, one)| failure(rule.span, one))).collect()
+        rules.filter_map(|(rule, one)| failure(rule.span, one)).collect()
+    }
+
+    /// Why the run ended too early.
+    pub(super) fn stop(&self, stopped: &Stopped) -> Diagnostic {
+        let (at, when) = (self.test.name.span, seconds(stopped.at_ns));
+        match &stopped.plant {
+            Some(plant) => e0573_process_failed::process_failed(at, plant, &when, &stopped.why),
+            None => e0536_user_code_stopped::user_code_stopped(at, &when, &stopped.why),
+        }
     }
 
     /// The signals around the first moment at which a rule did not hold, or from the beginning.
@@ -147,12 +159,20 @@ pub(super) fn run<'a>(
         };
         add_faults(&mut surroundings, test, job);
         let seed = simulation.seed.or(surroundings.seed).unwrap_or(SEED);
-        let bench = Bench::new(job, &surroundings, seed);
+        let mut bench = Bench::new(job, &surroundings, seed);
+        let folder = simulation.world.as_deref().and_then(Path::parent);
+        attach_all(&mut bench, &surroundings, folder.unwrap_or_else(|| Path::new("")));
         let Some(mut board) = board(bed, test, (job, bench), programs)? else { return Ok(None) };
         let host = Trial::new(job, test, &surroundings.commands);
-        stopped = stopped.or(host.run(&mut board, &mut recording));
+        stopped = host.run(&mut board, &mut recording);
+        if stopped.is_some() {
+            break;
+        }
     }
-    let judged = judge(bed.design, test, &recording.trace);
+    let judged = match stopped {
+        Some(_) => not_judged(test),
+        None => judge(bed.design, test, &recording.trace),
+    };
     Ok(Some(Ran { test, recording, judged, stopped }))
 }
 

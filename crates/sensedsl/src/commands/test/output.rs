@@ -1,6 +1,5 @@
 //! What came of tests: their verdicts in; text for people, JSON for scripts, `JUnit` for build servers, out.
 
-use sensedsl_diagnostics::codes::e0536_user_code_stopped;
 use sensedsl_diagnostics::codes::e0538_test_failed;
 use sensedsl_diagnostics::render::json_text;
 use sensedsl_diagnostics::{Span, visible};
@@ -36,8 +35,10 @@ fn human(all: &[Ran<'_>]) -> String {
         let verdict = if ran.is_passed() { "passed" } else { "FAILED" };
         let lasts = seconds_short(ran.test.lasts_ns);
         out.push_str(&format!("{} {verdict} ({lasts})\n", visible(&ran.test.name.value)));
-        if let Some((ns, why)) = &ran.stopped {
-            out.push_str(&format!("  the code of controllers stopped at {}: {why}\n", seconds(*ns)));
+        if let Some(stopped) = &ran.stopped {
+            let why = ran.stop(stopped).message;
+            out.push_str(&format!("  {}; no rule was judged\n", visible(&why)));
+            continue;
         }
         for (rule, one) in ran.test.rules.iter().zip(&ran.judged) {
             let word = match one.verdict {
@@ -99,7 +100,7 @@ fn value(bed: &Bed<'_>, ran: &Ran<'_>) -> Value {
         "world": ran.test.world.as_ref().map(|world| &world.value),
         "seconds": number(ran.test.lasts_ns),
         "passed": ran.is_passed(),
-        "stopped": stopped.map(|(ns, why)| json!({ "at": number(*ns), "why": why })),
+        "stopped": stopped.map(|one| json!({ "at": number(one.at_ns), "why": ran.stop(one).message })),
         "rules": rules,
     })
 }
@@ -153,13 +154,12 @@ fn suite(bed: &Bed<'_>, ran: &Ran<'_>) -> Suite {
         Case { name: rule.text.clone(), file: file.clone(), failure, output }
     };
     let mut cases: Vec<Case> = ran.test.rules.iter().zip(&ran.judged).map(case).collect();
-    if let Some((ns, why)) = &ran.stopped {
-        let failure = Failure {
-            code: e0536_user_code_stopped::CODE.name().to_owned(),
-            message: format!("the code of controllers stopped at {}: {why}", seconds(*ns)),
-            text: String::new(),
-        };
-        let name = "the code of controllers runs".to_owned();
+    if let Some(stopped) = &ran.stopped {
+        let why = ran.stop(stopped);
+        let (code, text) = (why.code.name().to_owned(), why.help.unwrap_or_default());
+        let failure = Failure { code, message: why.message, text };
+        let name = "the run reaches its end".to_owned();
+        cases.clear();
         cases.insert(0, Case { name, file, failure: Some(failure), output: String::new() });
     }
     Suite { name: ran.test.name.value.clone(), cases }
