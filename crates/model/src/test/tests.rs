@@ -13,7 +13,7 @@ board Oven on NUCLEO_F446RE {
     sensor Lux returns uint16 { type = analog; quantity = \"lx\"; }
     sensor Line returns uint16[4] { type = analog; }
     sensor Door returns bool { type = digital; }
-    sensor Air returns int16 { driver = sht31; }
+    sensor Air returns int16 { type = i2c; address = 0x44; register = 0; }
     actuator Heater accepts uint16 { type = pwm; }
     actuator Fan accepts uint16 { type = pwm; }
     actuator Servo accepts uint16 { type = pwm; min = 1 ms; max = 2 ms; }

@@ -5,9 +5,10 @@
 //! commands say, keeps speaking so that no actuator falls back, and keeps what it is told. A design may have several
 //! boards; each runs by itself, and all of them write into one [`Recording`]. [`judge`] holds the recording to the rules.
 //!
-//! What counts is what a host knows: a sensor has the value of its last report, from the moment at which the report
-//! arrived. Of an actuator it is the value that the board has applied, whether the host, a controller or a failsafe set
-//! it.
+//! What counts is what the board has, a millisecond at a time: of a sensor the value that it reports, of an actuator the
+//! one that it has applied, whether the host, a controller or a failsafe set it. Both are seen at the same moment; the
+//! reports of a sensor arrive later, and a rule over both would find fault with a board that reacts at once. The age of a
+//! value and the health of a device are what the host knows.
 
 mod edges;
 mod verdict;
@@ -16,7 +17,8 @@ use std::collections::BTreeMap;
 
 use sensedsl_host::Scale;
 use sensedsl_job::BoardJob;
-use sensedsl_model::design::{SignalOf, Test};
+use sensedsl_model::design::{Device, SignalOf, Test};
+use sensedsl_model::kind::Interface;
 use sensedsl_rules::{Signal, Trace};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_health_request, encode_hello_request, encode_report,
@@ -101,10 +103,11 @@ struct Watched {
     /// The device's place in the schema.
     index: usize,
     id: u8,
-    is_sensor: bool,
     /// Whether a rule asks when something of it rises: that holds until the next sample, so there is one a millisecond.
     has_edges: bool,
     scale: Scale,
+    /// The code that an actuator has until somebody sets it, if the design says.
+    first: Option<f64>,
 }
 
 /// The host of a board in a test.
@@ -132,10 +135,10 @@ impl<'a> Trial<'a> {
             (0..).zip(&test.signals).filter_map(|(number, signal)| {
                 let index = job.devices.iter().position(|one| one.index == signal.device)?;
                 let device = job.devices.get(index)?.device;
-                let is_sensor = device.direction == Direction::Sensor;
                 let (id, scale) = (device.id.value, scale_of(&device.shown));
                 let has_edges = edges.contains(&number);
-                Some(Watched { number, of: signal.of, index, id, is_sensor, has_edges, scale })
+                let first = first(device);
+                Some(Watched { number, of: signal.of, index, id, has_edges, scale, first })
             }).collect();
         let mut owed: Vec<Command> = test.sets.iter().filter_map(|set| {
             let device = job.devices.iter().find(|one| one.index == set.device)?.device;
@@ -220,15 +223,10 @@ impl<'a> Trial<'a> {
     fn hear(&mut self, now_ns: u64, bytes: &[u8], recording: &mut Recording) {
         let hash = self.job.schema.hash();
         let (is_known, came_ns) = (&mut self.is_known, &mut self.came_ns);
-        let (watched, test) = (&self.watched, self.test);
+        let watched = &self.watched;
         self.decoder.feed(bytes, |event| match event {
             Event::Report(_, values) => {
-                for (id, value) in &values {
-                    came_ns.insert(*id, now_ns);
-                    for one in watched.iter().filter(|one| one.is_sensor && one.id == *id) {
-                        take_value(one, value, now_ns, test, recording);
-                    }
-                }
+                came_ns.extend(values.iter().map(|(id, _)| (*id, now_ns)));
             }
             Event::Hello(answered) => *is_known |= answered == hash,
             Event::Health(health) => {
@@ -243,16 +241,15 @@ impl<'a> Trial<'a> {
         });
     }
 
-    /// The value that the board has applied to an actuator; empty until it has one.
-    fn applied(&self, one: &Watched, board: &SoftBoard) -> Vec<Scalar> {
-        let item = self.job.schema.items.get(one.index);
-        let Some((item, bytes)) = item.zip(board.applied(one.index)) else { return Vec::new() };
-        let scalar = item.value.scalar;
-        let elements = bytes.chunks_exact(scalar.size_bytes());
-        elements.filter_map(|one| scalar.read(one)).collect()
+    /// The code that the board has; none until it has one.
+    fn value_of(&self, one: &Watched, board: &SoftBoard) -> Option<f64> {
+        let SignalOf::Value(element) = one.of else { return None };
+        let Some(bytes) = board.applied(one.index) else { return one.first };
+        let scalar = self.job.schema.items.get(one.index)?.value.scalar;
+        scalar.read(bytes.chunks_exact(scalar.size_bytes()).nth(element)?).map(real)
     }
 
-    /// Looks at what the board has applied, and at the clock.
+    /// Looks at what the board has, and at the clock.
     fn see(&self, now_ns: u64, board: &SoftBoard, recording: &mut Recording) {
         for one in &self.watched {
             match one.of {
@@ -263,11 +260,15 @@ impl<'a> Trial<'a> {
                         recording.take(one.number, now_ns, signal.unit.computed(age_ms));
                     }
                 }
-                SignalOf::Value(_) if !one.is_sensor => {
-                    let value = self.applied(one, board);
-                    take_value(one, &value, now_ns, self.test, recording);
+                SignalOf::Value(_) => {
+                    let value = self.value_of(one, board);
+                    let signal = self.test.signals.get(one.number);
+                    if let Some((raw, signal)) = value.zip(signal) {
+                        let shown = signal.unit.computed(one.scale.shown(raw));
+                        recording.take(one.number, now_ns, shown);
+                    }
                 }
-                SignalOf::Value(_) | SignalOf::Health => {}
+                SignalOf::Health => {}
             }
             if one.has_edges {
                 recording.repeat(one.number, now_ns);
@@ -276,18 +277,27 @@ impl<'a> Trial<'a> {
     }
 }
 
-fn take_value(
-    one: &Watched,
-    value: &[Scalar],
-    now_ns: u64,
-    test: &Test,
-    recording: &mut Recording,
-) {
-    let SignalOf::Value(element) = one.of else { return };
-    let (Some(raw), Some(signal)) = (value.get(element), test.signals.get(one.number)) else {
-        return;
-    };
-    recording.take(one.number, now_ns, signal.unit.computed(one.scale.shown(real(*raw))));
+/// The code that an actuator has until somebody sets it; none of a sensor, and where only a part itself knows.
+fn first(device: &Device) -> Option<f64> {
+    if device.direction == Direction::Sensor {
+        return None;
+    }
+    if let Some(safe) = device.kind.failsafe() {
+        return Some(safe);
+    }
+    match device.kind.interface() {
+        Interface::Digital(own) => Some(f64::from(u8::from(own.initial))),
+        Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => Some(0.0),
+        Interface::Analog(_)
+        | Interface::I2c(_)
+        | Interface::Icu(_)
+        | Interface::Encoder(_)
+        | Interface::Uart(_)
+        | Interface::Spi(_)
+        | Interface::Can(_)
+        | Interface::OneWire(_)
+        | Interface::Code(_) => None,
+    }
 }
 
 #[cfg(test)]

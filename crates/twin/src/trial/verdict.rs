@@ -185,7 +185,8 @@ fn state(code: f64) -> &'static str {
 
 /// A number in the unit that it is shown in.
 fn amount(unit: &TestUnit, computed: f64) -> String {
-    let number = rounded(unit.shown(computed));
+    // Not `-0`.
+    let number = rounded(unit.shown(computed) + 0.0);
     unit.name.as_ref().map_or_else(|| number.clone(), |name| format!("{number} {name}"))
 }
 
@@ -199,7 +200,7 @@ fn margin(rule: &TestRule, outcome: &Outcome) -> Option<String> {
     match outcome.verdict {
         Verdict::Held => match (outcome.spare_ns, distance) {
             (Some(spare_ns), _) => Some(format!("{} to spare", time(spare_ns))),
-            (None, Some(unit)) if !is_timed => {
+            (None, Some(unit)) if !is_timed && outcome.robustness > 0.0 => {
                 Some(format!("{} to spare", amount(unit, outcome.robustness)))
             }
             (None, _) => None,
@@ -211,12 +212,12 @@ fn margin(rule: &TestRule, outcome: &Outcome) -> Option<String> {
             (true, _) if matches!(rule.rule.shape, Shape::When(..)) => {
                 Some("it did not come before the end".to_owned())
             }
-            (_, Some(unit)) => {
+            (_, Some(unit)) if outcome.robustness < 0.0 => {
                 let off = amount(unit, -outcome.robustness);
                 let is_best = matches!(rule.rule.shape, Shape::Eventually(..));
                 Some(format!("off by {off} at {}", if is_best { "best" } else { "worst" }))
             }
-            (_, None) => None,
+            (_, _) => None,
         },
         Verdict::Unknown => None,
     }
