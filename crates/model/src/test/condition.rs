@@ -72,14 +72,18 @@ impl<'a> Conditions<'a> {
                 let is_and = logic.is_and();
                 Some(if is_and { Formula::And(one, other) } else { Formula::Or(one, other) })
             }
-            Condition::Not(not) => {
-                Some(Formula::Not(Box::new(self.condition(&not.condition()?)?)))
-            }
+            Condition::Not(not) => Some(Formula::Not(Box::new(self.condition(&not.condition()?)?))),
             Condition::Paren(paren) => self.condition(&paren.condition()?),
             Condition::Compare(compare) => self.compare(compare),
             Condition::Inside(inside) => self.inside(inside),
             Condition::Call(call) if is_called(call, &["rising", "falling"]) => self.edge(call),
-            _ => self.truth(node),
+            Condition::Call(_)
+            | Condition::Operation(_)
+            | Condition::Signed(_)
+            | Condition::Number(_)
+            | Condition::Name(_)
+            | Condition::Index(_)
+            | Condition::Member(_) => self.truth(node),
         }
     }
 
@@ -155,10 +159,8 @@ impl<'a> Conditions<'a> {
             self.diagnostics().push(wrong::state(at));
             return None;
         }
-        let word = match other {
-            Condition::Name(name) => name.name().map(|name| name.text().to_owned()),
-            _ => None,
-        };
+        let word = if let Condition::Name(name) = other { name.name() } else { None };
+        let word = word.map(|name| name.text().to_owned());
         let found = STATES.iter().find(|(name, _)| word.as_deref() == Some(*name));
         let Some((_, status)) = found else {
             let list: Vec<&str> = STATES.iter().map(|(name, _)| *name).collect();

@@ -131,21 +131,28 @@ impl<'a> Trial<'a> {
     #[must_use]
     pub fn new(job: &'a BoardJob<'a>, test: &'a Test, of_world: &[Command]) -> Self {
         let edges = edges::signals(test);
-        let watched: Vec<Watched> =
-            (0..).zip(&test.signals).filter_map(|(number, signal)| {
+        let watched: Vec<Watched> = (0..)
+            .zip(&test.signals)
+            .filter_map(|(number, signal)| {
                 let index = job.devices.iter().position(|one| one.index == signal.device)?;
                 let device = job.devices.get(index)?.device;
                 let (id, scale) = (device.id.value, scale_of(&device.shown));
                 let has_edges = edges.contains(&number);
                 let first = first(device);
                 Some(Watched { number, of: signal.of, index, id, has_edges, scale, first })
-            }).collect();
-        let mut owed: Vec<Command> = test.sets.iter().filter_map(|set| {
-            let device = job.devices.iter().find(|one| one.index == set.device)?.device;
-            let value = device.value.value;
-            let value = vec![scalar(value.scalar, set.raw); value.count()];
-            Some(Command { device: set.device, at_ns: set.at_ns, value })
-        }).chain(of_world.iter().cloned()).collect();
+            })
+            .collect();
+        let mut owed: Vec<Command> = test
+            .sets
+            .iter()
+            .filter_map(|set| {
+                let device = job.devices.iter().find(|one| one.index == set.device)?.device;
+                let value = device.value.value;
+                let value = vec![scalar(value.scalar, set.raw); value.count()];
+                Some(Command { device: set.device, at_ns: set.at_ns, value })
+            })
+            .chain(of_world.iter().cloned())
+            .collect();
         owed.sort_by_key(|one| std::cmp::Reverse(one.at_ns));
         let silence_ns = job.board.link.silence_ms.map(|ms| MS * u64::from(ms) / 3);
         Self {

@@ -2,9 +2,11 @@
 //! values there, and by how much, out, in the words of people.
 
 use sensedsl_model::design::{Design, SignalOf, Test, TestRule, TestSignal, TestUnit};
-use sensedsl_model::written::rounded;
 use sensedsl_rules::{Formula, Outcome, Shape, Trace, Verdict};
 use sensedsl_wire::{ScalarType, Status};
+
+/// Significant digits of what people read.
+const SHORT_DIGITS: usize = 5;
 
 /// Whether a rule held.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,19 +185,23 @@ fn state(code: f64) -> &'static str {
     statuses.iter().find(is_it).map_or("unknown", |(_, word)| word)
 }
 
+/// A number with as many digits as a person reads.
+fn short(number: f64) -> String {
+    let text = format!("{number:.*e}", SHORT_DIGITS - 1);
+    // Not `-0`.
+    text.parse::<f64>().map_or(text, |number| format!("{}", number + 0.0))
+}
+
 /// A number in the unit that it is shown in.
 fn amount(unit: &TestUnit, computed: f64) -> String {
-    // Not `-0`.
-    let number = rounded(unit.shown(computed) + 0.0);
+    let number = short(unit.shown(computed));
     unit.name.as_ref().map_or_else(|| number.clone(), |name| format!("{number} {name}"))
 }
 
 /// By how much a rule held or did not.
 fn margin(rule: &TestRule, outcome: &Outcome) -> Option<String> {
-    let is_timed = matches!(
-        rule.rule.shape,
-        Shape::Eventually(_, Some(_)) | Shape::When(_, _, Some(1..))
-    );
+    let is_timed =
+        matches!(rule.rule.shape, Shape::Eventually(_, Some(_)) | Shape::When(_, _, Some(1..)));
     let distance = rule.margin.as_ref().filter(|_| outcome.robustness.is_finite());
     match outcome.verdict {
         Verdict::Held => match (outcome.spare_ns, distance) {
@@ -243,8 +249,8 @@ fn note(rule: &TestRule, outcome: &Outcome) -> Option<String> {
 pub(super) fn time(ns: u64) -> String {
     let number = crate::arith::number(ns);
     if ns >= 1_000_000_000 {
-        format!("{} s", rounded(number / 1e9))
+        format!("{} s", short(number / 1e9))
     } else {
-        format!("{} ms", rounded(number / 1e6))
+        format!("{} ms", short(number / 1e6))
     }
 }

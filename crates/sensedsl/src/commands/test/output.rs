@@ -23,9 +23,7 @@ pub(super) fn text(bed: &Bed<'_>, all: &[Ran<'_>]) -> String {
             let is_passed = all.iter().all(Ran::is_passed);
             json_text(&json!({ "version": VERSION, "passed": is_passed, "tests": tests }))
         }
-        TestFormat::Junit => {
-            junit(&all.iter().map(|ran| suite(bed, ran)).collect::<Vec<_>>())
-        }
+        TestFormat::Junit => junit(&all.iter().map(|ran| suite(bed, ran)).collect::<Vec<_>>()),
     }
 }
 
@@ -50,7 +48,8 @@ fn human(all: &[Ran<'_>]) -> String {
             let mut more: Vec<&str> = Vec::new();
             more.extend(one.margin.as_deref());
             more.extend(one.note.as_deref());
-            let more = if more.is_empty() { String::new() } else { format!(" ({})", more.join("; ")) };
+            let more =
+                if more.is_empty() { String::new() } else { format!(" ({})", more.join("; ")) };
             out.push_str(&format!("  {word:8}  {}{more}\n", visible(&rule.text)));
             if !one.is_held() {
                 let (_, values) = violation(one);
@@ -117,9 +116,8 @@ fn rule_value(bed: &Bed<'_>, rule: &TestRule, one: &Judged) -> Value {
         sensedsl_rules::Verdict::Held | sensedsl_rules::Verdict::Unknown => None,
     };
     let distance = rule.margin.as_ref().filter(|_| one.outcome.robustness.is_finite());
-    let distance = distance.map(|unit| {
-        json!({ "value": unit.shown(one.outcome.robustness), "unit": unit.name })
-    });
+    let distance = distance
+        .map(|unit| json!({ "value": unit.shown(one.outcome.robustness), "unit": unit.name }));
     json!({
         "text": rule.text,
         "line": line(bed, rule.span),
