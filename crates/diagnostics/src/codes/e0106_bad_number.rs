@@ -25,3 +25,8 @@ pub fn unit_alone(span: Span, unit: &str) -> Diagnostic {
         .here("only a number has a unit")
         .help(format!("remove it where the value has its unit already; otherwise multiply by `1 {unit}`"))
 }
+
+/// No type holds it.
+pub fn too_large(span: Span, number: &str) -> Diagnostic {
+    bad_number(span, number, "it is too large")
+}

@@ -29,7 +29,7 @@ pub(crate) fn bind(
         let (Some(device), Some(board)) = (at.map(DeviceIndex), board) else { continue };
         let mut names = Names { design, board, diagnostics };
         let reads = names.found(&one.reads, |_, _| true);
-        let sets = names.found(&one.sets, |names, found| names.can_be_set(found));
+        let sets = names.found(&one.sets, Names::can_be_set);
         let own = design.part_name(part).to_owned();
         for set in &sets {
             if let Some((first, at)) = owners.get(&set.value) {

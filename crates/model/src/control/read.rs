@@ -75,7 +75,7 @@ pub(crate) fn read(
     };
     let device = Seen { name: &name, id: own.id, label: own.label, prio: own.prio, every };
     let block = span(file, node.range());
-    let (devices, connections) = device.to_the_host(next, block, board);
+    let (devices, connections) = device.seen(next, block, board);
     let part = Part {
         name,
         block,
@@ -146,7 +146,7 @@ fn every(
     let number = match &value {
         Value::Unknown => return None,
         Value::Number(number) => *number,
-        _ => {
+        Value::Name(_) | Value::Text(_) | Value::List(_) | Value::Range(_) => {
             diagnostics.push(e0209_wrong_value::wrong_value(
                 at,
                 "every",
@@ -159,7 +159,7 @@ fn every(
     let ms = match number.measure {
         Measure::Bare => number.value,
         _ if number.dimension() == Dimension::TIME => number.in_base_units() * 1e3,
-        _ => {
+        Measure::Unit(_) | Measure::Derived(_) | Measure::Raw => {
             let found = format!("{} {}", number.value, number.unit_name());
             diagnostics.push(e0209_wrong_value::wrong_value(
                 at,
@@ -195,7 +195,7 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    fn to_the_host(
+    fn seen(
         self,
         next: Next,
         block: Span,

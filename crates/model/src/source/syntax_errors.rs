@@ -35,9 +35,7 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::MissingDigits { number } => {
             e0106_bad_number::bad_number(at, number, "digits are missing")
         }
-        Kind::NumberTooLarge { number } => {
-            e0106_bad_number::bad_number(at, number, "it is too large")
-        }
+        Kind::NumberTooLarge { number } => e0106_bad_number::too_large(at, number),
         Kind::UnknownUnit { found, suggestion } => unknown_unit(at, found, *suggestion),
         Kind::NonAsciiName { name } => e0221_identifier_reserved::identifier_reserved(
             at,

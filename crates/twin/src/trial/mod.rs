@@ -173,7 +173,7 @@ impl<'a> Trial<'a> {
     pub fn run(mut self, board: &mut SoftBoard, recording: &mut Recording) -> Option<Stopped> {
         board.link_open(true);
         while board.now_ns() < self.test.lasts_ns {
-            let bytes = self.to_send(board.now_ns());
+            let bytes = self.said(board.now_ns());
             board.link_write(&bytes);
             let next_ns = board.now_ns() + MS;
             board.run_until(next_ns);
@@ -194,7 +194,7 @@ impl<'a> Trial<'a> {
     }
 
     /// What the host sends in this millisecond.
-    fn to_send(&mut self, now_ns: u64) -> Vec<u8> {
+    fn said(&mut self, now_ns: u64) -> Vec<u8> {
         let mut bytes = Vec::new();
         if !self.is_known {
             return if now_ns.is_multiple_of(ASK_NS) {
