@@ -23,7 +23,7 @@ test Stays {
     always Heat < 60 degC;
 }
 ";
-const WORLD: &str = "[devices]\nHeat = { points = [[0, 20], [4, 220]] }\n";
+const WORLD: &str = "[devices]\nHeat = { ramp = [20, 220], over = \"4 s\" }\n";
 /// A thermostat that switches at its target.
 const CODE: &str = "#include \"hold.h\"
 void hold_init(void) {}
