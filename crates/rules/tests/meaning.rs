@@ -1,5 +1,5 @@
 //! Formulas and rules against their definition, moment by moment, on traces drawn by chance.
-#![expect(clippy::unwrap_used, clippy::indexing_slicing, reason = "a panic is a failure here")]
+#![expect(clippy::indexing_slicing, reason = "a panic is a failure here")]
 
 use proptest::prelude::*;
 use sensedsl_rules::{

@@ -52,10 +52,11 @@ fn wrong(steps: &str) -> String {
 
 /// The comparison of a rule that always holds.
 fn compared(steps: &str) -> (Term, Compare, Term) {
-    match &test(steps).rules[0].rule.shape {
-        Shape::Always(Formula::Compare(one, how, other)) => (one.clone(), *how, other.clone()),
-        other => panic!("{other:?}"),
-    }
+    let test = test(steps);
+    let Shape::Always(Formula::Compare(one, how, other)) = &test.rules[0].rule.shape else {
+        panic!("{:?}", test.rules[0])
+    };
+    (one.clone(), *how, other.clone())
 }
 
 fn limit(steps: &str) -> f64 {
@@ -142,88 +143,81 @@ fn steps_are_in_the_order_of_time() {
     assert_eq!(faults, [(2_000, 1_000), (3_000, 100)]);
 }
 
+/// Steps, and what is wrong with them.
+const MISTAKES: &[(&str, &str)] = &[
+    ("always Frnt < 5;", "E0252 `Frnt` is not a device or a constant of this design"),
+    ("always Line < 5;", "E0252 `Line` has 4 elements"),
+    ("always Line[4] < 5;", "E0252 `Line` has no element 4"),
+    ("always Line[Front] < 5;", "E0252 this is not an index of `Line`"),
+    ("always Front[0] < 5;", "E0252 `Front` has one value, not several elements"),
+    ("always Hold < 5;", "E0252 `Hold` is a controller, not a value"),
+    ("always Hold.late < 5;", "E0252 `Hold` has nothing called `late`"),
+    ("always Front.overruns < 5;", "E0252 `Front` has nothing called `overruns`"),
+    ("always agee(Front) < 5 s;", "E0252 `agee` is not a function of tests"),
+    ("always age(Fan) < 5 s;", "E0252 `Fan` is an actuator, so no value of it comes"),
+    ("always abs(Front, Rear) < 5;", "E0252 `abs` takes one number"),
+    ("always health(Front) == fine;", "E0252 `health(…)` is compared with a state"),
+    ("always health(Front) > good;", "E0253 a state is equal to another one, or it is not"),
+    ("always Front < 20 degC;", "E0253 the value is in cm, and this is a number of degC"),
+    ("always Line[0] < 20 cm;", "E0253 the value has no unit, and this is a number of cm"),
+    ("always Lux < 20 cm;", "E0253 the value is in lx, and this is a number of cm"),
+    ("always Front < Target;", "E0253 a value in cm and a value in degC cannot be compared"),
+    ("always Front + Lux < 5;", "E0253 a value in cm and a value in lx cannot be added"),
+    ("always Front * Lux < 5;", "E0253 a value in cm and a value in lx cannot be multiplied"),
+    ("always age(Front) < 20;", "E0253 a time is compared with a plain number"),
+    ("always 1 < 2;", "E0253 no device is in this comparison, so it never changes"),
+    (
+        "always Front in 30 cm .. 20 cm;",
+        "E0253 the range ends below its beginning, so nothing is in it",
+    ),
+    ("always Front in 0 cm .. Rear;", "E0253 an end of a range is a constant"),
+    ("always Front < 5 / 0;", "E0253 this divides by zero"),
+    ("always Front;", "E0256 this is a number, not true or false"),
+    ("always Front < (Rear < 5);", "E0256 this is true or false, not a number"),
+    ("always rising(Door) < 5;", "E0256 this is true or false, not a number"),
+    ("always Front < 5 within 1 s;", "E0254 `within` cannot stand in this rule"),
+    ("eventually Front < 5 within 11 s;", "E0254 the test is over after 10 s, before 11 s"),
+    ("eventually Front < 5 within 6 s from 5 s;", "E0254 the test is over after 10 s, before 11 s"),
+    ("eventually Front < 5 within 1 s to 5 s;", "E0254 `to` cannot stand in this rule"),
+    ("always Front < 5 from 3 s to 2 s;", "E0254 this ends at 2 s, and begins at 3 s"),
+    ("always Front < 5 from 3;", "E0254 a time is needed here, not the number 3"),
+    ("always Front < 5 from 3 cm;", "E0254 a time is needed here, not a number of cm"),
+    ("at 11 s set Fan = 5 %; always Door;", "E0254 the test is over after 10 s, before 11 s"),
+    ("at 1 s set Door = 1; always Door;", "E0257 `Door` is a sensor, so the host cannot set it"),
+    (
+        "at 1 s set Heater = 1; always Door;",
+        "E0257 `Heater` is set by the controller `Hold`, which refuses the host",
+    ),
+    ("at 1 s set Fann = 1; always Door;", "E0257 `Fann` is not an actuator of this design"),
+    ("at 1 s set Target = 300; always Door;", "E0234 `Target`: 300 degC is above `max`, 250 degC"),
+    ("fault smoke at 1 s; always Door;", "E0258 there is no fault `smoke`"),
+    (
+        "fault torn at 1 s for 1 s; always Door;",
+        "E0258 the fault `torn` is of a sensor, and names none",
+    ),
+    (
+        "fault reset of Air at 1 s; always Door;",
+        "E0258 the fault `reset` is of the board, not of a device",
+    ),
+    (
+        "fault torn of Fan at 1 s for 1 s; always Door;",
+        "E0258 `Fan` is not a sensor of this design",
+    ),
+    (
+        "fault hang of Front at 1 s for 1 s; always Door;",
+        "E0258 `Front` is on analog, so it cannot have the fault `hang`",
+    ),
+    (
+        "fault torn of Front at 1 s; always Door;",
+        "E0258 the fault `torn` does not say how long it lasts",
+    ),
+    ("at 1 s set Fan = 5 %;", "E0255 the test `A` has no rules, so it could not fail"),
+];
+
 #[test]
 fn each_mistake_has_its_code() {
-    let all = [
-        ("always Frnt < 5;", "E0252 `Frnt` is not a device or a constant of this design"),
-        ("always Line < 5;", "E0252 `Line` has 4 elements"),
-        ("always Line[4] < 5;", "E0252 `Line` has no element 4"),
-        ("always Line[Front] < 5;", "E0252 this is not an index of `Line`"),
-        ("always Front[0] < 5;", "E0252 `Front` has one value, not several elements"),
-        ("always Hold < 5;", "E0252 `Hold` is a controller, not a value"),
-        ("always Hold.late < 5;", "E0252 `Hold` has nothing called `late`"),
-        ("always Front.overruns < 5;", "E0252 `Front` has nothing called `overruns`"),
-        ("always agee(Front) < 5 s;", "E0252 `agee` is not a function of tests"),
-        ("always age(Fan) < 5 s;", "E0252 `Fan` is an actuator, so no value of it comes"),
-        ("always abs(Front, Rear) < 5;", "E0252 `abs` takes one number"),
-        ("always health(Front) == fine;", "E0252 `health(…)` is compared with a state"),
-        ("always health(Front) > good;", "E0253 a state is equal to another one, or it is not"),
-        ("always Front < 20 degC;", "E0253 the value is in cm, and this is a number of degC"),
-        ("always Line[0] < 20 cm;", "E0253 the value has no unit, and this is a number of cm"),
-        ("always Lux < 20 cm;", "E0253 the value is in lx, and this is a number of cm"),
-        ("always Front < Target;", "E0253 a value in cm and a value in degC cannot be compared"),
-        ("always Front + Lux < 5;", "E0253 a value in cm and a value in lx cannot be added"),
-        ("always Front * Lux < 5;", "E0253 a value in cm and a value in lx cannot be multiplied"),
-        ("always age(Front) < 20;", "E0253 a time is compared with a plain number"),
-        ("always 1 < 2;", "E0253 no device is in this comparison, so it never changes"),
-        (
-            "always Front in 30 cm .. 20 cm;",
-            "E0253 the range ends below its beginning, so nothing is in it",
-        ),
-        ("always Front in 0 cm .. Rear;", "E0253 an end of a range is a constant"),
-        ("always Front < 5 / 0;", "E0253 this divides by zero"),
-        ("always Front;", "E0256 this is a number, not true or false"),
-        ("always Front < (Rear < 5);", "E0256 this is true or false, not a number"),
-        ("always rising(Door) < 5;", "E0256 this is true or false, not a number"),
-        ("always Front < 5 within 1 s;", "E0254 `within` cannot stand in this rule"),
-        ("eventually Front < 5 within 11 s;", "E0254 the test is over after 10 s, before 11 s"),
-        (
-            "eventually Front < 5 within 6 s from 5 s;",
-            "E0254 the test is over after 10 s, before 11 s",
-        ),
-        ("eventually Front < 5 within 1 s to 5 s;", "E0254 `to` cannot stand in this rule"),
-        ("always Front < 5 from 3 s to 2 s;", "E0254 this ends at 2 s, and begins at 3 s"),
-        ("always Front < 5 from 3;", "E0254 a time is needed here, not the number 3"),
-        ("always Front < 5 from 3 cm;", "E0254 a time is needed here, not a number of cm"),
-        ("at 11 s set Fan = 5 %; always Door;", "E0254 the test is over after 10 s, before 11 s"),
-        (
-            "at 1 s set Door = 1; always Door;",
-            "E0257 `Door` is a sensor, so the host cannot set it",
-        ),
-        (
-            "at 1 s set Heater = 1; always Door;",
-            "E0257 `Heater` is set by the controller `Hold`, which refuses the host",
-        ),
-        ("at 1 s set Fann = 1; always Door;", "E0257 `Fann` is not an actuator of this design"),
-        (
-            "at 1 s set Target = 300; always Door;",
-            "E0234 `Target`: 300 degC is above `max`, 250 degC",
-        ),
-        ("fault smoke at 1 s; always Door;", "E0258 there is no fault `smoke`"),
-        (
-            "fault torn at 1 s for 1 s; always Door;",
-            "E0258 the fault `torn` is of a sensor, and names none",
-        ),
-        (
-            "fault reset of Air at 1 s; always Door;",
-            "E0258 the fault `reset` is of the board, not of a device",
-        ),
-        (
-            "fault torn of Fan at 1 s for 1 s; always Door;",
-            "E0258 `Fan` is not a sensor of this design",
-        ),
-        (
-            "fault hang of Front at 1 s for 1 s; always Door;",
-            "E0258 `Front` is on analog, so it cannot have the fault `hang`",
-        ),
-        (
-            "fault torn of Front at 1 s; always Door;",
-            "E0258 the fault `torn` does not say how long it lasts",
-        ),
-        ("at 1 s set Fan = 5 %;", "E0255 the test `A` has no rules, so it could not fail"),
-    ];
-    for (steps, expected) in all {
-        assert_eq!(wrong(steps), expected, "{steps}");
+    for (steps, expected) in MISTAKES {
+        assert_eq!(wrong(steps), *expected, "{steps}");
     }
 }
 
