@@ -13,6 +13,7 @@ pub const SOURCES: &[(&str, &str)] = files![
     "bus.rs",
     "capture.rs",
     "contact.rs",
+    "control.rs",
     "devices.rs",
     "esp/converter.rs",
     "esp/edges.rs",

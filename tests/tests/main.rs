@@ -58,6 +58,7 @@ mod teams;
 mod tidy;
 mod timing;
 mod traceability;
+mod trials;
 mod tutorials;
 mod web;
 mod wiring;

@@ -26,6 +26,22 @@ for name, text in json.load(sys.stdin):
 print(told, file=sys.stderr)
 ";
 
+/// Tests of which rules hold, are violated, and are not known.
+const TESTS: &str = "board Oven on NUCLEO_F446RE {
+    sensor Heat returns uint16 { type = analog; delay = 10 ms; quantity = \"degC\"; scale = 0.1; }
+    actuator Fan accepts uint16 { type = pwm; failsafe = 0; }
+}
+test Warm {
+    for = 2 s;
+    at 500 ms set Fan = 30 %;
+    always Heat < 1000;
+    always Fan < 20 % from 100 ms;
+    when rising(Fan > 0) then Fan == 0 within 100 ms;
+    eventually Fan == 30 % within 1 s;
+}
+test Dead { for = 1 s; fault torn of Heat at 0 s for 1 s; always health(Heat) == good; }
+";
+
 fn files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(root().join(folder)).unwrap();
     let mut all: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -77,6 +93,8 @@ fn what_is_printed_is_as_its_schema_says() {
     all.push(("diff", json_of(&["diff", &old], &new)));
     all.push(("parts", json_of(&["parts", "--family", "STM32F4", "--timeout", "10"], &fig2)));
     all.push(("drivers", sensedsl(["drivers", "--format", "json"]).run().exits(0).stdout));
+    let tests = folder.write("tests.sense", TESTS);
+    all.push(("test", json_of(&["test"], &tests)));
     all.push(("doctor", sensedsl(["doctor", "--format", "json"]).run().exits(0).stdout));
     all.retain(|(_, text)| !text.is_empty());
 

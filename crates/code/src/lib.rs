@@ -40,13 +40,28 @@ macro_rules! of_controller {
 of_controller! {
     Header = "templates/controller.h.txt";
     FirstC = "templates/controller.c.txt";
+    Module = "templates/controller.rs.txt";
+    FirstRust = "templates/user.rs.txt";
 }
 
-#[derive(Template)]
-#[template(path = "templates/native.c.txt", escape = "none")]
-struct NativeC<'a> {
-    board: &'a str,
-    all: &'a [ControllerPlan],
+/// Declares templates that print all controllers of a board.
+macro_rules! of_board {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                board: &'a str,
+                all: &'a [ControllerPlan],
+            }
+        )*
+    };
+}
+
+of_board! {
+    NativeC = "templates/native.c.txt";
+    Modules = "templates/controls.rs.txt";
+    NativeRust = "templates/native.rs.txt";
 }
 
 /// The declarations of a board's controllers in C, a header for each.
@@ -73,4 +88,33 @@ pub fn first_c(board: &str, all: &[ControllerPlan]) -> FileSet {
 #[must_use]
 pub fn native_c(job: &BoardJob<'_>) -> String {
     print(&NativeC { board: &job.board.name.value, all: &controllers(job) })
+}
+
+/// The declarations of a board's controllers in Rust: the files of a module `controls`, beside the folder `user`.
+#[must_use]
+pub fn modules(board: &str, all: &[ControllerPlan]) -> FileSet {
+    let mut files = FileSet::default();
+    if !all.is_empty() {
+        files.add("mod.rs", print(&Modules { board, all }));
+    }
+    for one in all {
+        files.add(format!("{}.rs", one.ident), print(&Module { board, one }));
+    }
+    files
+}
+
+/// The files in Rust that the user goes on with: they compile, and set nothing.
+#[must_use]
+pub fn first_rust(board: &str, all: &[ControllerPlan]) -> FileSet {
+    let mut files = FileSet::default();
+    for one in all {
+        files.add_once(format!("{}.rs", one.ident), print(&FirstRust { board, one }));
+    }
+    files
+}
+
+/// The program around the user's code in Rust that runs it on a computer: a `main.rs` beside `controls`.
+#[must_use]
+pub fn native_rust(job: &BoardJob<'_>) -> String {
+    print(&NativeRust { board: &job.board.name.value, all: &controllers(job) })
 }

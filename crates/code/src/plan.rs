@@ -11,6 +11,8 @@ pub struct ControllerPlan {
     pub name: String,
     /// The identifier in code: `follow`.
     pub ident: String,
+    /// The name of its type in Rust: `Follow`.
+    pub type_name: String,
     /// The time from the beginning of a step to that of the next one.
     pub every_ms: u32,
     /// What it gets, in the order of the file.
@@ -49,6 +51,12 @@ impl FieldPlan {
         }
     }
 
+    /// Bytes of the whole value.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.element_bytes() * usize::from(self.count())
+    }
+
     /// Bytes of one element.
     pub(crate) const fn element_bytes(&self) -> usize {
         self.scalar.size_bytes()
@@ -68,14 +76,26 @@ pub fn controllers(job: &BoardJob<'_>) -> Vec<ControllerPlan> {
 
 fn of_controller(job: &BoardJob<'_>, one: &JobController<'_>) -> ControllerPlan {
     let fields = |list: &[usize]| {
-        let all = list.iter().filter_map(|index| Some(FieldPlan::new(*index, job.devices.get(*index)?)));
+        let all =
+            list.iter().filter_map(|index| Some(FieldPlan::new(*index, job.devices.get(*index)?)));
         all.collect()
     };
     ControllerPlan {
         name: job.devices.get(one.own).map_or_else(String::new, |own| own.name().to_owned()),
         ident: one.ident.clone(),
+        type_name: type_name(&one.ident),
         every_ms: one.controller.every_ms,
         reads: fields(&one.reads),
         sets: fields(&one.sets),
     }
+}
+
+/// A name in snake case as that of a type: `Follow`.
+fn type_name(ident: &str) -> String {
+    let words = ident.split('_').map(|word| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
+    });
+    words.collect()
 }

@@ -1,4 +1,4 @@
-//! How a plan is spelled in C.
+//! How a plan is spelled in C and in Rust.
 
 use sensedsl_wire::ScalarType;
 
@@ -19,6 +19,39 @@ pub(crate) const fn c_type(scalar: &ScalarType) -> &'static str {
         ScalarType::Float32 => "float",
         ScalarType::Float64 => "double",
     }
+}
+
+/// The type of one element in Rust.
+pub(crate) const fn rust_scalar(scalar: &ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::Bool => "bool",
+        ScalarType::Uint8 => "u8",
+        ScalarType::Int8 => "i8",
+        ScalarType::Uint16 => "u16",
+        ScalarType::Int16 => "i16",
+        ScalarType::Uint32 => "u32",
+        ScalarType::Int32 => "i32",
+        ScalarType::Uint64 => "u64",
+        ScalarType::Int64 => "i64",
+        ScalarType::Float32 => "f32",
+        ScalarType::Float64 => "f64",
+    }
+}
+
+/// The type of a value in Rust: `[u16; 8]`.
+pub(crate) fn rust_type(field: &FieldPlan) -> String {
+    let scalar = rust_scalar(&field.scalar);
+    field.length.map_or_else(|| scalar.to_owned(), |length| format!("[{scalar}; {length}]"))
+}
+
+/// Whether a value is shown as a number of its own.
+pub(crate) fn has_converted(fields: &[FieldPlan]) -> bool {
+    fields.iter().any(is_converted)
+}
+
+/// Whether a value can be set to the number that is shown.
+pub(crate) fn has_settable(fields: &[FieldPlan]) -> bool {
+    fields.iter().any(is_settable)
 }
 
 /// The length of an array after a field's name: `[8]`; nothing for a single value.

@@ -2,6 +2,7 @@
 #include "up_link.h"
 
 #include "sense_model.h"
+#include "up_control.h"
 #include "up_life.h"
 #include "up_shell.h"
 
@@ -55,14 +56,26 @@ void up_fall_back(size_t field, const void *value) {
 
 static void apply(void *context, size_t field, const void *value) {
   (void)context;
+#if UP_HAS_CONTROL == TRUE
+  if (!up_control_yields(field, value)) {
+    return;
+  }
+#endif
+  up_io_lock();
   up_fall_back(field, value);
+  up_io_unlock();
   up_user_received(field);
 }
 #endif
 
 static void failsafe(void *context) {
   (void)context;
+#if UP_HAS_CONTROL == TRUE
+  up_control_host_is_silent();
+#endif
+  up_io_lock();
   sense_failsafe();
+  up_io_unlock();
 }
 
 static void describe(void *context, up_health_board_t *board) {

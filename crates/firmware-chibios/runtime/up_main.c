@@ -69,7 +69,9 @@ static void start_tasks(void) {
 }
 
 static void report_cycle(void) {
+  up_io_lock();
   sense_poll();
+  up_io_unlock();
   if (up_shell_cycle()) {
     up_link_pause();
   } else {

@@ -43,6 +43,10 @@ void up_fail(size_t field) {
   note(field, UP_BUS_ERROR);
 }
 
+void up_note_good(size_t field) {
+  note(field, UP_FRESH);
+}
+
 void up_result(size_t field, up_result_t result, void *value) {
   if (result == UP_FRESH && up_config.filters != NULL && up_config.filters[field].filter != NULL) {
     const up_filtered_t *own = &up_config.filters[field];
@@ -50,7 +54,7 @@ void up_result(size_t field, up_result_t result, void *value) {
     result = up_config.filter(own->filter, own->state, &up_config.schema->fields[field], up_now_ms(), value);
     if (result == UP_NOTHING) {
       /* The device answered; the filter withholds the value from the host. */
-      note(field, UP_FRESH);
+      up_note_good(field);
     }
   }
   if (result == UP_FRESH) {

@@ -139,6 +139,15 @@ void sense_failsafe(void);
 /* Sets an actuator as if the host had sent the value. From sense_failsafe(). */
 void up_fall_back(size_t field, const void *value);
 
+/* Held by whoever calls sense_poll() or sets an actuator: the reporter, and the threads of the user's controllers. */
+#if UP_HAS_CONTROL == TRUE
+void up_io_lock(void);
+void up_io_unlock(void);
+#else
+#define up_io_lock()
+#define up_io_unlock()
+#endif
+
 /* ---- time ---- */
 
 /* Microseconds per kernel tick. */
@@ -159,6 +168,9 @@ void up_put(size_t field, void *value);
 
 /* A sensor could not be read; its last value remains. */
 void up_fail(size_t field);
+
+/* A device has answered, and its value is the one that is known. */
+void up_note_good(size_t field);
 
 /* The outcome of one reading of a sensor: a value (UP_FRESH) goes through the field's filter to up_put(), a fault is
  * counted. From a thread. */

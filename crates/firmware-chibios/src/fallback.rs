@@ -3,7 +3,7 @@
 use sensedsl_wire::ScalarType;
 
 use super::context::Context;
-use sensedsl_job::JobDevice;
+use sensedsl_job::{JobDevice, Owner};
 
 /// A value that is set when the host falls silent.
 #[derive(Clone, Debug)]
@@ -15,19 +15,28 @@ pub(super) struct FallBackPlan {
     pub(super) elements: Vec<String>,
 }
 
-pub(super) fn plan(context: &Context<'_>) -> Vec<FallBackPlan> {
-    context.job.devices.iter().filter_map(FallBackPlan::new).collect()
+/// The values that are set when the host falls silent: what code sets is not the host's.
+pub(super) fn of_host(context: &Context<'_>) -> Vec<FallBackPlan> {
+    let job = context.job;
+    let hosts =
+        job.devices.iter().enumerate().filter(|(index, _)| job.owner(*index) == Owner::Host);
+    hosts.filter_map(|(_, one)| FallBackPlan::new(one)).collect()
 }
 
 impl FallBackPlan {
-    fn new(one: &JobDevice<'_>) -> Option<Self> {
+    /// None if the device has no failsafe, or one that its driver applies by itself.
+    pub(super) fn new(one: &JobDevice<'_>) -> Option<Self> {
+        Some(Self::of(one, one.device.coding.failsafe?))
+    }
+
+    /// All elements of a device with the same code.
+    pub(super) fn of(one: &JobDevice<'_>, code: f64) -> Self {
         let value = one.device.value.value;
-        let element = literal(value.scalar, one.device.coding.failsafe?);
-        Some(Self {
+        Self {
             field: one.name().to_owned(),
             c_type: c_type(value.scalar),
-            elements: vec![element; value.count()],
-        })
+            elements: vec![literal(value.scalar, code); value.count()],
+        }
     }
 }
 

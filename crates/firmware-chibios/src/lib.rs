@@ -33,6 +33,7 @@ mod board;
 mod can;
 mod chips;
 mod context;
+mod control;
 mod dac;
 mod digital;
 mod doctor;

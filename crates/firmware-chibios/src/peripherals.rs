@@ -10,7 +10,8 @@ use super::context::Context;
 use super::names::Drivers;
 use super::section::{Peripheral, Section, Version};
 use super::{
-    adc, can, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, stepper, uart,
+    adc, can, control, dac, digital, encoder, gpio, i2c, icu, onewire, pulse, pwm, spi, stepper,
+    uart,
 };
 
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
@@ -29,6 +30,7 @@ pub(super) const PERIPHERALS: &[&Peripheral] = &[
     &pwm::PERIPHERAL,
     &stepper::PERIPHERAL,
     &pulse::PERIPHERAL,
+    &control::PERIPHERAL,
 ];
 
 /// The kinds of devices that have code here.

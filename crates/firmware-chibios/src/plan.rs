@@ -4,6 +4,7 @@ use sensedsl_diagnostics::Diagnostic;
 
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
+use super::control::ControlPlan;
 use super::doctor::{self, DoctorPlan};
 use super::fallback::{self, FallBackPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
@@ -39,6 +40,8 @@ pub(super) struct BoardPlan {
     /// The values that are set when the host falls silent, besides what sections do.
     pub(super) fall_backs: Vec<FallBackPlan>,
     pub(super) guards: Vec<GuardPlan>,
+    /// The user's code that runs in cycles.
+    pub(super) controllers: ControlPlan,
 }
 
 /// One thread.
@@ -77,7 +80,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         report_ms: link::report_ms(context, &tasks),
         cycles_ms: context.job.cycles_ms(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
-        fall_backs: fallback::plan(context),
+        fall_backs: fallback::of_host(context),
+        controllers: ControlPlan::new(context, &sections),
         button: link::button(context),
         guards: settings::guards(context, &sections, &settings),
         settings,
@@ -125,9 +129,12 @@ impl BoardPlan {
         self.lines(|section| &section.polls)
     }
 
-    /// The lines that bring actuators to their failsafe state.
+    /// The lines that bring the host's actuators to their failsafe state.
     pub(super) fn failsafes(&self) -> Vec<&str> {
-        self.lines(|section| &section.failsafes)
+        let all = self.sections.iter().flat_map(|section| &section.failsafes);
+        let hosts =
+            all.filter(|one| !one.field.as_ref().is_some_and(|name| self.controllers.sets(name)));
+        hosts.map(|one| one.line.as_str()).collect()
     }
 
     /// The lines that run when an actuator is set.

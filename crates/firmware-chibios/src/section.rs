@@ -81,8 +81,8 @@ pub(super) struct Section {
     pub(super) counters: Vec<Counter>,
     /// The buses that can be scanned for addresses.
     pub(super) probes: Vec<Probe>,
-    /// Lines of C that bring its actuators to their failsafe state when the host falls silent.
-    pub(super) failsafes: Vec<String>,
+    /// What brings its actuators to their failsafe state when whoever sets them falls silent.
+    pub(super) failsafes: Vec<Failsafe>,
 }
 
 /// A bus that can be scanned for addresses: an `up_probe_t`.
@@ -112,6 +112,15 @@ pub(super) struct Apply {
     /// The device's name, as in `SENSE_FIELD_`.
     pub(super) field: String,
     /// A line of C; `value` points to the value.
+    pub(super) line: String,
+}
+
+/// The action when whoever sets an actuator has fallen silent.
+#[derive(Clone, Debug)]
+pub(super) struct Failsafe {
+    /// The device's name; none if it is for all that goes over a line or a bus, and for the host's silence alone.
+    pub(super) field: Option<String>,
+    /// A line of C.
     pub(super) line: String,
 }
 

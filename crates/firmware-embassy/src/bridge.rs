@@ -74,7 +74,7 @@ fn bridge(
         let safe = drive("Scalar::Int32", &format!("&{}_i32.to_be_bytes()", level(failsafe)));
         // Before the host speaks it is silent as well, so this is how the outputs start.
         section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
-        section.fails.push(safe);
+        section.fails.push((wired.index, safe));
     }
     Ok(())
 }

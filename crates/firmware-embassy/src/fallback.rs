@@ -7,12 +7,16 @@ use super::context::Context;
 /// The bytes of each value as they are on the wire, by the index of its item.
 pub(super) fn values(context: &Context<'_>) -> Vec<(usize, Vec<u8>)> {
     let all = context.job.devices.iter().enumerate();
-    let value = |(index, one): (usize, &sensedsl_job::JobDevice<'_>)| {
-        let value = one.device.value.value;
-        let element = bytes(value.scalar, one.device.coding.failsafe?);
-        Some((index, element.repeat(value.count())))
+    let bytes_of = |(index, one): (usize, &sensedsl_job::JobDevice<'_>)| {
+        Some((index, value(one, one.device.coding.failsafe?)))
     };
-    all.filter_map(value).collect()
+    all.filter_map(bytes_of).collect()
+}
+
+/// The bytes of a device whose elements all have the same code.
+pub(super) fn value(one: &sensedsl_job::JobDevice<'_>, code: f64) -> Vec<u8> {
+    let value = one.device.value.value;
+    bytes(value.scalar, code).repeat(value.count())
 }
 
 /// The bytes of a number. The model has seen to it that the type holds it.

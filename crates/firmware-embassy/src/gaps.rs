@@ -8,7 +8,7 @@ use super::hal::contract::buses::Serial;
 use sensedsl_job::{BoardJob, JobConnection};
 
 /// All kinds, in the order of the documentation.
-pub(super) const KINDS: [KindName; 12] = [
+pub(super) const KINDS: [KindName; 13] = [
     KindName::Analog,
     KindName::I2c,
     KindName::Icu,
@@ -21,6 +21,7 @@ pub(super) const KINDS: [KindName; 12] = [
     KindName::Can,
     KindName::OneWire,
     KindName::Stepper,
+    KindName::Code,
 ];
 
 /// The kinds that a HAL has drivers for.

@@ -36,6 +36,7 @@ mod chip;
 mod chips;
 mod contacts;
 mod context;
+mod control;
 mod counters;
 mod fallback;
 mod filter;

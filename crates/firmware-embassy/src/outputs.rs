@@ -164,7 +164,7 @@ fn voltage(
             let safe = dac.set(field, &level(failsafe).min(4_095).to_string());
             // Before the host speaks it is silent as well, so this is how the output starts.
             section.begins.push(format!("outputs(|outputs| {safe});"));
-            section.fails.push(format!("{safe};"));
+            section.fails.push((wired.index, format!("{safe};")));
         }
     }
     Ok(())

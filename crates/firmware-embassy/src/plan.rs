@@ -3,19 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::catalog::ActivePin;
+use sensedsl_code::ControllerPlan;
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_job::Owner;
 use sensedsl_wire::{Checksum, Direction};
 
 use super::cargo::Manifests;
 use super::context::{Context, scalar};
+use super::control::Guard;
 use super::hal::contract::outputs::{Pins, Speed};
 use super::hal::contract::{Begin, Drivers, Package};
 use super::item::{Constant, Item};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, LinkPlan, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, onewire, outputs, pulse,
-    serial, spi, stepper,
+    analog, can, cargo, contacts, control, fallback, i2c, icu, inputs, link, onewire, outputs,
+    pulse, serial, spi, stepper,
 };
 
 /// What a kind adds to a project.
@@ -36,6 +39,7 @@ const PERIPHERALS: &[Peripheral] = &[
     contacts::plan,
     inputs::plan,
     stepper::plan,
+    control::plan,
 ];
 
 /// The cycle of the reporter if nothing asks for a shorter one.
@@ -75,6 +79,9 @@ pub(super) struct Plan {
     pub(super) has_outputs: bool,
     pub(super) hushes: Vec<String>,
     pub(super) fails: Vec<String>,
+    /// The user's code that runs in cycles, and what each falls back to.
+    pub(super) controllers: Vec<ControllerPlan>,
+    pub(super) guards: Vec<Guard>,
     /// Statements of `main` before tasks are started.
     pub(super) begins: Vec<String>,
     /// The values that items get when the host is silent, by their constants.
@@ -130,6 +137,8 @@ pub(super) fn plan(
     section.starts.push(Start::Task(0, call + ")"));
     let levels = levels::levels(context, project, &section.starts, diagnostics);
     let fallbacks: BTreeMap<usize, Vec<u8>> = fallback::values(context).into_iter().collect();
+    let hosts = |index: usize| context.job.owner(index) == Owner::Host;
+    let fails = section.fails.iter().filter(|(index, _)| hosts(*index));
     Plan {
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
@@ -147,7 +156,12 @@ pub(super) fn plan(
         sets: by_item(context, |index| section.sets.get(&index).cloned()),
         watched: section.watched,
         begins: section.begins,
-        fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),
+        fallbacks: by_item(context, |index| {
+            fallbacks.get(&index).filter(|_| hosts(index)).cloned()
+        }),
+        fails: fails.map(|(_, line)| line.clone()).collect(),
+        controllers: sensedsl_code::controllers(context.job),
+        guards: control::guards(context, &section.fails),
         report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| light(drivers.pins(), led)),
@@ -165,7 +179,6 @@ pub(super) fn plan(
         states: section.states,
         polls: section.polls,
         hushes: section.hushes,
-        fails: section.fails,
     }
 }
 
@@ -177,7 +190,14 @@ fn report_ms(context: &Context<'_>) -> u32 {
     let devices = context.job.devices.iter().map(|one| one.device);
     let served = devices.filter(|device| !device.kind.name().spec().triggers_itself);
     let repeats = sensedsl_job::kinds::can::repeats_ms(context.job);
-    served.map(|device| device.delay_ms).chain(repeats).fold(REPORT_MS, u32::min).max(1)
+    // What the reporter counts is as new as a step needs it.
+    let steps = context.job.controllers.iter().map(|one| one.controller.every_ms);
+    served
+        .map(|device| device.delay_ms)
+        .chain(repeats)
+        .chain(steps)
+        .fold(REPORT_MS, u32::min)
+        .max(1)
 }
 
 /// The board's light, which is off at first.

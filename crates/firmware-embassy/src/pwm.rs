@@ -121,6 +121,6 @@ fn set(pulses: &dyn Pulses, timer: &Timer, output: &Output<'_>, section: &mut Se
         }
         // Before the host speaks it is silent as well, so this is how the output starts.
         section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
-        section.fails.push(safe);
+        section.fails.push((wired.index, safe));
     }
 }

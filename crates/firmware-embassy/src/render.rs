@@ -36,6 +36,8 @@ pub(super) fn render(b: &Plan) -> FileSet {
     files.add("src/wiring.rs", print(&Wiring { b }));
     files.add("src/tables.rs", print(&Tables { b }));
     files.add_once("src/user/mod.rs", USER);
+    files.merge_under("src/controls", sensedsl_code::modules(&b.board, &b.controllers));
+    files.merge_under("src/user", sensedsl_code::first_rust(&b.board, &b.controllers));
     if let Some(memory) = &b.begin.memory {
         files.add("memory.x", memory.clone());
     }

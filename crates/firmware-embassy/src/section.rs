@@ -32,8 +32,8 @@ pub(super) struct Section {
     pub(super) begins: Vec<String>,
     /// The first statements when the host is silent.
     pub(super) hushes: Vec<String>,
-    /// The statements with the outputs when the host is silent.
-    pub(super) fails: Vec<String>,
+    /// The statements with the outputs when whoever sets them is silent, with the index of the item.
+    pub(super) fails: Vec<(usize, String)>,
     /// The tasks that the watchdog watches.
     pub(super) watched: Vec<Watched>,
     /// How the link is made.

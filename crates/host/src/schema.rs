@@ -48,6 +48,8 @@ pub struct Device {
     pub max: Option<f64>,
     /// From one value to the next; none for values that come when something happens, or where the file does not say.
     pub cycle_ms: Option<u32>,
+    /// The controller on the board whose code sets it, if it does not obey the host.
+    pub obeys: Option<String>,
 }
 
 /// Why a text is not a `schema.json` that can be used.
@@ -137,6 +139,14 @@ struct ItemEntry {
     max: Option<f64>,
     #[serde(default)]
     cycle_ms: Option<u32>,
+    #[serde(default)]
+    owner: Option<OwnerEntry>,
+}
+
+#[derive(Deserialize)]
+struct OwnerEntry {
+    controller: String,
+    host: String,
 }
 
 impl Board {
@@ -220,6 +230,7 @@ impl Device {
             min: entry.min,
             max: entry.max,
             cycle_ms: entry.cycle_ms,
+            obeys: entry.owner.filter(|own| own.host == "refused").map(|own| own.controller),
         })
     }
 }

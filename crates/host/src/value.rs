@@ -27,6 +27,8 @@ pub enum CommandError {
     Name(String, Option<String>),
     /// A sensor has the name.
     Sensor(String),
+    /// The code of a controller on the board sets it: the device, and the controller.
+    Owned(String, String),
     /// There are not as many values as the device has elements.
     Count {
         /// How many there must be.
@@ -57,6 +59,10 @@ impl fmt::Display for CommandError {
                 write!(f, "the board has no actuator `{name}`, did you mean `{meant}`?")
             }
             Self::Sensor(name) => write!(f, "`{name}` is a sensor: it is not set"),
+            Self::Owned(name, controller) => write!(
+                f,
+                "`{name}` obeys the code of `{controller}` on the board; `host = override;` there lets the host set it, too"
+            ),
             Self::Count { expected, found } => {
                 write!(f, "{found} values for {expected}: write one for each element")
             }
@@ -326,6 +332,9 @@ impl Board {
         else {
             return Err(CommandError::Sensor(name.to_owned()));
         };
+        if let Some(controller) = &device.obeys {
+            return Err(CommandError::Owned(device.name.clone(), controller.clone()));
+        }
         let value = device.parse(text)?;
         let values = [(device.id, value)];
         let frame = encode_report(&self.schema, Direction::Actuator, &values);
@@ -397,6 +406,7 @@ mod tests {
             min: Some(0.0),
             max: Some(3_000.0),
             cycle_ms: None,
+            obeys: None,
         }
     }
 

@@ -64,6 +64,17 @@ pub struct JobController<'a> {
     pub sets: Vec<usize>,
 }
 
+/// Whom a device that is set obeys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// The host; or nobody, because it is measured.
+    Host,
+    /// A controller; what the host commands is refused.
+    Code,
+    /// A controller, unless the host has commanded something and still speaks.
+    CodeOrHost,
+}
+
 /// A part whose values the hardware alone cannot handle.
 #[derive(Clone, Debug)]
 pub struct JobPart<'a> {
@@ -244,9 +255,27 @@ impl<'a> BoardJob<'a> {
 
     /// How often each device's value can be counted on, in milliseconds; 0 for one that cannot. It is stale when it has
     /// not come for three of these.
+    ///
+    /// A controller counts its steps in each of them, though what it counts is told to the host only when it has
+    /// changed.
     #[must_use]
     pub fn cycles_ms(&self) -> Vec<u32> {
-        self.devices.iter().map(|one| one.device.paced_ms().unwrap_or(0)).collect()
+        let controller = |index| self.controllers.iter().find(|one| one.own == index);
+        let all = self.devices.iter().enumerate().map(|(index, one)| match controller(index) {
+            Some(own) => own.controller.every_ms,
+            None => one.device.paced_ms().unwrap_or(0),
+        });
+        all.collect()
+    }
+
+    /// Whom a device obeys, by its index into [`BoardJob::devices`].
+    #[must_use]
+    pub fn owner(&self, index: usize) -> Owner {
+        match self.controllers.iter().find(|one| one.sets.contains(&index)) {
+            Some(own) if own.controller.host_overrides => Owner::CodeOrHost,
+            Some(_) => Owner::Code,
+            None => Owner::Host,
+        }
     }
 
     /// Whether the host sets any value.

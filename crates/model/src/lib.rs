@@ -37,6 +37,7 @@ mod rule;
 mod sound;
 mod source;
 mod spanned;
+mod test;
 mod value;
 
 pub use board::table_findings::diagnostic as table_diagnostic;

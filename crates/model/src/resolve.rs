@@ -26,6 +26,7 @@ use crate::source::fixes::settle_fixes;
 use crate::source::reader::{Items, Reader};
 use crate::source::syntax_errors;
 use crate::spanned::Spanned;
+use crate::test;
 use crate::value::constants::Constants;
 use crate::value::definitions;
 
@@ -92,6 +93,12 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     serial::check(&design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
     link::settle_silence(&mut design, &mut diagnostics);
+    if !items.broken {
+        // What a test names may be in the text that could not be read.
+        let absent = [unread.as_slice(), &homeless].concat();
+        let known = (&constants, &mut diagnostics);
+        design.tests = test::read(&design, &items.tests, &absent, known);
+    }
     if items.broken {
         // An item that seems missing may be in the text that could not be read.
         let missing = e0206_missing_property::CODE;

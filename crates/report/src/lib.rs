@@ -37,6 +37,7 @@ pub mod schema;
 pub mod sheet;
 pub mod svg;
 pub mod timing;
+pub mod trial_picture;
 pub mod why;
 
 pub use rows::{Row, rows};

@@ -20,7 +20,7 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
     let schema: Schema = design.schema(on.board, &devices);
     let items: Vec<Value> =
-        devices.iter().filter_map(|index| item(design, design.device(*index)?)).collect();
+        devices.iter().filter_map(|index| item(design, *index, design.device(*index)?)).collect();
     json!({
         "name": board.name.value,
         "hash": format!("0x{:08x}", schema.hash()),
@@ -36,7 +36,7 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     })
 }
 
-fn item(design: &Design, device: &Device) -> Option<Value> {
+fn item(design: &Design, index: DeviceIndex, device: &Device) -> Option<Value> {
     let part = design.part(device.part)?;
     let scalar = device.value.value.scalar;
     let mut object = Map::new();
@@ -47,6 +47,12 @@ fn item(design: &Design, device: &Device) -> Option<Value> {
     object.insert("length".into(), device.value.value.length.map_or(Value::Null, Value::from));
     object.insert("kind".into(), device.kind.name().name().into());
     object.insert("cycle_ms".into(), device.paced_ms().map_or(Value::Null, Value::from));
+    if let Some(own) = design.owner(index).filter(|_| device.direction == Direction::Actuator) {
+        let controller = design.device(own.device)?;
+        let host = if own.host_overrides { "override" } else { "refused" };
+        let owner = json!({ "controller": controller.name.value, "host": host });
+        object.insert("owner".into(), owner);
+    }
     let chip = part.chip.is_some();
     let chip = chip.then(|| json!({ "name": part.name.value, "driver": part.driver }));
     object.insert("chip".into(), chip.unwrap_or_default());

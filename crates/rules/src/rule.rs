@@ -61,6 +61,21 @@ pub struct Outcome {
     pub open: usize,
 }
 
+impl Shape {
+    /// Calls back with the number of each signal in it.
+    pub fn for_each_signal(&self, seen: &mut dyn FnMut(usize)) {
+        match self {
+            Self::Always(one) | Self::Never(one) | Self::Eventually(one, _) => {
+                one.for_each_signal(seen);
+            }
+            Self::When(condition, then, _) => {
+                condition.for_each_signal(seen);
+                then.for_each_signal(seen);
+            }
+        }
+    }
+}
+
 impl Rule {
     /// Judges a run.
     #[must_use]
@@ -197,9 +212,10 @@ fn within<V: Copy>(
     from_ns: u64,
     to_ns: u64,
 ) -> impl Iterator<Item = (u64, V, u64)> + '_ {
-    let end_ns = of.end_ns;
+    // The piece before one that begins at the very end stops there as well, and does not include it.
+    let last_ns = of.pieces.last().map(|piece| piece.0);
     of.spans().filter_map(move |(begin_ns, stop_ns, value)| {
-        let is_last = stop_ns == end_ns;
+        let is_last = Some(begin_ns) == last_ns;
         let at_ns = begin_ns.max(from_ns);
         let is_inside = at_ns <= to_ns && (at_ns < stop_ns || (is_last && at_ns == stop_ns));
         is_inside.then_some((stop_ns, value, at_ns))
@@ -208,8 +224,10 @@ fn within<V: Copy>(
 
 /// The spans in which something holds, their ends excluded.
 fn answers(of: &Steps<Truth>) -> Vec<(u64, u64)> {
-    let end = |stop_ns: u64| stop_ns.saturating_add(u64::from(stop_ns == of.end_ns));
-    of.spans().filter(|span| span.2.holds).map(|span| (span.0, end(span.1))).collect()
+    let last_ns = of.pieces.last().map(|piece| piece.0);
+    let is_last = |begin_ns: u64| Some(begin_ns) == last_ns;
+    let end = |begin_ns, stop_ns: u64| stop_ns.saturating_add(u64::from(is_last(begin_ns)));
+    of.spans().filter(|span| span.2.holds).map(|span| (span.0, end(span.0, span.1))).collect()
 }
 
 /// The first moment at or after `at_ns` that lies in a span.

@@ -266,3 +266,17 @@ fn a_late_answer_is_late_by_so_much() {
     let trace = Trace { signals: vec![never.clone(), never], end_ns: 40 };
     assert_eq!(when(5).judge(&trace).verdict, Verdict::Unknown);
 }
+
+/// The piece before one that begins at the very end of the trace has nothing to say about the end.
+#[test]
+fn a_piece_that_begins_at_the_end_stands_alone_there() {
+    let one = Signal { samples: vec![(0, -5.0), (10, 3.0)] };
+    let trace = Trace { signals: vec![one], end_ns: 10 };
+    let above = || Formula::Compare(Term::Signal(0), Compare::Greater, Term::Number(0.0));
+    let rule = Rule { shape: Shape::Always(above()), from_ns: 10, to_ns: None };
+    let outcome = rule.judge(&trace);
+    assert_eq!((outcome.verdict, outcome.robustness), (Verdict::Held, 3.0));
+    let below = Formula::Not(Box::new(above()));
+    let rule = Rule { shape: Shape::When(above(), below, Some(0)), from_ns: 0, to_ns: None };
+    assert_eq!(rule.judge(&trace).verdict, Verdict::Violated { at_ns: 10, late_ns: None });
+}

@@ -45,6 +45,8 @@ pub mod capture;
 #[cfg(feature = "runtime")]
 pub mod contact;
 #[cfg(feature = "runtime")]
+pub mod control;
+#[cfg(feature = "runtime")]
 pub mod devices;
 #[cfg(feature = "runtime")]
 pub mod line;

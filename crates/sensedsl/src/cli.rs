@@ -9,6 +9,7 @@ mod names;
 mod parts;
 mod simulate;
 mod sinks;
+mod test;
 
 use std::path::PathBuf;
 
@@ -26,6 +27,7 @@ use names::{BOARD, DRIVER, TEMPLATE};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 pub(crate) use sinks::SinkArgs;
+pub(crate) use test::{TestArgs, TestFormat, TestOn};
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///
@@ -60,6 +62,8 @@ pub(crate) enum Command {
     Flash(FlashArgs),
     /// Run a board without hardware: its sensors measure a simulated world
     Simulate(SimulateArgs),
+    /// Run the tests of a file: boards in a simulated world, held to rules
+    Test(TestArgs),
     /// Show what a board measures as it comes, and set its actuators
     Monitor(MonitorArgs),
     /// Make a table, a summary or a page with plots of a record

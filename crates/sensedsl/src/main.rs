@@ -67,6 +67,7 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Build(args) => commands::build::run(&args, terminal),
         Command::Flash(args) => commands::flash::run(&args, terminal),
         Command::Simulate(args) => commands::simulate::run(&args, terminal),
+        Command::Test(args) => commands::test::run(&args, terminal),
         Command::Monitor(args) => commands::monitor::run(&args, terminal),
         Command::Convert(args) => commands::convert::run(&args, terminal),
         Command::Explain(args) => commands::explain::run(&args, terminal),

@@ -179,7 +179,11 @@ fn of_processor(design: &Design, timing: &BoardTiming, row: &Row) -> Option<Diag
         let message =
             format!("the processor is asked to be busy {percent} % of the time, mostly by {asked}");
         let least = worst.cycle.map(|cycle| scaled_ms(cycle.delay_ms, busy_ns));
+        let is_code = design.controllers.iter().any(|one| worst.devices.contains(&one.device));
         let help = match least {
+            Some(least) if is_code => {
+                format!("write `every {least} ms` for {asked}, or a shorter `takes`")
+            }
             Some(least) => format!("write `delay = {least} ms;` or more for {asked}"),
             None if worst.name == STEPS => format!("write a lower `speed` for {asked}"),
             None => format!("state a lower `max` for {asked}, or count with a slower wheel"),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::profile::Costs;
 use sensedsl_board::signal::UnitName;
-use sensedsl_model::design::{DeviceIndex, Transport};
+use sensedsl_model::design::{Controller, DeviceIndex, Transport};
 use sensedsl_model::kind::analog::Analog;
 use sensedsl_model::kind::onewire::OneWire;
 use sensedsl_model::kind::{Interface, Kind};
@@ -277,6 +277,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     row.a_second = instructions.map(Count::Instructions);
     row.busy_ns = instructions.and_then(ns);
     rows.push(row);
+    rows.extend(of_controllers(context));
     rows.extend(of_captures(context, costs));
     rows.extend(crate::steps::thread(context, costs.map(|(costs, _)| costs), &ns));
     // The sum is unknown if the busy time of any row is. Captures with an unknown rate have no row.
@@ -286,6 +287,23 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     row.busy_ns = busy.map(|busy| busy.into_iter().fold(0, u64::saturating_add));
     rows.push(row);
     rows
+}
+
+/// The user's code: how long a step may take, as far as the file says.
+fn of_controllers(context: &Context<'_>) -> Vec<Row> {
+    let design = context.design;
+    let own = design.controllers.iter().filter(|one| {
+        design.board(one.board).is_some_and(|board| board.name.span == context.board.name.span)
+    });
+    let row = |one: &Controller| {
+        let device = design.device(one.device)?;
+        let mut row = Row::new(Part::Thread, device.name.value.as_str(), vec![one.device]);
+        row.cycle = Some(Cycle { delay_ms: one.every_ms, prio: device.prio, start_ms: 0 });
+        row.cycle_ns = one.takes_us.map(|us| u64::from(us) * 1_000);
+        row.busy_ns = row.cycle_ns.map(|ns| crate::rows::per_second(ns, one.every_ms));
+        Some(row)
+    };
+    own.filter_map(row).collect()
 }
 
 /// All captures whose rate is known.

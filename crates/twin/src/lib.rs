@@ -69,5 +69,6 @@ mod ports;
 pub mod range;
 pub mod soft;
 pub mod tables;
+pub mod trial;
 pub mod truth;
 pub mod world;

@@ -9,7 +9,7 @@ use sensedsl_model::kind::KindName;
 
 use crate::context::{Context, Drive};
 use crate::names::Setting;
-use crate::section::{Apply, Counter, Section, Size, Work};
+use crate::section::{Apply, Counter, Failsafe, Section, Size, Work};
 use crate::stacks::Depth;
 use sensedsl_files::block;
 use sensedsl_job::kinds::can::{self, BANKS, Identifier};
@@ -124,7 +124,9 @@ impl<'a> Bus<'a> {
         let Self { ident, clock, of, .. } = self;
         section.starts.push(format!("up_can_start(&{ident}_bus);"));
         if self.repeats() {
-            section.failsafes.push(format!("up_can_hush(&{ident}_bus);"));
+            section
+                .failsafes
+                .push(Failsafe { field: None, line: format!("up_can_hush(&{ident}_bus);") });
         }
         if !of.frames.is_empty() {
             section.polls.push(format!("up_can_send(&{ident}_bus);"));

@@ -2,81 +2,202 @@
 
 use sensedsl_code::{ControllerPlan, controllers};
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_job::{BoardJob, JobController, JobDevice, Owner};
 use sensedsl_wire::Direction;
 
 use crate::context::Context;
+use crate::fallback::FallBackPlan;
 use crate::section::{Section, Work};
 use crate::stacks::Depth;
 use sensedsl_files::{block, templates};
 
 templates! {
-    s: Controllers;
+    s: ControlPlan;
     Tables = "control/control.c.txt";
-}
-
-struct Controllers {
-    all: Vec<Control>,
-    /// The values that devices of code have at the start.
-    first: Vec<First>,
-}
-
-/// An `up_control_t`.
-struct Control {
-    plan: ControllerPlan,
-    /// The name in the file.
-    name: String,
-    takes_us: u32,
-    sets: Vec<Set>,
-}
-
-/// A device that is set: its field, and whether it is an actuator.
-struct Set {
-    ident: String,
-    name: String,
-    is_actuator: bool,
-}
-
-/// The value of a device of code at the start.
-struct First {
-    name: String,
-    c_type: &'static str,
-    elements: Vec<String>,
 }
 
 /// What the user's code takes of a stack is not known: room for some calls and a few hundred bytes of variables.
 const DEPTH: Depth = Depth { plain: [1_600, 1_600], filtered: [1_800, 1_800] };
+/// The guard sets failsafe values, and counts.
+const GUARD_DEPTH: Depth = Depth { plain: [600, 600], filtered: [800, 800] };
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+/// The user's code on a board.
+#[derive(Clone, Debug)]
+pub(crate) struct ControlPlan {
+    all: Vec<Control>,
+    /// The values that devices of code have at the start.
+    first: Vec<FallBackPlan>,
+    /// Whom each field obeys, as the runtime calls it.
+    owners: Vec<&'static str>,
+    /// The parameters that survive a reset.
+    kept: Vec<Kept>,
+    kept_words: usize,
+    /// Above all controllers, relative to the usual priority.
+    guard_prio: i16,
+    guard_stack_bytes: u32,
+}
+
+/// An `up_control_t`.
+#[derive(Clone, Debug)]
+struct Control {
+    plan: ControllerPlan,
+    takes_us: u32,
+    reads: Vec<Access>,
+    sets: Vec<Access>,
+    /// What is set when it hangs: values, and lines of drivers.
+    fall_backs: Vec<FallBackPlan>,
+    failsafes: Vec<String>,
+}
+
+/// A device that is read or set: its field, and the runtime's function.
+#[derive(Clone, Debug)]
+struct Access {
+    ident: String,
+    name: String,
+    function: &'static str,
+}
+
+/// An `up_kept_t`.
+#[derive(Clone, Debug)]
+struct Kept {
+    name: String,
+    offset: usize,
+}
+
+/// The threads, and what starts them.
+pub(super) fn section(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    let mut all = Vec::new();
-    for (plan, own) in controllers(context.job).into_iter().zip(&context.job.controllers) {
-        let Some(device) = context.job.devices.get(own.own) else { continue };
+    for one in &context.job.controllers {
+        let Some(device) = context.job.devices.get(one.own) else { continue };
         section.work.push(Work {
             unit: device.name().to_owned(),
             cycle: device.cycle,
             function: "up_control_cycle",
-            table: format!("{}_control", own.ident),
+            table: format!("{}_control", one.ident),
             device: device.device.id.value,
             depth: DEPTH,
         });
-        let every_us = own.controller.every_ms.saturating_mul(1_000);
-        let sets = own.sets.iter().filter_map(|&index| context.job.devices.get(index));
-        all.push(Control {
-            plan,
-            name: device.name().to_owned(),
-            takes_us: own.controller.takes_us.unwrap_or(every_us),
-            sets: sets
-                .map(|one| Set {
-                    ident: one.ident.clone(),
-                    name: one.name().to_owned(),
-                    is_actuator: one.device.direction == Direction::Actuator,
-                })
-                .collect(),
-        });
     }
-    if !all.is_empty() {
-        section.starts.push("up_control_start();".to_owned());
-        section.tables = block(&Tables { s: &Controllers { all, first: Vec::new() } });
+    if !section.work.is_empty() {
+        section.starts.push("up_control_start(&controls);".to_owned());
     }
     section
+}
+
+impl ControlPlan {
+    /// `sections`: of all drivers, which know how their outputs fall back.
+    pub(crate) fn new(context: &Context<'_>, sections: &[Section]) -> Self {
+        let job = context.job;
+        let plans = controllers(job);
+        let all = plans.into_iter().zip(&job.controllers);
+        let (kept, kept_bytes) = kept(job);
+        Self {
+            all: all.map(|(plan, own)| Control::new(job, plan, own, sections)).collect(),
+            first: job.devices.iter().filter_map(first).collect(),
+            owners: (0..job.devices.len()).map(|index| owner(job, index)).collect(),
+            kept,
+            kept_words: kept_bytes.div_ceil(4),
+            guard_prio: job.controllers.iter().map(|one| prio(job, one)).max().unwrap_or(0) + 1,
+            guard_stack_bytes: GUARD_DEPTH.stack_bytes(context),
+        }
+    }
+
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// What the code of each gets and gives.
+    pub(crate) fn plans(&self) -> Vec<ControllerPlan> {
+        self.all.iter().map(|one| one.plan.clone()).collect()
+    }
+
+    /// Whether one of them sets the device.
+    pub(crate) fn sets(&self, device: &str) -> bool {
+        self.all.iter().any(|one| one.sets.iter().any(|set| set.name == device))
+    }
+
+    /// The tables.
+    pub(crate) fn block(&self) -> String {
+        block(&Tables { s: self })
+    }
+}
+
+impl Control {
+    fn new(
+        job: &BoardJob<'_>,
+        plan: ControllerPlan,
+        own: &JobController<'_>,
+        sections: &[Section],
+    ) -> Self {
+        let every_us = own.controller.every_ms.saturating_mul(1_000);
+        let devices = |list: &[usize]| -> Vec<&JobDevice<'_>> {
+            list.iter().filter_map(|index| job.devices.get(*index)).collect()
+        };
+        let set = devices(&own.sets);
+        let lines = sections
+            .iter()
+            .flat_map(|section| &section.failsafes)
+            .filter(|line| set.iter().any(|one| line.field.as_deref() == Some(one.name())));
+        Self {
+            plan,
+            takes_us: own.controller.takes_us.unwrap_or(every_us),
+            reads: devices(&own.reads).into_iter().map(|one| Access::new(one, read)).collect(),
+            sets: set.iter().map(|one| Access::new(one, sets)).collect(),
+            fall_backs: set.iter().filter_map(|one| FallBackPlan::new(one)).collect(),
+            failsafes: lines.map(|line| line.line.clone()).collect(),
+        }
+    }
+
+    fn has_failsafe(&self) -> bool {
+        !self.fall_backs.is_empty() || !self.failsafes.is_empty()
+    }
+}
+
+impl Access {
+    fn new(one: &JobDevice<'_>, function: fn(&JobDevice<'_>) -> &'static str) -> Self {
+        Self { ident: one.ident.clone(), name: one.name().to_owned(), function: function(one) }
+    }
+}
+
+/// A value that nobody measures is good as soon as it is there.
+fn read(one: &JobDevice<'_>) -> &'static str {
+    let is_given = one.device.kind.code().is_some() || one.device.direction == Direction::Actuator;
+    if is_given { "up_control_given" } else { "up_control_get" }
+}
+
+fn sets(one: &JobDevice<'_>) -> &'static str {
+    match one.device.direction {
+        Direction::Actuator => "up_control_set",
+        Direction::Sensor => "up_control_report",
+    }
+}
+
+fn first(one: &JobDevice<'_>) -> Option<FallBackPlan> {
+    one.device.kind.code().map(|code| FallBackPlan::of(one, code.default))
+}
+
+fn owner(job: &BoardJob<'_>, index: usize) -> &'static str {
+    match job.owner(index) {
+        Owner::Host => "UP_OWNER_HOST",
+        Owner::Code => "UP_OWNER_CODE",
+        Owner::CodeOrHost => "UP_OWNER_CODE_OR_HOST",
+    }
+}
+
+fn prio(job: &BoardJob<'_>, one: &JobController<'_>) -> i16 {
+    job.devices.get(one.own).map_or(0, |own| i16::from(own.cycle.prio))
+}
+
+/// The parameters that are kept, and the bytes that they take.
+fn kept(job: &BoardJob<'_>) -> (Vec<Kept>, usize) {
+    let mut offset = 0;
+    let mut all = Vec::new();
+    for one in &job.devices {
+        if one.device.kind.code().is_some_and(|code| code.is_stored) {
+            all.push(Kept { name: one.name().to_owned(), offset });
+            offset += one.device.value.value.size_bytes();
+        }
+    }
+    (all, offset)
 }

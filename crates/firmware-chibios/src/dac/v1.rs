@@ -7,7 +7,7 @@ use sensedsl_model::kind::{Kind, KindName, Role};
 
 use crate::context::Context;
 use crate::names::Setting;
-use crate::section::{Apply, Section};
+use crate::section::{Apply, Failsafe, Section};
 use sensedsl_files::block;
 use sensedsl_job::{JobConnection, JobDevice};
 
@@ -58,7 +58,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section.starts = outputs.iter().map(start).collect();
     section.applies = applies(&outputs);
     let failsafe = |one: &Output| {
-        Some(format!("(void)dacPutChannelX(&{}, 0U, {}U);", one.driver, one.failsafe?))
+        let line = format!("(void)dacPutChannelX(&{}, 0U, {}U);", one.driver, one.failsafe?);
+        Some(Failsafe { field: Some(one.field.clone()), line })
     };
     section.failsafes = outputs.iter().filter_map(failsafe).collect();
     section.tables = block(&Tables { outputs });

@@ -12,7 +12,7 @@ use sensedsl_model::protocol::Drive as Bridged;
 use super::rate::Rate;
 use crate::context::{Context, Drive};
 use crate::names::Setting;
-use crate::section::{Apply, Section};
+use crate::section::{Apply, Failsafe, Section};
 use crate::timers::{self, Channel};
 use sensedsl_files::{block, templates};
 use sensedsl_job::snake;
@@ -196,7 +196,7 @@ impl Pulses {
             let unit = if device.device.coding.drive.is_some() { "" } else { "U" };
             let line = format!("{verb}_level(&{table}, {level}{unit});");
             section.starts.push(line.clone());
-            section.failsafes.push(line);
+            section.failsafes.push(Failsafe { field: Some(name.clone()), line });
         }
         match device.device.coding.drive {
             None => {

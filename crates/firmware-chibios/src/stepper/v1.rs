@@ -8,7 +8,7 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use crate::context::{Context, Drive, PadPlan};
-use crate::section::{Apply, Section};
+use crate::section::{Apply, Failsafe, Section};
 use crate::timers;
 use sensedsl_files::{block, templates};
 use sensedsl_job::{JobConnection, JobDevice};
@@ -75,7 +75,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         if device.device.direction == Direction::Actuator {
             let line = format!("up_motors_set(&{}_motors, value);", group.ident);
             section.applies.push(Apply { field: group.name.clone(), line });
-            section.failsafes.push(format!("up_motors_stop(&{}_motors);", group.ident));
+            section.failsafes.push(Failsafe {
+                field: None,
+                line: format!("up_motors_stop(&{}_motors);", group.ident),
+            });
             motors.commands.push(group);
         } else {
             section.polls.push(format!("up_position_poll(&{}_position);", group.ident));

@@ -6,7 +6,7 @@ use sensedsl_model::kind::uart::{Duplex, Parity, Uart};
 
 use super::v1::{cr1, cr2, frame, not_inverted};
 use crate::context::{Context, Drive};
-use crate::section::{Apply, Section, Work};
+use crate::section::{Apply, Failsafe, Section, Work};
 use crate::stacks::Depth;
 use sensedsl_board::signal::UnitName;
 use sensedsl_files::{block, templates};
@@ -103,7 +103,10 @@ pub(super) fn add(
         section.clocks.extend(clock);
         section.starts.push(format!("up_line_start(&{}_line);", line.ident));
         if line.parts.iter().flat_map(|part| &part.orders).any(|order| order.resend_ms > 0) {
-            section.failsafes.push(format!("up_line_hush(&{}_line);", line.ident));
+            section.failsafes.push(Failsafe {
+                field: None,
+                line: format!("up_line_hush(&{}_line);", line.ident),
+            });
         }
         section.applies.extend(line.applies());
         section.work.push(line.work(context, &dialogue));

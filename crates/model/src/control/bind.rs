@@ -110,9 +110,12 @@ impl Names<'_> {
         let all = (0..).map(DeviceIndex).zip(&self.design.devices);
         let mut named = all.filter(|(_, device)| device.name.value == name.value);
         let (report, at) = match named.next() {
-            Some((index, device)) if self.board_of(device) == Some(self.board) => return Some(index),
+            Some((index, device)) if self.board_of(device) == Some(self.board) => {
+                return Some(index);
+            }
             Some((_, device)) => {
-                let report = wrong::elsewhere(name.span, &name.value, self.board_name(), device.name.span);
+                let report =
+                    wrong::elsewhere(name.span, &name.value, self.board_name(), device.name.span);
                 (report, name.span)
             }
             None => (self.unknown(name), name.span),
@@ -130,7 +133,8 @@ impl Names<'_> {
         if !values.is_empty() {
             return wrong::chip(name.span, &name.value, &values);
         }
-        let here = self.design.devices.iter().filter(|device| self.board_of(device) == Some(self.board));
+        let here =
+            self.design.devices.iter().filter(|device| self.board_of(device) == Some(self.board));
         let meant = nearest(&name.value, here.map(|device| device.name.value.as_str()));
         wrong::unknown_device(name.span, &name.value, self.board_name(), meant)
     }

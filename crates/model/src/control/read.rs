@@ -1,6 +1,8 @@
 //! A controller's block in; the device that it is to the host, and the names that it reads and sets, out.
 
-use sensedsl_diagnostics::codes::{e0201_unknown_property, e0209_wrong_value, e0211_out_of_range, e0628_step_too_long};
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0209_wrong_value, e0211_out_of_range, e0628_step_too_long,
+};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -91,7 +93,7 @@ pub(crate) fn read(
 struct Own {
     id: Option<Spanned<u8>>,
     label: Option<String>,
-    prio: (i8, Option<Span>),
+    prio: i8,
     reads: Vec<Spanned<String>>,
     sets: Vec<Spanned<String>>,
     takes_us: Option<Spanned<u32>>,
@@ -101,7 +103,6 @@ struct Own {
 impl Own {
     fn read(fields: &mut Fields<'_>) -> Self {
         let id = fields.integer("id", 1..=254);
-        let prio_span = fields.own_span("prio");
         let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
         let host = fields.word("host", &[("refused", false), ("override", true)]);
         Self {
@@ -109,7 +110,7 @@ impl Own {
                 Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })
             }),
             label: fields.text("label").map(|text| text.value),
-            prio: (prio.unwrap_or(0), prio_span),
+            prio: prio.unwrap_or(0),
             reads: devices(fields, "reads"),
             sets: devices(fields, "sets"),
             takes_us: fields.time_us("takes", 1..=60_000_000),
@@ -146,7 +147,12 @@ fn every(
         Value::Unknown => return None,
         Value::Number(number) => *number,
         _ => {
-            diagnostics.push(e0209_wrong_value::wrong_value(at, "every", "a time such as 5 ms", "no number"));
+            diagnostics.push(e0209_wrong_value::wrong_value(
+                at,
+                "every",
+                "a time such as 5 ms",
+                "no number",
+            ));
             return None;
         }
     };
@@ -155,17 +161,27 @@ fn every(
         _ if number.dimension() == Dimension::TIME => number.in_base_units() * 1e3,
         _ => {
             let found = format!("{} {}", number.value, number.unit_name());
-            diagnostics.push(e0209_wrong_value::wrong_value(at, "every", "a time such as 5 ms", &found));
+            diagnostics.push(e0209_wrong_value::wrong_value(
+                at,
+                "every",
+                "a time such as 5 ms",
+                &found,
+            ));
             return None;
         }
     };
-    let whole = (ms.round() - ms).abs() < 1e-6 && (1.0..=f64::from(EVERY_MAX_MS)).contains(&ms.round());
+    let whole =
+        (ms.round() - ms).abs() < 1e-6 && (1.0..=f64::from(EVERY_MAX_MS)).contains(&ms.round());
     if !whole {
         let found = format!("{ms} ms");
         diagnostics.push(e0211_out_of_range::out_of_range(at, "every", &found, EVERY));
         return None;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and in the range")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole, and in the range"
+    )]
     Some(Spanned { value: ms.round() as u32, span: at })
 }
 
@@ -174,7 +190,7 @@ struct Seen<'a> {
     name: &'a Spanned<String>,
     id: Option<Spanned<u8>>,
     label: Option<String>,
-    prio: (i8, Option<Span>),
+    prio: i8,
     every: Spanned<u32>,
 }
 
@@ -209,9 +225,10 @@ impl Seen<'_> {
             kind,
             kind_span: self.name.span,
             delay_ms: self.every.value,
-            delay_span: Some(self.every.span),
-            prio: self.prio.0,
-            prio_span: self.prio.1,
+            // These are not properties that could be left out.
+            delay_span: None,
+            prio: self.prio,
+            prio_span: None,
             group: None,
             shown: Presentation { label: self.label, ..Presentation::default() },
             coding,

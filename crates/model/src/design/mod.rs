@@ -3,12 +3,14 @@
 
 mod bounds;
 mod controller;
+mod fault;
 mod index;
 mod module;
 mod pin_ref;
 mod placement;
 mod presentation;
 pub mod protocol;
+mod test;
 
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
@@ -25,11 +27,13 @@ use protocol::{Coding, Filter, Protocol};
 
 pub use bounds::Bounds;
 pub use controller::Controller;
+pub use fault::FaultKind;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
 pub use module::Module;
 pub use pin_ref::PinRef;
 pub use placement::{Placement, Preference, PreferenceSubject, Together};
 pub use presentation::{Bare, Presentation};
+pub use test::{Setting, SignalOf, Test, TestFault, TestRule, TestSignal, TestUnit, rounded};
 
 /// All boards and devices of a file and the files it uses.
 #[derive(Clone, Debug)]
@@ -48,6 +52,8 @@ pub struct Design {
     pub connections: Vec<Connection>,
     /// The code of the user's that runs on the boards, in file order.
     pub controllers: Vec<Controller>,
+    /// What must hold in runs, in file order.
+    pub tests: Vec<Test>,
 }
 
 /// A board of the file.
@@ -444,6 +450,7 @@ impl Design {
         });
         let new_device = |old: DeviceIndex| new_devices.get(old.0).copied().flatten();
         self.controllers.retain_mut(|one| one.renumber(&new_device));
+        self.tests.retain_mut(|one| one.renumber(&new_device));
         for connection in &mut self.connections {
             connection.device = new_device(connection.device).unwrap_or(connection.device);
         }

@@ -30,7 +30,7 @@ use crate::value::constants::Constants;
 use crate::value::{Evaluator, Value};
 use plain::{describe, is_plain_number};
 pub(crate) use plain::{name_or_text, plain_integer, plain_number, points, with_address};
-pub(crate) use shown::{Codes, ValueMismatch, in_quantity, of_pulse, unit_of};
+pub(crate) use shown::{Codes, ValueMismatch, code_of, in_quantity, of_pulse, unit_of};
 
 /// A property as it was written.
 #[derive(Clone, Debug)]

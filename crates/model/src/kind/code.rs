@@ -62,7 +62,8 @@ impl Properties for Code {
         if let (Some(store), Direction::Sensor) = (&store, direction)
             && store.value
         {
-            let what = "what code makes is not kept: a parameter, which the host sets, is an `actuator`";
+            let what =
+                "what code makes is not kept: a parameter, which the host sets, is an `actuator`";
             fields.contradiction(store.span, "store", what);
         }
         Self { default, is_stored: store.is_some_and(|store| store.value) }

@@ -202,7 +202,8 @@ impl Kind {
             | Interface::Dac(_)
             | Interface::Can(_)
             | Interface::OneWire(_)
-            | Interface::Stepper(_) | Interface::Code(_) => Encoding::Plain,
+            | Interface::Stepper(_)
+            | Interface::Code(_) => Encoding::Plain,
         }
     }
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use crate::control::Unbound;
 use crate::design::{
     Board, BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
 };
-use crate::control::Unbound;
 use crate::spanned::Spanned;
 use sensedsl_diagnostics::FileId;
 
@@ -65,8 +65,15 @@ pub(crate) fn assemble(
     let unread = boards.iter().zip(names).filter(|(board, _)| board.is_none());
     let mut left_out: Vec<Spanned<String>> = unread.filter_map(|(_, name)| name.clone()).collect();
     let boards = boards.into_iter().flatten().collect();
-    let mut design =
-        Design { file, boards, parts: Vec::new(), devices: Vec::new(), connections: Vec::new(), controllers: Vec::new() };
+    let mut design = Design {
+        file,
+        boards,
+        parts: Vec::new(),
+        devices: Vec::new(),
+        connections: Vec::new(),
+        controllers: Vec::new(),
+        tests: Vec::new(),
+    };
     let mut controllers = Vec::new();
     let mut homeless: BTreeSet<PartIndex> = BTreeSet::new();
     for mut read in parts {

@@ -56,6 +56,8 @@ fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
     let why = if device.kind.stepper().is_some() {
         "a timer makes and counts the steps by itself"
+    } else if device.kind.code().is_some() {
+        "nothing measures it; the controller that sets it has a cycle and a priority"
     } else {
         "the timer sees every edge by itself"
     };

@@ -53,7 +53,7 @@ const ITEMS: [SyntaxKind; 9] = [
     SyntaxKind::Reading,
     SyntaxKind::Command,
 ];
-const STATEMENTS: [SyntaxKind; 7] = [
+const STATEMENTS: [SyntaxKind; 13] = [
     SyntaxKind::Const,
     SyntaxKind::Property,
     SyntaxKind::Prefer,
@@ -61,6 +61,12 @@ const STATEMENTS: [SyntaxKind; 7] = [
     SyntaxKind::Reserve,
     SyntaxKind::Release,
     SyntaxKind::Allow,
+    SyntaxKind::SetStep,
+    SyntaxKind::FaultStep,
+    SyntaxKind::AlwaysRule,
+    SyntaxKind::NeverRule,
+    SyntaxKind::EventuallyRule,
+    SyntaxKind::WhenRule,
 ];
 
 /// The part of the budgets not yet used, over all files.

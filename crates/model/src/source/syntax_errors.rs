@@ -194,7 +194,9 @@ fn inside(block: Block) -> &'static str {
         Block::Driver => "a property, a connection, a reading or a command",
         Block::Connection | Block::Reading | Block::Command | Block::Link => "a property",
         Block::Controller => "a property, such as `reads = [Line];`, or `allow`",
-        Block::Test => "a property, a step (`at`, `fault`) or a rule (`always`, `never`, `eventually`, `when`)",
+        Block::Test => {
+            "a property, a step (`at`, `fault`) or a rule (`always`, `never`, `eventually`, `when`)"
+        }
     }
 }
 

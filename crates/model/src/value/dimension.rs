@@ -21,7 +21,7 @@ pub(crate) struct Dimension {
 }
 
 impl Dimension {
-    pub(super) const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         seconds: 0,
         volts: 0,
         ohms: 0,
@@ -63,7 +63,7 @@ impl Dimension {
         }
     }
 
-    pub(super) fn combine(self, other: Self, with: fn(i8, i8) -> i8) -> Self {
+    pub(crate) fn combine(self, other: Self, with: fn(i8, i8) -> i8) -> Self {
         Self {
             seconds: with(self.seconds, other.seconds),
             volts: with(self.volts, other.volts),

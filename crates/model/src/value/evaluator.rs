@@ -161,7 +161,8 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-fn literal(number: &ast::Number) -> Value {
+/// The value of a number as it is written.
+pub(crate) fn literal(number: &ast::Number) -> Value {
     let is_negative = number.sign() == Some(Sign::Minus);
     let measure = match (number.unit_token(), number.unit()) {
         (None, _) => Measure::Bare,
@@ -194,6 +195,15 @@ fn literal(number: &ast::Number) -> Value {
 struct CombineError {
     message: String,
     help: &'static str,
+}
+
+/// Two numbers and an operator in, the result, or what is wrong and what to write, out.
+pub(crate) fn combine(
+    left: Number,
+    operator: Operator,
+    right: Number,
+) -> Result<Number, (String, &'static str)> {
+    compute(left, operator, right).map_err(|why| (why.message, why.help))
 }
 
 fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, CombineError> {

@@ -14,7 +14,7 @@ use sensedsl_syntax::Unit;
 use crate::spanned::Spanned;
 
 pub(crate) use dimension::{Dimension, power_of_ten, shifted};
-pub(crate) use evaluator::Evaluator;
+pub(crate) use evaluator::{Evaluator, combine, literal};
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,7 +145,7 @@ impl Number {
         }
     }
 
-    pub(super) fn of(value: f64, measure: Measure) -> Self {
+    pub(crate) fn of(value: f64, measure: Measure) -> Self {
         let is_none = measure == Measure::Derived(Dimension::NONE);
         let measure = if is_none { Measure::Bare } else { measure };
         let is_whole = measure == Measure::Bare && value.fract() == 0.0 && value.abs() < EXACT_MAX;

@@ -30,5 +30,6 @@ mod starter;
 pub(crate) mod studio;
 mod sweep;
 pub(crate) mod template;
+pub(crate) mod test;
 mod timing;
 mod typecheck;

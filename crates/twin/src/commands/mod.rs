@@ -13,7 +13,7 @@ pub(crate) mod track;
 mod tried;
 mod written;
 
-use sensedsl_job::BoardJob;
+use sensedsl_job::{BoardJob, Owner};
 use sensedsl_wire::{Direction, Scalar, encode_hello_request, encode_report};
 
 use crate::bench::Bench;
@@ -72,6 +72,11 @@ impl<'a> Commands<'a> {
             let Some(one) = job.devices.get(index) else { continue };
             let own: Vec<&Command> =
                 bench.commands().iter().filter(|command| command.device == one.index).collect();
+            // Code sets what it owns, and a parameter is only changed where the world says so.
+            let is_codes = one.device.kind.code().is_some() && own.is_empty();
+            if is_codes || job.owner(index) != Owner::Host {
+                continue;
+            }
             let mut actor = Actor::new(job, bench, index, values);
             actor.due_ns = APART_NS * u64::try_from(place).unwrap_or(0);
             if !own.is_empty() {

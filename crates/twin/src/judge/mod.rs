@@ -20,7 +20,7 @@ mod silence;
 mod tolerance;
 mod words;
 
-use sensedsl_job::BoardJob;
+use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_wire::{Direction, Health, Scalar};
 
 use crate::bench::Bench;
@@ -59,10 +59,18 @@ impl Judge {
     #[must_use]
     pub fn new(job: &BoardJob<'_>, bench: &Bench) -> Self {
         let find = |subject: &Subject| job.devices.iter().find(|one| one.index == subject.device);
-        let sensor =
-            |subject: &Subject| Some(SensorJudge::new(job, bench, find(subject)?, subject));
+        // What code sets is the user's: the world says nothing of it.
+        let is_codes = |one: &JobDevice<'_>| one.device.kind.code().is_some();
+        let sensor = |subject: &Subject| {
+            let one = find(subject).filter(|one| !is_codes(one))?;
+            Some(SensorJudge::new(job, bench, one, subject))
+        };
         let devices = bench.subjects().iter().filter_map(sensor).collect();
-        let others = job.devices.iter().filter(|one| one.device.direction == Direction::Actuator);
+        let others = job.devices.iter().enumerate().filter(|(index, one)| {
+            one.device.direction == Direction::Actuator
+                && !is_codes(one)
+                && job.owner(*index) == Owner::Host
+        });
         let name = job.board.name.value.clone();
         let mut ids: Vec<u8> = job.devices.iter().map(|one| one.device.id.value).collect();
         ids.sort_unstable();
@@ -70,7 +78,7 @@ impl Judge {
             devices,
             board: name.clone(),
             ids,
-            others: others.map(|one| SilentDeviceJudge::new(job, bench, one)).collect(),
+            others: others.map(|(_, one)| SilentDeviceJudge::new(job, bench, one)).collect(),
             undisturbed: (!bench.is_disturbed()).then_some(name),
             received: 0,
             first_ns: None,

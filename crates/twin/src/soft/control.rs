@@ -1,7 +1,7 @@
 //! The user's code on a board: the newest values in, what its steps set out. The code itself runs elsewhere.
 
 use sense_rt::{Outcome, Status};
-use sensedsl_job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_wire::Direction;
 
 use super::core::{Core, wrapped};
@@ -23,16 +23,8 @@ pub trait UserCode {
     fn step(&mut self, which: u8, request: &[u8], answer: &mut [u8]) -> Result<(), String>;
 }
 
-/// Whom a device belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Owner {
-    /// The host, or hardware.
-    Other,
-    /// A controller; what the host commands is refused.
-    Code,
-    /// A controller, unless the host has commanded something and still speaks.
-    CodeOrHost,
-}
+/// How often an unchanged count is reported.
+const REPEAT_MS: u64 = 1_000;
 
 /// A controller's cycle and its devices, by place in the schema.
 #[derive(Clone, Debug)]
@@ -86,19 +78,9 @@ impl Controllers {
                 .collect(),
             sets: one.sets.iter().map(|&index| (index, bytes(index))).collect(),
         };
-        let mut owners = vec![Owner::Other; job.devices.len()];
-        for one in &job.controllers {
-            let owner =
-                if one.controller.host_overrides { Owner::CodeOrHost } else { Owner::Code };
-            for &index in &one.sets {
-                if let Some(place) = owners.get_mut(index) {
-                    *place = owner;
-                }
-            }
-        }
         Self {
             all: job.controllers.iter().map(of).collect(),
-            owners,
+            owners: (0..job.devices.len()).map(|index| job.owner(index)).collect(),
             first: job.devices.iter().enumerate().filter_map(first).collect(),
         }
     }
@@ -130,14 +112,23 @@ impl Controllers {
             let mut answer = vec![0; one.sets.iter().map(|(_, bytes)| 1 + bytes).sum()];
             code.step(which, &request, &mut answer)?;
             set.extend(one.answered(&answer));
-            let now_ms = core.now_ms;
-            core.health.note(one.own, Outcome::Fresh, now_ms);
+            one.count(core, since_ms);
         }
         Ok(set)
     }
 }
 
 impl Loop {
+    /// A step was in time. What counts those that were not is told now and then, though nothing has changed.
+    fn count(&self, core: &mut Core, since_ms: u64) {
+        let steps = REPEAT_MS.div_ceil(self.every_ms);
+        let late = core.store.get(self.own).map(<[u8]>::to_vec);
+        match late.filter(|_| (since_ms / self.every_ms).is_multiple_of(steps)) {
+            Some(mut late) => core.record(self.own, Outcome::Fresh, &mut late),
+            None => core.health.note(self.own, Outcome::Fresh, core.now_ms),
+        }
+    }
+
     fn request(&self, core: &Core, dt_us: u32) -> Vec<u8> {
         let mut bytes = dt_us.to_be_bytes().to_vec();
         for input in &self.reads {

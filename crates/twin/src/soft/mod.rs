@@ -20,7 +20,7 @@ use sense_rt::{
     BoardHealth, Cause, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
     Schema, Store,
 };
-use sensedsl_job::BoardJob;
+use sensedsl_job::{BoardJob, Owner};
 use sensedsl_model::design::{DeviceIndex, Transport};
 use sensedsl_wire::ScalarType;
 
@@ -28,8 +28,8 @@ use self::core::{Core, wrapped};
 use crate::bench::Bench;
 use crate::tables::{self, kept};
 use buses::{Bus, CanPeers, Port};
+use control::Controllers;
 pub use control::UserCode;
-use control::{Controllers, Owner};
 use dialogue::Dialogue;
 use link::{Link, QUEUE_BYTES};
 use outputs::Outputs;
@@ -133,7 +133,7 @@ impl Side<'_> {
 
     /// Sets the failsafe values of devices that belong to somebody.
     fn fall_back(&mut self, is_it: impl Fn(Owner) -> bool) {
-        let owner = |index: usize| self.owners.get(index).copied().unwrap_or(Owner::Other);
+        let owner = |index: usize| self.owners.get(index).copied().unwrap_or(Owner::Host);
         let safe = self.outputs.safe().filter(|(index, _)| is_it(owner(*index)));
         let safe: Vec<_> = safe.map(|(index, of)| (index, of.to_vec())).collect();
         for (index, value) in safe {
@@ -165,7 +165,7 @@ impl Host for Side<'_> {
             Some(Owner::CodeOrHost) => {
                 self.taken.insert(index);
             }
-            Some(Owner::Other) | None => {}
+            Some(Owner::Host) | None => {}
         }
         self.put(index, value);
         self.received.push((self.now_ms, index, value.to_vec()));
@@ -176,7 +176,7 @@ impl Host for Side<'_> {
         self.lines.iter_mut().for_each(Dialogue::hush);
         self.taken.clear();
         // What code sets is not the host's: it goes on when the host is silent.
-        self.fall_back(|owner| owner == Owner::Other);
+        self.fall_back(|owner| owner == Owner::Host);
     }
 
     fn describe(&mut self, board: &mut BoardHealth) {
@@ -371,7 +371,7 @@ impl SoftBoard {
         self.code_news = Some((self.now_ns(), why));
         let shared = (&mut self.received, &self.shape.controllers);
         let (mut side, _) = self.state.side(shared, (self.now_ms, self.starts));
-        side.fall_back(|owner| owner != Owner::Other);
+        side.fall_back(|owner| owner != Owner::Host);
     }
 
     /// Moves values that were set to pins and lines.

@@ -19,10 +19,6 @@ use crate::arith::scrambled;
 use crate::range::{edges_a_second_max, is_counter, shown_range};
 use crate::truth::scale_of;
 
-/// How long the board is without supply if a fault does not give a time.
-const RESET_NS: u64 = 100_000_000;
-/// How long garbage arrives if a fault does not give a time.
-const GARBAGE_NS: u64 = 20_000_000;
 /// The most edges a second that are simulated.
 const EDGES_A_SECOND_MAX: f64 = 1_000_000.0;
 /// The shortest period that is simulated.
@@ -254,9 +250,7 @@ impl<'a> Reader<'a> {
         let at_ns = duration(self.file, at)?;
         let lasts_ns = match table.get("for") {
             Some(lasts) => duration(self.file, lasts)?,
-            None if kind == FaultKind::Reset => RESET_NS,
-            None if kind == FaultKind::Garbage => GARBAGE_NS,
-            None => return Err(missing("for", "for = \"500 ms\"").into()),
+            None => kind.usual_ns().ok_or_else(|| missing("for", "for = \"500 ms\""))?,
         };
         let fault = Fault { kind, device: None, at_ns, until_ns: at_ns.saturating_add(lasts_ns) };
         let (spanned, device) = match table.get("device") {
@@ -284,8 +278,7 @@ impl<'a> Reader<'a> {
 
     fn fault_kind(&self, word: &Spanned<DeValue<'_>>) -> Result<FaultKind, Box<Diagnostic>> {
         let (span, text) = (self.span(word), word.get_ref().as_str().unwrap_or_default());
-        let known = FaultKind::ALL.into_iter().find(|kind| kind.name() == text);
-        known.ok_or_else(|| {
+        FaultKind::find(text).ok_or_else(|| {
             let all = FaultKind::ALL.map(FaultKind::name);
             unknown::unknown_word(span, text, "a fault", nearest(text, all), &all.join(", ")).into()
         })

@@ -8,9 +8,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
 use anyhow::{Context as _, Result};
-use sensedsl_code::{ControllerPlan, controllers, headers, native_c};
+use sensedsl_code::{ControllerPlan, controllers, headers, modules, native_c, native_rust};
 use sensedsl_diagnostics::codes::{e0534_no_user_code, e0535_user_code_not_built};
 use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_files::FileSet;
 use sensedsl_job::BoardJob;
 use sensedsl_twin::soft::UserCode;
 
@@ -22,7 +23,8 @@ const STEP_MAX: Duration = Duration::from_secs(2);
 const ANSWER_BYTES_MAX: usize = 65_536;
 
 /// The program of a board's controllers, ready to run.
-pub(super) struct Built {
+#[derive(Clone)]
+pub(crate) struct Built {
     program: PathBuf,
 }
 
@@ -30,61 +32,141 @@ pub(super) struct Built {
 ///
 /// # Errors
 /// What could not be written or run.
-pub(super) fn build(
+pub(crate) fn build(
     job: &BoardJob<'_>,
     folder: &Path,
     at: Span,
 ) -> Result<Result<Built, Box<Diagnostic>>> {
     let plans = controllers(job);
-    let sources = match sources(folder, &plans, at) {
-        Ok(sources) => sources,
-        Err(missing) => return Ok(Err(missing)),
-    };
-    let into = folder.join("build").join("native");
-    let generated = into.join("generated");
-    std::fs::create_dir_all(&generated).with_context(|| format!("cannot make {}", shown(&generated)))?;
-    let mut all = headers(&job.board.name.value, &plans);
-    all.add("native.c", native_c(job));
-    for (name, file) in all.iter() {
-        let path = generated.join(name);
-        std::fs::write(&path, &file.bytes).with_context(|| format!("cannot write {}", shown(&path)))?;
+    let language = Language::of(job);
+    for one in &plans {
+        let file = folder.join(language.user()).join(format!("{}.{}", one.ident, language.ending()));
+        if !file.is_file() {
+            let report = e0534_no_user_code::no_user_code(at, &one.name, &shown(&file));
+            return Ok(Err(report.into()));
+        }
     }
+    let into = folder.join("build").join("native");
+    let (mut command, program) = match language {
+        Language::C => in_c(job, &plans, folder, &into)?,
+        Language::Rust => in_rust(job, &plans, folder, &into)?,
+    };
+    let tool = command.get_program().to_string_lossy().into_owned();
+    let refused = |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
+    match command.stdin(Stdio::null()).status() {
+        Ok(status) if status.success() => Ok(Ok(Built { program })),
+        Ok(status) => refused(&format!("{tool} ended with {status}")),
+        Err(why) => refused(&format!("{tool} cannot be run ({why})")),
+    }
+}
+
+/// What the user's code is written in: as the firmware is.
+#[derive(Clone, Copy)]
+enum Language {
+    C,
+    Rust,
+}
+
+impl Language {
+    fn of(job: &BoardJob<'_>) -> Self {
+        if job.system() == Some("embassy") { Self::Rust } else { Self::C }
+    }
+
+    /// The folder of the user's files in that of the firmware.
+    const fn user(self) -> &'static str {
+        match self {
+            Self::C => "user",
+            Self::Rust => "src/user",
+        }
+    }
+
+    const fn ending(self) -> &'static str {
+        match self {
+            Self::C => "c",
+            Self::Rust => "rs",
+        }
+    }
+}
+
+/// Writes the files that the tool makes, below a folder.
+fn write(files: &FileSet, into: &Path) -> Result<()> {
+    for (name, file) in files.iter() {
+        write_file(&into.join(name), &file.bytes)?;
+    }
+    Ok(())
+}
+
+/// Writes a file if it is not there yet as it is: a build tool looks at its time.
+fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
+    if std::fs::read(path).is_ok_and(|found| found == bytes) {
+        return Ok(());
+    }
+    let folder = path.parent().unwrap_or(path);
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
+    std::fs::write(path, bytes).with_context(|| format!("cannot write {}", shown(path)))
+}
+
+/// The compiler's command, and the program that it makes.
+fn in_c(
+    job: &BoardJob<'_>,
+    plans: &[ControllerPlan],
+    folder: &Path,
+    into: &Path,
+) -> Result<(Command, PathBuf)> {
+    let generated = into.join("generated");
+    let mut all = headers(&job.board.name.value, plans);
+    all.add("native.c", native_c(job));
+    write(&all, &generated)?;
     let program = into.join("controllers");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     let flags = std::env::var("CFLAGS").unwrap_or_default();
-    let mut command = Command::new(&compiler);
-    command.args(["-std=c11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
-    command.args(flags.split_whitespace()).args(&sources).arg(generated.join("native.c"));
-    command.arg("-o").arg(&program).arg("-lm").stdin(Stdio::null());
-    let refused = |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
-    match command.status() {
-        Ok(status) if status.success() => Ok(Ok(Built { program })),
-        Ok(status) => refused(&format!("{compiler} ended with {status}")),
-        Err(why) => refused(&format!("{compiler} cannot be run ({why})")),
-    }
+    let mut command = Command::new(compiler);
+    command.args(["-std=gnu11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
+    command.args(flags.split_whitespace());
+    command.args(plans.iter().map(|one| folder.join("user").join(format!("{}.c", one.ident))));
+    command.arg(generated.join("native.c")).arg("-o").arg(&program).arg("-lm");
+    Ok((command, program))
 }
 
-/// The user's files: those of the controllers, and all others in C beside them.
-fn sources(
-    folder: &Path,
+/// The same for Rust: a package of its own, with copies of the user's files.
+fn in_rust(
+    job: &BoardJob<'_>,
     plans: &[ControllerPlan],
-    at: Span,
-) -> Result<Vec<PathBuf>, Box<Diagnostic>> {
-    let user = folder.join("user");
-    let mut files = Vec::new();
+    folder: &Path,
+    into: &Path,
+) -> Result<(Command, PathBuf)> {
+    let mut all = FileSet::default();
+    all.add("Cargo.toml", NATIVE_MANIFEST);
+    all.add("src/main.rs", native_rust(job));
+    all.merge_under("src/controls", modules(&job.board.name.value, plans));
+    write(&all, into)?;
     for one in plans {
-        let file = user.join(format!("{}.c", one.ident));
-        if !file.is_file() {
-            let report = e0534_no_user_code::no_user_code(at, &one.name, &shown(&file));
-            return Err(report.into());
-        }
-        files.push(file);
+        let name = format!("{}.rs", one.ident);
+        let path = folder.join("src/user").join(&name);
+        let text = std::fs::read(&path).with_context(|| format!("cannot read {}", shown(&path)))?;
+        write_file(&into.join("src/user").join(name), &text)?;
     }
-    Ok(files)
+    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
+    command.args(["build", "--quiet", "--offline", "--manifest-path"]).arg(into.join("Cargo.toml"));
+    // What is set for another project does not count here.
+    command.env_remove("CARGO_TARGET_DIR").env_remove("CARGO_BUILD_TARGET").env_remove("RUSTFLAGS");
+    Ok((command, into.join("target/debug/controllers")))
 }
+
+/// The package of the user's code in Rust on this computer. It is no part of the firmware's workspace.
+const NATIVE_MANIFEST: &str = "[package]
+name = \"controllers\"
+version = \"0.0.0\"
+edition = \"2024\"
+
+[workspace]
+
+[profile.dev]
+opt-level = 1
+";
 
 /// The program while it runs.
-pub(super) struct Running {
+pub(crate) struct Running {
     built: Built,
     child: Option<Talk>,
 }
@@ -103,7 +185,7 @@ impl Running {
     ///
     /// # Errors
     /// Why it does not start.
-    pub(super) fn new(built: Built) -> Result<Self, String> {
+    pub(crate) fn new(built: Built) -> Result<Self, String> {
         let mut running = Self { built, child: None };
         running.restart()?;
         Ok(running)
@@ -151,7 +233,9 @@ impl Talk {
 
     /// How the program ended.
     fn why(&mut self) -> String {
-        self.child.wait().map_or_else(|why| why.to_string(), |status| format!("it ended with {status}"))
+        self.child
+            .wait()
+            .map_or_else(|why| why.to_string(), |status| format!("it ended with {status}"))
     }
 }
 

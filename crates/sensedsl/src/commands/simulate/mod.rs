@@ -24,7 +24,7 @@ mod trace;
 mod verdict;
 mod world;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 #[cfg(feature = "twin")]
@@ -52,14 +52,15 @@ use crate::files::shown;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
+pub(crate) use code::{Built, Running, build};
 #[cfg(unix)]
 pub(crate) use pty::Pty;
 pub(crate) use simulated::Simulated;
 use simulation::Simulation;
-use world::world;
+pub(crate) use world::world;
 
 /// The seed of the random numbers if none is given.
-const SEED: u64 = 1;
+pub(crate) const SEED: u64 = 1;
 
 /// What each way proves and does not prove, in lines of at most 80 columns.
 const SOFT: [&str; 4] = [
@@ -161,14 +162,19 @@ fn simulate(
     }
 }
 
+/// The folder of a board's firmware, beside the file, unless somebody says another.
+pub(crate) fn usual_code(file: &Path, board: &str) -> PathBuf {
+    let beside = file.parent().unwrap_or_else(|| Path::new(""));
+    beside.join("out").join("firmware").join(board)
+}
+
 /// The user's code, built and started; none if the board has no controller, or no code was made yet.
 fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Box<Diagnostic>>> {
     let (job, args) = (scenery.job, scenery.args);
     if job.controllers.is_empty() {
         return Ok(Ok(None));
     }
-    let beside = args.file.parent().unwrap_or_else(|| Path::new(""));
-    let usual = || beside.join("out").join("firmware").join(&job.board.name.value);
+    let usual = || usual_code(&args.file, &job.board.name.value);
     let folder = args.code.clone().unwrap_or_else(usual);
     if args.code.is_none() && !folder.is_dir() {
         let names: Vec<&str> = job.controllers.iter().map(|one| one.ident.as_str()).collect();
@@ -179,11 +185,11 @@ fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Bo
         scenery.terminal.aside(&missing)?;
         return Ok(Ok(None));
     }
-    let built = match code::build(job, &folder, scenery.at)? {
+    let built = match build(job, &folder, scenery.at)? {
         Ok(built) => built,
         Err(why) => return Ok(Err(why)),
     };
-    Ok(match code::Running::new(built) {
+    Ok(match Running::new(built) {
         Ok(running) => Ok(Some(Box::new(running))),
         Err(why) => Err(e0536_user_code_stopped::user_code_stopped(scenery.at, "0 s", &why).into()),
     })

@@ -20,7 +20,7 @@ use crate::terminal::Terminal;
 
 /// Reads the world; `None` if it has errors, which have been reported. Its text may speak of the devices of other boards
 /// that are simulated beside this one: their signals are read as well, and the faults left out.
-pub(super) fn world(
+pub(crate) fn world(
     args: &SimulateArgs,
     terminal: &Terminal,
     job: &BoardJob<'_>,

@@ -359,6 +359,7 @@ mod tests {
             min: None,
             max: Some(3_000.0),
             cycle_ms: None,
+            obeys: None,
         };
         let devices = vec![
             device(1, "Winch", ScalarType::Uint16, None),

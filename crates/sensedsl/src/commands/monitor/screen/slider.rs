@@ -111,6 +111,7 @@ mod tests {
             min: limits.map(|limits| limits.0),
             max: limits.map(|limits| limits.1),
             cycle_ms: None,
+            obeys: None,
         }
     }
 

@@ -245,6 +245,7 @@ mod tests {
             min: None,
             max: None,
             cycle_ms: None,
+            obeys: None,
         };
         let value = [-17_649, 58_267 - 65_536, 9_328].map(Scalar::Signed);
         let all = [40, 30, 26, 22, 18, 10].map(|columns| short_value(&device, &value, columns));

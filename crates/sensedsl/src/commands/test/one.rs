@@ -1,0 +1,224 @@
+//! One test: its boards run one after another in its world, and what they reported is held to its rules.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use sensedsl_diagnostics::codes::e0538_test_failed as failed;
+use sensedsl_diagnostics::codes::{e0534_no_user_code, e0536_user_code_stopped};
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_job::BoardJob;
+use sensedsl_model::design::{DeviceIndex, Test};
+use sensedsl_model::{FileRequest, FileUse, normal_path};
+use sensedsl_report::trial_picture::{Course, Scene};
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::soft::SoftBoard;
+use sensedsl_twin::trial::{Judged, Recording, RuleVerdict, Trial, add_faults, judge};
+
+use super::Bed;
+use crate::cli::SimulateArgs;
+use crate::commands::simulate::{Built, Running, SEED, build, usual_code, world};
+use crate::files::{Disk, shown};
+
+/// How much of a run is drawn before and after a violation, at most.
+const AROUND_NS: u64 = 2_000_000_000;
+
+/// The programs of the boards' controllers, each compiled once.
+#[derive(Default)]
+pub(super) struct Programs(BTreeMap<String, Built>);
+
+/// What came of a test.
+pub(super) struct Ran<'a> {
+    pub(super) test: &'a Test,
+    pub(super) recording: Recording,
+    /// For each rule, in their order.
+    pub(super) judged: Vec<Judged>,
+    /// When and why the code of controllers has stopped.
+    pub(super) stopped: Option<(u64, String)>,
+}
+
+impl Ran<'_> {
+    pub(super) fn is_passed(&self) -> bool {
+        self.stopped.is_none() && self.judged.iter().all(Judged::is_held)
+    }
+
+    /// Why the test failed: a message for each rule.
+    pub(super) fn failures(&self) -> Vec<Diagnostic> {
+        let stopped = self.stopped.iter().map(|(ns, why)| {
+            let seconds = format!("{}.{:03} s", ns / 1_000_000_000, ns / 1_000_000 % 1_000);
+            e0536_user_code_stopped::user_code_stopped(self.test.name.span, &seconds, why)
+        });
+        let rules = self.test.rules.iter().zip(&self.judged);
+        stopped.chain(rules.filter_map(|(rule, one)| failure(rule.span, one))).collect()
+    }
+
+    /// The signals around the first moment at which a rule did not hold, or from the beginning.
+    pub(super) fn scene(&self, number: usize) -> Option<Scene> {
+        let (rule, judged) = (self.test.rules.get(number)?, self.judged.get(number)?);
+        let (at_ns, until_ns) = match &judged.verdict {
+            RuleVerdict::Violated { first, last } => {
+                let until_ns = last.as_ref().map_or(first.at_ns, |last| last.at_ns);
+                (Some(first.at_ns), until_ns)
+            }
+            RuleVerdict::Held | RuleVerdict::Open | RuleVerdict::Unknown(_) => (None, 0),
+        };
+        let end_ns = self.test.lasts_ns;
+        let from_ns = at_ns.map_or(0, |at_ns| at_ns.saturating_sub(AROUND_NS));
+        let to_ns = at_ns.map_or(end_ns, |_| until_ns.saturating_add(AROUND_NS).min(end_ns));
+        let mut numbers = Vec::new();
+        rule.rule.shape.for_each_signal(&mut |number| {
+            if !numbers.contains(&number) {
+                numbers.push(number);
+            }
+        });
+        let course = |number: usize| {
+            let signal = self.test.signals.get(number)?;
+            let samples = &self.recording.trace.signals.get(number)?.samples;
+            let samples = samples.iter().map(|(ns, value)| (*ns, signal.unit.shown(*value)));
+            let unit = signal.unit.name.clone();
+            Some(Course { name: signal.name.clone(), unit, samples: samples.collect() })
+        };
+        Some(Scene {
+            title: self.test.name.value.clone(),
+            rule: rule.text.clone(),
+            from_ns,
+            to_ns,
+            marked_ns: at_ns.map(|at_ns| (at_ns, until_ns)),
+            courses: numbers.into_iter().filter_map(course).collect(),
+        })
+    }
+}
+
+/// Why a rule failed; none if it held.
+pub(super) fn failure(span: Span, one: &Judged) -> Option<Diagnostic> {
+    match &one.verdict {
+        RuleVerdict::Held => None,
+        RuleVerdict::Unknown(name) => Some(failed::unknown(span, name)),
+        RuleVerdict::Open => Some(failed::too_short(span)),
+        RuleVerdict::Violated { .. } => {
+            let (what, values) = violation(one);
+            Some(failed::violated(span, &what, &values))
+        }
+    }
+}
+
+/// When a rule was violated and by how much; and the values.
+pub(super) fn violation(one: &Judged) -> (String, String) {
+    let RuleVerdict::Violated { first, last } = &one.verdict else { return Default::default() };
+    let margin = one.margin.as_ref().map(|margin| format!(": {margin}")).unwrap_or_default();
+    let what = format!("this did not hold at {}{margin}", seconds(first.at_ns));
+    let mut values = format!("at {}: {}", seconds(first.at_ns), first.words());
+    if let Some(last) = last.as_ref().filter(|last| !last.values.is_empty()) {
+        values.push_str(&format!("; at {}: {}", seconds(last.at_ns), last.words()));
+    }
+    (what, values)
+}
+
+/// A moment for people, in seconds, to the millisecond.
+pub(super) fn seconds(ns: u64) -> String {
+    let text = format!("{}.{:03}", ns / 1_000_000_000, ns / 1_000_000 % 1_000);
+    format!("{text} s")
+}
+
+/// Runs a test. None if it could not be run, which was told.
+pub(super) fn run<'a>(
+    bed: &Bed<'_>,
+    test: &'a Test,
+    programs: &mut Programs,
+) -> Result<Option<Ran<'a>>> {
+    let Some(of_world) = world_file(bed, test)? else { return Ok(None) };
+    let devices = test.devices();
+    let is_on = |job: &&BoardJob<'_>| job.devices.iter().any(|one| devices.contains(&one.index));
+    let boards: Vec<&BoardJob<'_>> = bed.jobs.iter().filter(is_on).collect();
+    let beside: Vec<DeviceIndex> =
+        bed.jobs.iter().flat_map(|job| job.devices.iter().map(|one| one.index)).collect();
+    let simulation = SimulateArgs {
+        file: bed.args.file.clone(),
+        world: of_world,
+        seed: bed.args.seed.or(test.seed),
+        reach: bed.args.reach.clone(),
+        ..SimulateArgs::default()
+    };
+    let mut recording = Recording::new(test);
+    let mut stopped = None;
+    for job in boards {
+        let Some(mut surroundings) = world(&simulation, bed.terminal, job, &beside)? else {
+            return Ok(None);
+        };
+        add_faults(&mut surroundings, test, job);
+        let seed = simulation.seed.or(surroundings.seed).unwrap_or(SEED);
+        let bench = Bench::new(job, &surroundings, seed);
+        let Some(mut board) = board(bed, test, (job, bench), programs)? else { return Ok(None) };
+        let host = Trial::new(job, test, &surroundings.commands);
+        stopped = stopped.or(host.run(&mut board, &mut recording));
+    }
+    let judged = judge(bed.design, test, &recording.trace);
+    Ok(Some(Ran { test, recording, judged, stopped }))
+}
+
+/// The file with the world of a test, which is beside the file that the test is in.
+fn world_file(bed: &Bed<'_>, test: &Test) -> Result<Option<Option<PathBuf>>> {
+    let Some(world) = &test.world else { return Ok(Some(None)) };
+    let file = bed.sources.name(test.name.span.file);
+    let beside = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
+    let path = normal_path(&beside.join(&world.value).to_string_lossy());
+    let disk = Disk::of(&bed.args.file, &bed.args.reach.allow_outside);
+    match disk.bytes(Path::new(&path), FileUse::World) {
+        Ok(_) => Ok(Some(Some(PathBuf::from(path)))),
+        Err(unread) => {
+            let wanted = FileRequest { path: &path, what: FileUse::World, by_user: false };
+            let why = unread.diagnostic(world.span, &wanted);
+            bed.terminal.diagnostics(&[why], bed.sources)?;
+            Ok(None)
+        }
+    }
+}
+
+/// The board, with the code of its controllers. None if it has none, which was told.
+fn board(
+    bed: &Bed<'_>,
+    test: &Test,
+    (job, bench): (&BoardJob<'_>, Bench),
+    programs: &mut Programs,
+) -> Result<Option<SoftBoard>> {
+    let board = SoftBoard::new(job, bench);
+    let Some(first) = job.controllers.first() else { return Ok(Some(board)) };
+    let name = &job.board.name.value;
+    let at = bed.design.device(first.controller.device).map_or(test.name.span, |one| one.name.span);
+    let refuse = |why: Diagnostic| bed.terminal.diagnostics(&[why], bed.sources);
+    let built = match programs.0.get(name) {
+        Some(built) => built.clone(),
+        None => {
+            let folder = folder(bed, name);
+            if !folder.is_dir() {
+                let file = folder.join("user").join(format!("{}.c", first.ident));
+                let own = bed.design.device(first.controller.device);
+                let own = own.map_or(first.ident.as_str(), |own| own.name.value.as_str());
+                refuse(e0534_no_user_code::no_user_code(at, own, &shown(&file)))?;
+                return Ok(None);
+            }
+            match build(job, &folder, at)? {
+                Ok(built) => built,
+                Err(why) => {
+                    refuse(*why)?;
+                    return Ok(None);
+                }
+            }
+        }
+    };
+    programs.0.insert(name.clone(), built.clone());
+    match Running::new(built) {
+        Ok(running) => Ok(Some(board.with_code(Box::new(running)))),
+        Err(why) => {
+            refuse(e0536_user_code_stopped::user_code_stopped(at, "0 s", &why))?;
+            Ok(None)
+        }
+    }
+}
+
+/// The folder of a board's firmware.
+fn folder(bed: &Bed<'_>, board: &str) -> PathBuf {
+    let Some(given) = &bed.args.code else { return usual_code(&bed.args.file, board) };
+    let own = given.join(board);
+    if own.is_dir() { own } else { given.clone() }
+}
