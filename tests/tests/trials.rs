@@ -56,17 +56,32 @@ fn a_test_runs_the_users_code_and_says_what_did_not_hold() {
     };
     let ran = call(&["Regulates"]).exits(0);
     assert!(ran.stdout.contains("Regulates passed (4 s)"), "{}", ran.stdout);
-    assert!(ran.stdout.contains("held      when Heat > Target + 5 then Heater == 0 within 100 ms"), "{}", ran.stdout);
+    assert!(
+        ran.stdout.contains("held      when Heat > Target + 5 then Heater == 0 within 100 ms"),
+        "{}",
+        ran.stdout
+    );
     let ran = call(&["--picture", "stays.svg"]).exits(1);
-    assert!(ran.stdout.contains("Stays FAILED") && ran.stdout.contains("2 tests: 1 passed, 1 failed"), "{}", ran.stdout);
-    assert!(ran.stderr.contains("error[E0538]") && ran.stderr.contains("oven.sense:18"), "{}", ran.stderr);
+    assert!(
+        ran.stdout.contains("Stays FAILED") && ran.stdout.contains("2 tests: 1 passed, 1 failed"),
+        "{}",
+        ran.stdout
+    );
+    assert!(
+        ran.stderr.contains("error[E0538]") && ran.stderr.contains("oven.sense:18"),
+        "{}",
+        ran.stderr
+    );
     assert!(read(&folder.join("stays.svg")).contains(">always Heat &lt; 60 degC<"));
     let json = call(&["--format", "json"]).exits(1).json();
     assert_eq!(json["tests"][1]["rules"][0]["verdict"], "violated");
     let at = json["tests"][1]["rules"][0]["first"]["at"].as_f64().unwrap();
     assert!((0.8..0.85).contains(&at), "{at}");
     let junit = call(&["--format", "junit"]).exits(1).stdout;
-    assert!(junit.contains("tests=\"4\" failures=\"1\"") && junit.contains("type=\"E0538\""), "{junit}");
+    assert!(
+        junit.contains("tests=\"4\" failures=\"1\"") && junit.contains("type=\"E0538\""),
+        "{junit}"
+    );
 }
 
 #[test]
@@ -75,8 +90,14 @@ fn code_that_crashes_fails_the_test() {
         missing("cc");
         return;
     }
-    let folder = project("trials-crash", &CODE.replace("(void)dt_us;", "if (in->heat.value > 500) __builtin_trap();"));
-    let ran = sensedsl(["test", "oven.sense", "Regulates", "--code", "code"]).within(folder.path()).run().exits(1);
+    let folder = project(
+        "trials-crash",
+        &CODE.replace("(void)dt_us;", "if (in->heat.value > 500) __builtin_trap();"),
+    );
+    let ran = sensedsl(["test", "oven.sense", "Regulates", "--code", "code"])
+        .within(folder.path())
+        .run()
+        .exits(1);
     assert!(ran.stderr.contains("error[E0536]"), "{}", ran.stderr);
 }
 
@@ -87,7 +108,10 @@ fn what_cannot_be_run_is_told() {
     let ran = call(&["test", "oven.sense", "Regulate"]).exits(2);
     assert!(ran.stderr.contains("E0537") && ran.stderr.contains("`Regulates`"), "{}", ran.stderr);
     assert!(call(&["test", "oven.sense"]).exits(1).stderr.contains("E0534"));
-    folder.write("none.sense", "board Oven on NUCLEO_F446RE { sensor Heat returns uint16 { type = analog; } }");
+    folder.write(
+        "none.sense",
+        "board Oven on NUCLEO_F446RE { sensor Heat returns uint16 { type = analog; } }",
+    );
     assert!(call(&["test", "none.sense"]).exits(1).stderr.contains("error[E0537]"));
     folder.write("lost.sense", OVEN.replace("worlds/oven", "worlds/lost"));
     let ran = call(&["test", "lost.sense", "--code", "code"]).exits(1);

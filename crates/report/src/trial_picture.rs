@@ -59,7 +59,10 @@ pub fn picture(scene: &Scene) -> String {
          role=\"img\" aria-label=\"{}\">\n<style>{STYLE}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         escaped(&format!("{}: {}", scene.title, scene.rule))
     );
-    out.push_str(&format!("<text class=\"h\" x=\"16\" y=\"24\">{}</text>\n", escaped(&scene.title)));
+    out.push_str(&format!(
+        "<text class=\"h\" x=\"16\" y=\"24\">{}</text>\n",
+        escaped(&scene.title)
+    ));
     out.push_str(&format!("<text x=\"16\" y=\"44\">{}</text>\n", escaped(&scene.rule)));
     mark(&mut out, scene, lanes);
     let mut top = TOP;
@@ -140,7 +143,8 @@ fn lane(out: &mut String, scene: &Scene, course: &Course, top: f64) {
     let mut path = String::new();
     for (x, value) in points {
         let y = height(value);
-        let step = if path.is_empty() { format!("M{x:.1} {y:.1}") } else { format!("H{x:.1}V{y:.1}") };
+        let step =
+            if path.is_empty() { format!("M{x:.1} {y:.1}") } else { format!("H{x:.1}V{y:.1}") };
         path.push_str(&step);
     }
     path.push_str(&format!("H{right:.1}"));

@@ -8,9 +8,7 @@
 use std::io::{BufRead as _, Write as _};
 use std::str::SplitWhitespace;
 
-use sensedsl_rules::{
-    Compare, Formula, Rule, Shape, Signal, Term, Trace, Verdict, evaluate,
-};
+use sensedsl_rules::{Compare, Formula, Rule, Shape, Signal, Term, Trace, Verdict, evaluate};
 
 fn main() -> std::io::Result<()> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());

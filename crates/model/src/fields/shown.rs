@@ -157,7 +157,11 @@ pub(crate) fn unit_of(quantity: &str) -> Option<Unit> {
 }
 
 /// The code of a number that a person gives for a device.
-pub(crate) fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, ValueMismatch> {
+pub(crate) fn code_of(
+    number: &Number,
+    shown: &Presentation,
+    codes: Codes,
+) -> Result<f64, ValueMismatch> {
     if number.measure == Measure::Raw {
         return held(number.value, number.value, "raw ", codes, None);
     }

@@ -72,9 +72,7 @@ impl<'a> Conditions<'a> {
                 let is_and = logic.is_and();
                 Some(if is_and { Formula::And(one, other) } else { Formula::Or(one, other) })
             }
-            Condition::Not(not) => {
-                Some(Formula::Not(Box::new(self.condition(&not.condition()?)?)))
-            }
+            Condition::Not(not) => Some(Formula::Not(Box::new(self.condition(&not.condition()?)?))),
             Condition::Paren(paren) => self.condition(&paren.condition()?),
             Condition::Compare(compare) => self.compare(compare),
             Condition::Inside(inside) => self.inside(inside),

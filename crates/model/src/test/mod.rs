@@ -68,7 +68,8 @@ fn one(scope: Scope<'_>, node: &ast::Test, diagnostics: &mut Vec<Diagnostic>) ->
     for step in node.steps() {
         reader.step(&step);
     }
-    let has_rules = node.steps().any(|step| !matches!(step, ast::Step::Set(_) | ast::Step::Fault(_)));
+    let has_rules =
+        node.steps().any(|step| !matches!(step, ast::Step::Set(_) | ast::Step::Fault(_)));
     let read = reader.finish();
     if !has_rules {
         diagnostics.push(e0255_test_without_rules::without_rules(name.span, &name.value));

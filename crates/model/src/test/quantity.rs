@@ -65,7 +65,10 @@ impl<'a> Quantities<'a> {
                 Some(if signed.is_negative() { negative(inner) } else { inner })
             }
             Condition::Operation(operation) => self.operation(operation),
-            Condition::Logic(_) | Condition::Not(_) | Condition::Compare(_) | Condition::Inside(_) => {
+            Condition::Logic(_)
+            | Condition::Not(_)
+            | Condition::Compare(_)
+            | Condition::Inside(_) => {
                 let at = self.span(node);
                 self.diagnostics.push(e0256_not_a_condition::condition(at));
                 None
@@ -173,7 +176,11 @@ impl<'a> Quantities<'a> {
             ("abs", [one]) => match self.quantity(one)? {
                 Quantity::Constant(number) => {
                     let integer = number.integer.map(i128::abs);
-                    Some(Quantity::Constant(Number { value: number.value.abs(), integer, ..number }))
+                    Some(Quantity::Constant(Number {
+                        value: number.value.abs(),
+                        integer,
+                        ..number
+                    }))
                 }
                 Quantity::Term(term, sort) => {
                     Some(Quantity::Term(Term::Absolute(Box::new(term)), sort))
@@ -292,7 +299,11 @@ impl<'a> Quantities<'a> {
             Quantity::Term(term, sort) => Some((term, sort)),
             Quantity::Constant(number) if number.dimension() == Dimension::RAW => {
                 let help = "compute with the number that is shown";
-                self.diagnostics.push(wrong::not_computed(at, "codes cannot be computed with", help));
+                self.diagnostics.push(wrong::not_computed(
+                    at,
+                    "codes cannot be computed with",
+                    help,
+                ));
                 None
             }
             Quantity::Constant(number) if number.measure == Measure::Bare => {
@@ -341,10 +352,13 @@ impl<'a> Quantities<'a> {
         let device = sort.device.and_then(|index| self.scope.design.device(index));
         let found = number.unit_name();
         let (message, help) = match (number.measure, device) {
-            (Measure::Bare, _) if !sort.needs_unit => return Some(sort.unit.computed(number.value)),
-            (Measure::Bare, _) => {
-                ("a time is compared with a plain number".to_owned(), "write its unit: `100 ms`".to_owned())
+            (Measure::Bare, _) if !sort.needs_unit => {
+                return Some(sort.unit.computed(number.value));
             }
+            (Measure::Bare, _) => (
+                "a time is compared with a plain number".to_owned(),
+                "write its unit: `100 ms`".to_owned(),
+            ),
             (Measure::Raw, Some(device)) => {
                 return Some(sort.unit.computed(device.shown.of_raw(number.value)));
             }

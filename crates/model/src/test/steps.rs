@@ -12,9 +12,7 @@ use sensedsl_wire::Direction;
 use super::condition::Conditions;
 use super::names::{Scope, pulses_us};
 use super::times::{self, Length};
-use crate::design::{
-    Device, DeviceIndex, FaultKind, Setting, TestFault, TestRule, TestSignal,
-};
+use crate::design::{Device, DeviceIndex, FaultKind, Setting, TestFault, TestRule, TestSignal};
 use crate::fields::{Codes, code_of};
 use crate::part::reach;
 use crate::spanned::{Spanned, span};
@@ -101,8 +99,8 @@ impl<'a> Reader<'a> {
         let name = node.name()?;
         let device = self.actuator(&name);
         let (scope, value) = (self.conditions.scope(), node.value()?);
-        let number =
-            Evaluator::new(scope.file, scope.constants, self.conditions.diagnostics()).value(&value);
+        let number = Evaluator::new(scope.file, scope.constants, self.conditions.diagnostics())
+            .value(&value);
         let ((device, target), at) = (device?, at?);
         let place = self.span(value.range());
         let number = match number {

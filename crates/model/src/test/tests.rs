@@ -1,5 +1,10 @@
 //! Tests of what is read of tests: texts in, what is understood and what is wrong out.
-#![allow(clippy::indexing_slicing, clippy::panic, clippy::unwrap_used, reason = "a panic is a test's failure")]
+#![allow(
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a panic is a test's failure"
+)]
 
 use sensedsl_rules::{Compare, Formula, Shape, Signal, Term, Trace, Verdict};
 
@@ -129,7 +134,8 @@ fn steps_are_in_the_order_of_time() {
         "at 2 s set Target = 200; at 1 s set Fan = 30 %; fault reset at 3 s; fault no_answer of Air at 2 s for 1 s;
          always Door == true;",
     );
-    let sets: Vec<(u64, f64)> = test.sets.iter().map(|one| (one.at_ns / 1_000_000, one.raw)).collect();
+    let sets: Vec<(u64, f64)> =
+        test.sets.iter().map(|one| (one.at_ns / 1_000_000, one.raw)).collect();
     assert_eq!(sets, [(1_000, 3_000.0), (2_000, 200.0)]);
     let faults: Vec<(u64, u64)> =
         test.faults.iter().map(|one| (one.at_ns / 1_000_000, one.lasts_ns / 1_000_000)).collect();
@@ -160,7 +166,10 @@ fn each_mistake_has_its_code() {
         ("always Front * Lux < 5;", "E0253 a value in cm and a value in lx cannot be multiplied"),
         ("always age(Front) < 20;", "E0253 a time is compared with a plain number"),
         ("always 1 < 2;", "E0253 no device is in this comparison, so it never changes"),
-        ("always Front in 30 cm .. 20 cm;", "E0253 the range ends below its beginning, so nothing is in it"),
+        (
+            "always Front in 30 cm .. 20 cm;",
+            "E0253 the range ends below its beginning, so nothing is in it",
+        ),
         ("always Front in 0 cm .. Rear;", "E0253 an end of a range is a constant"),
         ("always Front < 5 / 0;", "E0253 this divides by zero"),
         ("always Front;", "E0256 this is a number, not true or false"),
@@ -168,22 +177,49 @@ fn each_mistake_has_its_code() {
         ("always rising(Door) < 5;", "E0256 this is true or false, not a number"),
         ("always Front < 5 within 1 s;", "E0254 `within` cannot stand in this rule"),
         ("eventually Front < 5 within 11 s;", "E0254 the test is over after 10 s, before 11 s"),
-        ("eventually Front < 5 within 6 s from 5 s;", "E0254 the test is over after 10 s, before 11 s"),
+        (
+            "eventually Front < 5 within 6 s from 5 s;",
+            "E0254 the test is over after 10 s, before 11 s",
+        ),
         ("eventually Front < 5 within 1 s to 5 s;", "E0254 `to` cannot stand in this rule"),
         ("always Front < 5 from 3 s to 2 s;", "E0254 this ends at 2 s, and begins at 3 s"),
         ("always Front < 5 from 3;", "E0254 a time is needed here, not the number 3"),
         ("always Front < 5 from 3 cm;", "E0254 a time is needed here, not a number of cm"),
         ("at 11 s set Fan = 5 %; always Door;", "E0254 the test is over after 10 s, before 11 s"),
-        ("at 1 s set Door = 1; always Door;", "E0257 `Door` is a sensor, so the host cannot set it"),
-        ("at 1 s set Heater = 1; always Door;", "E0257 `Heater` is set by the controller `Hold`, which refuses the host"),
+        (
+            "at 1 s set Door = 1; always Door;",
+            "E0257 `Door` is a sensor, so the host cannot set it",
+        ),
+        (
+            "at 1 s set Heater = 1; always Door;",
+            "E0257 `Heater` is set by the controller `Hold`, which refuses the host",
+        ),
         ("at 1 s set Fann = 1; always Door;", "E0257 `Fann` is not an actuator of this design"),
-        ("at 1 s set Target = 300; always Door;", "E0234 `Target`: 300 degC is above `max`, 250 degC"),
+        (
+            "at 1 s set Target = 300; always Door;",
+            "E0234 `Target`: 300 degC is above `max`, 250 degC",
+        ),
         ("fault smoke at 1 s; always Door;", "E0258 there is no fault `smoke`"),
-        ("fault torn at 1 s for 1 s; always Door;", "E0258 the fault `torn` is of a sensor, and names none"),
-        ("fault reset of Air at 1 s; always Door;", "E0258 the fault `reset` is of the board, not of a device"),
-        ("fault torn of Fan at 1 s for 1 s; always Door;", "E0258 `Fan` is not a sensor of this design"),
-        ("fault hang of Front at 1 s for 1 s; always Door;", "E0258 `Front` is on analog, so it cannot have the fault `hang`"),
-        ("fault torn of Front at 1 s; always Door;", "E0258 the fault `torn` does not say how long it lasts"),
+        (
+            "fault torn at 1 s for 1 s; always Door;",
+            "E0258 the fault `torn` is of a sensor, and names none",
+        ),
+        (
+            "fault reset of Air at 1 s; always Door;",
+            "E0258 the fault `reset` is of the board, not of a device",
+        ),
+        (
+            "fault torn of Fan at 1 s for 1 s; always Door;",
+            "E0258 `Fan` is not a sensor of this design",
+        ),
+        (
+            "fault hang of Front at 1 s for 1 s; always Door;",
+            "E0258 `Front` is on analog, so it cannot have the fault `hang`",
+        ),
+        (
+            "fault torn of Front at 1 s; always Door;",
+            "E0258 the fault `torn` does not say how long it lasts",
+        ),
         ("at 1 s set Fan = 5 %;", "E0255 the test `A` has no rules, so it could not fail"),
     ];
     for (steps, expected) in all {
@@ -203,7 +239,9 @@ fn a_test_needs_a_length_and_a_name_of_its_own() {
 
 #[test]
 fn a_device_that_could_not_be_read_is_told_once() {
-    let (_, wrong) = read("sensor Bad returns uint16 { type = analogue; } test A { for = 1 s; always Bad < 5; }");
+    let (_, wrong) = read(
+        "sensor Bad returns uint16 { type = analogue; } test A { for = 1 s; always Bad < 5; }",
+    );
     assert_eq!(wrong.len(), 1, "{wrong:?}");
     assert!(wrong[0].starts_with("E0207"), "{wrong:?}");
 }

@@ -17,8 +17,7 @@ mod sensors;
 use std::collections::{BTreeMap, BTreeSet};
 
 use sense_rt::{
-    BoardHealth, Cause, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
-    Schema, Store,
+    BoardHealth, Cause, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig, Schema, Store,
 };
 use sensedsl_job::{BoardJob, Owner};
 use sensedsl_model::design::{DeviceIndex, Transport};

@@ -116,21 +116,28 @@ impl<'a> Trial<'a> {
     #[must_use]
     pub fn new(job: &'a BoardJob<'a>, test: &'a Test, of_world: &[Command]) -> Self {
         let edges = edges::signals(test);
-        let watched: Vec<Watched> =
-            (0..).zip(&test.signals).filter_map(|(number, signal)| {
+        let watched: Vec<Watched> = (0..)
+            .zip(&test.signals)
+            .filter_map(|(number, signal)| {
                 let index = job.devices.iter().position(|one| one.index == signal.device)?;
                 let device = job.devices.get(index)?.device;
                 let is_sensor = device.direction == Direction::Sensor;
                 let (id, scale) = (device.id.value, scale_of(&device.shown));
                 let has_edges = edges.contains(&number);
                 Some(Watched { number, of: signal.of, index, id, is_sensor, has_edges, scale })
-            }).collect();
-        let mut owed: Vec<Command> = test.sets.iter().filter_map(|set| {
-            let device = job.devices.iter().find(|one| one.index == set.device)?.device;
-            let value = device.value.value;
-            let value = vec![scalar(value.scalar, set.raw); value.count()];
-            Some(Command { device: set.device, at_ns: set.at_ns, value })
-        }).chain(of_world.iter().cloned()).collect();
+            })
+            .collect();
+        let mut owed: Vec<Command> = test
+            .sets
+            .iter()
+            .filter_map(|set| {
+                let device = job.devices.iter().find(|one| one.index == set.device)?.device;
+                let value = device.value.value;
+                let value = vec![scalar(value.scalar, set.raw); value.count()];
+                Some(Command { device: set.device, at_ns: set.at_ns, value })
+            })
+            .chain(of_world.iter().cloned())
+            .collect();
         owed.sort_by_key(|one| std::cmp::Reverse(one.at_ns));
         let silence_ns = job.board.link.silence_ms.map(|ms| MS * u64::from(ms) / 3);
         Self {
@@ -148,7 +155,11 @@ impl<'a> Trial<'a> {
     }
 
     /// Runs a board to the end of the test. Returns when and why the code of its controllers has stopped.
-    pub fn run(mut self, board: &mut SoftBoard, recording: &mut Recording) -> Option<(u64, String)> {
+    pub fn run(
+        mut self,
+        board: &mut SoftBoard,
+        recording: &mut Recording,
+    ) -> Option<(u64, String)> {
         board.link_open(true);
         while board.now_ns() < self.test.lasts_ns {
             let bytes = self.to_send(board.now_ns());

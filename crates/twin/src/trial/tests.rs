@@ -1,5 +1,10 @@
 //! Tests of trials: designs with tests in, verdicts of their runs out.
-#![allow(clippy::indexing_slicing, clippy::panic, clippy::unwrap_used, reason = "a panic is a test's failure")]
+#![allow(
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a panic is a test's failure"
+)]
 
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_job::jobs;
@@ -75,7 +80,11 @@ fn is_violated(one: &Judged) -> bool {
 #[test]
 fn reported_values_are_held_to_rules_in_their_unit() {
     let world = "[devices]\nHeat = { points = [[0, 20], [2, 220]] }\nAir = 5";
-    let all = judged("", "always Heat < 100 degC; always Heat < 250 degC; eventually Heat > 215 from 2 s;", world);
+    let all = judged(
+        "",
+        "always Heat < 100 degC; always Heat < 250 degC; eventually Heat > 215 from 2 s;",
+        world,
+    );
     let RuleVerdict::Violated { first, .. } = &all[0].verdict else { panic!("{:?}", all[0]) };
     // 100 °C are reached after 0.8 s; the next report comes within two cycles.
     assert!((800_000_000..=830_000_000).contains(&first.at_ns), "{first:?}");
@@ -128,7 +137,11 @@ fn faults_of_the_test_break_what_they_say() {
 
 #[test]
 fn a_rule_about_what_never_came_is_not_held() {
-    let all = judged("", "fault no_answer of Air at 0 s for 3 s; always Air < 5; always Heat < 5000;", "");
+    let all = judged(
+        "",
+        "fault no_answer of Air at 0 s for 3 s; always Air < 5; always Heat < 5000;",
+        "",
+    );
     assert_eq!(all[0].verdict, RuleVerdict::Unknown("Air".to_owned()));
     assert!(all[1].is_held());
 }
@@ -156,6 +169,10 @@ fn late_is_said_in_time() {
     let RuleVerdict::Violated { first, last } = &all[0].verdict else { panic!("{:?}", all[0]) };
     assert_eq!(last.as_ref().unwrap().at_ns - first.at_ns, 400_000_000);
     assert_eq!(last.as_ref().unwrap().values, [("Fan".to_owned(), "30 %".to_owned())]);
-    assert!(all[1].is_held() && all[1].margin.as_deref().unwrap().ends_with("to spare"), "{:?}", all[1]);
+    assert!(
+        all[1].is_held() && all[1].margin.as_deref().unwrap().ends_with("to spare"),
+        "{:?}",
+        all[1]
+    );
     assert_eq!(all[2].note.as_deref(), Some("its condition was never true"));
 }

@@ -180,10 +180,8 @@ fn amount(unit: &TestUnit, computed: f64) -> String {
 
 /// By how much a rule held or did not.
 fn margin(rule: &TestRule, outcome: &Outcome) -> Option<String> {
-    let is_timed = matches!(
-        rule.rule.shape,
-        Shape::Eventually(_, Some(_)) | Shape::When(_, _, Some(1..))
-    );
+    let is_timed =
+        matches!(rule.rule.shape, Shape::Eventually(_, Some(_)) | Shape::When(_, _, Some(1..)));
     let distance = rule.margin.as_ref().filter(|_| outcome.robustness.is_finite());
     match outcome.verdict {
         Verdict::Held => match (outcome.spare_ns, distance) {

@@ -40,7 +40,8 @@ pub(crate) fn build(
     let plans = controllers(job);
     let language = Language::of(job);
     for one in &plans {
-        let file = folder.join(language.user()).join(format!("{}.{}", one.ident, language.ending()));
+        let file =
+            folder.join(language.user()).join(format!("{}.{}", one.ident, language.ending()));
         if !file.is_file() {
             let report = e0534_no_user_code::no_user_code(at, &one.name, &shown(&file));
             return Ok(Err(report.into()));
@@ -52,7 +53,8 @@ pub(crate) fn build(
         Language::Rust => in_rust(job, &plans, folder, &into)?,
     };
     let tool = command.get_program().to_string_lossy().into_owned();
-    let refused = |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
+    let refused =
+        |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
     match command.stdin(Stdio::null()).status() {
         Ok(status) if status.success() => Ok(Ok(Built { program })),
         Ok(status) => refused(&format!("{tool} ended with {status}")),

@@ -24,9 +24,7 @@ pub(super) fn text(bed: &Bed<'_>, all: &[Ran<'_>]) -> String {
             let is_passed = all.iter().all(Ran::is_passed);
             json_text(&json!({ "version": VERSION, "passed": is_passed, "tests": tests }))
         }
-        TestFormat::Junit => {
-            junit(&all.iter().map(|ran| suite(bed, ran)).collect::<Vec<_>>())
-        }
+        TestFormat::Junit => junit(&all.iter().map(|ran| suite(bed, ran)).collect::<Vec<_>>()),
     }
 }
 
@@ -37,7 +35,10 @@ fn human(all: &[Ran<'_>]) -> String {
         let lasts = seconds_short(ran.test.lasts_ns);
         out.push_str(&format!("{} {verdict} ({lasts})\n", visible(&ran.test.name.value)));
         if let Some((ns, why)) = &ran.stopped {
-            out.push_str(&format!("  the code of controllers stopped at {}: {why}\n", seconds(*ns)));
+            out.push_str(&format!(
+                "  the code of controllers stopped at {}: {why}\n",
+                seconds(*ns)
+            ));
         }
         for (rule, one) in ran.test.rules.iter().zip(&ran.judged) {
             let word = match one.verdict {
@@ -49,7 +50,8 @@ fn human(all: &[Ran<'_>]) -> String {
             let mut more: Vec<&str> = Vec::new();
             more.extend(one.margin.as_deref());
             more.extend(one.note.as_deref());
-            let more = if more.is_empty() { String::new() } else { format!(" ({})", more.join("; ")) };
+            let more =
+                if more.is_empty() { String::new() } else { format!(" ({})", more.join("; ")) };
             out.push_str(&format!("  {word:8}  {}{more}\n", visible(&rule.text)));
             if !one.is_held() {
                 let (_, values) = violation(one);
@@ -116,9 +118,8 @@ fn rule_value(bed: &Bed<'_>, rule: &TestRule, one: &Judged) -> Value {
         sensedsl_rules::Verdict::Held | sensedsl_rules::Verdict::Unknown => None,
     };
     let distance = rule.margin.as_ref().filter(|_| one.outcome.robustness.is_finite());
-    let distance = distance.map(|unit| {
-        json!({ "value": unit.shown(one.outcome.robustness), "unit": unit.name })
-    });
+    let distance = distance
+        .map(|unit| json!({ "value": unit.shown(one.outcome.robustness), "unit": unit.name }));
     json!({
         "text": rule.text,
         "line": line(bed, rule.span),
