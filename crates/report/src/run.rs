@@ -55,6 +55,8 @@ pub struct Plot {
     pub unit: String,
     /// Whether it is an actuator.
     pub is_set: bool,
+    /// Whether it is only on or off.
+    pub is_switch: bool,
     /// Its elements.
     pub lines: Vec<Line>,
 }
@@ -149,8 +151,13 @@ mod tests {
             (at, at, at + 1.0)
         });
         let line = Line { name: "[0]".into(), points: points.collect() };
-        let plot =
-            Plot { name: "A<b".into(), unit: "deg".into(), is_set: false, lines: vec![line] };
+        let plot = Plot {
+            name: "A<b".into(),
+            unit: "deg".into(),
+            is_set: false,
+            is_switch: false,
+            lines: vec![line],
+        };
         RunPicture {
             title: "Rover & more, 10.0 s".into(),
             notes: vec!["Robot: 1.00 m".into()],

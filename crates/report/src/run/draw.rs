@@ -27,6 +27,8 @@ text.rn-e0{fill:#58a6ff}text.rn-e1{fill:#ff8f5c}text.rn-e2{fill:#56d364}text.rn-
 const COLOURS: usize = 8;
 /// Marks of time on a way, at most.
 const MARKS: f64 = 12.0;
+/// The room that a mark takes with its text.
+const ROOM: (f64, f64) = (34.0, 14.0);
 /// Times below the plots, at most.
 const TICKS: f64 = 8.0;
 /// A letter's width.
@@ -140,11 +142,19 @@ fn way(out: &mut String, floor: &Floor, frame: &Frame) {
     let seconds = floor.path.last().map_or(0.0, |last| last.0);
     let step = nice(seconds / MARKS);
     let mut next = 0.0;
+    let mut marked: Vec<(f64, f64)> = Vec::new();
     for (time, x, y) in &floor.path {
         if *time + 1e-9 < next {
             continue;
         }
         let (x, y) = frame.at((*x, *y));
+        // A robot that stands, or comes by again, is not marked over a mark.
+        let is_near = |(mx, my): &(f64, f64)| (x - mx).abs() < ROOM.0 && (y - my).abs() < ROOM.1;
+        if marked.iter().any(is_near) {
+            next += step;
+            continue;
+        }
+        marked.push((x, y));
         let _ = writeln!(
             out,
             "<circle class=\"rn-mark\" cx=\"{}\" cy=\"{}\" r=\"2.5\"/>",
@@ -218,7 +228,7 @@ pub(super) fn plot(out: &mut String, plot: &Plot, seconds: f64, top: f64) {
     let (least, most) = if ends.0 <= ends.1 { ends } else { (0.0, 0.0) };
     // A line that never moves is in the middle.
     let margin = if most > least { 0.0 } else { least.abs().max(1.0) / 2.0 };
-    let (low, high) = (least - margin, most + margin);
+    let (low, high) = if plot.is_switch { (0.0, 1.0) } else { (least - margin, most + margin) };
     let (upper, lower) = (top + PLOT_HEAD, top + PLOT - 6.0);
     let _ = writeln!(
         out,

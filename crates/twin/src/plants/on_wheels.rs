@@ -189,10 +189,10 @@ impl BalancerRun {
         let speed = way / dt_s;
         (self.push, self.speed) = ((speed - self.speed) / dt_s, speed);
         self.balancer.step(dt_s, speed);
-        self.travelled_m += way;
         self.most_lean = self.most_lean.max(self.balancer.lean().abs());
         if !self.balancer.has_fallen() {
             self.stood_s += dt_s;
+            self.travelled_m += way;
         }
     }
 

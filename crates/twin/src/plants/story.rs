@@ -29,12 +29,16 @@ pub struct Floor {
 /// A device and what it came to.
 #[derive(Clone, Debug)]
 pub struct Told {
-    /// Its name, with the place of the element.
+    /// Its name.
     pub name: String,
+    /// The place of the element, if it is one of an array.
+    pub element: Option<usize>,
     /// The unit that it shows; empty for none.
     pub unit: String,
     /// Whether it is an actuator.
     pub is_actuator: bool,
+    /// Whether it is only on or off.
+    pub is_switch: bool,
     /// Its values.
     pub course: Course,
 }
@@ -67,9 +71,11 @@ fn story(plants: &SharedPlants, design: &sensedsl_model::design::Design) -> Stor
         let name = &device.name.value;
         let is_array = device.value.value.length.is_some();
         Some(Told {
-            name: if is_array { format!("{name}[{element}]") } else { name.clone() },
+            name: name.clone(),
+            element: is_array.then_some(element),
             unit: device.shown.quantity.clone().unwrap_or_default(),
             is_actuator,
+            is_switch: device.value.value.scalar == sensedsl_wire::ScalarType::Bool,
             course: course.clone(),
         })
     };

@@ -9,15 +9,15 @@ mod buses;
 mod control;
 mod core;
 mod dialogue;
+mod link;
 mod motors;
 mod outputs;
 mod sensors;
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 use sense_rt::{
-    BoardHealth, Cause, Channel, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig,
-    Schema, Store,
+    BoardHealth, Cause, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig, Schema, Store,
 };
 use sensedsl_job::{BoardJob, Owner};
 use sensedsl_model::design::{DeviceIndex, Transport};
@@ -30,14 +30,13 @@ use buses::{Bus, CanPeers, Port};
 use control::Controllers;
 pub use control::UserCode;
 use dialogue::Dialogue;
+use link::{Link, QUEUE_BYTES};
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
 
 const MS_NS: u64 = 1_000_000;
 /// The longest cycle of the reporter, unless the link sets its rate.
 const REPORT_MS: u32 = 10;
-/// The bytes that a link accepts at once.
-const QUEUE_BYTES: usize = 16_384;
 /// The bytes that a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
 const USB_BYTES_A_MS: u64 = 1_000;
 
@@ -98,45 +97,6 @@ struct State {
     /// The devices of controllers that the host has set itself, and has not fallen silent since.
     taken: BTreeSet<usize>,
     began_ms: u64,
-}
-
-/// The bytes between board and host.
-#[derive(Default)]
-struct Link {
-    inbox: VecDeque<u8>,
-    queue: VecDeque<u8>,
-    sent: VecDeque<u8>,
-    /// The thousandths of a byte that the line may still carry.
-    credit: u64,
-    /// Whether the host has closed its port, on a link that can tell.
-    is_closed: bool,
-}
-
-impl Channel for Link {
-    fn is_open(&mut self) -> bool {
-        !self.is_closed
-    }
-
-    fn read(&mut self, bytes: &mut [u8]) -> usize {
-        let count = bytes.len().min(self.inbox.len());
-        for (place, byte) in bytes.iter_mut().zip(self.inbox.drain(..count)) {
-            *place = byte;
-        }
-        count
-    }
-
-    fn room(&mut self) -> usize {
-        QUEUE_BYTES - self.queue.len().min(QUEUE_BYTES)
-    }
-
-    fn is_empty(&mut self) -> bool {
-        self.queue.is_empty()
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> bool {
-        self.queue.extend(bytes);
-        true
-    }
 }
 
 /// The board as the reporter sees it.

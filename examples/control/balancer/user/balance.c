@@ -21,15 +21,15 @@ static float clamped(float value, float most) {
 }
 
 void balance_step(const struct balance_in *in, struct balance_out *out, uint32_t dt_us) {
-  if (!in->imuacceleration.is_valid || !in->imurate.is_valid) {
+  if (!in->imu_acceleration.is_valid || !in->imu_rate.is_valid) {
     return;
   }
   const float dt = (float)dt_us * 1e-6f;
-  const float x = balance_get_imuacceleration(in, 0);
-  const float z = balance_get_imuacceleration(in, 2);
+  const float x = balance_get_imu_acceleration(in, 0);
+  const float z = balance_get_imu_acceleration(in, 2);
   /* For small angles the tangent is the angle. */
   const float from_gravity = -x / (z > 0.5f ? z : 0.5f);
-  const float rate = balance_get_imurate(in, 1) / DEGREES;
+  const float rate = balance_get_imu_rate(in, 1) / DEGREES;
   if (!is_begun) {
     lean = from_gravity;
     is_begun = true;

@@ -20,6 +20,6 @@ void stop_step(const struct stop_in *in, struct stop_out *out, uint32_t dt_us) {
       speed = 0.0f;
     }
   }
-  stop_set_leftspeed(out, speed);
-  stop_set_rightspeed(out, speed);
+  stop_set_left_speed(out, speed);
+  stop_set_right_speed(out, speed);
 }

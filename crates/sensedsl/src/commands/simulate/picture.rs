@@ -15,7 +15,11 @@ const COLUMNS: u64 = 800;
 pub(super) fn tell(scenery: &Simulation<'_>, bench: &Bench) -> Result<()> {
     let story = bench.story(scenery.job.design);
     for line in story.iter().flat_map(|story| &story.figures) {
-        scenery.terminal.note(&format!("{line}\n"))?;
+        if scenery.args.stdout {
+            scenery.terminal.aside(line)?;
+        } else {
+            scenery.terminal.note(&format!("{line}\n"))?;
+        }
     }
     let Some(path) = &scenery.args.picture else { return Ok(()) };
     let Some(story) = story else {
@@ -60,18 +64,25 @@ fn picture(board: &str, story: &Story) -> RunPicture {
 /// A plot for each device; the elements of an array share one.
 fn plots(story: &Story) -> Vec<Plot> {
     let mut all: Vec<Plot> = Vec::new();
-    for told in &story.courses {
-        let (name, element) = match told.name.split_once('[') {
-            Some((name, place)) => (name, format!("[{place}")),
-            None => (told.name.as_str(), String::new()),
-        };
+    let mut courses: Vec<&Told> = story.courses.iter().collect();
+    // Stable: elements in their order, wherever several plants have shared an array out.
+    courses.sort_by_key(|told| told.element);
+    let place = |told: &Told| {
+        let is_same = |one: &&Told| one.name == told.name && one.is_actuator == told.is_actuator;
+        story.courses.iter().position(|one| is_same(&one))
+    };
+    courses.sort_by_key(|told| place(told));
+    for told in courses {
+        let name = &told.name;
+        let element = told.element.map(|place| format!("[{place}]")).unwrap_or_default();
         let line = Line { name: element, points: looked_at(told, story.end_ns) };
-        match all.iter_mut().find(|plot| plot.name == name && plot.is_set == told.is_actuator) {
+        match all.iter_mut().find(|plot| plot.name == *name && plot.is_set == told.is_actuator) {
             Some(plot) => plot.lines.push(line),
             None => all.push(Plot {
-                name: name.to_owned(),
+                name: name.clone(),
                 unit: told.unit.clone(),
                 is_set: told.is_actuator,
+                is_switch: told.is_switch,
                 lines: vec![line],
             }),
         }

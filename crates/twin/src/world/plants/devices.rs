@@ -25,6 +25,8 @@ use crate::truth::scale_of;
 /// The code of the longest pulse, and that of a converter's reference voltage.
 const FULL_LEVEL: f64 = 10_000.0;
 const FULL_CODE: f64 = 4_095.0;
+/// How long sound takes for a metre there and back.
+const ECHO_US_A_METRE: f64 = 5_800.0;
 
 /// A device of the board, with the place of an element if one is named.
 struct Named<'d> {
@@ -361,6 +363,10 @@ fn conversion(device: &Device, sort: Sort, said: Said) -> Result<(f64, f64), (St
             let why = format!("`{name}` does not say how many counts a turn has");
             (why, format!("write `{{ sensor = \"{name}\", counts = 1400 }}`"))
         });
+    }
+    let is_echo = device.kind.icu().is_some_and(|own| own.pulse_us.is_some());
+    if sort == Sort::Length && quantity == Some("us") && is_echo {
+        return Ok((ECHO_US_A_METRE, 0.0));
     }
     let (what, example) = sort.words();
     let Some(shown) = quantity else {
