@@ -13,7 +13,7 @@ use sensedsl_diagnostics::render;
 use sensedsl_generate::Selection;
 use sensedsl_model::{FileRequest, Files, ReadError, Request, apply_allows, resolve};
 use sensedsl_report::{csv, human, json, sheet, svg};
-use sensedsl_tests::{Random, files, is_thorough, one_in, read, root};
+use sensedsl_tests::{Random, files, is_exhaustive, is_thorough, one_in, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 /// One input: a `.sense` text, and the table that its board is read from.
@@ -187,10 +187,13 @@ fn panics(numbers: impl Iterator<Item = u64>, seeds: &[Input]) -> String {
 
 #[test]
 fn mutated_examples_and_tables() {
+    let usual = match (is_exhaustive(), is_thorough()) {
+        (true, _) => 20_000,
+        (false, true) => 8_000,
+        (false, false) => 30,
+    };
     let mutations: u64 = std::env::var("SENSEDSL_MUTATIONS")
-        .map_or(if is_thorough() { 20_000 } else { 30 }, |number| {
-            number.parse().expect("SENSEDSL_MUTATIONS is a number")
-        });
+        .map_or(usual, |number| number.parse().expect("SENSEDSL_MUTATIONS is a number"));
     let seeds = seeds();
     for seed in one_in(8, &seeds) {
         pipeline(seed);

@@ -9,6 +9,9 @@ use serde_json::{Value, json};
 use crate::corpus::is_exhaustive;
 use crate::session::{FILE, Session, Stored, edited};
 
+/// The most places of a text that a thorough run asks at.
+const PLACES_MAX: usize = 300;
+
 /// The texts below a folder, by path.
 fn texts(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     let entries = std::fs::read_dir(folder).unwrap();
@@ -118,7 +121,8 @@ fn every_text_can_be_asked_and_completed_anywhere() {
         let tree = parse(text).syntax();
         let tokens = tree.descendants_with_tokens().filter_map(SyntaxElement::into_token);
         let ends: Vec<usize> = tokens.map(|token| token.text_range().end().into()).collect();
-        let step = if is_thorough { 1 } else { 1 + ends.len() / 8 };
+        // An answer takes as long as the text is, so that all places of a long one would take its square.
+        let step = 1 + ends.len() / if is_thorough { PLACES_MAX } else { 8 };
         for offset in ends.iter().copied().skip(at % step).step_by(step).chain([0, text.len()]) {
             taken += ask(&mut session, path, text, offset);
         }
