@@ -179,7 +179,8 @@ mod tests {
             };
             all.iter().filter(is).count()
         };
-        assert_eq!((with("rn-line"), with("rn-wall"), with("rn-path")), (1, 1, 1));
+        // The scale is drawn as a wall is; where the robot looks, as its way.
+        assert_eq!((with("rn-line"), with("rn-wall"), with("rn-path")), (1, 2, 2));
         assert_eq!((with("rn-robot"), with("rn-e0")), (1, 2));
         assert!(text.contains("A&lt;b") && text.contains("Rover &amp; more"));
         // Everything is on the page.
@@ -191,7 +192,7 @@ mod tests {
     #[test]
     fn a_run_without_robots_has_plots_alone() {
         let text = svg(&RunPicture { floors: Vec::new(), ..picture() });
-        assert!(!text.contains("rn-robot") && text.contains("rn-e0"));
+        assert!(!text.contains("class=\"rn-robot") && text.contains("rn-e0"));
         roxmltree::Document::parse(&text).unwrap();
         roxmltree::Document::parse(&svg(&RunPicture::default())).unwrap();
     }

@@ -1,7 +1,7 @@
 //! A controller's block in; the device that it is to the host, and the names that it reads and sets, out.
 
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0209_wrong_value, e0211_out_of_range, e0628_step_too_long,
+    e0201_unknown_property, e0209_wrong_value, e0211_out_of_range, e0630_step_too_long,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
@@ -62,7 +62,7 @@ pub(crate) fn read(
     {
         let (takes, at) = (shown_us(takes.value), takes.span);
         let every_shown = shown_us(every.value.saturating_mul(1_000));
-        let report = e0628_step_too_long::step_too_long;
+        let report = e0630_step_too_long::step_too_long;
         diagnostics.push(report(at, &name.value, &takes, &every_shown, every.span));
     }
     let unbound = Unbound {

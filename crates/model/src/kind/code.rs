@@ -22,8 +22,8 @@ pub const SPEC: KindSpec = KindSpec {
     serves: Serves::Signal(|_, _| false),
     wires: "none",
     example: "",
-    colour: "#3D3D3D",
-    colour_on_dark: "#B9B9B9",
+    colour: "#240000",
+    colour_on_dark: "#783C6C",
     letter: 'X',
 };
 

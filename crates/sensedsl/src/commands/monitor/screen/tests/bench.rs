@@ -45,6 +45,7 @@ fn device(id: u8, name: &str, direction: Direction, value: ValueType) -> Device 
         min: None,
         max: None,
         cycle_ms: (direction == Direction::Sensor).then_some(50),
+        obeys: None,
     }
 }
 

@@ -1,10 +1,10 @@
-//! E0628: the step of a controller takes longer than its cycle.
+//! E0630: the step of a controller takes longer than its cycle.
 
 use super::{Code, CodeInfo, Diagnostic, Span};
 
 /// The code.
 pub const CODE: Code = Code(&CodeInfo {
-    code: "E0628",
+    code: "E0630",
     title: "the step of a controller takes longer than its cycle",
     explanation: r#"A controller's step begins once a cycle, and the next one can begin only after it has ended. `takes` says how long it
 takes at most, so it must be less than the cycle after `every`.
