@@ -14,7 +14,8 @@ const UNITS = [
 // Words that begin an item, which are names of properties where `=` comes next.
 const ITEMS = [
   "use", "const", "spare", "board", "chip", "sensor", "actuator", "driver", "connection", "reading", "command", "link",
-  "prefer", "avoid", "reserve", "release", "allow",
+  "prefer", "avoid", "reserve", "release", "allow", "controller", "test", "at", "fault", "always", "never",
+  "eventually", "when",
 ];
 
 const DECIMAL = /[0-9][0-9_]*/;
@@ -33,7 +34,7 @@ module.exports = grammar({
   inline: ($) => [$._sign],
 
   rules: {
-    source_file: ($) => repeat(choice($.use, $.const, $.board, $.device, $.chip, $.driver)),
+    source_file: ($) => repeat(choice($.use, $.const, $.board, $.device, $.chip, $.driver, $.test)),
 
     // Items.
 
@@ -83,6 +84,14 @@ module.exports = grammar({
       field("type", $.type),
       field("body", alias($._plain_block, $.block)),
     ),
+    controller: ($) => seq(
+      "controller",
+      field("name", $.identifier),
+      "every",
+      field("cycle", $._expression),
+      field("body", alias($._device_block, $.block)),
+    ),
+    test: ($) => seq("test", field("name", $.identifier), field("body", alias($._test_block, $.block))),
     kind: ($) => $.identifier,
     type: ($) => seq(
       field("scalar", $.identifier),
@@ -91,11 +100,12 @@ module.exports = grammar({
 
     // What each block may hold.
 
-    _board_block: ($) => block($.device, $.chip, $._rule, $.link, $.property),
+    _board_block: ($) => block($.device, $.chip, $.controller, $._rule, $.link, $.property),
     _chip_block: ($) => block($.device, $.connection, $._rule, $.property),
     _device_block: ($) => block($._rule, $.property),
     _driver_block: ($) => block($.connection, $.reading, $.command, $.property),
     _plain_block: ($) => block($.property),
+    _test_block: ($) => block($._step, $.property),
 
     // Properties and rules.
 
@@ -119,6 +129,89 @@ module.exports = grammar({
     release: ($) => seq("release", sepBy1(",", field("resource", $._resource)), ";"),
     allow: ($) => seq("allow", field("code", $.identifier), field("reason", $.string), ";"),
     _resource: ($) => choice($.identifier, alias($._dotted_pin, $.identifier)),
+
+    // Steps of tests.
+
+    _step: ($) => choice(
+      $.set_step,
+      $.fault_step,
+      $.always_rule,
+      $.never_rule,
+      $.eventually_rule,
+      $.when_rule,
+    ),
+    set_step: ($) => seq(
+      "at",
+      field("time", $._expression),
+      "set",
+      field("name", $.identifier),
+      "=",
+      field("value", $._value),
+      ";",
+    ),
+    fault_step: ($) => seq(
+      "fault",
+      field("kind", $.name_value),
+      optional(seq("of", field("device", $.name_value))),
+      "at",
+      field("time", $._expression),
+      optional(alias($._duration, $.clause)),
+      ";",
+    ),
+    _duration: ($) => seq("for", field("time", $._expression)),
+    always_rule: ($) => seq("always", field("condition", $._condition), repeat($.clause), ";"),
+    never_rule: ($) => seq("never", field("condition", $._condition), repeat($.clause), ";"),
+    eventually_rule: ($) => seq("eventually", field("condition", $._condition), repeat($.clause), ";"),
+    when_rule: ($) => seq(
+      "when",
+      field("condition", $._condition),
+      "then",
+      field("consequence", $._condition),
+      repeat($.clause),
+      ";",
+    ),
+    clause: ($) => seq(choice("within", "from", "to"), field("time", $._expression)),
+
+    // Conditions of tests.
+
+    _condition: ($) => choice($.logic, $.not, $.compare, $.inside, $._quantity),
+    logic: ($) => choice(
+      prec.left(1, seq(field("left", $._condition), field("operator", "or"), field("right", $._condition))),
+      prec.left(2, seq(field("left", $._condition), field("operator", "and"), field("right", $._condition))),
+    ),
+    not: ($) => prec(3, seq("not", field("condition", $._condition))),
+    compare: ($) => seq(
+      field("left", $._quantity),
+      field("operator", choice("<", "<=", ">", ">=", "==", "!=")),
+      field("right", $._quantity),
+    ),
+    inside: ($) => seq(field("value", $._quantity), "in", field("range", $._value)),
+    _quantity: ($) => choice(
+      alias($._operation, $.binary),
+      $.number,
+      alias($._code, $.number),
+      $._other_atom,
+    ),
+    _operation: ($) => choice(
+      prec.left(1, seq(field("left", $._quantity), field("operator", choice("+", "-")), field("right", $._quantity))),
+      prec.left(2, seq(field("left", $._quantity), field("operator", choice("*", "/")), field("right", $._quantity))),
+    ),
+    _other_atom: ($) => choice(
+      $.name_value,
+      $.index,
+      $.call,
+      $.member,
+      alias($._group, $.paren),
+      alias($._signed_atom, $.signed),
+    ),
+    _signed_atom: ($) => prec(3, seq(
+      $._sign,
+      choice(alias($._signed_number, $.number), alias($._code, $.number), $._other_atom),
+    )),
+    _group: ($) => seq("(", $._condition, ")"),
+    index: ($) => seq(field("name", $._word), "[", field("index", $._quantity), "]"),
+    call: ($) => seq(field("function", $._word), "(", sepBy1(",", field("argument", $._condition)), ")"),
+    member: ($) => seq(field("name", $._word), ".", field("member", $.identifier)),
 
     // Values.
 
@@ -145,7 +238,8 @@ module.exports = grammar({
     )),
     list: ($) => seq("[", optional(sepBy1(",", $._value)), "]"),
     paren: ($) => seq("(", $._expression, ")"),
-    name_value: ($) => choice(
+    name_value: ($) => $._word,
+    _word: ($) => choice(
       $.identifier,
       alias("raw", $.identifier),
       alias($._dotted_pin, $.identifier),

@@ -4,6 +4,8 @@
   (block)
   (list)
   (paren)
+  (index)
+  (call)
 ] @indent.begin
 
 ["}" "]" ")"] @indent.branch @indent.end

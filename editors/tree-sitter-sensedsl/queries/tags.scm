@@ -6,6 +6,8 @@
 (device name: (identifier) @name) @definition.function
 (reading name: (identifier) @name) @definition.function
 (command name: (identifier) @name) @definition.function
+(controller name: (identifier) @name) @definition.function
+(test name: (identifier) @name) @definition.method
 (connection name: (identifier) @name) @definition.field
 (const name: (identifier) @name) @definition.constant
 

@@ -11,7 +11,7 @@ use super::texts::as_written;
 use super::tree_sitter::{program, trees};
 
 /// The folders with queries, and their words for what is told apart, in the order of [`Class`].
-const QUERIES: [(&str, [&str; 10]); 3] = [
+const QUERIES: [(&str, [&str; 11]); 3] = [
     ("editors/tree-sitter-sensedsl/queries", SHARED),
     ("editors/zed/languages/sensedsl", SHARED),
     (
@@ -20,6 +20,7 @@ const QUERIES: [(&str, [&str; 10]); 3] = [
             "comment",
             "constant",
             "function",
+            "function.builtin",
             "keyword",
             "constant.numeric",
             "variable.other.member",
@@ -30,10 +31,11 @@ const QUERIES: [(&str, [&str; 10]); 3] = [
         ],
     ),
 ];
-const SHARED: [&str; 10] = [
+const SHARED: [&str; 11] = [
     "comment",
     "constant",
     "function",
+    "function.builtin",
     "keyword",
     "number",
     "property",

@@ -8,13 +8,16 @@ pub(super) enum Class {
     Comment,
     /// The name of a constant or a pin, a word as a value, a code, a board that another is on.
     Constant,
-    /// The name of a device, a reading or a command.
+    /// The name of a device, a reading, a command or a controller.
     Device,
+    /// What a condition computes: `rising`.
+    Function,
     Keyword,
     Number,
+    /// The name of a property, or of what is asked of a device: `Follow.overruns`.
     Property,
     Text,
-    /// The name of a board, a chip, a driver or a connection.
+    /// The name of a board, a chip, a driver, a connection or a test.
     Thing,
     /// A kind, or the type of a value.
     Type,
@@ -42,9 +45,11 @@ fn class(token: &SyntaxToken) -> Option<Class> {
         Kind::Int | Kind::Float => Class::Number,
         Kind::Unit => Class::Unit,
         Kind::Ident => match token.parent()?.kind() {
-            Kind::Board | Kind::Chip | Kind::Driver | Kind::Connection => Class::Thing,
-            Kind::Device | Kind::Reading | Kind::Command => Class::Device,
+            Kind::Board | Kind::Chip | Kind::Driver | Kind::Connection | Kind::Test => Class::Thing,
+            Kind::Device | Kind::Reading | Kind::Command | Kind::Controller => Class::Device,
+            Kind::Call => Class::Function,
             Kind::Property => Class::Property,
+            Kind::Member if !is_first(token) => Class::Property,
             Kind::Kind => Class::Type,
             Kind::Type if is_first(token) => Class::Type,
             _ => Class::Constant,

@@ -81,6 +81,7 @@ fn words_of_vim(class: Class) -> &'static [&'static str] {
         Class::Comment => &["sensedslComment"],
         Class::Constant => &["sensedslName", "sensedslConst", "sensedslResource", "sensedslCode"],
         Class::Device => &["sensedslDevice"],
+        Class::Function => &["sensedslFunction"],
         Class::Keyword => {
             &["sensedslKeyword", "sensedslOn", "sensedslFor", "sensedslVerb", "sensedslRaw"]
         }
@@ -163,6 +164,6 @@ fn emacs_opens_files() {
         Class::Property => &["font-lock-variable-name-face"],
         Class::Text => &["font-lock-string-face"],
         Class::Thing => &["font-lock-type-face"],
-        Class::Type | Class::Unit => &["font-lock-builtin-face"],
+        Class::Function | Class::Type | Class::Unit => &["font-lock-builtin-face"],
     });
 }

@@ -16,6 +16,7 @@ fn scope(class: Class) -> &'static str {
         Class::Comment => "comment.",
         Class::Constant => "variable.other.constant.sensedsl",
         Class::Device => "entity.name.function.sensedsl",
+        Class::Function => "support.function.sensedsl",
         Class::Keyword => "keyword.other.sensedsl",
         Class::Number => "constant.numeric.sensedsl",
         Class::Property => "variable.other.property.sensedsl",

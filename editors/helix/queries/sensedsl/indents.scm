@@ -2,6 +2,8 @@
   (block)
   (list)
   (paren)
+  (index)
+  (call)
 ] @indent
 
 ["}" "]" ")"] @outdent

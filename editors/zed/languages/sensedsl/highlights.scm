@@ -4,7 +4,8 @@
 
 [
   "use" "const" "spare" "board" "on" "link" "sensor" "returns" "actuator" "accepts" "chip" "connection" "reading"
-  "command" "driver" "for" "prefer" "avoid" "reserve" "release" "allow" "raw"
+  "command" "driver" "for" "prefer" "avoid" "reserve" "release" "allow" "raw" "controller" "every" "test"
+  "at" "set" "fault" "of" "always" "never" "eventually" "when" "then" "within" "from" "to" "and" "or" "not" "in"
 ] @keyword
 
 ; Names that items define.
@@ -12,10 +13,12 @@
 (board name: (identifier) @type)
 (chip name: (identifier) @type)
 (driver name: (identifier) @type)
+(test name: (identifier) @type)
 (connection name: (identifier) @type)
 (device name: (identifier) @function)
 (reading name: (identifier) @function)
 (command name: (identifier) @function)
+(controller name: (identifier) @function)
 (const name: (identifier) @constant)
 
 (on_clause source: (identifier) @constant)
@@ -30,6 +33,14 @@
 (release resource: (identifier) @constant)
 (allow code: (identifier) @constant)
 
+; Steps and conditions of tests.
+
+(set_step name: (identifier) @constant)
+(index name: (identifier) @constant)
+(call function: (identifier) @function.builtin)
+(member name: (identifier) @constant)
+(member member: (identifier) @property)
+
 ; Values.
 
 (name_value) @constant
@@ -40,8 +51,8 @@
 
 ; Marks.
 
-["+" "-" "*" "/" ".." "="] @operator
+["+" "-" "*" "/" ".." "=" "<" "<=" ">" ">=" "==" "!="] @operator
 ["{" "}" "[" "]" "(" ")"] @punctuation.bracket
-[";" ","] @punctuation.delimiter
+[";" "," "."] @punctuation.delimiter
 
 [(line_comment) (block_comment)] @comment

@@ -1,3 +1,5 @@
 (block "}" @end) @indent
 (list "]" @end) @indent
 (paren ")" @end) @indent
+(index "]" @end) @indent
+(call ")" @end) @indent
