@@ -56,6 +56,11 @@
           "\\(?:[ \t]*\\(?:\\(" (regexp-opt sensedsl--units) "\\)\\(?:[^A-Za-z0-9_]\\|\\'\\)\\|\\(%\\)\\)\\)?")
   "A number and its unit.")
 
+(defconst sensedsl--step
+  (concat "\\(?:^\\|[;{}]\\)[ \t]*\\(at\\|fault\\|always\\|never\\|eventually\\|when\\)"
+          "\\(?:" sensedsl--space "[^ \t\n=]\\|[-+(]\\)")
+  "What a step of a test begins with.")
+
 (defun sensedsl--match-number (limit)
   "Find a number before LIMIT; a word such as 8N1 is none."
   (let (found)
@@ -66,6 +71,13 @@
                       (goto-char (match-beginning 1))
                       (let ((case-fold-search nil))
                         (or (looking-at-p "0X") (not (looking-at "[0-9]+\\(?:[ACDF-WYZ]\\|[A-Z][A-Z]+\\)[0-9]+\\_>"))))))))
+    found))
+
+(defun sensedsl--match-step (limit)
+  "Find the first word of a step before LIMIT, in code."
+  (let (found)
+    (while (and (not found) (re-search-forward sensedsl--step limit t))
+      (setq found (not (save-match-data (nth 8 (save-excursion (syntax-ppss (match-beginning 1))))))))
     found))
 
 (defvar sensedsl-font-lock-keywords
@@ -91,6 +103,13 @@
      (3 'font-lock-keyword-face)
      (4 'font-lock-builtin-face)
      (5 'font-lock-constant-face nil t))
+    (,(concat "\\_<\\(controller\\)" sensedsl--space "\\(" sensedsl--name "\\)" sensedsl--space "\\(every\\)\\_>")
+     (1 'font-lock-keyword-face)
+     (2 'font-lock-function-name-face)
+     (3 'font-lock-keyword-face))
+    (,(concat "\\_<\\(test\\)" sensedsl--space "\\(" sensedsl--name "\\)")
+     (1 'font-lock-keyword-face)
+     (2 'font-lock-type-face))
     (,(concat "\\_<\\(const\\)" sensedsl--space "\\(" sensedsl--name "\\)")
      (1 'font-lock-keyword-face)
      (2 'font-lock-constant-face))
@@ -106,8 +125,21 @@
      ("[Pp][0-9]\\.[0-9]+\\|[A-Za-z_][A-Za-z0-9_]*"
       (progn (backward-char) (sensedsl--end-of-statement)) nil
       (0 'font-lock-constant-face)))
+    ;; Steps of tests: words that join their pieces are words only there.
+    (sensedsl--match-step
+     (1 'font-lock-keyword-face)
+     (,(concat "\\_<\\(set\\|of\\)" sensedsl--space "\\(" sensedsl--name "\\)"
+               "\\|\\(" sensedsl--name "\\)("
+               "\\|[A-Za-z0-9_]\\.\\(" sensedsl--name "\\)"
+               "\\|\\_<\\(and\\|or\\|not\\|in\\|then\\|within\\|from\\|to\\|for\\|at\\)\\_>")
+      (progn (backward-char) (sensedsl--end-of-statement)) nil
+      (1 'font-lock-keyword-face nil t)
+      (2 'font-lock-constant-face nil t)
+      (3 'font-lock-builtin-face nil t)
+      (4 'font-lock-variable-name-face nil t)
+      (5 'font-lock-keyword-face nil t)))
     ;; Properties and values.
-    (,(concat "\\_<\\(" sensedsl--name "\\)[ \t\n]*=") (1 'font-lock-variable-name-face))
+    (,(concat "\\_<\\(" sensedsl--name "\\)[ \t\n]*=\\(?:[^=]\\|\\'\\)") (1 'font-lock-variable-name-face))
     ("\\_<\\(raw\\)[ \t\n]+[+-]?[0-9]" (1 'font-lock-keyword-face))
     (sensedsl--match-number
      (1 'font-lock-constant-face)
@@ -133,10 +165,11 @@
           (t (save-excursion (indent-line-to column))))))
 
 (defvar sensedsl-imenu-generic-expression
-  `((nil ,(concat "^[ \t]*\\(?:sensor\\|actuator\\|reading\\|command\\)[ \t]+\\(" sensedsl--name "\\)") 1)
+  `((nil ,(concat "^[ \t]*\\(?:sensor\\|actuator\\|reading\\|command\\|controller\\)[ \t]+\\(" sensedsl--name "\\)") 1)
     ("Boards" ,(concat "^[ \t]*\\(?:spare[ \t]+\\)?board[ \t]+\\(" sensedsl--name "\\)") 1)
     ("Chips" ,(concat "^[ \t]*chip[ \t]+\\(" sensedsl--name "\\)") 1)
     ("Drivers" ,(concat "^[ \t]*driver[ \t]+\\(" sensedsl--name "\\)") 1)
+    ("Tests" ,(concat "^[ \t]*test[ \t]+\\(" sensedsl--name "\\)") 1)
     ("Constants" ,(concat "^[ \t]*const[ \t]+\\(" sensedsl--name "\\)") 1))
   "What `imenu' lists.")
 

@@ -80,13 +80,18 @@ fn words_of_vim(class: Class) -> &'static [&'static str] {
     match class {
         Class::Comment => &["sensedslComment"],
         Class::Constant => &["sensedslName", "sensedslConst", "sensedslResource", "sensedslCode"],
-        Class::Device => &["sensedslDevice"],
+        Class::Device => &["sensedslDevice", "sensedslController"],
         Class::Function => &["sensedslFunction"],
-        Class::Keyword => {
-            &["sensedslKeyword", "sensedslOn", "sensedslFor", "sensedslVerb", "sensedslRaw"]
-        }
+        Class::Keyword => &[
+            "sensedslKeyword",
+            "sensedslOn",
+            "sensedslFor",
+            "sensedslVerb",
+            "sensedslRaw",
+            "sensedslJoint",
+        ],
         Class::Number => &["sensedslNumber"],
-        Class::Property => &["sensedslProperty"],
+        Class::Property => &["sensedslProperty", "sensedslMember"],
         Class::Text => &["sensedslString"],
         Class::Thing => &["sensedslThing"],
         Class::Type => &["sensedslType"],
