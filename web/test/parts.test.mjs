@@ -1,6 +1,7 @@
 // What needs no page: where parts go in a text, addresses with projects, snippets, archives.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
 import { build, stop } from "esbuild";
 import { example, root } from "./site.mjs";
@@ -60,6 +61,26 @@ test("an address has the project, and nothing else is taken for one", async () =
     // What unpacks to very much is refused.
     const bomb = fragmentOf({ files: { "a.sense": " ".repeat(5_000_000) }, open: "a.sense" });
     assert.throws(() => projectOf(bomb));
+});
+
+test("every word of the language has its colour, and is a name elsewhere", async () => {
+    const { sensedsl } = await module("language/highlight.ts");
+    const { parser } = sensedsl().language;
+    const coloured = (text, name) => {
+        const words = [];
+        parser.parse(text).iterate({ enter: (node) => { if (node.name === name) words.push(text.slice(node.from, node.to)); } });
+        return words;
+    };
+    const query = readFileSync(`${root}/editors/tree-sitter-sensedsl/queries/highlights.scm`, "utf8");
+    const words = query.match(/\[([^\]]*)\] @keyword/)[1].match(/[a-z]+/g);
+    assert.ok(words.length > 40, `${words.length} words`);
+    const all = readFileSync(`${root}/tests/editors/every_word.sense`, "utf8");
+    assert.deepEqual([...new Set(coloured(all, "keyword"))].sort(), words.sort());
+    const some = "test at { at = to; always A == B and C.overruns in 1 m .. N; } board B { controller when every 5 ms { reads = [at, of]; } }";
+    assert.deepEqual(coloured(some, "keyword"), ["test", "always", "and", "in", "board", "controller", "every"]);
+    assert.deepEqual(coloured(some, "propertyName"), ["at", "reads"]);
+    assert.deepEqual(coloured(some, "variableName.definition"), ["at", "B", "when"]);
+    assert.deepEqual(coloured("at 1 s set for = 5; at /* = */ A set B = at;", "keyword"), ["at", "set", "at", "set"]);
 });
 
 test("the design is the open file, or the one that uses it", async () => {

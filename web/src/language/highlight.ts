@@ -5,9 +5,15 @@ import { tags } from "@lezer/highlight";
 
 const KEYWORDS = new Set([
     "use", "const", "board", "on", "spare", "sensor", "actuator", "returns", "accepts", "chip", "driver", "connection",
-    "reading", "command", "for", "reserve", "release", "allow", "link", "prefer", "avoid", "raw",
+    "reading", "command", "for", "reserve", "release", "allow", "link", "prefer", "avoid", "raw", "controller", "every", "test",
 ]);
-const DECLARING = new Set(["board", "chip", "driver", "connection", "sensor", "actuator", "reading", "command", "const"]);
+/** Words that begin a step of a test, at the beginning of a statement alone. */
+const STEPS = new Set(["at", "fault", "always", "never", "eventually", "when"]);
+/** Words that join the pieces of a step, which are names elsewhere. */
+const JOINTS = new Set(["and", "or", "not", "in", "then", "within", "from", "to", "for", "at", "of", "set"]);
+const DECLARING = new Set([
+    "board", "chip", "driver", "connection", "sensor", "actuator", "reading", "command", "const", "controller", "test",
+]);
 const TYPED = new Set(["returns", "accepts", "for"]);
 const UNITS = /^(m\/s\^2|deg\/s|mm\/s|cm\/s|m\/s|kOhm|degC|kHz|MHz|Ohm|deg|rpm|us|ms|Hz|mV|mm|cm|mA|s|V|m|A|W|%)(?![A-Za-z0-9_])/;
 const NUMBER = /^(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|[0-9][0-9_]*(\.[0-9][0-9_]*)?([eE][+-]?[0-9][0-9_]*)?)/;
@@ -18,11 +24,13 @@ interface State {
     depth: number;
     /** What a name would be now. */
     next: "declared" | "type" | "board" | "unit" | null;
+    /** Where a statement is: before its first word, in a step of a test, in something else. */
+    place: "start" | "step" | "other";
 }
 
 const language = StreamLanguage.define<State>({
     name: "sensedsl",
-    startState: () => ({ isComment: false, depth: 0, next: null }),
+    startState: () => ({ isComment: false, depth: 0, next: null, place: "start" }),
     languageData: {
         commentTokens: { line: "//", block: { open: "/*", close: "*/" } },
         closeBrackets: { brackets: ["{", "[", "(", '"'] },
@@ -38,8 +46,6 @@ const language = StreamLanguage.define<State>({
             return "comment";
         }
         if (stream.eatSpace()) return null;
-        const { next } = state;
-        state.next = null;
         if (stream.match("//")) {
             stream.skipToEnd();
             return "comment";
@@ -48,6 +54,9 @@ const language = StreamLanguage.define<State>({
             state.isComment = true;
             return "comment";
         }
+        const { next, place } = state;
+        state.next = null;
+        if (place === "start") state.place = "other";
         if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) return "string";
         if (next === "unit" && stream.match(UNITS)) return "unit";
         if (stream.match(NUMBER)) {
@@ -55,8 +64,9 @@ const language = StreamLanguage.define<State>({
             return "number";
         }
         const word = stream.match(/^[A-Za-z_][A-Za-z0-9_]*/);
-        if (word) return named(state, next, stream.current(), Boolean(stream.match(/^\s*=/, false)));
+        if (word) return named(state, { next, place }, stream.current(), Boolean(stream.match(/^\s*=(?!=)/, false)));
         const sign = stream.next();
+        if (sign === "{" || sign === "}" || sign === ";") state.place = "start";
         if (sign === "{") state.depth += 1;
         if (sign === "}") state.depth = Math.max(0, state.depth - 1);
         return null;
@@ -64,10 +74,16 @@ const language = StreamLanguage.define<State>({
     tokenTable: { unit: tags.unit },
 });
 
-function named(state: State, next: State["next"], word: string, isProperty: boolean): string {
+function named(state: State, before: Pick<State, "next" | "place">, word: string, isAssigned: boolean): string {
+    const { next, place } = before;
     if (next === "declared") return "variableName.definition";
-    if (isProperty) return "propertyName";
+    if (place === "step") return JOINTS.has(word) && !isAssigned || word === "raw" ? "keyword" : "variableName";
+    if (isAssigned) return "propertyName";
     if (next === "type" || next === "board") return "typeName";
+    if (place === "start" && STEPS.has(word)) {
+        state.place = "step";
+        return "keyword";
+    }
     if (!KEYWORDS.has(word)) return "variableName";
     if (DECLARING.has(word)) state.next = "declared";
     else if (TYPED.has(word)) state.next = "type";
