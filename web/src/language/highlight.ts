@@ -77,7 +77,11 @@ const language = StreamLanguage.define<State>({
 function named(state: State, before: Pick<State, "next" | "place">, word: string, isAssigned: boolean): string {
     const { next, place } = before;
     if (next === "declared") return "variableName.definition";
-    if (place === "step") return JOINTS.has(word) && !isAssigned || word === "raw" ? "keyword" : "variableName";
+    if (place === "step") {
+        // A value comes after `set NAME =`.
+        if (isAssigned) state.place = "other";
+        return !isAssigned && (JOINTS.has(word) || word === "raw") ? "keyword" : "variableName";
+    }
     if (isAssigned) return "propertyName";
     if (next === "type" || next === "board") return "typeName";
     if (place === "start" && STEPS.has(word)) {
