@@ -55,6 +55,7 @@ mod spreadsheets;
 mod strangers;
 mod studio;
 mod teams;
+mod templates;
 mod tidy;
 mod timing;
 mod traceability;

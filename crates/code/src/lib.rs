@@ -15,6 +15,7 @@
 //! The answer has, for each device that it sets, whether the step has set it, and the value: 1 + n bytes.
 
 mod plan;
+mod reserved;
 mod words;
 
 use askama::Template;
@@ -22,6 +23,7 @@ use sensedsl_files::{FileSet, print};
 use sensedsl_job::BoardJob;
 
 pub use plan::{ControllerPlan, FieldPlan, controllers};
+pub use reserved::controller as controller_ident;
 
 /// Declares templates that print one controller.
 macro_rules! of_controller {

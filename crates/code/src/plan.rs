@@ -4,6 +4,8 @@ use sensedsl_job::{BoardJob, JobController, JobDevice};
 use sensedsl_model::design::Presentation;
 use sensedsl_wire::ScalarType;
 
+use crate::reserved;
+
 /// What the code of a controller gets and gives.
 #[derive(Clone, Debug)]
 pub struct ControllerPlan {
@@ -43,7 +45,7 @@ impl FieldPlan {
         let value = one.device.value.value;
         Self {
             name: one.name().to_owned(),
-            ident: one.ident.clone(),
+            ident: reserved::field(&one.ident),
             index,
             scalar: value.scalar,
             length: value.length,
@@ -82,7 +84,7 @@ fn of_controller(job: &BoardJob<'_>, one: &JobController<'_>) -> ControllerPlan 
     };
     ControllerPlan {
         name: job.devices.get(one.own).map_or_else(String::new, |own| own.name().to_owned()),
-        ident: one.ident.clone(),
+        ident: reserved::controller(&one.ident),
         type_name: type_name(&one.ident),
         every_ms: one.controller.every_ms,
         reads: fields(&one.reads),
@@ -97,5 +99,7 @@ fn type_name(ident: &str) -> String {
         let first = letters.next().map(|letter| letter.to_ascii_uppercase());
         first.into_iter().chain(letters).collect::<String>()
     });
-    words.collect()
+    let name: String = words.collect();
+    // What its file uses, and a word of Rust.
+    if ["In", "Out", "Self"].contains(&name.as_str()) { name + "Code" } else { name }
 }

@@ -72,7 +72,7 @@ fn task(
     section: &mut Section,
 ) {
     let Some(device) = context.job.devices.get(own.own) else { return };
-    let (ident, cycle) = (&plan.ident, device.cycle);
+    let (ident, module, cycle) = (&own.ident, &plan.ident, device.cycle);
     let upper = ident.to_uppercase();
     let takes_us = own.controller.takes_us.unwrap_or(plan.every_ms.saturating_mul(1_000));
     section.items.push(Item::Static {
@@ -85,11 +85,11 @@ fn task(
     });
     let doc = format!("{}: the user's code", cycle.title(&plan.name));
     let mut task = Task::in_turn(doc, format!("{ident}_control"), cycle);
-    task.before.push(format!("let mut code = controls::{ident}_code::{}::new();", plan.type_name));
+    task.before.push(format!("let mut code = controls::{module}_code::{}::new();", plan.type_name));
     let mut cycle_of = vec![
         format!("let dt_us = {upper}_CONTROL.begin(Instant::now().as_micros());"),
-        format!("let input = controls::{ident}::In {{ {} }};", inputs(context, plan)),
-        format!("let mut output = controls::{ident}::Out::default();"),
+        format!("let input = controls::{module}::In {{ {} }};", inputs(context, plan)),
+        format!("let mut output = controls::{module}::Out::default();"),
         "code.step(&input, &mut output, dt_us);".to_owned(),
     ];
     for field in &plan.sets {
@@ -108,7 +108,7 @@ fn inputs(context: &Context<'_>, plan: &ControllerPlan) -> String {
     let field = |field: &FieldPlan| {
         let device = context.job.devices.get(field.index);
         let is_given = device.is_some_and(is_given);
-        let constant = field.ident.to_uppercase();
+        let constant = constant(context, field);
         let reading =
             "controls::Reading { value: controls::Bytes::from_bytes(bytes), age_us, is_valid }";
         format!(
@@ -124,6 +124,11 @@ fn is_given(one: &JobDevice<'_>) -> bool {
     one.device.kind.code().is_some() || one.device.direction == Direction::Actuator
 }
 
+/// The device's index, as the tables call it.
+fn constant(context: &Context<'_>, field: &FieldPlan) -> String {
+    context.job.devices.get(field.index).map_or_else(String::new, |one| one.ident.to_uppercase())
+}
+
 /// What is done with a value that a step may have set.
 fn set(
     context: &Context<'_>,
@@ -131,7 +136,7 @@ fn set(
     section: &mut Section,
     state: &mut Vec<String>,
 ) -> String {
-    let (ident, constant, bytes) = (&field.ident, field.ident.to_uppercase(), field.bytes());
+    let (ident, constant, bytes) = (&field.ident, constant(context, field), field.bytes());
     let direction = context.job.devices.get(field.index).map(|one| one.device.direction);
     let done = match direction {
         Some(Direction::Actuator) => {

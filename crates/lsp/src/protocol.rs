@@ -239,6 +239,7 @@ pub(crate) mod symbol {
 
 /// Kinds of completions.
 pub(crate) mod completion {
+    pub(crate) const FUNCTION: u8 = 3;
     pub(crate) const FIELD: u8 = 5;
     pub(crate) const CLASS: u8 = 7;
     pub(crate) const MODULE: u8 = 9;

@@ -1,6 +1,6 @@
 //! Controllers in; a thread for each, and the C between the values of the board and the user's code, out.
 
-use sensedsl_code::{ControllerPlan, controllers};
+use sensedsl_code::{ControllerPlan, FieldPlan, controllers};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_job::{BoardJob, JobController, JobDevice, Owner};
 use sensedsl_wire::Direction;
@@ -73,7 +73,7 @@ pub(super) fn section(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section
             unit: device.name().to_owned(),
             cycle: device.cycle,
             function: "up_control_cycle",
-            table: format!("{}_control", one.ident),
+            table: format!("{}_control", sensedsl_code::controller_ident(&one.ident)),
             device: device.device.id.value,
             depth: DEPTH,
         });
@@ -131,19 +131,23 @@ impl Control {
         sections: &[Section],
     ) -> Self {
         let every_us = own.controller.every_ms.saturating_mul(1_000);
-        let devices = |list: &[usize]| -> Vec<&JobDevice<'_>> {
-            list.iter().filter_map(|index| job.devices.get(*index)).collect()
+        let set: Vec<&JobDevice<'_>> =
+            own.sets.iter().filter_map(|index| job.devices.get(*index)).collect();
+        let accesses = |fields: &[FieldPlan], function: fn(&JobDevice<'_>) -> &'static str| {
+            let one = |field: &FieldPlan| {
+                Some(Access::new(&field.ident, job.devices.get(field.index)?, function))
+            };
+            fields.iter().filter_map(one).collect()
         };
-        let set = devices(&own.sets);
         let lines = sections
             .iter()
             .flat_map(|section| &section.failsafes)
             .filter(|line| set.iter().any(|one| line.field.as_deref() == Some(one.name())));
         Self {
-            plan,
             takes_us: own.controller.takes_us.unwrap_or(every_us),
-            reads: devices(&own.reads).into_iter().map(|one| Access::new(one, read)).collect(),
-            sets: set.iter().map(|one| Access::new(one, sets)).collect(),
+            reads: accesses(&plan.reads, read),
+            sets: accesses(&plan.sets, sets),
+            plan,
             fall_backs: set.iter().filter_map(|one| FallBackPlan::new(one)).collect(),
             failsafes: lines.map(|line| line.line.clone()).collect(),
         }
@@ -155,8 +159,12 @@ impl Control {
 }
 
 impl Access {
-    fn new(one: &JobDevice<'_>, function: fn(&JobDevice<'_>) -> &'static str) -> Self {
-        Self { ident: one.ident.clone(), name: one.name().to_owned(), function: function(one) }
+    fn new(
+        ident: &str,
+        one: &JobDevice<'_>,
+        function: fn(&JobDevice<'_>) -> &'static str,
+    ) -> Self {
+        Self { ident: ident.to_owned(), name: one.name().to_owned(), function: function(one) }
     }
 }
 

@@ -334,6 +334,7 @@ fn everywhere(path: &str, text: &str) -> Vec<Value> {
     let parts = tree.parts().chain(boards).map(|part| match part {
         ast::Item::Device(one) => one.name().unwrap().range().end(),
         ast::Item::Chip(one) => one.name().unwrap().range().end(),
+        ast::Item::Controller(one) => one.name().unwrap().range().end(),
     });
     let parts: Vec<Value> = parts.map(|at| place(at.into())).collect();
     let (start, end) = (place(0), place(text.len()));

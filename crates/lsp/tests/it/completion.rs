@@ -9,7 +9,7 @@ use crate::corpus::some;
 use crate::session::{FILE, Session, Stored, edited, unmarked};
 
 /// A session of an editor that knows snippets.
-fn able() -> Session {
+pub(crate) fn able() -> Session {
     let item = json!({ "snippetSupport": true });
     let capabilities = json!({ "textDocument": { "completion": { "completionItem": item } } });
     Session::with(Stored::default(), &capabilities)
@@ -22,13 +22,13 @@ fn offered(marked: &str) -> Vec<Value> {
     list["items"].as_array().unwrap().clone()
 }
 
-fn list(session: &mut Session, marked: &str) -> Value {
+pub(crate) fn list(session: &mut Session, marked: &str) -> Value {
     let places = session.open(FILE, marked);
     session.settle();
     session.at("textDocument/completion", &places[0])
 }
 
-fn labels(items: &[Value]) -> Vec<&str> {
+pub(crate) fn labels(items: &[Value]) -> Vec<&str> {
     items.iter().map(|item| item["label"].as_str().unwrap()).collect()
 }
 
@@ -38,7 +38,7 @@ fn item<'i>(items: &'i [Value], label: &str) -> &'i Value {
 }
 
 /// The text after an item is taken, its places filled with what stands in them.
-fn taken(marked: &str, item: &Value) -> String {
+pub(crate) fn taken(marked: &str, item: &Value) -> String {
     let mut plain = item["textEdit"].clone();
     if item["insertTextFormat"] == 2 {
         plain["newText"] = filled(plain["newText"].as_str().unwrap()).into();

@@ -7,6 +7,7 @@ mod session;
 mod actions;
 mod completion;
 mod completion_corpus;
+mod control;
 mod fixes;
 mod formatting;
 mod hints;

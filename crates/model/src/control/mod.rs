@@ -5,4 +5,4 @@ mod bind;
 mod read;
 
 pub(crate) use bind::bind;
-pub(crate) use read::{Unbound, read};
+pub(crate) use read::{HOST, PROPERTIES, Unbound, read};

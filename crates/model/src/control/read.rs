@@ -22,6 +22,8 @@ use crate::value::{Dimension, Evaluator, Measure, Value};
 
 /// The properties of a controller.
 pub(crate) const PROPERTIES: &[&str] = &["reads", "sets", "prio", "takes", "host", "id", "label"];
+/// Whether the host may set what the code sets.
+pub(crate) const HOST: [(&str, bool); 2] = [("refused", false), ("override", true)];
 /// The longest cycle: a minute.
 const EVERY_MAX_MS: u32 = 60_000;
 /// What a cycle may be, for messages.
@@ -104,7 +106,7 @@ impl Own {
     fn read(fields: &mut Fields<'_>) -> Self {
         let id = fields.integer("id", 1..=254);
         let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
-        let host = fields.word("host", &[("refused", false), ("override", true)]);
+        let host = fields.word("host", &HOST);
         Self {
             id: id.and_then(|id| {
                 Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })

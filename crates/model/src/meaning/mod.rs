@@ -5,6 +5,7 @@
 //! is read is described, what is described is read, and ranges and words are those of the reader.
 
 mod boards;
+mod control;
 mod devices;
 mod drivers;
 mod entry;
@@ -19,6 +20,8 @@ use crate::part::properties::{COMMON_PROPERTIES, PRESENTATION};
 use crate::part::stranger;
 use crate::rule;
 
+pub use crate::test::STATES;
+pub use control::FUNCTIONS;
 pub use entry::Meaning;
 pub(crate) use entry::{REQUIRED, first};
 pub use takes::Takes;
@@ -44,6 +47,10 @@ pub enum Block<'a> {
     Driver(&'a [KindName]),
     /// A reading or command of a driver.
     OfDriver(&'a [KindName], Direction),
+    /// A controller.
+    Controller,
+    /// A test.
+    Test,
     /// A rule `prefer` or `avoid`.
     Wish,
 }
@@ -66,7 +73,12 @@ impl Block<'_> {
             | Self::Value(kinds, _)
             | Self::Driver(kinds)
             | Self::OfDriver(kinds, _) => kinds,
-            Self::Board | Self::Link | Self::OfChip(_) | Self::Wish => &[],
+            Self::Board
+            | Self::Link
+            | Self::OfChip(_)
+            | Self::Controller
+            | Self::Test
+            | Self::Wish => &[],
         };
         let mut found: Vec<&'static Meaning> = Vec::new();
         let of_kinds = kinds.iter().flat_map(|kind| of_kind(*kind));
@@ -97,6 +109,8 @@ impl Block<'_> {
             | Self::Chip(_)
             | Self::Connection(_)
             | Self::Driver(_)
+            | Self::Controller
+            | Self::Test
             | Self::Wish => None,
         }
     }
@@ -129,6 +143,13 @@ impl Block<'_> {
             Self::OfDriver(..) => named(
                 ["delay", "prio", "group"].iter().chain(shown).chain(CODING.iter().filter(suits)),
             ),
+            Self::Controller => {
+                let one = |name: &&str| {
+                    control::CONTROLLER.iter().chain(general()).find(|one| one.name == *name)
+                };
+                crate::control::PROPERTIES.iter().filter_map(one).collect()
+            }
+            Self::Test => control::TEST.iter().collect(),
             Self::Wish => named(rule::wishes().collect::<Vec<_>>().iter()),
         }
     }

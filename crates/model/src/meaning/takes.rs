@@ -63,6 +63,8 @@ pub enum Takes {
     Group,
     /// The system of a firmware.
     Target,
+    /// Devices of the board.
+    Devices,
     /// Something else: what it is, and the units that its numbers may have.
     Form(&'static str, &'static [Unit]),
 }
@@ -168,6 +170,7 @@ impl fmt::Display for Takes {
             Self::Header => f.write_str("a connector of the board"),
             Self::Group => f.write_str("the name of a group, or `none`"),
             Self::Target => f.write_str("a system, or one with its version"),
+            Self::Devices => f.write_str("a device, or a list of them"),
             Self::Form(form, _) => f.write_str(form),
         }
     }

@@ -83,7 +83,8 @@ fn every_property_of_a_kind_is_described_as_it_is_read() {
 fn everything() -> String {
     let mut text = format!(
         "board B on {BOARD} {{ target = chibios; link {{ }} sensor A returns uint16[2] {{ type = analog; }}\n\
-         actuator P accepts uint16 {{ type = i2c; address = 0x20; failsafe = 1; quantity = us; }}\n"
+         actuator P accepts uint16 {{ type = i2c; address = 0x20; failsafe = 1; quantity = us; }}\n\
+         controller K every 5 ms {{ reads = [A]; sets = P; takes = 1 ms; host = override; }}\n"
     );
     for part in ["mpu6050", "bme280", "tb6612", "gearmotor_tb6612", "hcsr04", "mcp23017_pins"] {
         text.push_str(&format!("chip C{part} {{ driver = {part}; }}\n"));
@@ -91,6 +92,7 @@ fn everything() -> String {
     text.push_str(
         "chip O { driver = own; actuator S accepts bool { reading = on; failsafe = true; } }\n}\n",
     );
+    text.push_str("test T { world = \"w.toml\"; for = 1 s; seed = 1; always A[0] < 5; }\n");
     text.push_str(
         "driver own for i2c { address = 0x20; compensate = ntc; reading level returns uint16 { register = 1; }\n\
          command on accepts bool { register = 2; } }\n",
@@ -105,7 +107,7 @@ fn everything_else_is_described_as_it_is_read() {
         drop(diagnostics(&everything()));
         drop(facts::find("mpu6050"));
     });
-    let others = || general().chain(boards::BOARD).chain(boards::LINK);
+    let others = || general().chain(of_blocks());
     let of_kinds: Vec<&Meaning> = KindName::ALL.iter().flat_map(|kind| of_kind(*kind)).collect();
     for (name, takes) in &asked {
         let entries: Vec<&Meaning> =
@@ -140,15 +142,27 @@ fn lists_of_readers_are_described() {
     }
     let wishes: BTreeSet<&str> = Block::Wish.properties().iter().map(|one| one.name).collect();
     assert_eq!(wishes, rule::wishes().collect());
+    for (block, list) in
+        [(Block::Controller, crate::control::PROPERTIES), (Block::Test, crate::test::PROPERTIES)]
+    {
+        let described: BTreeSet<&str> = block.properties().iter().map(|one| one.name).collect();
+        assert_eq!(described, list.iter().copied().collect(), "{block:?}");
+    }
     let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
     general().for_each(|one| *seen.entry(one.name).or_default() += 1);
     assert_eq!(seen.iter().filter(|one| *one.1 > 1).collect::<Vec<_>>(), []);
 }
 
+/// The properties of blocks that are no devices.
+fn of_blocks() -> impl Iterator<Item = &'static Meaning> {
+    let of_boards = boards::BOARD.iter().chain(boards::LINK);
+    of_boards.chain(control::CONTROLLER).chain(control::TEST)
+}
+
 /// Everything that is described: of kinds, of devices, of drivers, of boards and links.
 fn all() -> Vec<&'static Meaning> {
     let of_kinds = KindName::ALL.iter().flat_map(|kind| kind.meanings());
-    general().chain(boards::BOARD).chain(boards::LINK).chain(of_kinds).collect()
+    general().chain(of_blocks()).chain(of_kinds).collect()
 }
 
 #[test]

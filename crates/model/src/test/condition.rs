@@ -16,7 +16,7 @@ use crate::spanned::span;
 use crate::value::{Evaluator, Number, Value};
 
 /// The states of a device, by the words of conditions.
-pub(super) const STATES: [(&str, Status); 5] = [
+pub const STATES: [(&str, Status); 5] = [
     ("good", Status::Good),
     ("stale", Status::Stale),
     ("failed", Status::Failed),

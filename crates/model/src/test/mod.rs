@@ -19,13 +19,16 @@ use crate::fields::Fields;
 use crate::rule::names as rule_names;
 use crate::spanned::{Spanned, named};
 use crate::value::constants::Constants;
+pub use condition::STATES;
 use names::Scope;
 use times::Length;
 
 /// The properties of a test.
-const PROPERTIES: &[&str] = &["world", "for", "seed"];
+pub(crate) const PROPERTIES: &[&str] = &["world", "for", "seed"];
+/// The shortest test: a millisecond, in microseconds.
+pub(crate) const LENGTH_MIN_US: u32 = 1_000;
 /// The longest test: an hour, in microseconds.
-const LENGTH_MAX_US: u32 = 3_600_000_000;
+pub(crate) const LENGTH_MAX_US: u32 = 3_600_000_000;
 
 /// Reads the tests of a design, each in its file. Names of devices that could not be read are `absent`: their mistakes
 /// were told already.
@@ -52,7 +55,7 @@ fn one(scope: Scope<'_>, node: &ast::Test, diagnostics: &mut Vec<Diagnostic>) ->
     let reported = (scope.constants, &mut *diagnostics);
     let mut fields = Fields::new(node.properties(), scope.file, &owner, name.span, reported);
     let world = fields.text("world");
-    let lasts = fields.time_us("for", 1_000..=LENGTH_MAX_US);
+    let lasts = fields.time_us("for", LENGTH_MIN_US..=LENGTH_MAX_US);
     let seed = fields.integer("seed", 0..=i64::MAX).and_then(|seed| u64::try_from(seed.value).ok());
     let has_length = lasts.is_some() || node.properties().any(|one| is_length(&one));
     if !has_length {

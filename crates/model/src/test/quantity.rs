@@ -13,11 +13,11 @@ use super::names::{self, Scope};
 use super::sort::Sort;
 use crate::design::{Device, DeviceIndex, TestSignal, TestUnit};
 use crate::fields::{Codes, of_pulse};
+use crate::meaning::FUNCTIONS;
 use crate::spanned::span;
 use crate::value::{Dimension, Measure, Number, Value, combine, literal};
 
 /// The functions of conditions.
-const FUNCTIONS: [&str; 7] = ["abs", "min", "max", "age", "health", "rising", "falling"];
 
 /// A number: the same all the time, or one that changes.
 #[derive(Clone, Debug)]
@@ -220,7 +220,9 @@ impl<'a> Quantities<'a> {
             "age" => unknown::arguments(at, name, "the name of a sensor", "age(Front) < 100 ms"),
             "health" => wrong::state(at),
             "rising" | "falling" => e0256_not_a_condition::condition(at),
-            _ => unknown::unknown_function(at_name, name, nearest(name, FUNCTIONS)),
+            _ => {
+                unknown::unknown_function(at_name, name, nearest(name, FUNCTIONS.map(|one| one.0)))
+            }
         };
         self.diagnostics.push(report);
     }

@@ -22,7 +22,7 @@ pub(crate) struct SimulateArgs {
     /// Run this image on an emulated MCU: an ELF file or a raw one
     #[arg(long, value_name = "IMAGE")]
     pub(crate) firmware: Option<PathBuf>,
-    /// The folder of the board's firmware, whose `user` has the code of controllers; out/firmware/BOARD
+    /// The folder of the board's firmware, whose `user` has the code of controllers; build/firmware/BOARD
     /// beside the file unless you say
     #[arg(long, value_name = "FOLDER", conflicts_with = "firmware")]
     pub(crate) code: Option<PathBuf>,

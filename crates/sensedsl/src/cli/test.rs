@@ -20,7 +20,7 @@ pub(crate) struct TestArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TestFormat,
     /// The folder of the board's firmware, whose `user` has the code of controllers, or one with such a
-    /// folder for each board; out/firmware beside the file unless you say
+    /// folder for each board; build/firmware beside the file unless you say
     #[arg(long, value_name = "FOLDER")]
     pub(crate) code: Option<PathBuf>,
     /// What chance begins with; wins over the tests and their worlds

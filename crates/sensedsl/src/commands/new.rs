@@ -18,7 +18,18 @@ const README: &str = include_str!("../../templates/project-readme.md");
 const README_OF_EMBASSY: &str = include_str!("../../templates/project-readme-embassy.md");
 const README_OF_WIRING: &str = include_str!("../../templates/project-readme-wiring.md");
 const README_OF_WORLD: &str = include_str!("../../templates/project-readme-world.md");
+const README_OF_CODE: &str = include_str!("../../templates/project-readme-code.md");
 const IGNORED: &str = "/build/\n";
+/// Where there is code of the user's in the firmware: everything else there is made again.
+const IGNORED_BUT_CODE: &str = "\
+/build/*
+!/build/firmware/
+/build/firmware/*/*
+!/build/firmware/*/user/
+!/build/firmware/*/src/
+/build/firmware/*/src/*
+!/build/firmware/*/src/user/
+";
 
 pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(board) = catalog::find(&args.board) else {
@@ -61,7 +72,9 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
 }
 
 /// Names and texts of the files of a project.
-type Texts = Vec<(&'static str, String)>;
+type Texts = Vec<(String, String)>;
+
+const GITIGNORE: &str = ".gitignore";
 
 /// The first files: with firmware for the first system on which the board can have a robot, or only a wiring.
 fn begin(board: &catalog::Entry) -> Texts {
@@ -74,16 +87,28 @@ fn begin(board: &catalog::Entry) -> Texts {
     project(readme_of(None).to_owned(), starter::robot(board, None).unwrap_or_else(empty))
 }
 
-/// The files of a template, with its world.
+/// The files of a template: its worlds, and the code of its controller where the firmware will have it.
 fn robot_of(template: &Template, board: &catalog::Entry) -> Result<Texts> {
     let (robot, system) = template.on(board)?;
-    let mut texts = project(format!("{}{README_OF_WORLD}", readme_of(system)), robot);
-    texts.push(("world.toml", template.world.to_owned()));
+    let world = template.worlds.first().map_or("", |(name, _)| name);
+    let of_world = if template.code.is_some() { README_OF_CODE } else { README_OF_WORLD };
+    let code = template.code.as_ref().map_or("", |code| code.of(system).0);
+    let of_robot = of_world.replace("WORLD", world).replace("CODE", code);
+    let readme = format!("{}{of_robot}", readme_of(system));
+    let mut texts = project(readme, robot);
+    texts.extend(template.worlds.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())));
+    if let Some(code) = &template.code {
+        let (name, text) = code.of(system);
+        texts.push((format!("build/firmware/Robot/{name}"), text.to_owned()));
+        texts.retain(|(name, _)| name != GITIGNORE);
+        texts.push((GITIGNORE.to_owned(), IGNORED_BUT_CODE.to_owned()));
+    }
     Ok(texts)
 }
 
 fn project(readme: String, robot: String) -> Texts {
-    vec![(".gitignore", IGNORED.to_owned()), ("README.md", readme), ("robot.sense", robot)]
+    let all = [(GITIGNORE, IGNORED.to_owned()), ("README.md", readme), ("robot.sense", robot)];
+    all.map(|(name, text)| (name.to_owned(), text)).into()
 }
 
 /// What a project has to be told about itself, with firmware for that system or without any.

@@ -1,10 +1,11 @@
-//! The robots that `sensedsl new --template` begins with: a design, and a world that it is simulated in.
+//! The robots that `sensedsl new --template` begins with: a design, the worlds that it is simulated in, and the code of
+//! its controller.
 //!
-//! A name and a board come in; what goes out is the two texts, or why the board cannot carry that robot and which ones
-//! can. A template is two files in `templates/projects`; `BOARD` in its design stands for the board.
+//! A name and a board come in; what goes out are the texts, or why the board cannot carry that robot and which ones can.
+//! A template is a folder in `templates/projects`, which runs as it is; only the name of its board is exchanged.
 
 use anyhow::{Result, anyhow};
-use sensedsl_board::catalog;
+use sensedsl_board::{catalog, profile};
 use sensedsl_generate::target;
 
 use super::starter;
@@ -14,21 +15,72 @@ pub(crate) struct Template {
     /// As people ask for it.
     pub(crate) name: &'static str,
     design: &'static str,
-    pub(crate) world: &'static str,
+    /// The worlds and their maps, the first of them the one to begin with.
+    pub(crate) worlds: &'static [(&'static str, &'static str)],
+    /// The code of its controller, if it has one.
+    pub(crate) code: Option<Code>,
+}
+
+/// The code of a controller, in each language that a firmware can have.
+pub(crate) struct Code {
+    c: (&'static str, &'static str),
+    rust: (&'static str, &'static str),
+}
+
+impl Code {
+    /// The file in the firmware's folder, and its text: as the firmware of that system is written.
+    pub(crate) fn of(&self, system: Option<&str>) -> (&'static str, &'static str) {
+        let is_c = system.is_none_or(|system| system == profile::full_name(profile::DEFAULT).unwrap_or_default());
+        if is_c { self.c } else { self.rust }
+    }
+}
+
+/// A text of a template's folder.
+macro_rules! text {
+    ($template:literal, $file:expr) => {
+        include_str!(concat!("../../templates/projects/", $template, "/", $file))
+    };
+}
+
+macro_rules! code {
+    ($template:literal,) => {
+        None
+    };
+    ($template:literal, $code:literal) => {
+        Some(Code {
+            c: (concat!("user/", $code, ".c"), text!($template, concat!("user/", $code, ".c"))),
+            rust: (
+                concat!("src/user/", $code, ".rs"),
+                text!($template, concat!("src/user/", $code, ".rs")),
+            ),
+        })
+    };
 }
 
 macro_rules! templates {
-    ($($name:literal),+) => {
+    ($($name:literal: [$($world:literal),+] $($code:literal)?;)+) => {
         &[$(Template {
             name: $name,
-            design: include_str!(concat!("../../templates/projects/", $name, ".sense")),
-            world: include_str!(concat!("../../templates/projects/", $name, ".toml")),
+            design: text!($name, "robot.sense"),
+            worlds: &[$(($world, text!($name, $world))),+],
+            code: code!($name, $($code)?),
         }),+]
     };
 }
 
-const TEMPLATES: &[Template] =
-    templates!["arm", "line_follower", "quadcopter", "rover", "weather_station"];
+/// Each with its worlds and the identifier of its controller.
+const TEMPLATES: &[Template] = templates! {
+    "arm": ["bench.toml"] "trace";
+    "balancer": ["floor.toml"] "balance";
+    "line_follower": ["oval.toml", "oval.svg", "eight.toml", "eight.svg"] "follow";
+    "quadcopter": ["world.toml"];
+    "rover": ["corridor.toml", "corridor.svg"] "stop";
+    "thermostat": ["oven.toml"] "hold";
+    "weather_station": ["world.toml"];
+};
+
+/// How the line begins that names the board.
+const HEAD: &str = "board Robot on ";
 
 /// Boards that are proposed where another one is too small: common ones, with firmware.
 const PROPOSED: &[&str] =
@@ -84,9 +136,12 @@ impl Template {
         ))
     }
 
+    /// The design with another board in the place of its own.
     fn text(&self, board: &catalog::Entry, system: Option<&str>) -> String {
-        let head = format!("board Robot on {} {{\n", board.name.replace('-', "_"));
         let target = system.map_or(String::new(), |system| starter::target_line(board, system));
-        self.design.replace("board Robot on BOARD {\n", &format!("{head}{target}"))
+        let head = format!("{HEAD}{} {{\n{target}", board.name.replace('-', "_"));
+        let is_head = |line: &str| line.starts_with(HEAD);
+        let lines = self.design.split_inclusive('\n');
+        lines.map(|line| if is_head(line) { head.as_str() } else { line }).collect()
     }
 }

@@ -26,6 +26,11 @@ const FILE: Words = &[
         "driver ${1:my_part} for ${2:i2c} {\n    $0\n}",
         "Says how a part is wired, started and talked to.",
     ),
+    (
+        "test",
+        "test ${1:Name} {\n    for = ${2:10 s};\n    $0\n}",
+        "What must hold while the boards run.",
+    ),
 ];
 const PARTS: Words = &[
     (
@@ -54,6 +59,23 @@ const RESOURCES: Words = &[
     ("release", "release $1;", "Pins that may be used although something on the board has them."),
     ("link", "link {\n    $0\n}", "How the board talks to the host."),
 ];
+const OF_BOARD: Words = &[(
+    "controller",
+    "controller ${1:Name} every ${2:10 ms} {\n    reads = [$3];\n    sets = [$0];\n}",
+    "Code of yours that runs on the board.",
+)];
+const OF_TEST: Words = &[
+    ("at", "at ${1:1 s} set $2 = $0;", "The host sets an actuator."),
+    ("fault", "fault ${1:no_answer} of $2 at ${3:1 s} for ${4:500 ms};", "Something breaks."),
+    ("always", "always $0;", "Holds at all times."),
+    ("never", "never $0;", "Holds at no time."),
+    ("eventually", "eventually $1 within ${2:5 s};", "Holds at some time."),
+    (
+        "when",
+        "when $1 then $2 within ${3:100 ms};",
+        "Each time that the first holds, the second does at most so much later.",
+    ),
+];
 const OF_CHIP: Words = &[
     ("sensor", "sensor ${1:Name} returns ${2:uint16} { $0 }", "One of the chip's readings."),
     ("actuator", "actuator ${1:Name} accepts ${2:uint16} { $0 }", "One of the chip's commands."),
@@ -77,7 +99,9 @@ const OF_DRIVER: Words = &[
 pub(super) fn items(subject: &Subject<'_, '_>) -> Vec<Item> {
     let words: &[Words] = match subject.place {
         Place::File => &[FILE, PARTS],
-        Place::Board => &[PARTS, WISHES, RESOURCES],
+        Place::Board => &[PARTS, OF_BOARD, WISHES, RESOURCES],
+        Place::Controller => &[WISHES],
+        Place::Test => &[OF_TEST],
         Place::Device | Place::OfChip => &[WISHES],
         Place::Chip => &[OF_CHIP, WISHES],
         Place::Driver => &[OF_DRIVER],
@@ -106,6 +130,8 @@ pub(super) fn items(subject: &Subject<'_, '_>) -> Vec<Item> {
         | Place::Connection
         | Place::Driver
         | Place::OfDriver
+        | Place::Controller
+        | Place::Test
         | Place::Unknown => {}
     }
     items

@@ -31,6 +31,8 @@ pub(super) fn items(subject: &Subject<'_, '_>) -> Vec<Item> {
             devices::types(type_after(subject))
         }
         ["sensor" | "reading" | "actuator" | "command", _, _, _, "["] => values::constants(subject),
+        ["controller", _] => keyword("every"),
+        ["controller", _, "every", ..] => values::times(subject),
         ["connection"] if subject.place == Place::Chip => drivers::connections(subject),
         ["driver" | "connection", _] if subject.place != Place::Chip => keyword("for"),
         ["driver" | "connection", _, "for"] => devices::kinds(None),

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod boards;
+mod control;
 pub(crate) mod described;
 mod devices;
 mod drivers;
@@ -44,6 +45,11 @@ fn items(subject: &Subject<'_, '_>) -> Vec<Item> {
     let site = subject.site;
     if site.in_text && site.words() == ["use"] {
         return files::used(subject);
+    }
+    if subject.place == subject::Place::Test && !site.before.is_empty() && !site.in_text {
+        if let Some(items) = control::of_step(subject) {
+            return items;
+        }
     }
     if site.property().is_some() {
         return values::of_property(subject);

@@ -44,7 +44,7 @@ pub(crate) struct Site<'a> {
 }
 
 /// The words that begin a block.
-const KEYWORDS: [&str; 10] = [
+const KEYWORDS: [&str; 12] = [
     "spare",
     "board",
     "chip",
@@ -55,6 +55,8 @@ const KEYWORDS: [&str; 10] = [
     "reading",
     "command",
     "link",
+    "controller",
+    "test",
 ];
 
 impl<'a> Block<'a> {
@@ -363,5 +365,5 @@ pub(crate) fn joins(sign: SyntaxKind) -> bool {
 
 /// Whether a statement cannot end with a token.
 fn goes_on(token: &Token<'_>) -> bool {
-    joins(token.kind) || ["on", "returns", "accepts", "for"].contains(&token.text)
+    joins(token.kind) || ["on", "returns", "accepts", "for", "every"].contains(&token.text)
 }

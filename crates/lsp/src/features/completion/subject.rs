@@ -25,6 +25,8 @@ pub(crate) enum Place {
     Driver,
     /// A reading or command.
     OfDriver,
+    Controller,
+    Test,
     /// A block whose keyword is none.
     Unknown,
 }
@@ -82,6 +84,8 @@ impl<'s, 'a> Subject<'s, 'a> {
             "connection" => Place::Connection,
             "driver" => Place::Driver,
             "reading" | "command" => Place::OfDriver,
+            "controller" => Place::Controller,
+            "test" => Place::Test,
             _ if outer.is_some() => Place::Unknown,
             _ => Place::File,
         };
@@ -98,7 +102,12 @@ impl<'s, 'a> Subject<'s, 'a> {
             Place::OfChip | Place::Connection => outer.and_then(|outer| subject.driver_of(outer)),
             Place::Driver => block.name().map(|_| of_block(block)),
             Place::OfDriver => outer.map(of_block),
-            Place::File | Place::Board | Place::Link | Place::Unknown => None,
+            Place::File
+            | Place::Board
+            | Place::Link
+            | Place::Controller
+            | Place::Test
+            | Place::Unknown => None,
         };
         subject.kinds = subject.kinds_of(block);
         subject
@@ -150,6 +159,8 @@ impl<'s, 'a> Subject<'s, 'a> {
             Place::Connection => meaning::Block::Connection(self.kind()?),
             Place::Driver => meaning::Block::Driver(&self.kinds),
             Place::OfDriver => meaning::Block::OfDriver(&self.kinds, self.direction),
+            Place::Controller => meaning::Block::Controller,
+            Place::Test => meaning::Block::Test,
         })
     }
 

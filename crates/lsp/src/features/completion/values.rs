@@ -12,7 +12,7 @@ use sensedsl_syntax::{SyntaxKind, Unit};
 use super::item::Item;
 use super::site::{Block, Token, joins};
 use super::subject::{Place, Subject};
-use super::{devices, drivers, pins};
+use super::{control, devices, drivers, pins};
 use crate::library;
 use crate::protocol::completion::{CONSTANT, ENUM_MEMBER, KEYWORD, UNIT, VALUE};
 
@@ -69,6 +69,7 @@ fn of_takes(subject: &Subject<'_, '_>, name: &str, takes: &Takes) -> Vec<Item> {
         Takes::Group => groups(subject),
         Takes::Target => targets(),
         Takes::Quantity => quantities(),
+        Takes::Devices => control::devices(subject, name),
         Takes::Shown => {
             let mut items = vec![Item::new("raw", KEYWORD).text("raw ").detail("a code")];
             let is_truth = subject.site.block().head.iter().any(|token| token.text == "bool");
@@ -121,7 +122,7 @@ fn expects_value(token: &Token<'_>) -> bool {
 }
 
 /// The units that a number of the property may have.
-fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Item> {
+pub(super) fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Item> {
     let all = Unit::ALL.as_slice();
     let units = match takes {
         // A constant may be anything.
@@ -131,6 +132,18 @@ fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Item> {
     };
     let units = units.into_iter().zip(10_u32..);
     units.map(|(unit, rank)| Item::new(unit.name(), UNIT).rank(rank)).collect()
+}
+
+/// What may be written for a time: the unit behind a number, else a constant.
+pub(super) fn times(subject: &Subject<'_, '_>) -> Vec<Item> {
+    let is_behind_number = subject.site.before.last().is_some_and(is_number);
+    if is_behind_number {
+        return units(subject, Some(&Takes::Time(0, 0)));
+    }
+    if subject.site.before.last().is_some_and(|last| last.kind == SyntaxKind::Unit) {
+        return Vec::new();
+    }
+    constants(subject)
 }
 
 /// The units of the block's shown value: those that its `quantity` can be converted from.

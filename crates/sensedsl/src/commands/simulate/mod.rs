@@ -166,7 +166,7 @@ fn simulate(
 /// The folder of a board's firmware, beside the file, unless somebody says another.
 pub(crate) fn usual_code(file: &Path, board: &str) -> PathBuf {
     let beside = file.parent().unwrap_or_else(|| Path::new(""));
-    beside.join("out").join("firmware").join(board)
+    beside.join("build").join("firmware").join(board)
 }
 
 /// The user's code, built and started; none if the board has no controller, or no code was made yet.

@@ -1,7 +1,7 @@
 /*
  * Goes round a square in the space of the two joints, straight from corner to corner in two seconds each.
  */
-#include "move.h"
+#include "trace.h"
 
 #define CORNERS 4
 #define EACH_US 2000000u
@@ -9,7 +9,7 @@
 static const float corner[CORNERS][2] = {{60.0f, 60.0f}, {120.0f, 60.0f}, {120.0f, 120.0f}, {60.0f, 120.0f}};
 static uint32_t since_us;
 
-void move_init(void) {
+void trace_init(void) {
   since_us = 0;
 }
 
@@ -18,7 +18,7 @@ static uint16_t code(float degrees) {
   return (uint16_t)(degrees / 180.0f * 10000.0f + 0.5f);
 }
 
-void move_step(const struct move_in *in, struct move_out *out, uint32_t dt_us) {
+void trace_step(const struct trace_in *in, struct trace_out *out, uint32_t dt_us) {
   since_us += dt_us;
   const uint32_t piece = since_us / EACH_US % CORNERS;
   const float share = (float)(since_us % EACH_US) / (float)EACH_US;
@@ -26,11 +26,11 @@ void move_step(const struct move_in *in, struct move_out *out, uint32_t dt_us) {
   const float *to = corner[(piece + 1) % CORNERS];
   const float shoulder = from[0] + (to[0] - from[0]) * share;
   const float elbow = from[1] + (to[1] - from[1]) * share;
-  move_put_shoulder(out, code(shoulder));
-  move_put_elbow(out, code(elbow));
+  trace_put_shoulder(out, code(shoulder));
+  trace_put_elbow(out, code(elbow));
   if (in->joints.is_valid) {
-    const float one = shoulder - move_get_joints(in, 0);
-    const float other = elbow - move_get_joints(in, 1);
-    move_put_behind(out, (one > 0 ? one : -one) > (other > 0 ? other : -other) ? one : other);
+    const float one = shoulder - trace_get_joints(in, 0);
+    const float other = elbow - trace_get_joints(in, 1);
+    trace_put_behind(out, (one > 0 ? one : -one) > (other > 0 ? other : -other) ? one : other);
   }
 }
