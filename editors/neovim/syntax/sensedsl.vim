@@ -21,8 +21,8 @@ syntax match sensedslType contained "\h\w*" nextgroup=sensedslLength
 syntax region sensedslLength contained transparent start="\[" end="\]" contains=sensedslNumber,sensedslName
 syntax match sensedslKeyword "\<controller\>\ze\_s\+\h" nextgroup=sensedslController skipwhite skipempty
 syntax match sensedslController contained "\h\w*" nextgroup=sensedslCycle skipwhite skipempty
-syntax region sensedslCycle contained transparent matchgroup=sensedslKeyword start="\<every\>" matchgroup=NONE end="\ze[{};]"
-      \ contains=sensedslComment,sensedslNumber,sensedslRaw,sensedslName
+syntax region sensedslCycle contained transparent matchgroup=sensedslKeyword start="\<every\>" matchgroup=NONE
+      \ end="\ze[{};]" contains=sensedslComment,sensedslNumber,sensedslRaw,sensedslName
 syntax match sensedslKeyword "\<test\>\ze\_s\+\h" nextgroup=sensedslThing skipwhite skipempty
 syntax match sensedslKeyword "\<const\>\ze\_s\+\h" nextgroup=sensedslConst skipwhite skipempty
 syntax match sensedslConst contained "\h\w*" nextgroup=sensedslValue skipwhite skipempty
@@ -40,7 +40,8 @@ syntax match sensedslCode contained "\h\w*" nextgroup=sensedslString skipwhite s
 " Steps of tests: words that join their pieces are words only there.
 syntax region sensedslStep transparent matchgroup=sensedslKeyword
       \ start="\<\%(at\|fault\|always\|never\|eventually\|when\)\>\%(\_s*=\)\@!" matchgroup=NONE end=";" end="\ze[{}]"
-      \ contains=sensedslComment,sensedslString,sensedslNumber,sensedslRaw,sensedslName,sensedslJoint,sensedslFunction,sensedslMember
+      \ contains=sensedslComment,sensedslString,sensedslNumber,sensedslRaw,sensedslName,sensedslJoint,
+      \sensedslFunction,sensedslMember
 
 " Values. What stands later wins.
 syntax match sensedslNumber contained nextgroup=sensedslUnit skipwhite
