@@ -15,7 +15,7 @@ type Words = &'static [(&'static str, &'static str, &'static str)];
 const FILE: Words = &[
     ("board", "board ${1:Robot} on ${2:NUCLEO_F446RE} {\n    $0\n}", "A board, and what is on it."),
     ("use", "use \"$1\";", "Brings in the drivers and devices of another file."),
-    ("const", "const ${1:NAME} = $0;", "Gives a value a name."),
+    ("const", "const ${1:NAME} = $2;", "Gives a value a name."),
     (
         "spare",
         "spare board ${1:Spare} on ${2:NUCLEO_F446RE} {\n    $0\n}",
