@@ -97,7 +97,8 @@ fn slips(code: &str) -> Vec<(String, String)> {
         let length = code[at..].find(|letter: char| !letter.is_ascii_digit() && letter != '.');
         let length = length.unwrap_or(code.len() - at);
         rest = at + length;
-        let is_own = !code[..at].ends_with(|letter: char| letter.is_alphanumeric() || letter == '_');
+        let is_own =
+            !code[..at].ends_with(|letter: char| letter.is_alphanumeric() || letter == '_');
         if let Ok(number) = code[at..rest].parse::<f64>()
             && is_own
             && code[rest..].starts_with('f')

@@ -11,6 +11,7 @@ use sensedsl_model::design::Transport;
 use crate::bench::{Bench, number_of};
 use crate::pads::{PadMismatch, Planned, mismatches, planned};
 use crate::ports::{self, PlannedPort};
+use crate::trial::{Culprit, Stopped, Tested};
 use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, Mcu, ResetCause, Settings};
 
 /// The crystal frequency if the board's is not known.
@@ -303,5 +304,37 @@ impl EmulatedBoard {
     /// The events since the last call that matter to a user.
     pub fn events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
+    }
+}
+
+impl Tested for EmulatedBoard {
+    fn now_ns(&self) -> u64 {
+        self.now_ns()
+    }
+
+    fn run_until(&mut self, until_ns: u64) {
+        self.run_until(until_ns);
+    }
+
+    fn link_open(&mut self) {
+        self.link_open(true);
+    }
+
+    fn link_write(&mut self, bytes: &[u8]) {
+        self.link_write(bytes);
+    }
+
+    fn link_read(&mut self) -> Vec<u8> {
+        self.link_read()
+    }
+
+    fn stopped(&mut self) -> Option<Stopped> {
+        let at_ns = self.now_ns();
+        let of_program = self.halt().map(|halt| Stopped {
+            at_ns,
+            culprit: Culprit::Board,
+            why: halt.to_string(),
+        });
+        of_program.or_else(|| self.trouble().map(Stopped::of_plant))
     }
 }

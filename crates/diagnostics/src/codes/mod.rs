@@ -149,6 +149,7 @@ codes! {
     e0536_user_code_stopped,
     e0537_no_tests,
     e0538_test_failed,
+    e0539_board_of_test,
     e0540_world_unreadable,
     e0541_world_unknown,
     e0542_world_value,

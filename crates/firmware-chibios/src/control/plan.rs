@@ -159,11 +159,7 @@ impl Control {
 }
 
 impl Access {
-    fn new(
-        ident: &str,
-        one: &JobDevice<'_>,
-        function: fn(&JobDevice<'_>) -> &'static str,
-    ) -> Self {
+    fn new(ident: &str, one: &JobDevice<'_>, function: fn(&JobDevice<'_>) -> &'static str) -> Self {
         Self { ident: ident.to_owned(), name: one.name().to_owned(), function: function(one) }
     }
 }

@@ -94,8 +94,14 @@ fn meaning(token: &SyntaxToken, constants: &BTreeSet<String>) -> Option<(&'stati
         | SyntaxKind::Minus
         | SyntaxKind::Star
         | SyntaxKind::Slash
-        | SyntaxKind::DotDot => Some(("operator", 0)),
-        kind if kind >= SyntaxKind::UseKw && kind <= SyntaxKind::RawKw => Some(("keyword", 0)),
+        | SyntaxKind::DotDot
+        | SyntaxKind::EqEq
+        | SyntaxKind::NotEq
+        | SyntaxKind::Lt
+        | SyntaxKind::LtEq
+        | SyntaxKind::Gt
+        | SyntaxKind::GtEq => Some(("operator", 0)),
+        kind if kind.word().is_some() => Some(("keyword", 0)),
         SyntaxKind::Ident => of_name(token, constants),
         _ => None,
     }
@@ -110,13 +116,26 @@ fn of_name(token: &SyntaxToken, constants: &BTreeSet<String>) -> Option<(&'stati
         SyntaxKind::OnClause => ("class", 0),
         SyntaxKind::Type if is_constant => ("variable", READONLY),
         SyntaxKind::Type | SyntaxKind::Kind => ("type", 0),
-        SyntaxKind::Device | SyntaxKind::Chip => ("variable", DECLARATION),
+        SyntaxKind::Device | SyntaxKind::Chip | SyntaxKind::Controller => {
+            ("variable", DECLARATION)
+        }
+        SyntaxKind::Test => ("class", DECLARATION),
+        SyntaxKind::Call => ("function", 0),
+        SyntaxKind::SetStep | SyntaxKind::Index => ("variable", 0),
+        SyntaxKind::Member if token.prev_token().is_some_and(|dot| dot.kind() == SyntaxKind::Dot) => {
+            ("property", 0)
+        }
+        SyntaxKind::Member => ("variable", 0),
         SyntaxKind::Driver => ("interface", DECLARATION),
         SyntaxKind::Reading | SyntaxKind::Command => ("function", DECLARATION),
         SyntaxKind::Connection | SyntaxKind::Property => ("property", 0),
         SyntaxKind::NameValue if is_constant => ("variable", READONLY),
         SyntaxKind::NameValue => {
-            let of = parent.ancestors().find_map(ast::Property::cast)?.name()?;
+            // In a step of a test it is a device, or what breaks.
+            let Some(property) = parent.ancestors().find_map(ast::Property::cast) else {
+                return Some(("variable", 0));
+            };
+            let of = property.name()?;
             match of.text() {
                 "driver" => ("interface", 0),
                 "type" if KindName::from_name(token.text()).is_some() => ("type", 0),

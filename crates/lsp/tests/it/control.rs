@@ -38,7 +38,7 @@ fn a_controller_is_begun_and_has_its_properties() {
     for name in ["reads", "sets", "takes", "host", "prio", "id", "label", "allow"] {
         assert!(labels(&items).contains(&name), "{name}: {:?}", labels(&items));
     }
-    assert_eq!(labels(&in_controller("host = $0;")), ["override", "refused", "REACTION"]);
+    assert_eq!(labels(&in_controller("host = $0;")), ["refused", "override", "REACTION"]);
     assert!(labels(&in_controller("takes = 200 $0;")).contains(&"us"));
     assert_eq!(labels(&offered("board B { controller C $0 }")), ["every"]);
     assert!(labels(&offered("board B { controller C every 5 $0 }")).contains(&"ms"));
@@ -90,7 +90,7 @@ fn steps_go_on_word_by_word() {
         ("when Front < 20 cm $0", "then"),
         ("when Front < 20 cm then Left == 0 $0", "within"),
         ("when Front < 20 cm then Left == 0 within $0", "REACTION"),
-        ("never Follow.$0", "overruns"),
+        ("never Follow.$0", "Follow.overruns"),
         ("always health(Front) == $0", "good"),
     ];
     for (step, wanted) in all {

@@ -26,6 +26,26 @@ const MORE: &[(&str, &str)] = &[
         "a misspelled word in UTF-8",
         "// größer 🤖\nboard B on STM32F407G_DISC1 { /* ß */ sensor A returns uint16 { type = analgo; } }",
     ),
+    (
+        "one sign where two compare",
+        "board B on STM32F407G_DISC1 {\n    sensor Front returns uint16 { type = analog; delay = 5 ms; }\n    actuator Left accepts uint16 { type = pwm; }\n    }\ntest T {\n    for = 9 s;\n    always Front = 5;\n}\n",
+    ),
+    (
+        "two signs where one gives a value",
+        "board B on STM32F407G_DISC1 {\n    sensor Front returns uint16 { type = analog; delay = 5 ms; }\n    actuator Left accepts uint16 { type == pwm; }\n    }\n",
+    ),
+    (
+        "a misspelled device of a controller",
+        "board B on STM32F407G_DISC1 {\n    sensor Front returns uint16 { type = analog; delay = 5 ms; }\n    actuator Left accepts uint16 { type = pwm; }\n    controller Go every 5 ms { reads = [Frnt]; sets = [Left]; }\n}\n",
+    ),
+    (
+        "a misspelled actuator of a test",
+        "board B on STM32F407G_DISC1 {\n    sensor Front returns uint16 { type = analog; delay = 5 ms; }\n    actuator Left accepts uint16 { type = pwm; }\n    }\ntest T {\n    for = 9 s;\n    at 1 s set Lft = 1; always Front < 5;\n}\n",
+    ),
+    (
+        "a misspelled fault",
+        "board B on STM32F407G_DISC1 {\n    sensor Front returns uint16 { type = analog; delay = 5 ms; }\n    actuator Left accepts uint16 { type = pwm; }\n    }\ntest T {\n    for = 9 s;\n    fault tron of Front at 1 s for 1 s; always Front < 5;\n}\n",
+    ),
 ];
 
 /// Codes of texts that are no designs: worlds and settings of sinks.

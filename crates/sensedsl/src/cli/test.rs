@@ -13,9 +13,13 @@ pub(crate) struct TestArgs {
     pub(crate) file: PathBuf,
     /// The tests to run; all of them unless you name some
     pub(crate) names: Vec<String>,
-    /// Where the boards run
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) on: TestOn,
+    /// Where the boards run: soft, in this program; image, the one that `build` made, on an emulated MCU,
+    /// or the path of one; or the port of a real board (/dev/ttyACM0, tcp:HOST:PORT)
+    #[arg(long, value_name = "WHERE", default_value = "soft")]
+    pub(crate) on: String,
+    /// The rate of a serial link to a real board; as the file says unless you do
+    #[arg(long, value_name = "RATE")]
+    pub(crate) baud: Option<u32>,
     /// How to print what came of it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TestFormat,
@@ -34,14 +38,6 @@ pub(crate) struct TestArgs {
     pub(crate) target: Option<String>,
     #[command(flatten)]
     pub(crate) reach: Reach,
-}
-
-/// Where the boards of tests run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TestOn {
-    /// In this program, without an MCU, as `simulate` does it
-    #[default]
-    Soft,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -96,7 +96,9 @@ fn robot_of(template: &Template, board: &catalog::Entry) -> Result<Texts> {
     let of_robot = of_world.replace("WORLD", world).replace("CODE", code);
     let readme = format!("{}{of_robot}", readme_of(system));
     let mut texts = project(readme, robot);
-    texts.extend(template.worlds.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())));
+    texts.extend(
+        template.worlds.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())),
+    );
     if let Some(code) = &template.code {
         let (name, text) = code.of(system);
         texts.push((format!("build/firmware/Robot/{name}"), text.to_owned()));

@@ -30,7 +30,9 @@ pub(crate) struct Code {
 impl Code {
     /// The file in the firmware's folder, and its text: as the firmware of that system is written.
     pub(crate) fn of(&self, system: Option<&str>) -> (&'static str, &'static str) {
-        let is_c = system.is_none_or(|system| system == profile::full_name(profile::DEFAULT).unwrap_or_default());
+        let is_c = system.is_none_or(|system| {
+            system == profile::full_name(profile::DEFAULT).unwrap_or_default()
+        });
         if is_c { self.c } else { self.rust }
     }
 }

@@ -9,6 +9,9 @@
 //! one that it has applied, whether the host, a controller or a failsafe set it. Both are seen at the same moment; the
 //! reports of a sensor arrive later, and a rule over both would find fault with a board that reacts at once. The age of a
 //! value and the health of a device are what the host knows.
+//!
+//! Into an image or a real board nobody sees ([`Tested::sees_inside`]): there counts what arrives, and what the host has
+//! sent. What a controller sets is not seen then, and rules about it are not judged.
 
 mod edges;
 mod verdict;
@@ -16,7 +19,7 @@ mod verdict;
 use std::collections::BTreeMap;
 
 use sensedsl_host::Scale;
-use sensedsl_job::BoardJob;
+use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_model::design::{Device, SignalOf, Test};
 use sensedsl_model::kind::Interface;
 use sensedsl_rules::{Signal, Trace};
@@ -36,6 +39,8 @@ const MS: u64 = 1_000_000;
 const ASK_NS: u64 = 500 * MS;
 /// How often the host asks for the states of devices, where a rule is about one.
 const HEALTH_NS: u64 = 100 * MS;
+/// How long a board has to say who it is.
+const SILENT_NS: u64 = 5_000 * MS;
 /// The longest that the host is silent.
 const SPEAK_NS: u64 = 100 * MS;
 
@@ -89,10 +94,92 @@ pub fn add_faults(world: &mut World, test: &Test, job: &BoardJob<'_>) {
 pub struct Stopped {
     /// When.
     pub at_ns: u64,
-    /// The program of the world that has failed; none if it is the code of controllers.
-    pub plant: Option<String>,
+    /// What has failed.
+    pub culprit: Culprit,
     /// Why, for people.
     pub why: String,
+}
+
+/// What ends a run before its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Culprit {
+    /// The code of controllers.
+    Code,
+    /// The program of a plant of the world, by the plant's name.
+    Plant(String),
+    /// The board itself.
+    Board,
+}
+
+/// A board in a test: one that this program imitates, an image on an emulated MCU, or a real one.
+pub trait Tested {
+    /// The time since the beginning, in whole milliseconds between calls of [`Tested::run_until`].
+    fn now_ns(&self) -> u64;
+    /// Goes on until that time.
+    fn run_until(&mut self, until_ns: u64);
+    /// The host opens its port.
+    fn link_open(&mut self);
+    /// The host sends bytes.
+    fn link_write(&mut self, bytes: &[u8]);
+    /// The bytes that have arrived since the last call.
+    fn link_read(&mut self) -> Vec<u8>;
+    /// Whether [`Tested::applied`] tells what the board has.
+    fn sees_inside(&self) -> bool {
+        false
+    }
+    /// The bytes of the value that a device of the schema has.
+    fn applied(&self, _index: usize) -> Option<&[u8]> {
+        None
+    }
+    /// Why it cannot go on.
+    fn stopped(&mut self) -> Option<Stopped>;
+}
+
+impl Tested for SoftBoard {
+    fn now_ns(&self) -> u64 {
+        self.now_ns()
+    }
+
+    fn run_until(&mut self, until_ns: u64) {
+        self.run_until(until_ns);
+        // Nobody asks for what was set: it is in the values.
+        let _ = self.received();
+    }
+
+    fn link_open(&mut self) {
+        self.link_open(true);
+    }
+
+    fn link_write(&mut self, bytes: &[u8]) {
+        self.link_write(bytes);
+    }
+
+    fn link_read(&mut self) -> Vec<u8> {
+        self.link_read()
+    }
+
+    fn sees_inside(&self) -> bool {
+        true
+    }
+
+    fn applied(&self, index: usize) -> Option<&[u8]> {
+        self.applied(index)
+    }
+
+    fn stopped(&mut self) -> Option<Stopped> {
+        let of_code =
+            self.code_ended().map(|(at_ns, why)| Stopped { at_ns, culprit: Culprit::Code, why });
+        of_code.or_else(|| self.bench().trouble().map(Stopped::of_plant))
+    }
+}
+
+impl Stopped {
+    /// A program of the world has failed.
+    #[must_use]
+    pub fn of_plant(trouble: Trouble) -> Self {
+        let Trouble { at_ns, plant, why, .. } = trouble;
+        Self { at_ns, culprit: Culprit::Plant(plant), why }
+    }
 }
 
 /// What a signal of the test is on this board.
@@ -124,6 +211,8 @@ pub struct Trial<'a> {
     speaks_ns: u64,
     /// When the last value of each sensor came, by identifier.
     came_ns: BTreeMap<u8, u64>,
+    /// The newest values that came or were sent, by the device's place in the schema.
+    told: BTreeMap<usize, Vec<Scalar>>,
 }
 
 impl<'a> Trial<'a> {
@@ -166,12 +255,34 @@ impl<'a> Trial<'a> {
             spoke_ns: 0,
             speaks_ns: silence_ns.map_or(u64::MAX, |ns| ns.min(SPEAK_NS)),
             came_ns: BTreeMap::new(),
+            told: BTreeMap::new(),
         }
     }
 
+    /// The signals that nobody sees on a board that cannot be looked into: what code sets of actuators.
+    #[must_use]
+    pub fn unseen(&self) -> Vec<usize> {
+        let is_unseen = |one: &&Watched| {
+            let is_set = self.job.devices.get(one.index).is_some_and(|device| {
+                device.device.direction == Direction::Actuator
+                    && device.device.kind.code().is_none()
+            });
+            is_set
+                && matches!(one.of, SignalOf::Value(_))
+                && self.job.owner(one.index) != Owner::Host
+        };
+        self.watched.iter().filter(is_unseen).map(|one| one.number).collect()
+    }
+
+    /// Whether the board has said that its schema is that of the file.
+    #[must_use]
+    pub const fn is_known(&self) -> bool {
+        self.is_known
+    }
+
     /// Runs a board to the end of the test. Returns why it could not.
-    pub fn run(mut self, board: &mut SoftBoard, recording: &mut Recording) -> Option<Stopped> {
-        board.link_open(true);
+    pub fn run(&mut self, board: &mut dyn Tested, recording: &mut Recording) -> Option<Stopped> {
+        board.link_open();
         while board.now_ns() < self.test.lasts_ns {
             let bytes = self.said(board.now_ns());
             board.link_write(&bytes);
@@ -180,14 +291,12 @@ impl<'a> Trial<'a> {
             let bytes = board.link_read();
             self.hear(next_ns, &bytes, recording);
             self.see(next_ns, board, recording);
-            // Nobody asks for what was set: it is in the values.
-            let _ = board.received();
-            if let Some((at_ns, why)) = board.code_ended() {
-                return Some(Stopped { at_ns, plant: None, why });
+            if let Some(stopped) = board.stopped() {
+                return Some(stopped);
             }
-            if let Some(trouble) = board.bench().trouble() {
-                let Trouble { at_ns, plant, why, .. } = trouble;
-                return Some(Stopped { at_ns, plant: Some(plant), why });
+            if !self.is_known && !board.sees_inside() && board.now_ns() >= SILENT_NS {
+                let why = "it has not said that it has the schema of this file".to_owned();
+                return Some(Stopped { at_ns: board.now_ns(), culprit: Culprit::Board, why });
             }
         }
         None
@@ -207,6 +316,10 @@ impl<'a> Trial<'a> {
         let mut values: BTreeMap<u8, Vec<Scalar>> = BTreeMap::new();
         while let Some(one) = self.owed.pop_if(|one| one.at_ns <= now_ns) {
             let device = self.job.devices.iter().find(|device| device.index == one.device);
+            if let Some(at) = self.job.devices.iter().position(|device| device.index == one.device)
+            {
+                self.told.insert(at, one.value.clone());
+            }
             values.extend(device.map(|device| (device.device.id.value, one.value)));
         }
         if !values.is_empty() {
@@ -230,10 +343,16 @@ impl<'a> Trial<'a> {
     fn hear(&mut self, now_ns: u64, bytes: &[u8], recording: &mut Recording) {
         let hash = self.job.schema.hash();
         let (is_known, came_ns) = (&mut self.is_known, &mut self.came_ns);
-        let watched = &self.watched;
+        let (watched, told, devices) = (&self.watched, &mut self.told, &self.job.devices);
         self.decoder.feed(bytes, |event| match event {
             Event::Report(_, values) => {
                 came_ns.extend(values.iter().map(|(id, _)| (*id, now_ns)));
+                for (id, value) in values {
+                    let is_it = |one: &JobDevice<'_>| {
+                        one.device.direction == Direction::Sensor && one.device.id.value == id
+                    };
+                    told.extend(devices.iter().position(is_it).map(|at| (at, value.clone())));
+                }
             }
             Event::Hello(answered) => *is_known |= answered == hash,
             Event::Health(health) => {
@@ -249,15 +368,19 @@ impl<'a> Trial<'a> {
     }
 
     /// The code that the board has; none until it has one.
-    fn value_of(&self, one: &Watched, board: &SoftBoard) -> Option<f64> {
+    fn value_of(&self, one: &Watched, board: &dyn Tested) -> Option<f64> {
         let SignalOf::Value(element) = one.of else { return None };
+        if !board.sees_inside() {
+            let told = self.told.get(&one.index).and_then(|value| value.get(element));
+            return told.copied().map(real).or(one.first);
+        }
         let Some(bytes) = board.applied(one.index) else { return one.first };
         let scalar = self.job.schema.items.get(one.index)?.value.scalar;
         scalar.read(bytes.chunks_exact(scalar.size_bytes()).nth(element)?).map(real)
     }
 
     /// Looks at what the board has, and at the clock.
-    fn see(&self, now_ns: u64, board: &SoftBoard, recording: &mut Recording) {
+    fn see(&self, now_ns: u64, board: &dyn Tested, recording: &mut Recording) {
         for one in &self.watched {
             match one.of {
                 SignalOf::Age => {

@@ -70,7 +70,7 @@ fn judged(controller: &str, steps: &str, of_world: &str) -> Vec<Judged> {
     }
     let mut recording = Recording::new(test);
     assert_eq!(Trial::new(&job, test, &world.commands).run(&mut board, &mut recording), None);
-    judge(design, test, &recording.trace)
+    judge(design, test, &recording.trace, &[])
 }
 
 fn is_violated(one: &Judged) -> bool {

@@ -24,6 +24,8 @@ pub enum RuleVerdict {
     Unknown(String),
     /// The run ended before it was clear.
     Open,
+    /// Nobody sees this signal on a board that cannot be looked into.
+    Unseen(String),
 }
 
 /// A moment of a run.
@@ -65,10 +67,10 @@ impl Moment {
     }
 }
 
-/// Holds a run to the rules of a test, in their order.
+/// Holds a run to the rules of a test, in their order; those about `unseen` signals are not judged.
 #[must_use]
-pub fn judge(design: &Design, test: &Test, trace: &Trace) -> Vec<Judged> {
-    let judge = Judge { design, test, trace };
+pub fn judge(design: &Design, test: &Test, trace: &Trace, unseen: &[usize]) -> Vec<Judged> {
+    let judge = Judge { design, test, trace, unseen };
     test.rules.iter().map(|rule| judge.rule(rule)).collect()
 }
 
@@ -87,12 +89,18 @@ struct Judge<'a> {
     design: &'a Design,
     test: &'a Test,
     trace: &'a Trace,
+    unseen: &'a [usize],
 }
 
 impl Judge<'_> {
     fn rule(&self, rule: &TestRule) -> Judged {
         let outcome = rule.rule.judge(self.trace);
         let (all, answers) = formulas(&rule.rule.shape);
+        let unseen = signals(&all).into_iter().find(|number| self.unseen.contains(number));
+        if let Some(signal) = unseen.and_then(|number| self.test.signals.get(number)) {
+            let verdict = RuleVerdict::Unseen(signal.name.clone());
+            return Judged { verdict, outcome, margin: None, note: None };
+        }
         let verdict = match outcome.verdict {
             Verdict::Held => RuleVerdict::Held,
             Verdict::Violated { at_ns, .. } => {

@@ -61,14 +61,14 @@ const RESOURCES: Words = &[
 ];
 const OF_BOARD: Words = &[(
     "controller",
-    "controller ${1:Name} every ${2:10 ms} {\n    reads = [$3];\n    sets = [$0];\n}",
+    "controller ${1:Name} every ${2:10 ms} {\n    reads = [$3];\n    sets = [$4];\n}",
     "Code of yours that runs on the board.",
 )];
 const OF_TEST: Words = &[
-    ("at", "at ${1:1 s} set $2 = $0;", "The host sets an actuator."),
+    ("at", "at ${1:1 s} set $2 = $3;", "The host sets an actuator."),
     ("fault", "fault ${1:no_answer} of $2 at ${3:1 s} for ${4:500 ms};", "Something breaks."),
-    ("always", "always $0;", "Holds at all times."),
-    ("never", "never $0;", "Holds at no time."),
+    ("always", "always $1;", "Holds at all times."),
+    ("never", "never $1;", "Holds at no time."),
     ("eventually", "eventually $1 within ${2:5 s};", "Holds at some time."),
     (
         "when",

@@ -126,11 +126,6 @@ fn rule(subject: &Subject<'_, '_>, keyword: &str, rest: &[&str]) -> Vec<Item> {
                     | SyntaxKind::RBracket
             )
     });
-    if last.is_some_and(|token| token.kind == SyntaxKind::Dot) {
-        return vec![
-            Item::new("overruns", VALUE).detail("how many steps of the controller were late"),
-        ];
-    }
     if ends_value {
         let mut words = vec!["and", "or"];
         let has_then = rest.contains(&"then");
@@ -160,6 +155,13 @@ fn operands(subject: &Subject<'_, '_>, rest: &[&str]) -> Vec<Item> {
         return STATES.map(|(name, _)| Item::new(name, ENUM_MEMBER)).into();
     }
     let mut items = named(subject, |_| true);
+    let counts = design(subject)
+        .into_iter()
+        .flat_map(|design| design.controllers.iter().filter_map(|one| design.device(one.device)));
+    items.extend(counts.map(|own| {
+        let name = format!("{}.overruns", own.name.value);
+        Item::new(name, VALUE).detail("how many of its steps were late").rank(30)
+    }));
     items.extend(FUNCTIONS.iter().map(|(name, takes, is)| {
         let item = Item::new(*name, FUNCTION).detail(format!("of {takes}: {is}"));
         item.snippet(format!("{name}($0)")).rank(40)

@@ -32,7 +32,7 @@ use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
 use sensedsl_diagnostics::codes::e0547_no_machine;
 use sensedsl_diagnostics::codes::{e0519_which_board, e0536_user_code_stopped};
-use sensedsl_diagnostics::{Diagnostic, SourceMap};
+use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_job::{BoardJob, jobs};
 #[cfg(feature = "twin")]
 use sensedsl_machine::Mcu;
@@ -43,6 +43,7 @@ use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::soft::UserCode;
+use sensedsl_twin::trial::Tested;
 
 use super::input;
 use crate::cli::{On, SimulateArgs};
@@ -218,27 +219,34 @@ fn explain(scenery: &Simulation<'_>, lines: &[&str]) -> Result<()> {
 }
 
 #[cfg(feature = "twin")]
+fn emulated(
+    (job, at): (&BoardJob<'_>, Span),
+    bench: Bench,
+    firmware: &Path,
+    image: &[u8],
+) -> Result<EmulatedBoard, Box<Diagnostic>> {
+    let board = job.board;
+    let mcu = board.mcu.as_deref().unwrap_or("MCU that nobody knows");
+    if Mcu::find(mcu).is_none() {
+        let name = &board.name.value;
+        let known: Vec<&str> = Mcu::parts().collect();
+        let known = known.join(", ");
+        return Err(e0546_image_refused::other_mcu(at, name, mcu, &known).into());
+    }
+    EmulatedBoard::new(job, bench, image).map_err(|why| {
+        let (image, why) = (shown(firmware), why.to_string());
+        e0546_image_refused::refused(at, &image, &why).into()
+    })
+}
+
+#[cfg(feature = "twin")]
 fn machine(
     scenery: &Simulation<'_>,
     bench: Bench,
     firmware: &Path,
     image: &[u8],
 ) -> Result<Box<dyn Board>, Box<Diagnostic>> {
-    let board = scenery.job.board;
-    let mcu = board.mcu.as_deref().unwrap_or("MCU that nobody knows");
-    if Mcu::find(mcu).is_none() {
-        let name = &board.name.value;
-        let known: Vec<&str> = Mcu::parts().collect();
-        let known = known.join(", ");
-        return Err(e0546_image_refused::other_mcu(scenery.at, name, mcu, &known).into());
-    }
-    match EmulatedBoard::new(scenery.job, bench, image) {
-        Ok(machine) => Ok(Box::new(machine)),
-        Err(why) => {
-            let (image, why) = (shown(firmware), why.to_string());
-            Err(e0546_image_refused::refused(scenery.at, &image, &why).into())
-        }
-    }
+    Ok(Box::new(emulated((scenery.job, scenery.at), bench, firmware, image)?))
 }
 
 #[cfg(not(feature = "twin"))]
@@ -249,4 +257,34 @@ fn machine(
     _: &[u8],
 ) -> Result<Box<dyn Board>, Box<Diagnostic>> {
     Err(e0547_no_machine::no_machine(scenery.at).into())
+}
+
+/// An image on the emulated MCU, for a test.
+///
+/// # Errors
+///
+/// The image cannot be read; a mistake of the user's is a diagnostic.
+#[cfg(feature = "twin")]
+pub(crate) fn tested_image(
+    of: (&BoardJob<'_>, Span),
+    bench: Bench,
+    path: &Path,
+) -> Result<Result<Box<dyn Tested>, Box<Diagnostic>>> {
+    let image = read_bytes(path, FileUse::Image)?;
+    Ok(emulated(of, bench, path, &image).map(|board| Box::new(board) as Box<dyn Tested>))
+}
+
+/// There is no emulated MCU in this program.
+///
+/// # Errors
+///
+/// None: that there is no machine is a diagnostic.
+#[cfg(not(feature = "twin"))]
+#[expect(clippy::unnecessary_wraps, reason = "as with the machine")]
+pub(crate) fn tested_image(
+    (_, at): (&BoardJob<'_>, Span),
+    _: Bench,
+    _: &Path,
+) -> Result<Result<Box<dyn Tested>, Box<Diagnostic>>> {
+    Ok(Err(e0547_no_machine::no_machine(at).into()))
 }

@@ -2,6 +2,7 @@
 
 mod one;
 mod output;
+mod place;
 
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0537_no_tests;
@@ -12,11 +13,12 @@ use sensedsl_report::trial_picture::picture;
 use sensedsl_session::{Ask, has_errors};
 
 use super::input;
-use crate::cli::{On, TestArgs, TestOn};
+use crate::cli::{On, TestArgs};
 use crate::files::write_whole;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use one::{Programs, Ran};
+use place::Place;
 
 /// What tests run with.
 struct Bed<'a> {
@@ -25,6 +27,7 @@ struct Bed<'a> {
     design: &'a Design,
     sources: &'a SourceMap,
     jobs: &'a [BoardJob<'a>],
+    place: Place,
 }
 
 pub(crate) fn run(args: &TestArgs, terminal: &Terminal) -> Result<Status> {
@@ -46,8 +49,8 @@ pub(crate) fn run(args: &TestArgs, terminal: &Terminal) -> Result<Status> {
     };
     let jobs: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
     let sources = snapshot.sources();
-    let TestOn::Soft = args.on;
-    let bed = Bed { args, terminal, design, sources, jobs: &jobs };
+    let place = Place::of(&args.on);
+    let bed = Bed { args, terminal, design, sources, jobs: &jobs, place };
     let mut programs = Programs::default();
     let mut all = Vec::new();
     for test in wanted {

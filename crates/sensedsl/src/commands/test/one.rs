@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0538_test_failed as failed;
 use sensedsl_diagnostics::codes::{
-    e0534_no_user_code, e0536_user_code_stopped, e0573_process_failed,
+    e0534_no_user_code, e0536_user_code_stopped, e0539_board_of_test, e0573_process_failed,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_job::BoardJob;
@@ -16,10 +16,11 @@ use sensedsl_report::trial_picture::{Course, Scene};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::trial::{
-    Judged, Recording, RuleVerdict, Stopped, Trial, add_faults, judge, not_judged,
+    Culprit, Judged, Recording, RuleVerdict, Stopped, Tested, Trial, add_faults, judge, not_judged,
 };
 
 use super::Bed;
+use super::place::{self, Place};
 use crate::cli::SimulateArgs;
 use crate::commands::simulate::{Built, Running, SEED, attach_all, build, usual_code, world};
 use crate::files::{Disk, shown};
@@ -43,7 +44,9 @@ pub(super) struct Ran<'a> {
 
 impl Ran<'_> {
     pub(super) fn is_passed(&self) -> bool {
-        self.stopped.is_none() && self.judged.iter().all(Judged::is_held)
+        let is_seen = self.judged.iter().any(Judged::is_held);
+        let is_good = |one: &Judged| one.is_held() || matches!(one.verdict, RuleVerdict::Unseen(_));
+        self.stopped.is_none() && is_seen && self.judged.iter().all(is_good)
     }
 
     /// Why the test failed: a message for each rule.
@@ -58,9 +61,12 @@ impl Ran<'_> {
     /// Why the run ended too early.
     pub(super) fn stop(&self, stopped: &Stopped) -> Diagnostic {
         let (at, when) = (self.test.name.span, seconds(stopped.at_ns));
-        match &stopped.plant {
-            Some(plant) => e0573_process_failed::process_failed(at, plant, &when, &stopped.why),
-            None => e0536_user_code_stopped::user_code_stopped(at, &when, &stopped.why),
+        match &stopped.culprit {
+            Culprit::Plant(plant) => {
+                e0573_process_failed::process_failed(at, plant, &when, &stopped.why)
+            }
+            Culprit::Code => e0536_user_code_stopped::user_code_stopped(at, &when, &stopped.why),
+            Culprit::Board => e0539_board_of_test::stopped(at, &when, &stopped.why),
         }
     }
 
@@ -72,7 +78,10 @@ impl Ran<'_> {
                 let until_ns = last.as_ref().map_or(first.at_ns, |last| last.at_ns);
                 (Some(first.at_ns), until_ns)
             }
-            RuleVerdict::Held | RuleVerdict::Open | RuleVerdict::Unknown(_) => (None, 0),
+            RuleVerdict::Held
+            | RuleVerdict::Open
+            | RuleVerdict::Unknown(_)
+            | RuleVerdict::Unseen(_) => (None, 0),
         };
         let end_ns = self.test.lasts_ns;
         let from_ns = at_ns.map_or(0, |at_ns| at_ns.saturating_sub(AROUND_NS));
@@ -104,7 +113,7 @@ impl Ran<'_> {
 /// Why a rule failed; none if it held.
 pub(super) fn failure(span: Span, one: &Judged) -> Option<Diagnostic> {
     match &one.verdict {
-        RuleVerdict::Held => None,
+        RuleVerdict::Held | RuleVerdict::Unseen(_) => None,
         RuleVerdict::Unknown(name) => Some(failed::unknown(span, name)),
         RuleVerdict::Open => Some(failed::too_short(span)),
         RuleVerdict::Violated { .. } => {
@@ -152,7 +161,11 @@ pub(super) fn run<'a>(
         ..SimulateArgs::default()
     };
     let mut recording = Recording::new(test);
-    let mut stopped = None;
+    let (mut stopped, mut unseen) = (None, Vec::new());
+    if let Err(why) = bed.place.suits(test, &boards) {
+        bed.terminal.diagnostics(&[*why], bed.sources)?;
+        return Ok(None);
+    }
     for job in boards {
         let Some(mut surroundings) = world(&simulation, bed.terminal, job, &beside)? else {
             return Ok(None);
@@ -163,15 +176,20 @@ pub(super) fn run<'a>(
         let folder = simulation.world.as_deref().and_then(Path::parent);
         attach_all(&mut bench, &surroundings, folder.unwrap_or_else(|| Path::new("")));
         let Some(mut board) = board(bed, test, (job, bench), programs)? else { return Ok(None) };
-        let host = Trial::new(job, test, &surroundings.commands);
-        stopped = host.run(&mut board, &mut recording);
+        // Nobody plays the world to a real board.
+        let of_world = if bed.place.is_real() { &[] } else { surroundings.commands.as_slice() };
+        let mut host = Trial::new(job, test, of_world);
+        if !board.sees_inside() {
+            unseen.extend(host.unseen());
+        }
+        stopped = host.run(board.as_mut(), &mut recording);
         if stopped.is_some() {
             break;
         }
     }
     let judged = match stopped {
         Some(_) => not_judged(test),
-        None => judge(bed.design, test, &recording.trace),
+        None => judge(bed.design, test, &recording.trace, &unseen),
     };
     Ok(Some(Ran { test, recording, judged, stopped }))
 }
@@ -194,8 +212,32 @@ fn world_file(bed: &Bed<'_>, test: &Test) -> Result<Option<Option<PathBuf>>> {
     }
 }
 
-/// The board, with the code of its controllers. None if it has none, which was told.
+/// The board, where the tests run. None if there is none, which was told.
 fn board(
+    bed: &Bed<'_>,
+    test: &Test,
+    (job, bench): (&BoardJob<'_>, Bench),
+    programs: &mut Programs,
+) -> Result<Option<Box<dyn Tested>>> {
+    let other = match &bed.place {
+        Place::Soft => {
+            let board = soft_board(bed, test, (job, bench), programs)?;
+            return Ok(board.map(|board| Box::new(board) as Box<dyn Tested>));
+        }
+        Place::Image(path) => place::image(bed, (job, bench), path.as_deref())?,
+        Place::Port(port) => place::port(bed, job, port),
+    };
+    match other {
+        Ok(board) => Ok(Some(board)),
+        Err(why) => {
+            bed.terminal.diagnostics(&[*why], bed.sources)?;
+            Ok(None)
+        }
+    }
+}
+
+/// The board in this program, with the code of its controllers. None if it has none, which was told.
+fn soft_board(
     bed: &Bed<'_>,
     test: &Test,
     (job, bench): (&BoardJob<'_>, Bench),

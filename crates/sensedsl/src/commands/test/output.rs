@@ -44,14 +44,17 @@ fn human(all: &[Ran<'_>]) -> String {
                 RuleVerdict::Violated { .. } => "VIOLATED",
                 RuleVerdict::Unknown(_) => "UNKNOWN",
                 RuleVerdict::Open => "OPEN",
+                RuleVerdict::Unseen(_) => "not seen",
             };
+            let unseen = unseen(one);
             let mut more: Vec<&str> = Vec::new();
+            more.extend(unseen.as_deref());
             more.extend(one.margin.as_deref());
             more.extend(one.note.as_deref());
             let more =
                 if more.is_empty() { String::new() } else { format!(" ({})", more.join("; ")) };
             out.push_str(&format!("  {word:8}  {}{more}\n", visible(&rule.text)));
-            if !one.is_held() {
+            if !one.is_held() && unseen.is_none() {
                 let (_, values) = violation(one);
                 let values = values.replace("; ", "\n            ");
                 if !values.is_empty() {
@@ -63,8 +66,23 @@ fn human(all: &[Ran<'_>]) -> String {
     let failed = all.iter().filter(|ran| !ran.is_passed()).count();
     let plural = if all.len() == 1 { "" } else { "s" };
     let passed = all.len() - failed;
-    out.push_str(&format!("\n{} test{plural}: {passed} passed, {failed} failed\n", all.len()));
+    let unseen = all.iter().flat_map(|ran| &ran.judged).filter(|one| unseen(one).is_some()).count();
+    let not_seen = match unseen {
+        0 => String::new(),
+        1 => "; 1 rule was not seen".to_owned(),
+        many => format!("; {many} rules were not seen"),
+    };
+    out.push_str(&format!(
+        "\n{} test{plural}: {passed} passed, {failed} failed{not_seen}\n",
+        all.len()
+    ));
     out
+}
+
+/// Why a rule was not judged.
+fn unseen(one: &Judged) -> Option<String> {
+    let RuleVerdict::Unseen(name) = &one.verdict else { return None };
+    Some(format!("code on the board sets {name}, and no report has it"))
 }
 
 fn visible_lines(text: &str) -> String {
@@ -110,6 +128,7 @@ fn rule_value(bed: &Bed<'_>, rule: &TestRule, one: &Judged) -> Value {
         RuleVerdict::Violated { first, last } => ("violated", Some(first), last.as_ref()),
         RuleVerdict::Unknown(_) => ("unknown", None, None),
         RuleVerdict::Open => ("open", None, None),
+        RuleVerdict::Unseen(_) => ("unseen", None, None),
     };
     let late_ns = match one.outcome.verdict {
         sensedsl_rules::Verdict::Violated { late_ns, .. } => late_ns,
@@ -147,7 +166,9 @@ fn suite(bed: &Bed<'_>, ran: &Ran<'_>) -> Suite {
             text: why.help.unwrap_or_default(),
         });
         let said = [one.margin.as_deref(), one.note.as_deref()];
-        let output = said.into_iter().flatten().collect::<Vec<_>>().join("\n");
+        let unseen = unseen(one);
+        let said = said.into_iter().flatten().chain(unseen.as_deref());
+        let output = said.collect::<Vec<_>>().join("\n");
         let output = if failure.is_some() { String::new() } else { output };
         Case { name: rule.text.clone(), file: file.clone(), failure, output }
     };
