@@ -171,6 +171,7 @@ macro_rules! pages {
 }
 
 pages! {
+    start_drive_in_simulation "start/drive-in-simulation.md"
     start_with_a_blue_pill "start/with-a-blue-pill.md"
     start_with_a_nucleo "start/with-a-nucleo.md"
     start_with_a_pico "start/with-a-pico.md"

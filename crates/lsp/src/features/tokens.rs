@@ -116,13 +116,13 @@ fn of_name(token: &SyntaxToken, constants: &BTreeSet<String>) -> Option<(&'stati
         SyntaxKind::OnClause => ("class", 0),
         SyntaxKind::Type if is_constant => ("variable", READONLY),
         SyntaxKind::Type | SyntaxKind::Kind => ("type", 0),
-        SyntaxKind::Device | SyntaxKind::Chip | SyntaxKind::Controller => {
-            ("variable", DECLARATION)
-        }
+        SyntaxKind::Device | SyntaxKind::Chip | SyntaxKind::Controller => ("variable", DECLARATION),
         SyntaxKind::Test => ("class", DECLARATION),
         SyntaxKind::Call => ("function", 0),
         SyntaxKind::SetStep | SyntaxKind::Index => ("variable", 0),
-        SyntaxKind::Member if token.prev_token().is_some_and(|dot| dot.kind() == SyntaxKind::Dot) => {
+        SyntaxKind::Member
+            if token.prev_token().is_some_and(|dot| dot.kind() == SyntaxKind::Dot) =>
+        {
             ("property", 0)
         }
         SyntaxKind::Member => ("variable", 0),

@@ -38,6 +38,9 @@ pub(crate) struct MonitorArgs {
     /// Print at the end how many values came, how regularly, how late, and within what limits
     #[arg(long)]
     pub(crate) summary: bool,
+    /// Hold the run to the rules of the tests in this file, and say when one is broken; exit 1 then
+    #[arg(long, value_name = "FILE")]
+    pub(crate) watch: Option<PathBuf>,
     /// Play a record again
     #[arg(long, value_name = "RECORD", conflicts_with_all = ["device", "at", "baud", "set"])]
     pub(crate) replay: Option<PathBuf>,

@@ -15,6 +15,7 @@
 
 mod edges;
 mod verdict;
+mod watch;
 
 use std::collections::BTreeMap;
 
@@ -33,6 +34,7 @@ use crate::soft::SoftBoard;
 use crate::truth::{real, scalar, scale_of};
 use crate::world::{Fault, World};
 pub use verdict::{Judged, Moment, RuleVerdict, judge, not_judged};
+pub use watch::{Broken, RunningRules};
 
 const MS: u64 = 1_000_000;
 /// How often the host asks for the board's identity until it answers.
@@ -65,6 +67,27 @@ impl Recording {
         let is_new = signal.samples.last().is_none_or(|last| last.1.to_bits() != value.to_bits());
         if is_new {
             signal.samples.push((at_ns, value));
+        }
+    }
+
+    /// Ends an edge of a signal a millisecond after it, if that is over.
+    fn settle(&mut self, number: usize, now_ns: u64) {
+        let samples = self.trace.signals.get(number).map(|signal| signal.samples.as_slice());
+        let edge_ns = match samples.unwrap_or_default() {
+            [only] => Some(only.0),
+            [.., before, last] if before.1.to_bits() != last.1.to_bits() => Some(last.0),
+            _ => None,
+        };
+        if let Some(after_ns) = edge_ns.map(|ns| ns + MS).filter(|ns| *ns < now_ns) {
+            self.repeat(number, after_ns);
+        }
+    }
+
+    /// Forgets what came before a moment, but for the value that was there then.
+    fn forget(&mut self, before_ns: u64) {
+        for signal in &mut self.trace.signals {
+            let next = signal.samples.partition_point(|sample| sample.0 <= before_ns);
+            signal.samples.drain(..next.saturating_sub(2));
         }
     }
 

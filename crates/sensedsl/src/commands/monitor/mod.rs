@@ -14,6 +14,7 @@ mod outputs;
 mod pty;
 mod record;
 mod replay;
+mod rules;
 mod screen;
 mod show;
 mod sinks;
@@ -39,6 +40,7 @@ pub(super) use find::cure;
 use find::{found, is_recording, open, who};
 use link::Link;
 use replay::Replay;
+use rules::{Requirements, Rules};
 use screen::Screen;
 use show::{Printer, format};
 use source::Source;
@@ -197,9 +199,16 @@ fn watch(
     if links.len() > 1 {
         links.iter_mut().for_each(Link::name_board);
     }
+    let required =
+        args.watch.as_ref().map(|path| Requirements::read(path, args, terminal)).transpose()?;
+    let boards = || links.iter().map(|link| link.board.clone()).collect();
+    let rules = required.as_ref().map(|required| required.rules(boards()));
     let face = face(args, terminal, &links);
-    if face.has_terminal() && args.health.is_none() {
+    let is_asked = face.has_terminal() || rules.as_ref().is_some_and(Rules::asks_for_health);
+    if is_asked && args.health.is_none() {
         links.iter_mut().for_each(Link::show_health);
     }
-    Watch::new(args, terminal, subject, links, face, replay, config).run()
+    let mut watch = Watch::new(args, terminal, subject, links, face, replay, config);
+    watch.rules = rules;
+    watch.run()
 }

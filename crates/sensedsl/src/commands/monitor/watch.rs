@@ -17,6 +17,7 @@ use super::face::{Ask, Face};
 use super::link::{Happening, Link};
 use super::outputs::outputs;
 use super::replay::Replay;
+use super::rules::Rules;
 use super::source::{Heard, Input, Source};
 use super::subject::Subject;
 use crate::cli::{MonitorArgs, MonitorFormat};
@@ -51,6 +52,8 @@ pub(super) struct Watch<'a> {
     status: Option<Status>,
     summing: Option<Summing<'a>>,
     replay: Option<Replay>,
+    /// What the run is held to.
+    pub(super) rules: Option<Rules<'a>>,
     /// Where a record that is played has got to.
     past: Option<Moment>,
 }
@@ -83,6 +86,7 @@ impl<'a> Watch<'a> {
             summing: None,
             past: replay.as_ref().map(|replay| replay.begin),
             replay,
+            rules: None,
         }
     }
 
@@ -117,6 +121,9 @@ impl<'a> Watch<'a> {
         if let Some(replay) = self.replay.take() {
             replay.play(self.args.speed, self.to_loop.clone());
         }
+        for line in self.rules.iter().flat_map(Rules::begin) {
+            self.face.say(&line)?;
+        }
         let stop = ending(self.face.has_terminal())?;
         self.listen();
         let result = self.turns(&stop);
@@ -126,7 +133,7 @@ impl<'a> Watch<'a> {
         let status = result?;
         closed?;
         self.finish(now)?;
-        Ok(status)
+        Ok(self.rules.as_ref().map_or(status, |rules| rules.status(status)))
     }
 
     fn turns(&mut self, stop: &AtomicBool) -> Result<Status> {
@@ -168,6 +175,9 @@ impl<'a> Watch<'a> {
                 Ask::Set { name, text } => self.set(&name, &text)?,
                 Ask::Quit => self.status = Some(Status::Done),
             }
+        }
+        for line in self.rules.iter_mut().flat_map(|rules| rules.look(now, false)) {
+            self.face.say(&line)?;
         }
         let wishes: Vec<Wish> =
             self.outputs.iter_mut().flat_map(|output| output.look(now)).collect();
@@ -277,6 +287,9 @@ impl<'a> Watch<'a> {
             self.outputs.iter_mut().for_each(|output| output.take(&news));
             if let Some(summing) = &mut self.summing {
                 summing.take(&news);
+            }
+            if let Some(rules) = &mut self.rules {
+                rules.take(&news);
             }
         }
         Ok(())
@@ -412,6 +425,12 @@ impl<'a> Watch<'a> {
                     Wish::Note(text) => self.terminal.aside(&text)?,
                     Wish::Set { .. } => {}
                 }
+            }
+        }
+        if let Some(rules) = &mut self.rules {
+            let broken = rules.look(now, true);
+            for line in broken.into_iter().chain(rules.summary()) {
+                self.terminal.aside(&line)?;
             }
         }
         if let Some(summing) = self.summing.take() {
