@@ -27,7 +27,7 @@ use names::{BOARD, DRIVER, TEMPLATE};
 pub(crate) use parts::{PartsArgs, PartsOrder};
 pub(crate) use simulate::SimulateArgs;
 pub(crate) use sinks::SinkArgs;
-pub(crate) use test::{TestArgs, TestFormat, TestOn};
+pub(crate) use test::{TestArgs, TestFormat};
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///

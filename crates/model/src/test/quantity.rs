@@ -17,8 +17,6 @@ use crate::meaning::FUNCTIONS;
 use crate::spanned::span;
 use crate::value::{Dimension, Measure, Number, Value, combine, literal};
 
-/// The functions of conditions.
-
 /// A number: the same all the time, or one that changes.
 #[derive(Clone, Debug)]
 pub(super) enum Quantity {

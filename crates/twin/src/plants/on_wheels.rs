@@ -30,6 +30,8 @@ pub(super) struct RobotRun {
     pub(super) laps_ns: Vec<u64>,
     /// How far in front of its start it was, along the way that it looked there.
     ahead_m: f64,
+    /// Whether it has been elsewhere since it was at its start.
+    is_away: bool,
 }
 
 impl RobotRun {
@@ -45,6 +47,7 @@ impl RobotRun {
             clearance_m: f64::INFINITY,
             laps_ns: Vec::new(),
             ahead_m: 0.0,
+            is_away: false,
         }
     }
 
@@ -81,10 +84,11 @@ impl RobotRun {
         let (ahead_m, beside_m) = (dx * x + dy * y, dy * x - dx * y);
         let is_there = beside_m.abs() < self.plant.facts.track_m;
         let is_forwards = libm::cos(pose.heading - start.heading) > 0.5;
-        let far_m = self.drive.travelled_m();
-        let since_m = 4.0 * self.plant.facts.track_m;
-        if self.ahead_m < 0.0 && ahead_m >= 0.0 && is_there && is_forwards && far_m > since_m {
+        // Who goes to and fro at the start makes no laps.
+        self.is_away |= libm::hypot(dx, dy) > 4.0 * self.plant.facts.track_m;
+        if self.ahead_m < 0.0 && ahead_m >= 0.0 && is_there && is_forwards && self.is_away {
             self.laps_ns.push(next_ns);
+            self.is_away = false;
         }
         self.ahead_m = ahead_m;
     }

@@ -153,7 +153,8 @@ fn is_hidden(design: &Design, device: DeviceIndex, of: SignalOf) -> bool {
     let is_actuator = design
         .device(device)
         .is_some_and(|one| one.direction == Direction::Actuator && one.kind.code().is_none());
-    let is_codes = design.controllers.iter().any(|one| one.sets.contains(&device));
+    let is_codes =
+        design.controllers.iter().any(|one| one.sets.iter().any(|set| set.value == device));
     is_actuator && is_codes && matches!(of, SignalOf::Value(_))
 }
 

@@ -10,7 +10,6 @@ use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_session::has_errors;
 use sensedsl_twin::trial::{Broken, RuleVerdict, RunningRules};
 
-use super::link::Link;
 use crate::cli::{MonitorArgs, On};
 use crate::commands::input;
 use crate::status::{Reported, Status};
@@ -146,7 +145,7 @@ fn nanoseconds(run: Duration) -> u64 {
 fn words(one: &Broken) -> String {
     let RuleVerdict::Violated { first, .. } = &one.judged.verdict else { return one.rule.clone() };
     let margin = one.judged.margin.as_ref().map(|margin| format!(" ({margin})"));
-    let seconds = std::time::Duration::from_nanos(first.at_ns).as_secs_f64();
+    let seconds = Duration::from_nanos(first.at_ns).as_secs_f64();
     let (test, rule, margin) = (&one.test, &one.rule, margin.unwrap_or_default());
     format!("BROKEN {test}: {rule}{margin}; at {seconds:.3} s: {}", first.words())
 }

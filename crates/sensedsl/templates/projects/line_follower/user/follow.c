@@ -49,7 +49,7 @@ void follow_step(const struct follow_in *in, struct follow_out *out, uint32_t dt
   sum = clamped(sum + now_mm * dt, -10.0f, 10.0f);
 
   const float cruise = (float)in->cruise.value;
-  const float turn = 2.0f * now_mm + 0.8f * sum + 0.12f * rate;
+  const float turn = 1.5f * now_mm + 0.8f * sum + 0.08f * rate;
   follow_set_left(out, clamped(cruise + turn, -100.0f, 100.0f));
   follow_set_right(out, clamped(cruise - turn, -100.0f, 100.0f));
   follow_put_offset(out, now_mm);

@@ -47,7 +47,7 @@ impl Follow {
         self.last_mm = now_mm;
         self.sum = (self.sum + now_mm * dt).clamp(-10.0, 10.0);
         let cruise = f32::from(input.cruise.value);
-        let turn = 2.0 * now_mm + 0.8 * self.sum + 0.12 * rate;
+        let turn = 1.5 * now_mm + 0.8 * self.sum + 0.08 * rate;
         output.set_left((cruise + turn).clamp(-100.0, 100.0));
         output.set_right((cruise - turn).clamp(-100.0, 100.0));
         output.offset = Some(now_mm);
