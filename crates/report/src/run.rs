@@ -171,7 +171,7 @@ mod tests {
     fn a_picture_is_well_formed_and_has_all_that_there_is() {
         let text = svg(&picture());
         let document = roxmltree::Document::parse(&text).unwrap();
-        let all: Vec<_> = document.descendants().filter(|one| one.is_element()).collect();
+        let all: Vec<_> = document.descendants().filter(roxmltree::Node::is_element).collect();
         let with = |class: &str| {
             let is = |one: &&roxmltree::Node<'_, '_>| {
                 let classes = one.attribute("class").unwrap_or_default();

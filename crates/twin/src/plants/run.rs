@@ -174,8 +174,9 @@ impl SharedPlants {
         let found = plants.processes.iter_mut().find(|one| one.name == name);
         let done = found.map(|one| {
             one.program = Some(program);
-            let set = one.plant.sets.iter().map(|(name, ..)| (name.clone(), None)).collect();
-            one.ask(0, set)
+            let set: Vec<_> =
+                one.plant.sets.iter().map(|(name, ..)| (name.clone(), None)).collect();
+            one.ask(0, &set)
         });
         if let Some(Err(why)) = done {
             plants.trouble = Some(Trouble { at_ns: 0, plant: name.to_owned(), why });
@@ -297,7 +298,7 @@ impl Plants {
             let is_own = |name: &String| plant.supplies.contains(name);
             let motors = self.motors.iter().filter(|one| is_own(&one.name));
             // What a motor gives back while it brakes heats its bridge.
-            let turning: f64 = motors.map(|one| one.drawn()).sum();
+            let turning: f64 = motors.map(MotorRun::drawn).sum();
             let volts = plant.facts.full_volts.max(f64::MIN_POSITIVE);
             let heaters = self.heaters.iter().filter(|one| is_own(&one.name));
             let heating: f64 =
@@ -392,14 +393,14 @@ impl ProcessRun {
             (name.clone(), value)
         };
         let names = self.plant.sets.iter().map(|(name, ..)| name);
-        let set = names.zip(&self.drives).map(value).collect();
-        self.ask(self.at_ns + self.plant.step_ns, set)
+        let set: Vec<_> = names.zip(&self.drives).map(value).collect();
+        self.ask(self.at_ns + self.plant.step_ns, &set)
     }
 
     /// Goes on to a moment. A program that has failed is let go.
-    fn ask(&mut self, at_ns: u64, set: Vec<(String, Option<Value>)>) -> Result<(), String> {
+    fn ask(&mut self, at_ns: u64, set: &[(String, Option<Value>)]) -> Result<(), String> {
         let Some(program) = &mut self.program else { return Ok(()) };
-        let answer = program.step(number(at_ns) / 1e9, &set);
+        let answer = program.step(number(at_ns) / 1e9, set);
         let taken = answer.and_then(|all| self.take(at_ns, &all));
         if taken.is_err() {
             self.program = None;

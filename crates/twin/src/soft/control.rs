@@ -2,7 +2,7 @@
 
 use sense_rt::{Outcome, Status};
 use sensedsl_job::{BoardJob, JobDevice, Owner};
-use sensedsl_wire::Direction;
+use sensedsl_wire::{Direction, ValueType};
 
 use super::core::{Core, wrapped};
 use crate::tables;
@@ -60,7 +60,7 @@ impl Controllers {
     pub(super) fn new(job: &BoardJob<'_>) -> Self {
         let bytes = |index: usize| {
             let value = job.devices.get(index).map(|one| one.device.value.value);
-            value.map_or(0, |value| value.size_bytes())
+            value.map_or(0, ValueType::size_bytes)
         };
         let is_code = |index: usize| {
             let device = job.devices.get(index).map(|one| one.device);

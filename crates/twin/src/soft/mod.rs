@@ -40,6 +40,9 @@ const REPORT_MS: u32 = 10;
 /// The bytes that a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
 const USB_BYTES_A_MS: u64 = 1_000;
 
+/// A value that the host has set: when, in milliseconds, the place of the device in the schema, and its bytes.
+pub type Received = (u64, usize, Vec<u8>);
+
 /// A board that does its job in this program.
 pub struct SoftBoard {
     bench: Bench,
@@ -48,7 +51,7 @@ pub struct SoftBoard {
     now_ms: u64,
     link: Link,
     /// The values that the host or the user's code has set: milliseconds, the device's place in the schema, the value's bytes.
-    received: Vec<(u64, usize, Vec<u8>)>,
+    received: Vec<Received>,
     starts: u32,
     code: Option<Box<dyn UserCode>>,
     has_code_ended: bool,
@@ -108,7 +111,7 @@ struct Side<'a> {
     owed: &'a mut Vec<(usize, Vec<u8>)>,
     taken: &'a mut BTreeSet<usize>,
     owners: &'a [Owner],
-    received: &'a mut Vec<(u64, usize, Vec<u8>)>,
+    received: &'a mut Vec<Received>,
     now_ms: u64,
     starts: u32,
 }
@@ -262,7 +265,7 @@ impl SoftBoard {
 
     /// The values that the host or the user's code has set since the last call: milliseconds, the device's place in the
     /// schema, the value's bytes.
-    pub fn received(&mut self) -> Vec<(u64, usize, Vec<u8>)> {
+    pub fn received(&mut self) -> Vec<Received> {
         std::mem::take(&mut self.received)
     }
 
@@ -467,7 +470,7 @@ impl State {
     /// The board as the reporter and the user's code see it, and the reporter.
     fn side<'a>(
         &'a mut self,
-        (received, controllers): (&'a mut Vec<(u64, usize, Vec<u8>)>, &'a Controllers),
+        (received, controllers): (&'a mut Vec<Received>, &'a Controllers),
         (now_ms, starts): (u64, u32),
     ) -> (Side<'a>, &'a mut Reporter<[u8; 65_536]>) {
         let Self { core, buses, lines, reporter, outputs, owed, taken, .. } = self;

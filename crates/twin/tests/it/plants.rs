@@ -258,10 +258,13 @@ fn a_run_is_the_same_each_time_and_noise_has_a_seed() {
     });
 }
 
+/// What a program answers at a moment.
+type Answered = Result<Vec<(String, Value)>, String>;
+
 /// A spring that pulls a mass, as a program of a world.
 struct Echo {
     calls: Arc<Mutex<Vec<f64>>>,
-    answer: fn(f64) -> Result<Vec<(String, Value)>, String>,
+    answer: fn(f64) -> Answered,
 }
 
 impl Process for Echo {
@@ -281,7 +284,7 @@ const PROGRAM: &str =
     "[plants.Thing]\nkind = 'process'\ncommand = ['thing']\nstep = '5 ms'\nset = 'Left'\n
     sensors = ['Pot', 'Wheels']\n";
 
-fn with_program(answer: fn(f64) -> Result<Vec<(String, Value)>, String>) -> (Run, Vec<f64>) {
+fn with_program(answer: fn(f64) -> Answered) -> (Run, Vec<f64>) {
     let calls = Arc::new(Mutex::new(Vec::new()));
     let program = Echo { calls: Arc::clone(&calls), answer };
     let told = Told { seconds: 2, commands: SET };
@@ -310,7 +313,7 @@ fn a_program_is_stepped_in_lockstep() {
 
 #[test]
 fn a_program_that_answers_wrongly_is_told_and_let_go() {
-    type Answer = fn(f64) -> Result<Vec<(String, Value)>, String>;
+    type Answer = fn(f64) -> Answered;
     let cases: [(Answer, &str); 5] = [
         (|_| Err("it ended".to_owned()), "it ended"),
         (|_| Ok(vec![("Pot".to_owned(), Value::One(1.0))]), "lacks `Wheels`"),

@@ -46,10 +46,9 @@ fn items(subject: &Subject<'_, '_>) -> Vec<Item> {
     if site.in_text && site.words() == ["use"] {
         return files::used(subject);
     }
-    if subject.place == subject::Place::Test && !site.before.is_empty() && !site.in_text {
-        if let Some(items) = control::of_step(subject) {
-            return items;
-        }
+    let is_step = subject.place == subject::Place::Test && !site.before.is_empty();
+    if let Some(items) = (is_step && !site.in_text).then(|| control::of_step(subject)).flatten() {
+        return items;
     }
     if site.property().is_some() {
         return values::of_property(subject);

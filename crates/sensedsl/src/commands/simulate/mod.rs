@@ -170,8 +170,11 @@ pub(crate) fn usual_code(file: &Path, board: &str) -> PathBuf {
     beside.join("build").join("firmware").join(board)
 }
 
+/// The user's code, running.
+type Code = Box<dyn UserCode>;
+
 /// The user's code, built and started; none if the board has no controller, or no code was made yet.
-fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Box<dyn UserCode>>, Box<Diagnostic>>> {
+fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Code>, Box<Diagnostic>>> {
     let (job, args) = (scenery.job, scenery.args);
     if job.controllers.is_empty() {
         return Ok(Ok(None));

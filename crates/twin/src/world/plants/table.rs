@@ -77,7 +77,7 @@ impl<'a, 'i> Keys<'a, 'i> {
     /// Reports the first key that was not asked for.
     pub(super) fn finish(&self, place: &str) -> Result<(), Failed> {
         let asked = self.asked.borrow();
-        let known = |word: &str| asked.iter().any(|one| *one == word);
+        let known = |word: &str| asked.contains(&word);
         let Some(key) = self.table.keys().find(|key| !known(key.get_ref())) else { return Ok(()) };
         let (word, span) = (key.get_ref().as_ref(), self.reader.span(key));
         let near = nearest(word, asked.iter().copied());
