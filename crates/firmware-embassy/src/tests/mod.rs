@@ -125,7 +125,7 @@ fn what_the_hal_lacks_is_a_gap() {
     with_job(text, |job| {
         let opened = Opened::new(job.profile.unwrap(), ALL).unwrap();
         let drivers = &*opened.drivers;
-        assert_eq!(gaps::kinds(drivers), [KindName::Analog, KindName::Digital]);
+        assert_eq!(gaps::kinds(drivers), [KindName::Analog, KindName::Digital, KindName::Code]);
         let lacks: Vec<_> =
             job.connections.iter().map(|one| gaps::lacks(drivers, job, one)).collect();
         assert_eq!(lacks, [Some("edges of digital inputs on this MCU"), None, None]);

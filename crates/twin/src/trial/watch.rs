@@ -232,8 +232,8 @@ mod tests {
         when age(Front) > 500 ms then Lamp within 100 ms;
     }";
 
-    /// What is told of values at milliseconds: of `Front`, or of `Lamp` where there is no number.
-    fn told(values: &[(u64, Option<f64>)], until_ms: u64) -> Vec<(String, u64)> {
+    /// What is told of values that come at milliseconds.
+    fn told(values: &[(u64, &str, f64)], until_ms: u64) -> Vec<(String, u64)> {
         let request = Request { path: "a.sense", text: TEXT, ..Request::default() };
         let resolved = resolve(&request, &NoFiles);
         let design = resolved.design.unwrap();
@@ -245,11 +245,8 @@ mod tests {
         assert_eq!(rules.unseen(), [("always Left < 50 %", "Left")]);
         let (mut all, mut values) = (Vec::new(), values.iter().peekable());
         for now_ms in (0..=until_ms).step_by(50) {
-            while let Some((at_ms, value)) = values.next_if(|one| one.0 <= now_ms) {
-                match value {
-                    Some(value) => rules.value(find("Front"), at_ms * MS, &|_| Some(*value)),
-                    None => rules.value(find("Lamp"), at_ms * MS, &|_| Some(1.0)),
-                }
+            while let Some((at_ms, name, value)) = values.next_if(|one| one.0 <= now_ms) {
+                rules.value(find(name), at_ms * MS, &|_| Some(*value));
             }
             let broken = rules.look(now_ms * MS, false).into_iter();
             all.extend(broken.map(|one| {
@@ -262,31 +259,37 @@ mod tests {
         all
     }
 
+    /// `Front` in so many steps of 50 ms.
+    fn steady(steps: u64, value: impl Fn(u64) -> f64) -> Vec<(u64, &'static str, f64)> {
+        let lamp = [(0, "Lamp", 0.0)];
+        lamp.into_iter().chain((0..steps).map(|step| (step * 50, "Front", value(step)))).collect()
+    }
+
     #[test]
     fn a_rule_that_breaks_is_told_once_until_it_has_held_again() {
-        let lamp = (0, None);
-        let mut values = vec![lamp];
-        values.extend((0..60).map(|step| (step * 50, Some(if step == 30 { 95.0 } else { 50.0 }))));
+        let mut values = steady(130, |step| if step == 30 { 95.0 } else { 50.0 });
         assert_eq!(told(&values, 3_000), []);
-        values.push((3_010, Some(120.0)));
-        values.push((3_060, Some(121.0)));
-        values.push((3_110, Some(60.0)));
-        values.push((6_000, Some(130.0)));
-        values.push((6_010, Some(60.0)));
+        let high = |at_ms: u64| (3_000..3_200).contains(&at_ms) || (6_000..6_040).contains(&at_ms);
+        for one in values.iter_mut().filter(|one| one.1 == "Front" && high(one.0)) {
+            one.2 = 120.0;
+        }
         let always = "always Front < 100 cm".to_owned();
-        let found = told(&values, 6_400);
-        assert_eq!(found, [(always.clone(), 3_010), (always, 6_000)]);
+        assert_eq!(told(&values, 6_400), [(always.clone(), 3_000), (always, 6_000)]);
     }
 
     #[test]
     fn what_must_come_is_waited_for_and_silence_is_seen() {
-        let near = vec![(0, Some(95.0)), (1_000, Some(10.0)), (1_100, Some(95.0))];
-        let found = told(&near, 1_500);
+        let near = steady(30, |step| if step == 20 { 10.0 } else { 95.0 });
+        let found = told(&near, 1_450);
         assert_eq!(found, [("when Front < 20 cm then Lamp within 200 ms".to_owned(), 1_000)]);
-        let found = told(&[(0, Some(95.0))], 900);
+        // The lamp in time.
+        let mut lit = near;
+        lit.insert(lit.iter().position(|one| one.0 == 1_150).unwrap(), (1_150, "Lamp", 1.0));
+        assert_eq!(told(&lit, 1_450), []);
+        let found = told(&steady(1, |_| 95.0), 900);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].0.starts_with("when age(Front)") && found[0].1 <= 550, "{found:?}");
-        let never = told(&(0..50).map(|step| (step * 50, Some(50.0))).collect::<Vec<_>>(), 2_400);
-        assert_eq!(never, [("eventually Front > 90 cm within 2 s".to_owned(), 0)]);
+        let never = told(&steady(50, |_| 50.0), 2_400);
+        assert_eq!(never, [("eventually Front > 90 cm within 2 s".to_owned(), 2_000)]);
     }
 }
