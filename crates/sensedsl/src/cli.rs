@@ -468,6 +468,6 @@ pub(crate) struct ManArgs {
 
 /// The name of a kind.
 fn kind() -> impl TypedValueParser<Value = KindName> {
-    PossibleValuesParser::new(KindName::ALL.map(KindName::name))
+    PossibleValuesParser::new(KindName::wired().map(KindName::name))
         .try_map(|word| KindName::from_name(&word).ok_or("not a kind"))
 }

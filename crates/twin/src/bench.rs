@@ -25,6 +25,7 @@ use sensedsl_surroundings::{Pad, TimerOutput};
 
 mod broken;
 mod chips;
+mod faults;
 mod held;
 mod log;
 mod mcu;

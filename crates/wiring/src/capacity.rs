@@ -49,7 +49,7 @@ pub fn capacity(
     }
     let mut all = Vec::new();
     for board in (0..design.boards.len()).map(BoardIndex) {
-        for kind in KindName::ALL {
+        for kind in KindName::wired() {
             let one = of_kind(&base, board, kind, cancel);
             // The number on which time ran out may be too low.
             if cancel.is_over() {

@@ -56,6 +56,11 @@ macro_rules! kinds {
             /// All kinds, in the order of the language page.
             pub const ALL: [Self; [$(Self::$Kind),*].len()] = [$(Self::$Kind),*];
 
+            /// Those whose devices have wires.
+            pub fn wired() -> impl Iterator<Item = Self> {
+                Self::ALL.into_iter().filter(|kind| *kind != Self::Code)
+            }
+
             /// The properties that all devices of the kind share.
             #[must_use]
             pub const fn spec(self) -> &'static KindSpec {

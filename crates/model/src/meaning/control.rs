@@ -1,8 +1,8 @@
-//! The properties of controllers and of tests, and the functions that a test's conditions have.
+//! The properties of controllers and of tests.
 
 use super::{Meaning, REQUIRED, Takes};
 use crate::control::HOST;
-use crate::test::{LENGTH_MAX_US, LENGTH_MIN_US};
+use crate::test::words::{LENGTH_MAX_US, LENGTH_MIN_US};
 
 /// The properties of a controller that devices do not have.
 pub(super) const CONTROLLER: &[Meaning] = &[
@@ -54,15 +54,4 @@ pub(super) const TEST: &[Meaning] = &[
         "What chance begins with; `--seed` wins.",
         "seed = 7;",
     ),
-];
-
-/// The functions of conditions: each with what it takes and what it is.
-pub const FUNCTIONS: [(&str, &str, &str); 7] = [
-    ("abs", "a number", "without its sign"),
-    ("min", "an array, or two numbers", "the smallest of them"),
-    ("max", "an array, or two numbers", "the greatest of them"),
-    ("age", "a sensor", "the time since its last value came"),
-    ("health", "a device", "what the board says of it"),
-    ("rising", "a condition", "the moment at which it becomes true"),
-    ("falling", "a condition", "the moment at which it becomes false"),
 ];

@@ -20,8 +20,7 @@ use crate::part::properties::{COMMON_PROPERTIES, PRESENTATION};
 use crate::part::stranger;
 use crate::rule;
 
-pub use crate::test::STATES;
-pub use control::FUNCTIONS;
+pub use crate::test::words::{FUNCTIONS, STATES};
 pub use entry::Meaning;
 pub(crate) use entry::{REQUIRED, first};
 pub use takes::Takes;

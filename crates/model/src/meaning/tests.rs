@@ -142,9 +142,10 @@ fn lists_of_readers_are_described() {
     }
     let wishes: BTreeSet<&str> = Block::Wish.properties().iter().map(|one| one.name).collect();
     assert_eq!(wishes, rule::wishes().collect());
-    for (block, list) in
-        [(Block::Controller, crate::control::PROPERTIES), (Block::Test, crate::test::PROPERTIES)]
-    {
+    for (block, list) in [
+        (Block::Controller, crate::control::PROPERTIES),
+        (Block::Test, crate::test::words::PROPERTIES),
+    ] {
         let described: BTreeSet<&str> = block.properties().iter().map(|one| one.name).collect();
         assert_eq!(described, list.iter().copied().collect(), "{block:?}");
     }

@@ -6,23 +6,14 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_rules::{Compare, Formula, Term};
 use sensedsl_syntax::ast::{self, AstNode as _, Comparison, Condition};
-use sensedsl_wire::Status;
 
 use super::names::{self, Scope};
 use super::quantity::{Quantities, Quantity};
 use super::sort::Sort;
+use super::words::STATES;
 use crate::design::{TestSignal, TestUnit};
 use crate::spanned::span;
 use crate::value::{Evaluator, Number, Value};
-
-/// The states of a device, by the words of conditions.
-pub const STATES: [(&str, Status); 5] = [
-    ("good", Status::Good),
-    ("stale", Status::Stale),
-    ("failed", Status::Failed),
-    ("invalid", Status::Invalid),
-    ("never_read", Status::NeverRead),
-];
 
 /// Reads the conditions of a test.
 pub(super) struct Conditions<'a> {

@@ -9,6 +9,7 @@ mod quantity;
 mod sort;
 mod steps;
 mod times;
+pub(crate) mod words;
 
 use sensedsl_diagnostics::codes::{e0201_unknown_property, e0255_test_without_rules};
 use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
@@ -19,16 +20,9 @@ use crate::fields::Fields;
 use crate::rule::names as rule_names;
 use crate::spanned::{Spanned, named};
 use crate::value::constants::Constants;
-pub use condition::STATES;
 use names::Scope;
 use times::Length;
-
-/// The properties of a test.
-pub(crate) const PROPERTIES: &[&str] = &["world", "for", "seed"];
-/// The shortest test: a millisecond, in microseconds.
-pub(crate) const LENGTH_MIN_US: u32 = 1_000;
-/// The longest test: an hour, in microseconds.
-pub(crate) const LENGTH_MAX_US: u32 = 3_600_000_000;
+use words::{LENGTH_MAX_US, LENGTH_MIN_US, PROPERTIES};
 
 /// Reads the tests of a design, each in its file. Names of devices that could not be read are `absent`: their mistakes
 /// were told already.

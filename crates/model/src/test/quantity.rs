@@ -11,9 +11,9 @@ use sensedsl_syntax::ast::{self, AstNode as _, Condition, Operator};
 
 use super::names::{self, Scope};
 use super::sort::Sort;
+use super::words::FUNCTIONS;
 use crate::design::{Device, DeviceIndex, TestSignal, TestUnit};
 use crate::fields::{Codes, of_pulse};
-use crate::meaning::FUNCTIONS;
 use crate::spanned::span;
 use crate::value::{Dimension, Measure, Number, Value, combine, literal};
 

@@ -109,7 +109,7 @@ fn human([here, there]: [&Side; 2], changes: &[Change]) -> String {
         facts.map(|(what, (here, there))| row(what, here, there)).collect();
     rows.push(row("Target", here.system.clone(), there.system.clone()));
     rows.push(row("Cost", here.cost.to_string(), there.cost.to_string()));
-    let kinds = KindName::ALL.into_iter().map(|kind| (kind, here.more(kind), there.more(kind)));
+    let kinds = KindName::wired().map(|kind| (kind, here.more(kind), there.more(kind)));
     let room = kinds.filter(|(_, here, there)| here != there);
     rows.extend(room.map(|(kind, here, there)| {
         row(&format!("Room for {}", kind.name()), here.to_string(), there.to_string())

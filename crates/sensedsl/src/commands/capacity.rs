@@ -22,7 +22,7 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
     let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
     let found = capacity(design, wiring, args.rearrange, cancel);
     if !found.complete {
-        let all = design.boards.len() * KindName::ALL.len();
+        let all = design.boards.len() * KindName::wired().count();
         let open = all - found.all.len();
         terminal.aside(&format!("stopped: {open} of {all} were not looked at"))?;
     }

@@ -1,9 +1,8 @@
 //! What is broken around a board: a fault of the world in, the part and the units that it hits out.
 
 use sensedsl_job::BoardJob;
-use sensedsl_model::design::{ConnectionIndex, PartIndex};
+use sensedsl_model::design::PartIndex;
 
-use super::Bench;
 use crate::world::{Fault, FaultKind};
 
 /// A fault, the part that it hits, and the units of that part's wires.
@@ -31,24 +30,5 @@ impl Broken {
     /// Whether nothing comes from the part now.
     pub(super) fn cuts(&self, now_ns: u64) -> bool {
         self.is(FaultKind::Torn, now_ns) || self.is(FaultKind::Silent, now_ns)
-    }
-}
-
-impl Bench {
-    pub(super) fn has(&self, kind: FaultKind, part: PartIndex, now_ns: u64) -> bool {
-        self.faults.iter().any(|one| one.is(kind, now_ns) && one.part == Some(part))
-    }
-
-    pub(super) fn is_cut(&self, connection: ConnectionIndex, now_ns: u64) -> bool {
-        self.wires.get(&connection).is_some_and(|wired| {
-            self.has(FaultKind::Torn, wired.part, now_ns)
-                || self.has(FaultKind::Silent, wired.part, now_ns)
-        })
-    }
-
-    /// Whether something holds a wire of a bus.
-    pub(super) fn is_held(&self, kind: FaultKind, unit: u8, now_ns: u64) -> bool {
-        let is_on = |one: &Broken| one.units.iter().any(|one| self.units.number(one) == Some(unit));
-        self.faults.iter().any(|one| one.is(kind, now_ns) && is_on(one))
     }
 }

@@ -26,9 +26,7 @@ fn board(kind: KindName, direction: Direction) -> String {
 
 /// What code makes is not measured, and a parameter has no output: tests of controllers have that kind.
 fn kinds(direction: Direction) -> impl Iterator<Item = KindName> {
-    let is_wired = |kind: &KindName| *kind != KindName::Code;
-    let all = KindName::ALL.into_iter().filter(is_wired);
-    all.filter(move |kind| kind.spec().directions.contains(&direction))
+    KindName::wired().filter(move |kind| kind.spec().directions.contains(&direction))
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! `sensedsl test`: the tests of a file, each a run of its boards in a simulated world that is held to rules.
 
+mod bed;
 mod one;
 mod output;
 mod place;
 
 use anyhow::Result;
 use sensedsl_diagnostics::codes::e0537_no_tests;
-use sensedsl_diagnostics::{Diagnostic, SourceMap, nearest};
+use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::design::{Design, Test};
 use sensedsl_report::trial_picture::picture;
@@ -17,18 +18,9 @@ use crate::cli::{On, TestArgs};
 use crate::files::write_whole;
 use crate::status::Status;
 use crate::terminal::Terminal;
+use bed::Bed;
+use bed::Place;
 use one::{Programs, Ran};
-use place::Place;
-
-/// What tests run with.
-struct Bed<'a> {
-    args: &'a TestArgs,
-    terminal: &'a Terminal,
-    design: &'a Design,
-    sources: &'a SourceMap,
-    jobs: &'a [BoardJob<'a>],
-    place: Place,
-}
 
 pub(crate) fn run(args: &TestArgs, terminal: &Terminal) -> Result<Status> {
     let on = On { board: None, target: args.target.clone(), reach: args.reach.clone() };

@@ -19,8 +19,9 @@ use sensedsl_twin::trial::{
     Culprit, Judged, Recording, RuleVerdict, Stopped, Tested, Trial, add_faults, judge, not_judged,
 };
 
-use super::Bed;
-use super::place::{self, Place};
+use super::bed::Bed;
+use super::bed::Place;
+use super::place;
 use crate::cli::SimulateArgs;
 use crate::commands::simulate::{Built, Running, SEED, attach_all, build, usual_code, world};
 use crate::files::{Disk, shown};

@@ -8,7 +8,7 @@ use sensedsl_report::junit::{Case, Failure, Suite, junit};
 use sensedsl_twin::trial::{Judged, Moment, RuleVerdict};
 use serde_json::{Value, json};
 
-use super::Bed;
+use super::bed::Bed;
 use super::one::{Ran, failure, seconds, violation};
 use crate::cli::TestFormat;
 

@@ -8,55 +8,14 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0539_board_of_test as no_board;
 use sensedsl_host::port::{Port, usb_ports};
 use sensedsl_job::BoardJob;
-use sensedsl_model::design::Test;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::trial::{Culprit, Stopped, Tested};
 
-use super::Bed;
+use super::bed::Bed;
 use crate::commands::input;
 use crate::commands::monitor::cure;
 use crate::commands::simulate::{tested_image, usual_code};
 use crate::files::shown;
-
-/// A place for boards.
-pub(super) enum Place {
-    /// In this program.
-    Soft,
-    /// An image, at that path or where `build` has made it.
-    Image(Option<PathBuf>),
-    /// A real board.
-    Port(String),
-}
-
-impl Place {
-    pub(super) fn of(word: &str) -> Self {
-        match word {
-            "soft" => Self::Soft,
-            "image" => Self::Image(None),
-            path if Path::new(path).is_file() => Self::Image(Some(path.into())),
-            port => Self::Port(port.to_owned()),
-        }
-    }
-
-    /// Whether the board is a real one, to which nobody plays a world.
-    pub(super) const fn is_real(&self) -> bool {
-        matches!(self, Self::Port(_))
-    }
-
-    /// One image and one port have one board.
-    pub(super) fn suits(
-        &self,
-        test: &Test,
-        boards: &[&BoardJob<'_>],
-    ) -> Result<(), Box<Diagnostic>> {
-        if boards.len() < 2 || matches!(self, Self::Soft | Self::Image(None)) {
-            return Ok(());
-        }
-        let names: Vec<&str> = boards.iter().map(|job| job.board.name.value.as_str()).collect();
-        let (at, name) = (test.name.span, &test.name.value);
-        Err(no_board::several(at, name, &names.join(", ")).into())
-    }
-}
 
 /// An image on the emulated MCU.
 pub(super) fn image(

@@ -171,6 +171,26 @@ fn outputs(task: impl FnOnce(&mut Outputs)) {
     });
 }
 
+/// Sets an actuator, and does at once what must be.
+fn set(index: usize, value: &[u8]) {
+    BOARD.set(index, value);
+    outputs(|outputs| match index {
+        tables::SERVO => {
+            outputs.pwm0.set(1, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default()));
+            outputs.pwm0.apply();
+        }
+        tables::LAMPS => {
+            outputs.pwm1.set(1, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default()));
+            outputs.pwm1.set(2, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(2..).unwrap_or_default()));
+            outputs.pwm1.apply();
+        }
+        tables::RELAY => {
+            outputs.relay.set_level(if Scalar::Bool.load(value.get(0..).unwrap_or_default()) != 0 { Level::High } else { Level::Low });
+        }
+        _ => {}
+    });
+}
+
 /// What the reporter does with the board.
 struct Board;
 
@@ -180,22 +200,7 @@ impl Host for Board {
     }
 
     fn apply(&mut self, index: usize, value: &[u8]) {
-        BOARD.set(index, value);
-        outputs(|outputs| match index {
-            tables::SERVO => {
-                outputs.pwm0.set(1, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default()));
-                outputs.pwm0.apply();
-            }
-            tables::LAMPS => {
-                outputs.pwm1.set(1, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default()));
-                outputs.pwm1.set(2, [0, 1, 1], pulse_level(Scalar::Uint16, value.get(2..).unwrap_or_default()));
-                outputs.pwm1.apply();
-            }
-            tables::RELAY => {
-                outputs.relay.set_level(if Scalar::Bool.load(value.get(0..).unwrap_or_default()) != 0 { Level::High } else { Level::Low });
-            }
-            _ => {}
-        });
+        set(index, value);
     }
 
     fn failsafe(&mut self) {

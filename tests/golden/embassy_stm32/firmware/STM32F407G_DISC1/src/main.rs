@@ -239,6 +239,29 @@ fn outputs(task: impl FnOnce(&mut Outputs)) {
     });
 }
 
+/// Sets an actuator, and does at once what must be.
+fn set(index: usize, value: &[u8]) {
+    BOARD.set(index, value);
+    outputs(|outputs| match index {
+        tables::DEMAND => {
+            rt::can::set(&CAN1_FRAMES, 0, &tables::CAN1_SENT_11, &SCHEMA, 11, value, rt::can::Place::new(0), &BOARD);
+        }
+        tables::STEERING => {
+            rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default())); outputs.tim3.ch3().enable();
+        }
+        tables::THRUST => {
+            drive_thrust(outputs, Scalar::Int16, value);
+        }
+        tables::LIGHT => {
+            outputs.light.set_level(if Scalar::Bool.load(value.get(0..).unwrap_or_default()) != 0 { Level::High } else { Level::Low });
+        }
+        tables::LEVEL => {
+            outputs.level.set(hal::dac::Value::Bit12Right(sense_rt::load_magnitude(Scalar::Uint16, value.get(0..).unwrap_or_default()).0.min(4_095) as u16));
+        }
+        _ => {}
+    });
+}
+
 /// What the reporter does with the board.
 struct Board;
 
@@ -248,32 +271,14 @@ impl Host for Board {
     }
 
     fn apply(&mut self, index: usize, value: &[u8]) {
-        BOARD.set(index, value);
-        outputs(|outputs| match index {
-            tables::DEMAND => {
-                rt::can::set(&CAN1_FRAMES, 0, &tables::CAN1_SENT_11, &SCHEMA, 11, value, rt::can::Place::new(0), &BOARD);
-            }
-            tables::STEERING => {
-                rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], pulse_level(Scalar::Uint16, value.get(0..).unwrap_or_default())); outputs.tim3.ch3().enable();
-            }
-            tables::THRUST => {
-                drive_thrust(outputs, Scalar::Int16, value);
-            }
-            tables::LIGHT => {
-                outputs.light.set_level(if Scalar::Bool.load(value.get(0..).unwrap_or_default()) != 0 { Level::High } else { Level::Low });
-            }
-            tables::LEVEL => {
-                outputs.level.set(hal::dac::Value::Bit12Right(sense_rt::load_magnitude(Scalar::Uint16, value.get(0..).unwrap_or_default()).0.min(4_095) as u16));
-            }
-            _ => {}
-        });
+        set(index, value);
     }
 
     fn failsafe(&mut self) {
-        self.apply(tables::LAMPS, &[0, 0]);
-        self.apply(tables::DEMAND, &[0, 0]);
-        self.apply(tables::THRUST, &[0, 0]);
-        self.apply(tables::LIGHT, &[0]);
+        set(tables::LAMPS, &[0, 0]);
+        set(tables::DEMAND, &[0, 0]);
+        set(tables::THRUST, &[0, 0]);
+        set(tables::LIGHT, &[0]);
         outputs(|outputs| {
             rt::pwm::set_width(&mut outputs.tim3.ch3(), [1000, 2000, 20000], 5000); outputs.tim3.ch3().enable();
             outputs.level.set(hal::dac::Value::Bit12Right(0));

@@ -14,6 +14,10 @@
 /* The board's button, held at the start, asks for frames instead of the shell. */
 #define UP_HAS_BUTTON TRUE
 
+
+/* The user has no code that runs in cycles. */
+#define UP_HAS_CONTROL FALSE
+
 /* Clock of the core's cycle counter, in Hz. */
 #define UP_CORE_HZ STM32_HCLK
 
