@@ -3,12 +3,12 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { command, missing, open, openFile, wiringView } from "./vscode.mjs";
+import { PATIENCE, command, missing, open, openFile, wiringView } from "./vscode.mjs";
 
 const ROBOT = readFileSync(new URL("../../../examples/line_follower.sense", import.meta.url), "utf8");
 const lacks = missing();
 const shots = process.env.SHOTS;
-const options = { skip: lacks, timeout: 120_000 };
+const options = { skip: lacks, timeout: PATIENCE.test };
 /** Whether the extension runs in the browser, and not in Node. */
 const isWeb = process.env.SENSEDSL_HOST === "web";
 let code;
@@ -26,7 +26,7 @@ before(async () => {
     const host = isWeb ? { "remote.extensionKind": { "sensedsl.sensedsl": ["web"] } } : {};
     code = await open({ "robot.sense": ROBOT }, { ...theme, ...host });
     page = code.page;
-    page.setDefaultTimeout(30_000);
+    page.setDefaultTimeout(PATIENCE.page);
     await openFile(page, "robot.sense");
 });
 

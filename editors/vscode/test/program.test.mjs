@@ -4,14 +4,14 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { after, afterEach, before, test } from "node:test";
-import { command, missing, open, openFile } from "./vscode.mjs";
+import { PATIENCE, command, missing, open, openFile } from "./vscode.mjs";
 
 const root = new URL("../../../", import.meta.url);
 const read = (path) => readFileSync(new URL(path, root), "utf8");
 const program = process.env.SENSEDSL;
 const lacks = missing() ?? (program && existsSync(program) ? undefined : "the program: SENSEDSL names it");
 const shots = process.env.SHOTS;
-const options = { skip: lacks, timeout: 180_000 };
+const options = { skip: lacks, timeout: PATIENCE.test };
 const WRONG = "board B on STM32F407G_DISC1 {\n    sensor A returns uint16 { id = 1; type = analog; pin = PZ9; }\n}\n";
 const BAD_WORLD = "[devices]\nNope = 3\n";
 let code;
@@ -36,7 +36,7 @@ before(async () => {
     const theme = process.env.THEME ? { "workbench.colorTheme": process.env.THEME } : {};
     code = await open(files, { ...theme, "sensedsl.path": program });
     page = code.page;
-    page.setDefaultTimeout(40_000);
+    page.setDefaultTimeout(PATIENCE.page);
     await openFile(page, "robot.sense");
     const item = page.locator(".statusbar-item", { hasText: "SenseDSL" }).locator("[aria-label*='version']").first();
     await item.waitFor();

@@ -6,13 +6,13 @@ import { existsSync, readFileSync } from "node:fs";
 import { delimiter, dirname } from "node:path";
 import { after, before, test } from "node:test";
 import { counts, User } from "../../../web/test/tasks.mjs";
-import { command, missing, open, openFile } from "./vscode.mjs";
+import { PATIENCE, command, missing, open, openFile } from "./vscode.mjs";
 
 const FIG2 = readFileSync(new URL("../../../examples/fig2.sense", import.meta.url), "utf8");
 const FIGHT = FIG2.replace("id = 17;", "id = 17; pin = PA1;").replace("id = 18;", "id = 18; pin = PA1;");
 const program = process.env.SENSEDSL;
 const lacks = missing() ?? (program && existsSync(program) ? undefined : "the program: SENSEDSL names it");
-const options = { skip: lacks, timeout: 120_000 };
+const options = { skip: lacks, timeout: PATIENCE.test };
 const TEXTS = { "fig2.sense": FIG2, "fight.sense": FIGHT, "mistake.sense": FIG2.replace("type = icu", "type = icuu") };
 let code;
 let page;
@@ -26,7 +26,7 @@ before(async () => {
     };
     code = await open(TEXTS, { "sensedsl.path": program, ...terminal });
     page = code.page;
-    page.setDefaultTimeout(30_000);
+    page.setDefaultTimeout(PATIENCE.page);
 });
 
 after(async () => code?.end());

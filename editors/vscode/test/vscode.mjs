@@ -14,6 +14,9 @@ const modules = join(here, "code-server/node_modules");
 const node = join(modules, "node/bin/node");
 
 /** What is missing of what these tests need; nothing if all is there. */
+/** Milliseconds that a page and a test may take: on a busy machine everything comes, and late. */
+export const PATIENCE = { page: 120_000, test: 400_000 };
+
 export function missing() {
     if (!existsSync(node)) return "VS Code: sh test/code-server/install.sh";
     if (!existsSync(CHROMIUM)) return `Chromium: there is no ${CHROMIUM}`;
@@ -119,7 +122,7 @@ async function visit(page, url) {
             await page.waitForTimeout(500);
         }
     }
-    await page.waitForSelector(".monaco-workbench", { timeout: 60_000 });
+    await page.waitForSelector(".monaco-workbench", { timeout: PATIENCE.page });
 }
 
 /** Opens a file of the folder. */
