@@ -103,7 +103,7 @@ fn of_kinds(board: &str, kinds: &[&str], rule: &str) -> String {
 /// others by itself.
 fn designs(board: &str, target: &str) -> Vec<String> {
     let (mut taken, mut all) = (Vec::new(), Vec::new());
-    for kind in KindName::ALL.map(KindName::name) {
+    for kind in KindName::wired().map(KindName::name) {
         taken.push(kind);
         if !is_wired(&of_kinds(board, &taken, ""), target) {
             let _ = taken.pop();

@@ -6,6 +6,7 @@
 
 #define UP_LINK_USB TRUE
 #define UP_HAS_BUTTON FALSE
+#define UP_HAS_CONTROL FALSE
 
 #define UP_ADC_WIDE 1
 

@@ -34,7 +34,7 @@ fn compile(is_fdcan: bool) -> PathBuf {
         std::fs::write(folder.join(file), "").unwrap();
     }
     let sizes = "#define UP_CAN_BUSES 10000U\n#define UP_VALUE_BYTES_MAX 8U\n\
-                 #define UP_LINK_USB 0\n#define UP_HAS_BUTTON 0\n";
+                 #define UP_LINK_USB 0\n#define UP_HAS_BUTTON 0\n#define UP_HAS_CONTROL 0\n";
     std::fs::write(folder.join("up_conf.h"), sizes).unwrap();
     let program = folder.join("can");
     let mut cc = Command::new("cc");
