@@ -24,9 +24,13 @@ fn templates_drive_in_their_worlds() {
     }
     let scratch = TempDir::new("templates");
     let boards = ["NUCLEO-F446RE", "RASPBERRYPI-PICO", "STM32F407G-DISC1", "BluePill"];
-    for board in boards.into_iter().take(if is_exhaustive() { 4 } else { 2 }) {
+    for (place, board) in boards.into_iter().enumerate().take(if is_exhaustive() { 4 } else { 2 }) {
         let mut made = 0;
-        for (name, world, code) in TEMPLATES {
+        for (number, (name, world, code)) in TEMPLATES.into_iter().enumerate() {
+            // A quick run tries each template on one of two boards.
+            if !is_exhaustive() && number % 2 != place {
+                continue;
+            }
             let dir = scratch.join(&format!("{board}-{name}"));
             let folder = dir.display().to_string();
             let ran = sensedsl(["new", &folder, "--board", board, "--template", name]).run();
@@ -51,7 +55,10 @@ fn templates_drive_in_their_worlds() {
             let build = dir.join("build").display().to_string();
             let _ = sensedsl(["generate", "-q", &file, "-o", &build]).run().exits(0);
         }
-        assert!(made >= 3, "{board} carries {made} of the templates");
+        assert!(
+            made >= if is_exhaustive() { 3 } else { 1 },
+            "{board} carries {made} of the templates"
+        );
     }
 }
 
@@ -131,7 +138,7 @@ fn tests_of_the_templates_notice_broken_code() {
         all.extend(slips(&text).into_iter().map(|(line, text)| (name, file.clone(), line, text)));
     }
     assert!(all.len() > 100, "{}", all.len());
-    let (count, least) = if is_exhaustive() { (40, 36) } else { (8, 6) };
+    let (count, least) = if is_exhaustive() { (40, 36) } else { (4, 3) };
     let mut chance = Random::new(SEED);
     let mut missed = Vec::new();
     for _ in 0..count {

@@ -14,7 +14,6 @@
 /* The board's button, held at the start, asks for frames instead of the shell. */
 #define UP_HAS_BUTTON TRUE
 
-
 /* The user has no code that runs in cycles. */
 #define UP_HAS_CONTROL FALSE
 
