@@ -11,7 +11,7 @@ use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{
-    Board, Connection, ConnectionIndex, Controller, Design, Device, DeviceIndex, Part, PartIndex,
+    Board, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
 };
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::{Pulses, Starts, pulses_of, starts};
@@ -20,6 +20,7 @@ use sensedsl_wiring::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
 };
 
+use crate::control::JobController;
 use crate::part::{BusPlan, PartPlan};
 use crate::snake;
 
@@ -47,32 +48,6 @@ pub struct BoardJob<'a> {
     pub link: Option<SerialLink<'a>>,
     /// The schema of the link; its items are `devices`, in the same order.
     pub schema: Schema,
-}
-
-/// Code of the user's that runs in a cycle of its own.
-#[derive(Clone, Debug)]
-pub struct JobController<'a> {
-    /// The controller.
-    pub controller: &'a Controller,
-    /// The identifier in code, in snake case: `follow`.
-    pub ident: String,
-    /// The index into [`BoardJob::devices`] of the device that counts its steps that were late or too long.
-    pub own: usize,
-    /// Indices into [`BoardJob::devices`] of the devices whose values it gets.
-    pub reads: Vec<usize>,
-    /// Indices into [`BoardJob::devices`] of the devices that it sets.
-    pub sets: Vec<usize>,
-}
-
-/// Whom a device that is set obeys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Owner {
-    /// The host; or nobody, because it is measured.
-    Host,
-    /// A controller; what the host commands is refused.
-    Code,
-    /// A controller, unless the host has commanded something and still speaks.
-    CodeOrHost,
 }
 
 /// A part whose values the hardware alone cannot handle.
@@ -266,16 +241,6 @@ impl<'a> BoardJob<'a> {
             None => one.device.paced_ms().unwrap_or(0),
         });
         all.collect()
-    }
-
-    /// Whom a device obeys, by its index into [`BoardJob::devices`].
-    #[must_use]
-    pub fn owner(&self, index: usize) -> Owner {
-        match self.controllers.iter().find(|one| one.sets.contains(&index)) {
-            Some(own) if own.controller.host_overrides => Owner::CodeOrHost,
-            Some(_) => Owner::Code,
-            None => Owner::Host,
-        }
     }
 
     /// Whether the host sets any value.

@@ -26,6 +26,7 @@
 //! assert_eq!(rover.schema.items[0].name, "Light");
 //! ```
 
+mod control;
 pub mod host;
 mod job;
 pub mod kinds;
@@ -33,6 +34,7 @@ mod names;
 pub mod part;
 mod target;
 
+pub use control::{JobController, Owner};
 pub use job::*;
 pub use names::snake;
 pub use target::Target;

@@ -15,7 +15,7 @@ the ports of this machine. Without `--on` the tests run in this program."#,
 
 /// No image was built.
 pub fn no_image(span: Span, board: &str, looked: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("there is no image of `{board}` at {looked}"))
+    Diagnostic::new(CODE, span, format!("`{board}` has not been built: there is no image in {looked}"))
         .help("make it with `sensedsl build FILE`, or name it: `--on PATH`")
 }
 
@@ -32,7 +32,7 @@ pub fn several(span: Span, test: &str, boards: &str) -> Diagnostic {
 
 /// It stopped during the test.
 pub fn stopped(span: Span, when: &str, why: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("the board was lost at {when}: {why}")).help(
+    Diagnostic::new(CODE, span, format!("the board stopped answering at {when}: {why}")).help(
         "see that it runs: `sensedsl monitor FILE`; a board with other firmware gets this file's with `sensedsl flash FILE`",
     )
 }

@@ -20,8 +20,8 @@ mod watch;
 use std::collections::BTreeMap;
 
 use sensedsl_host::Scale;
-use sensedsl_job::{BoardJob, JobDevice, Owner};
-use sensedsl_model::design::{Device, SignalOf, Test};
+use sensedsl_job::{BoardJob, JobDevice};
+use sensedsl_model::design::{Design, Device, DeviceIndex, SignalOf, Test};
 use sensedsl_model::kind::Interface;
 use sensedsl_rules::{Signal, Trace};
 use sensedsl_wire::{
@@ -285,16 +285,9 @@ impl<'a> Trial<'a> {
     /// The signals that nobody sees on a board that cannot be looked into: what code sets of actuators.
     #[must_use]
     pub fn unseen(&self) -> Vec<usize> {
-        let is_unseen = |one: &&Watched| {
-            let is_set = self.job.devices.get(one.index).is_some_and(|device| {
-                device.device.direction == Direction::Actuator
-                    && device.device.kind.code().is_none()
-            });
-            is_set
-                && matches!(one.of, SignalOf::Value(_))
-                && self.job.owner(one.index) != Owner::Host
-        };
-        self.watched.iter().filter(is_unseen).map(|one| one.number).collect()
+        let signals = self.test.signals.iter().enumerate();
+        let unseen = signals.filter(|(_, one)| is_hidden(self.job.design, one.device, one.of));
+        unseen.map(|(number, _)| number).collect()
     }
 
     /// Whether the board has said that its schema is that of the file.
@@ -428,6 +421,15 @@ impl<'a> Trial<'a> {
             }
         }
     }
+}
+
+/// Whether no report has it: what code sets of an actuator.
+fn is_hidden(design: &Design, device: DeviceIndex, of: SignalOf) -> bool {
+    let is_actuator = design
+        .device(device)
+        .is_some_and(|one| one.direction == Direction::Actuator && one.kind.code().is_none());
+    let mut set = design.controllers.iter().flat_map(|one| &one.sets);
+    is_actuator && matches!(of, SignalOf::Value(_)) && set.any(|one| one.value == device)
 }
 
 /// The code that an actuator has until somebody sets it; none of a sensor, and where only a part itself knows.

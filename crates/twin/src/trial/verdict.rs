@@ -74,6 +74,11 @@ pub fn judge(design: &Design, test: &Test, trace: &Trace, unseen: &[usize]) -> V
     test.rules.iter().map(|rule| judge.rule(rule)).collect()
 }
 
+/// Holds a run to one rule of a test.
+pub(super) fn judge_rule(design: &Design, test: &Test, rule: &TestRule, trace: &Trace) -> Judged {
+    Judge { design, test, trace, unseen: &[] }.rule(rule)
+}
+
 /// The verdicts on a run that ended too early to say anything.
 #[must_use]
 pub fn not_judged(test: &Test) -> Vec<Judged> {

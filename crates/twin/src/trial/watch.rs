@@ -1,18 +1,18 @@
 //! Rules of tests while a board runs: what arrives in, each rule that stops holding out, at once.
 //!
-//! There is no end that a rule could wait for, and no memory for a run of days: each look judges what came since the look
-//! before, and of a `when` as much as its time reaches back. A rule that is broken is told once, and again only after it
-//! has held for a second.
+//! A run has no end, and may last for days. So each look judges only what came since the look before, and for a `when` as
+//! much as its time reaches back; everything older is forgotten. A broken rule is told once, and again only after it has
+//! held for a second.
 
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Design, DeviceIndex, SignalOf, Test, TestRule};
-use sensedsl_rules::{Rule, Shape};
-use sensedsl_wire::{Direction, Status};
+use sensedsl_rules::Shape;
+use sensedsl_wire::Status;
 
-use super::verdict::{Judged, RuleVerdict, judge};
-use super::{MS, Recording};
+use super::verdict::{Judged, RuleVerdict, judge_rule};
+use super::{MS, Recording, is_hidden};
 
 /// How long a rule must have held before it is told again.
 const HELD_NS: u64 = 1_000 * MS;
@@ -21,6 +21,8 @@ const HELD_NS: u64 = 1_000 * MS;
 pub struct RunningRules<'a> {
     design: &'a Design,
     tests: Vec<Running>,
+    /// The time of the last look, before which nothing is judged again.
+    looked_ns: u64,
 }
 
 /// A rule that does not hold any more.
@@ -87,7 +89,7 @@ impl<'a> RunningRules<'a> {
                 .collect(),
             test: test.clone(),
         };
-        Self { design, tests: design.tests.iter().map(running).collect() }
+        Self { design, tests: design.tests.iter().map(running).collect(), looked_ns: 0 }
     }
 
     /// The rules that cannot be watched, each with what nobody sees.
@@ -106,8 +108,10 @@ impl<'a> RunningRules<'a> {
         (seen().count(), broken.map(|one| (one.rule.text.as_str(), one.count)).collect())
     }
 
-    /// A value of a device came or was sent; `shown` gives that of an element.
+    /// A value of a device came or was sent; `shown` gives that of an element. One that is told after a look counts from
+    /// that look on.
     pub fn value(&mut self, device: DeviceIndex, at_ns: u64, shown: &dyn Fn(usize) -> Option<f64>) {
+        let at_ns = at_ns.max(self.looked_ns);
         for one in &mut self.tests {
             one.came_ns.insert(device, at_ns);
             for (number, signal) in one.test.signals.iter().enumerate() {
@@ -124,6 +128,7 @@ impl<'a> RunningRules<'a> {
 
     /// The state of a device came.
     pub fn health(&mut self, device: DeviceIndex, at_ns: u64, status: Status) {
+        let at_ns = at_ns.max(self.looked_ns);
         for one in &mut self.tests {
             for (number, signal) in one.test.signals.iter().enumerate() {
                 if signal.of == SignalOf::Health && signal.device == device {
@@ -144,18 +149,9 @@ impl<'a> RunningRules<'a> {
     /// The rules that have been broken since the look before. At the end, what should have come once is told, too.
     pub fn look(&mut self, now_ns: u64, is_end: bool) -> Vec<Broken> {
         let design = self.design;
+        self.looked_ns = now_ns;
         self.tests.iter_mut().flat_map(|one| one.look(design, now_ns, is_end)).collect()
     }
-}
-
-/// What code sets of an actuator is in no report.
-fn is_hidden(design: &Design, device: DeviceIndex, of: SignalOf) -> bool {
-    let is_actuator = design
-        .device(device)
-        .is_some_and(|one| one.direction == Direction::Actuator && one.kind.code().is_none());
-    let is_codes =
-        design.controllers.iter().any(|one| one.sets.iter().any(|set| set.value == device));
-    is_actuator && is_codes && matches!(of, SignalOf::Value(_))
 }
 
 impl Running {
@@ -175,23 +171,20 @@ impl Running {
             if watched.unseen.is_some() || watched.is_over {
                 continue;
             }
-            let TestRule { rule: Rule { shape, .. }, .. } = &watched.rule;
-            // What may come until the end is judged there.
-            if matches!(shape, Shape::Eventually(_, None)) && !is_end {
-                continue;
-            }
-            let is_once = matches!(shape, Shape::Eventually(..));
-            let back_ns = match shape {
-                Shape::When(_, _, within_ns) => within_ns.unwrap_or(0),
-                Shape::Always(_) | Shape::Never(_) | Shape::Eventually(..) => 0,
+            let (is_once, may_come, back_ns) = match &watched.rule.rule.shape {
+                Shape::When(_, _, within_ns) => (false, false, within_ns.unwrap_or(0)),
+                Shape::Always(_) | Shape::Never(_) => (false, false, 0),
+                Shape::Eventually(_, Some(_)) => (true, false, 0),
+                // What may come until the end is told there.
+                Shape::Eventually(_, None) => (true, !is_end, 0),
             };
             let mut rule = watched.rule.clone();
             rule.rule.from_ns = watched.from_ns;
-            let part = Test { rules: vec![rule], ..self.test.clone() };
-            let judged = judge(design, &part, &self.recording.trace, &[]).into_iter().next();
-            if let Some(judged) =
-                judged.filter(|one| matches!(one.verdict, RuleVerdict::Violated { .. }))
-            {
+            let judged = judge_rule(design, &self.test, &rule, &self.recording.trace);
+            let is_violated = matches!(judged.verdict, RuleVerdict::Violated { .. });
+            // It has come, so that nothing of it is left to judge or to keep.
+            watched.is_over = is_once && judged.is_held();
+            if is_violated && !may_come {
                 let was_ns = watched.broken_ns.replace(now_ns);
                 watched.is_over = is_once;
                 if was_ns.is_none_or(|was_ns| now_ns - was_ns > HELD_NS) {
@@ -200,7 +193,7 @@ impl Running {
                     all.push(Broken { test, rule, span: watched.rule.span, judged });
                 }
             }
-            if !is_once {
+            if !is_once || may_come {
                 watched.from_ns = watched.from_ns.max(now_ns.saturating_sub(back_ns));
             }
         }

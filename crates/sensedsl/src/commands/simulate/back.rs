@@ -54,7 +54,16 @@ impl Session<'_> {
         self.pass(GREETING_NS)?;
         let is_greeted = self.is_known;
         self.pass(LOOK_NS)?;
-        let missing: Vec<u8> = before.difference(&self.reporters.since(back_ns)).copied().collect();
+        // Code reports what it makes when it likes to.
+        let devices = &self.scenery.job.devices;
+        let is_codes = |id: &&u8| {
+            devices
+                .iter()
+                .any(|one| one.device.id.value == **id && one.device.kind.code().is_some())
+        };
+        let after = self.reporters.since(back_ns);
+        let missing: Vec<u8> =
+            before.difference(&after).filter(|id| !is_codes(id)).copied().collect();
         let name = |id: &u8| {
             let item = self.scenery.job.schema.items.iter().find(|item| item.id == *id);
             item.map_or_else(|| id.to_string(), |item| item.name.clone())

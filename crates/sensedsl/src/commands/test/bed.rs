@@ -40,11 +40,6 @@ impl Place {
         }
     }
 
-    /// Whether the board is a real one, to which nobody plays a world.
-    pub(super) const fn is_real(&self) -> bool {
-        matches!(self, Self::Port(_))
-    }
-
     /// One image and one port have one board.
     pub(super) fn suits(
         &self,

@@ -148,7 +148,10 @@ pub(super) fn run<'a>(
     test: &'a Test,
     programs: &mut Programs,
 ) -> Result<Option<Ran<'a>>> {
-    let Some(of_world) = world_file(bed, test)? else { return Ok(None) };
+    // A real board is in its own world.
+    let of_world =
+        if matches!(bed.place, Place::Port(_)) { Some(None) } else { world_file(bed, test)? };
+    let Some(of_world) = of_world else { return Ok(None) };
     let devices = test.devices();
     let is_on = |job: &&BoardJob<'_>| job.devices.iter().any(|one| devices.contains(&one.index));
     let boards: Vec<&BoardJob<'_>> = bed.jobs.iter().filter(is_on).collect();
@@ -168,18 +171,28 @@ pub(super) fn run<'a>(
         return Ok(None);
     }
     for job in boards {
-        let Some(mut surroundings) = world(&simulation, bed.terminal, job, &beside)? else {
-            return Ok(None);
+        let (mut board, of_world) = if let Place::Port(port) = &bed.place {
+            match place::port(bed, job, port) {
+                Ok(board) => (board, Vec::new()),
+                Err(why) => {
+                    bed.terminal.diagnostics(&[*why], bed.sources)?;
+                    return Ok(None);
+                }
+            }
+        } else {
+            let Some(mut surroundings) = world(&simulation, bed.terminal, job, &beside)? else {
+                return Ok(None);
+            };
+            add_faults(&mut surroundings, test, job);
+            let seed = simulation.seed.or(surroundings.seed).unwrap_or(SEED);
+            let mut bench = Bench::new(job, &surroundings, seed);
+            let folder = simulation.world.as_deref().and_then(Path::parent);
+            attach_all(&mut bench, &surroundings, folder.unwrap_or_else(|| Path::new("")));
+            let board = simulated(bed, test, (job, bench), programs)?;
+            let Some(board) = board else { return Ok(None) };
+            (board, surroundings.commands)
         };
-        add_faults(&mut surroundings, test, job);
-        let seed = simulation.seed.or(surroundings.seed).unwrap_or(SEED);
-        let mut bench = Bench::new(job, &surroundings, seed);
-        let folder = simulation.world.as_deref().and_then(Path::parent);
-        attach_all(&mut bench, &surroundings, folder.unwrap_or_else(|| Path::new("")));
-        let Some(mut board) = board(bed, test, (job, bench), programs)? else { return Ok(None) };
-        // Nobody plays the world to a real board.
-        let of_world = if bed.place.is_real() { &[] } else { surroundings.commands.as_slice() };
-        let mut host = Trial::new(job, test, of_world);
+        let mut host = Trial::new(job, test, &of_world);
         if !board.sees_inside() {
             unseen.extend(host.unseen());
         }
@@ -213,22 +226,18 @@ fn world_file(bed: &Bed<'_>, test: &Test) -> Result<Option<Option<PathBuf>>> {
     }
 }
 
-/// The board, where the tests run. None if there is none, which was told.
-fn board(
+/// The board in a simulated world. None if there is none, which was told.
+fn simulated(
     bed: &Bed<'_>,
     test: &Test,
     (job, bench): (&BoardJob<'_>, Bench),
     programs: &mut Programs,
 ) -> Result<Option<Box<dyn Tested>>> {
-    let other = match &bed.place {
-        Place::Soft => {
-            let board = soft_board(bed, test, (job, bench), programs)?;
-            return Ok(board.map(|board| Box::new(board) as Box<dyn Tested>));
-        }
-        Place::Image(path) => place::image(bed, (job, bench), path.as_deref())?,
-        Place::Port(port) => place::port(bed, job, port),
+    let Place::Image(path) = &bed.place else {
+        let board = soft_board(bed, test, (job, bench), programs)?;
+        return Ok(board.map(|board| Box::new(board) as Box<dyn Tested>));
     };
-    match other {
+    match place::image(bed, (job, bench), path.as_deref())? {
         Ok(board) => Ok(Some(board)),
         Err(why) => {
             bed.terminal.diagnostics(&[*why], bed.sources)?;
