@@ -156,9 +156,12 @@ impl Writer {
         for _ in 0..if draw.chance(80) { 1 + draw.below(2) } else { 0 } {
             text.push_str(&rule(draw));
         }
-        let first = usize::from(number == 0);
-        for _ in 0..first + draw.below(if number == 0 { 6 } else { 3 }) {
+        let (least, first) = (usize::from(number == 0), self.devices);
+        for _ in 0..least + draw.below(if number == 0 { 6 } else { 3 }) {
             text.push_str(&self.device(draw, "    "));
+        }
+        if draw.chance(40) {
+            text.push_str(&self.controller(draw, first));
         }
         text.push_str("}\n");
         text

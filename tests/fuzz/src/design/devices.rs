@@ -1,6 +1,8 @@
 //! Choices in, a device or a driver out.
 
-use super::words::{COMMON, COMMON_PLAIN, KINDS, Kind, PINS, PRINTED, Property, WITH_FIRMWARE};
+use super::words::{
+    COMMON, COMMON_PLAIN, CONTROLLER, KINDS, Kind, PINS, PRINTED, Property, WITH_FIRMWARE,
+};
 use super::{Manner, Writer, wish};
 use crate::draw::Draw;
 
@@ -37,7 +39,7 @@ impl Writer {
         line(format!("id = {id};"));
         line(format!("type = {};", kind.name));
         self.properties(draw, kind, &mut line);
-        if draw.chance(16) {
+        if draw.chance(16) && !kind.roles.is_empty() {
             let role = draw.word(self.manner.some(kind.roles, 1));
             let pins = if is_odd && draw.chance(64) { PRINTED } else { PINS };
             line(format!("{role} = {};", draw.word(pins)));
@@ -84,6 +86,23 @@ impl Writer {
     fn property(&self, draw: &mut Draw<'_>, (name, right, wrong): &Property) -> String {
         let value = if self.wrong(draw) { draw.word(wrong) } else { draw.word(right) };
         format!("{name} = {value};")
+    }
+
+    /// Code of the user on a board, whose devices are those from `first` on; sets what may be a sensor or not there.
+    pub(super) fn controller(&self, draw: &mut Draw<'_>, first: usize) -> String {
+        let cycle = draw.word(&["5 ms", "1 ms", "20 ms", "1 s"]);
+        let cycle = if self.wrong(draw) { draw.word(&["0", "1 Hz", "61 s"]) } else { cycle };
+        let mut text = format!("    controller C{} every {cycle} {{\n", draw.below(3));
+        let reads: Vec<String> = (first..self.devices).take(2).map(|at| format!("D{at}")).collect();
+        text.push_str(&format!("        reads = [{}];\n", reads.join(", ")));
+        if self.manner != Manner::Plain && draw.chance(128) {
+            text.push_str(&format!("        sets = D{};\n", draw.below(self.devices + 1)));
+        }
+        if draw.chance(96) {
+            let property = draw.pick(CONTROLLER);
+            text.push_str(&format!("        {}\n", self.property(draw, property)));
+        }
+        text + "    }\n"
     }
 
     /// A driver of the file's own.

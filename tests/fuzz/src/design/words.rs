@@ -224,6 +224,22 @@ pub(super) const KINDS: &[Kind] = &[
         drivers: &["driver = ds18b20;", "driver = dht22; delay = 2 s;"],
         ..sensor("onewire", ANY)
     },
+    Kind {
+        may: &[
+            ("default", &["0", "1", "0.8", "-5"], &["1e999", "x"]),
+            ("store", &["false", "true"], &["1"]),
+        ],
+        ..both("code", ANY)
+    },
+];
+
+/// What a controller may say, and wrong values.
+pub(super) const CONTROLLER: &[Property] = &[
+    ("takes", &["200 us", "1 us", "4 ms"], &["1 Hz", "61 s"]),
+    ("host", &["refused", "override"], &["maybe"]),
+    ("prio", &["0", "+12"], &["61"]),
+    ("id", &["240"], &["0", "255"]),
+    ("label", &["\"by itself\""], &["[1]"]),
 ];
 
 /// Kinds with firmware: the first ones of [`KINDS`].
