@@ -2,6 +2,7 @@
 
 use sensedsl_job::{BoardJob, JobController, JobDevice};
 use sensedsl_model::design::Presentation;
+use sensedsl_model::reach;
 use sensedsl_wire::ScalarType;
 
 use crate::reserved;
@@ -36,6 +37,8 @@ pub struct FieldPlan {
     pub scalar: ScalarType,
     /// The number of elements; none for a single value.
     pub length: Option<u16>,
+    /// The least and the greatest code that the device takes; none where its type holds any.
+    pub range: Option<(f64, f64)>,
     /// How people are shown the value.
     pub shown: Presentation,
 }
@@ -49,6 +52,7 @@ impl FieldPlan {
             index,
             scalar: value.scalar,
             length: value.length,
+            range: reach::raw(one.device),
             shown: one.device.shown.clone(),
         }
     }

@@ -75,10 +75,27 @@ pub(crate) fn number(number: &f64) -> String {
     if text.contains(['.', 'e', 'n', 'i']) { text } else { format!("{text}.0") }
 }
 
-/// The least and the greatest code of a whole number, for saturating; none for one with a fraction.
-pub(crate) fn limits(field: &FieldPlan) -> Option<(String, String)> {
-    let (least, most) = field.scalar.integer_range()?;
-    Some((format!("{least}.0"), format!("{most}.0")))
+/// What a set value is kept within, in codes.
+pub(crate) struct Limits {
+    pub(crate) least: String,
+    pub(crate) most: String,
+    /// What stands for something that is not a number: nothing, or what is nearest to it.
+    pub(crate) none: String,
+}
+
+/// What a set value is kept within; none where the type and the device take any.
+pub(crate) fn limits(field: &FieldPlan) -> Option<Limits> {
+    let (least, most) = field.range?;
+    // The greatest number of 64 bits has no `double` of its own: the next one would be too great.
+    let is_wide = matches!(field.scalar, ScalarType::Int64 | ScalarType::Uint64);
+    let most = if is_wide { most.next_down() } else { most };
+    let none = 0_f64.clamp(least, most);
+    Some(Limits { least: number(&least), most: number(&most), none: number(&none) })
+}
+
+/// Whether a code is a whole number, which is rounded to.
+pub(crate) fn is_whole(field: &FieldPlan) -> bool {
+    field.scalar.integer_range().is_some()
 }
 
 /// The factor from a code to the shown value.

@@ -169,6 +169,11 @@ void up_control_cycle(const void *work) {
   const sysinterval_t since = state->has_begun ? chTimeDiffX(state->began, began) : (sysinterval_t)0;
   uint32_t took_us;
 
+  if (!state->has_begun) {
+    /* The guard waits for the end of the first step, too. */
+    state->ended_ms = up_now_ms();
+    state->has_begun = true;
+  }
   up_io_lock();
   sense_poll();
   up_io_unlock();
@@ -189,7 +194,6 @@ void up_control_cycle(const void *work) {
   }
   state->began = began;
   state->ended_ms = up_now_ms();
-  state->has_begun = true;
   state->has_hung = false;
 }
 

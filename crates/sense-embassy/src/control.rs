@@ -95,11 +95,15 @@ impl Control {
 
     /// A step begins. Returns the microseconds since the one before; 0 for the first.
     pub fn begin(&self, now_us: u64) -> u32 {
-        let now_us = now_us as u32;
         let before_us = self.began_us.load(Ordering::Relaxed);
-        self.began_us.store(now_us, Ordering::Relaxed);
-        let has_begun = self.has_begun.load(Ordering::Relaxed);
-        if has_begun { now_us.wrapping_sub(before_us) } else { 0 }
+        self.began_us.store(now_us as u32, Ordering::Relaxed);
+        if self.has_begun.load(Ordering::Relaxed) {
+            return (now_us as u32).wrapping_sub(before_us);
+        }
+        // The guard waits for the end of the first step, too.
+        self.ended_ms.store(sense_rt::milliseconds(now_us), Ordering::Relaxed);
+        self.has_begun.store(true, Ordering::Relaxed);
+        0
     }
 
     /// A step has ended that began `dt_us` after the one before.
@@ -112,7 +116,6 @@ impl Control {
         let took_us = (now_us as u32).wrapping_sub(self.began_us.load(Ordering::Relaxed));
         let now_ms = sense_rt::milliseconds(now_us);
         self.ended_ms.store(now_ms, Ordering::Relaxed);
-        self.has_begun.store(true, Ordering::Relaxed);
         self.has_hung.store(false, Ordering::Relaxed);
         // A cycle was left out, or the step itself took too long.
         let is_late = dt_us >= self.every_ms * 1_500 || took_us > self.takes_us;

@@ -74,7 +74,7 @@ macro_rules! templates {
 const TEMPLATES: &[Template] = templates! {
     "arm": ["bench.toml"] "trace";
     "balancer": ["floor.toml"] "balance";
-    "line_follower": ["oval.toml", "oval.svg", "eight.toml", "eight.svg"] "follow";
+    "line_follower": ["oval.toml", "oval.svg", "aside.toml", "eight.toml", "eight.svg"] "follow";
     "quadcopter": ["world.toml"];
     "rover": ["corridor.toml", "corridor.svg"] "stop";
     "thermostat": ["oven.toml"] "hold";

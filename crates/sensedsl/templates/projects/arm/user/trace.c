@@ -13,11 +13,6 @@ void trace_init(void) {
   since_us = 0;
 }
 
-/* A servo of 180 degrees between its ends; what a pulse is in code goes to 10000. */
-static uint16_t code(float degrees) {
-  return (uint16_t)(degrees / 180.0f * 10000.0f + 0.5f);
-}
-
 void trace_step(const struct trace_in *in, struct trace_out *out, uint32_t dt_us) {
   since_us += dt_us;
   const uint32_t piece = since_us / EACH_US % CORNERS;
@@ -26,11 +21,10 @@ void trace_step(const struct trace_in *in, struct trace_out *out, uint32_t dt_us
   const float *to = corner[(piece + 1) % CORNERS];
   const float shoulder = from[0] + (to[0] - from[0]) * share;
   const float elbow = from[1] + (to[1] - from[1]) * share;
-  trace_put_shoulder(out, code(shoulder));
-  trace_put_elbow(out, code(elbow));
+  trace_set_shoulder(out, shoulder);
+  trace_set_elbow(out, elbow);
   if (in->joints.is_valid) {
-    const float one = shoulder - trace_get_joints(in, 0);
-    const float other = elbow - trace_get_joints(in, 1);
-    trace_put_behind(out, (one > 0 ? one : -one) > (other > 0 ? other : -other) ? one : other);
+    trace_put_behind(out, 0, shoulder - trace_get_joints(in, 0));
+    trace_put_behind(out, 1, elbow - trace_get_joints(in, 1));
   }
 }

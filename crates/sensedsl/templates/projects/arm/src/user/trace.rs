@@ -17,11 +17,6 @@ impl Trace {
         Self { since_us: 0, corner: 0 }
     }
 
-    /// A servo of 180 degrees between its ends; what a pulse is in code goes to 10000.
-    fn code(degrees: f32) -> u16 {
-        (degrees / 180.0 * 10_000.0 + 0.5) as u16
-    }
-
     /// Every 20 ms.
     pub fn step(&mut self, input: &In, output: &mut Out, dt_us: u32) {
         self.since_us += dt_us;
@@ -33,11 +28,10 @@ impl Trace {
         let (from, to) = (CORNERS[self.corner], CORNERS[(self.corner + 1) % CORNERS.len()]);
         let shoulder = from[0] + (to[0] - from[0]) * share;
         let elbow = from[1] + (to[1] - from[1]) * share;
-        output.shoulder = Some(Self::code(shoulder));
-        output.elbow = Some(Self::code(elbow));
+        output.set_shoulder(shoulder);
+        output.set_elbow(elbow);
         if input.joints.is_valid {
-            let (one, other) = (shoulder - input.get_joints(0), elbow - input.get_joints(1));
-            output.behind = Some(if one.abs() > other.abs() { one } else { other });
+            output.behind = Some([shoulder - input.get_joints(0), elbow - input.get_joints(1)]);
         }
     }
 }

