@@ -28,6 +28,17 @@ checked() {
     echo "::endgroup::"
 }
 
+# The tests of a file; the results are for people, or for a build server.
+# shellcheck disable=SC2317 # `checked` calls it.
+tested() {
+    local name=${1%.sense}
+    if [[ -n ${JUNIT:-} ]]; then
+        sensedsl test "$1" --format junit > "$JUNIT/test-${name//\//-}.xml"
+    else
+        sensedsl test "$1"
+    fi
+}
+
 if [[ -n ${SARIF:-} ]]; then
     # 1 means that there are findings, which are what is wanted here; 2 that it was called wrongly.
     found=0
@@ -60,13 +71,20 @@ for check in ${CHECKS:-check fmt}; do
                 checked "simulate $file" sensedsl simulate "$file" --judge "${results[@]}"
             done
             ;;
+        test)
+            for file in "${files[@]}"; do
+                # A file without tests has nothing to hold a board to.
+                grep -Eq '^[[:space:]]*test[[:space:]]' "$file" || continue
+                checked "test $file" tested "$file"
+            done
+            ;;
         generate)
             for file in "${files[@]}"; do
                 checked "generate $file" sensedsl generate "$file" -o "${file%.sense}" --check
             done
             ;;
         *)
-            echo "::error::there is no check $check: check, fmt, simulate, generate"
+            echo "::error::there is no check $check: check, fmt, simulate, test, generate"
             exit 2
             ;;
     esac

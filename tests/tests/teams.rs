@@ -53,6 +53,47 @@ fn changes_are_checked() {
     assert!(findings.contains("rover.sense") && findings.contains("\"2.1.0\""), "{findings}");
 }
 
+const TESTED: &str = "
+test IsBright {
+    for = 1 s;
+    always Light < 4096;
+}
+";
+
+/// Tests in a design are a check of their own; a file without any is left out.
+#[test]
+fn tests_in_designs_are_run() {
+    if !has("bash") {
+        return;
+    }
+    let folder = TempDir::new("tested");
+    let _ = folder.write("robots/plain.sense", RIGHT);
+    let _ = folder.write("robots/rover.sense", format!("{RIGHT}{TESTED}"));
+    let (status, printed) = checks(&folder, "test");
+    assert_eq!(status, 0, "{printed}");
+    assert!(printed.contains("::group::test robots/rover.sense") && !printed.contains("plain"));
+    let results = std::fs::read_to_string(folder.join("results/test-robots-rover.xml")).unwrap();
+    assert!(results.contains("IsBright"), "{results}");
+    let _ = folder.write("robots/rover.sense", format!("{RIGHT}{}", TESTED.replace("4096", "1")));
+    let (status, printed) = checks(&folder, "test");
+    assert!(
+        status == 1 && printed.contains("::error::test robots/rover.sense failed"),
+        "{printed}"
+    );
+
+    // The hook's command on all files of a commit.
+    let hooks = std::fs::read_to_string(root().join(".pre-commit-hooks.yaml")).unwrap();
+    let entry = hooks.lines().find_map(|line| line.strip_prefix("  entry: sh -c '")).unwrap();
+    let (script, _) = entry.split_once('\'').unwrap();
+    let tools = binary().parent().unwrap().display().to_string();
+    let path = format!("{tools}:{}", std::env::var("PATH").unwrap_or_default());
+    let mut hook = Command::new("sh");
+    hook.args(["-c", script, "sh", "robots/plain.sense", "robots/rover.sense"]);
+    let ended = hook.current_dir(folder.path()).env("PATH", path).output().unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{ended:?}");
+    assert!(String::from_utf8_lossy(&ended.stderr).contains("E0538"), "{ended:?}");
+}
+
 /// What a build server reads is XML, with a case for each file and each device, and the failures that the program tells.
 #[test]
 fn build_servers_read_what_was_checked() {

@@ -103,8 +103,8 @@ pub(crate) struct NewArgs {
     /// A built-in board
     #[arg(long, default_value = "STM32F407G-DISC1", value_parser = BOARD, hide_possible_values = true)]
     pub(crate) board: String,
-    /// A whole robot with a simulated world, instead of a few sensors: arm, `line_follower`, quadcopter,
-    /// rover or `weather_station`
+    /// A whole robot with a simulated world, instead of a few sensors: arm, balancer,
+    /// `line_follower`, quadcopter, rover, thermostat or `weather_station`
     #[arg(long, value_name = "NAME", value_parser = TEMPLATE, hide_possible_values = true)]
     pub(crate) template: Option<String>,
     /// Write into a folder that is not empty, and replace the files of an earlier `new`

@@ -9,6 +9,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 
 use crate::bench::{Bench, number_of};
+use crate::commands::outputs::Outputs;
 use crate::pads::{PadMismatch, Planned, mismatches, planned};
 use crate::ports::{self, PlannedPort};
 use crate::trial::{Culprit, Stopped, Tested};
@@ -237,7 +238,7 @@ impl EmulatedBoard {
 
     /// The outputs of the board.
     #[must_use]
-    pub fn outputs(&self) -> crate::commands::outputs::Outputs {
+    pub fn outputs(&self) -> Outputs {
         self.bench().outputs().clone()
     }
 
@@ -326,6 +327,10 @@ impl Tested for EmulatedBoard {
 
     fn link_read(&mut self) -> Vec<u8> {
         self.link_read()
+    }
+
+    fn outputs(&self) -> Option<Outputs> {
+        Some(self.outputs())
     }
 
     fn stopped(&mut self) -> Option<Stopped> {

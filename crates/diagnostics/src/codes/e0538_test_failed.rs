@@ -26,6 +26,13 @@ pub fn unknown(span: Span, name: &str) -> Diagnostic {
         .help("see whether the device answers: `sensedsl simulate FILE --health --seconds 2 --stdout`")
 }
 
+/// Its values came after the time that it is about.
+pub fn too_late(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "nobody knows whether this holds: its values came after its time")
+        .here("this rule")
+        .help("let it begin later, such as `from 2 s`: a board reports once its link is there")
+}
+
 /// The run ended before it was clear.
 pub fn too_short(span: Span) -> Diagnostic {
     Diagnostic::new(CODE, span, "the test ended before it was clear whether this holds")

@@ -26,7 +26,7 @@ pub(crate) type Told = BTreeMap<DeviceIndex, Vec<f64>>;
 
 /// An element of an actuator on a board.
 #[derive(Clone, Debug)]
-pub(super) struct Drive {
+pub(crate) struct Drive {
     device: DeviceIndex,
     element: usize,
     scale: Scale,
@@ -49,7 +49,7 @@ enum Wire {
 
 impl Drive {
     /// The element of a device of the board; `None` if the board does not have it.
-    pub(super) fn of(job: &BoardJob<'_>, device: DeviceIndex, element: usize) -> Option<Self> {
+    pub(crate) fn of(job: &BoardJob<'_>, device: DeviceIndex, element: usize) -> Option<Self> {
         let one = job.devices.iter().find(|one| one.index == device)?;
         let wires = job.wires_of(one.device);
         let how = match one.device.coding.drive {
@@ -63,13 +63,22 @@ impl Drive {
     }
 
     /// Whether only the board itself can say what it does.
-    pub(super) const fn is_told(&self) -> bool {
+    pub(crate) const fn is_told(&self) -> bool {
         matches!(self.how, How::Told)
     }
 
     /// What it does, as the device shows it; `None` if there are no pulses, or nobody has set it.
     pub(super) fn shown(&self, outputs: &Outputs, told: &Told) -> Option<f64> {
-        let code = match &self.how {
+        self.code(outputs, told).map(|code| self.scale.shown(code))
+    }
+
+    /// What its wires do, as the device shows it, to the nearest code: a timer has fewer steps than there are codes.
+    pub(crate) fn on_wires(&self, outputs: &Outputs) -> Option<f64> {
+        self.code(outputs, &Told::new()).map(|code| self.scale.shown(code.round()))
+    }
+
+    fn code(&self, outputs: &Outputs, told: &Told) -> Option<f64> {
+        match &self.how {
             How::Wire(wire) => wire.code(outputs),
             How::Bridge(drive, wires) => {
                 let inputs: Vec<f64> =
@@ -77,8 +86,7 @@ impl Drive {
                 Some(bridged(*drive, &inputs))
             }
             How::Told => told.get(&self.device).and_then(|all| all.get(self.element)).copied(),
-        };
-        code.map(|code| self.scale.shown(code))
+        }
     }
 }
 

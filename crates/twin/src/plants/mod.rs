@@ -13,6 +13,7 @@ mod process;
 mod run;
 mod story;
 
+pub(crate) use drives::Drive;
 pub use facts::Plant;
 pub(crate) use facts::{
     BalancerPlant, BatteryPlant, Feed, Goal, HeaterPlant, LineSensors, MotorPlant, ProcessPlant,

@@ -11,7 +11,8 @@
 //! value and the health of a device are what the host knows.
 //!
 //! Into an image or a real board nobody sees ([`Tested::sees_inside`]): there counts what arrives, and what the host has
-//! sent. What a controller sets is not seen then, and rules about it are not judged.
+//! sent. What a controller sets is read from the wires of an emulated board ([`Tested::outputs`]). On a real one, and where
+//! it goes over a bus, it is not seen, and rules about it are not judged.
 
 mod edges;
 mod verdict;
@@ -29,7 +30,8 @@ use sensedsl_wire::{
 };
 
 use crate::commands::Command;
-use crate::plants::Trouble;
+use crate::commands::outputs::Outputs;
+use crate::plants::{Drive, Trouble};
 use crate::soft::SoftBoard;
 use crate::truth::{real, scalar, scale_of};
 use crate::world::{Fault, World};
@@ -136,7 +138,7 @@ pub enum Culprit {
 
 /// A board in a test: one that this program imitates, an image on an emulated MCU, or a real one.
 pub trait Tested {
-    /// The time since the beginning, in whole milliseconds between calls of [`Tested::run_until`].
+    /// The time since the beginning.
     fn now_ns(&self) -> u64;
     /// Goes on until that time.
     fn run_until(&mut self, until_ns: u64);
@@ -152,6 +154,10 @@ pub trait Tested {
     }
     /// The bytes of the value that a device of the schema has.
     fn applied(&self, _index: usize) -> Option<&[u8]> {
+        None
+    }
+    /// What its wires do; `None` if nobody measures them.
+    fn outputs(&self) -> Option<Outputs> {
         None
     }
     /// Why it cannot go on.
@@ -218,6 +224,14 @@ struct Watched {
     scale: Scale,
     /// The code that an actuator has until somebody sets it, if the design says.
     first: Option<f64>,
+    /// What no report has: whether the wires of the board show it.
+    hidden: Option<Hidden>,
+}
+
+/// What code sets of an actuator.
+enum Hidden {
+    OnWires(Drive),
+    OnBus,
 }
 
 /// The host of a board in a test.
@@ -250,8 +264,10 @@ impl<'a> Trial<'a> {
                 let device = job.devices.get(index)?.device;
                 let (id, scale) = (device.id.value, scale_of(&device.shown));
                 let has_edges = edges.contains(&number);
-                let first = first(device);
-                Some(Watched { number, of: signal.of, index, id, has_edges, scale, first })
+                let (of, first) = (signal.of, first(device));
+                let hidden = is_hidden(job.design, signal.device, of)
+                    .then(|| Hidden::of(job, signal.device, of));
+                Some(Watched { number, of, index, id, has_edges, scale, first, hidden })
             })
             .collect();
         let mut owed: Vec<Command> = test
@@ -282,12 +298,19 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The signals that nobody sees on a board that cannot be looked into: what code sets of actuators.
+    /// The signals that nobody sees on that board: what code sets of actuators, unless its wires show it.
     #[must_use]
-    pub fn unseen(&self) -> Vec<usize> {
-        let signals = self.test.signals.iter().enumerate();
-        let unseen = signals.filter(|(_, one)| is_hidden(self.job.design, one.device, one.of));
-        unseen.map(|(number, _)| number).collect()
+    pub fn unseen(&self, board: &dyn Tested) -> Vec<usize> {
+        if board.sees_inside() {
+            return Vec::new();
+        }
+        let has_wires = board.outputs().is_some();
+        let unseen = self.watched.iter().filter(|one| match one.hidden {
+            None => false,
+            Some(Hidden::OnWires(_)) => !has_wires,
+            Some(Hidden::OnBus) => true,
+        });
+        unseen.map(|one| one.number).collect()
     }
 
     /// Whether the board has said that its schema is that of the file.
@@ -299,10 +322,12 @@ impl<'a> Trial<'a> {
     /// Runs a board to the end of the test. Returns why it could not.
     pub fn run(&mut self, board: &mut dyn Tested, recording: &mut Recording) -> Option<Stopped> {
         board.link_open();
-        while board.now_ns() < self.test.lasts_ns {
-            let bytes = self.said(board.now_ns());
+        // The clock of the test: an emulated processor stands behind an instruction, a little later.
+        let mut now_ns = board.now_ns() / MS * MS;
+        while now_ns < self.test.lasts_ns {
+            let bytes = self.said(now_ns);
             board.link_write(&bytes);
-            let next_ns = board.now_ns() + MS;
+            let next_ns = now_ns + MS;
             board.run_until(next_ns);
             let bytes = board.link_read();
             self.hear(next_ns, &bytes, recording);
@@ -310,10 +335,11 @@ impl<'a> Trial<'a> {
             if let Some(stopped) = board.stopped() {
                 return Some(stopped);
             }
-            if !self.is_known && !board.sees_inside() && board.now_ns() >= SILENT_NS {
+            if !self.is_known && !board.sees_inside() && next_ns >= SILENT_NS {
                 let why = "it has not said that it has the schema of this file".to_owned();
-                return Some(Stopped { at_ns: board.now_ns(), culprit: Culprit::Board, why });
+                return Some(Stopped { at_ns: next_ns, culprit: Culprit::Board, why });
             }
+            now_ns = next_ns;
         }
         None
     }
@@ -383,6 +409,16 @@ impl<'a> Trial<'a> {
         });
     }
 
+    /// The value as it is shown; none until there is one.
+    fn shown(&self, one: &Watched, board: &dyn Tested, outputs: Option<&Outputs>) -> Option<f64> {
+        match (&one.hidden, outputs) {
+            (Some(Hidden::OnWires(drive)), Some(outputs)) if !board.sees_inside() => {
+                drive.on_wires(outputs)
+            }
+            _ => self.value_of(one, board).map(|raw| one.scale.shown(raw)),
+        }
+    }
+
     /// The code that the board has; none until it has one.
     fn value_of(&self, one: &Watched, board: &dyn Tested) -> Option<f64> {
         let SignalOf::Value(element) = one.of else { return None };
@@ -397,6 +433,8 @@ impl<'a> Trial<'a> {
 
     /// Looks at what the board has, and at the clock.
     fn see(&self, now_ns: u64, board: &dyn Tested, recording: &mut Recording) {
+        let has_hidden = self.watched.iter().any(|one| one.hidden.is_some());
+        let outputs = if has_hidden { board.outputs() } else { None };
         for one in &self.watched {
             match one.of {
                 SignalOf::Age => {
@@ -407,11 +445,10 @@ impl<'a> Trial<'a> {
                     }
                 }
                 SignalOf::Value(_) => {
-                    let value = self.value_of(one, board);
+                    let shown = self.shown(one, board, outputs.as_ref());
                     let signal = self.test.signals.get(one.number);
-                    if let Some((raw, signal)) = value.zip(signal) {
-                        let shown = signal.unit.computed(one.scale.shown(raw));
-                        recording.take(one.number, now_ns, shown);
+                    if let Some((shown, signal)) = shown.zip(signal) {
+                        recording.take(one.number, now_ns, signal.unit.computed(shown));
                     }
                 }
                 SignalOf::Health => {}
@@ -420,6 +457,16 @@ impl<'a> Trial<'a> {
                 recording.repeat(one.number, now_ns);
             }
         }
+    }
+}
+
+impl Hidden {
+    fn of(job: &BoardJob<'_>, device: DeviceIndex, of: SignalOf) -> Self {
+        let drive = match of {
+            SignalOf::Value(element) => Drive::of(job, device, element),
+            SignalOf::Age | SignalOf::Health => None,
+        };
+        drive.filter(|drive| !drive.is_told()).map_or(Self::OnBus, Self::OnWires)
     }
 }
 
@@ -443,6 +490,7 @@ fn first(device: &Device) -> Option<f64> {
     match device.kind.interface() {
         Interface::Digital(own) => Some(f64::from(u8::from(own.initial))),
         Interface::Pwm(_) | Interface::Dac(_) | Interface::Stepper(_) => Some(0.0),
+        Interface::Code(own) => Some(own.default),
         Interface::Analog(_)
         | Interface::I2c(_)
         | Interface::Icu(_)
@@ -450,8 +498,7 @@ fn first(device: &Device) -> Option<f64> {
         | Interface::Uart(_)
         | Interface::Spi(_)
         | Interface::Can(_)
-        | Interface::OneWire(_)
-        | Interface::Code(_) => None,
+        | Interface::OneWire(_) => None,
     }
 }
 

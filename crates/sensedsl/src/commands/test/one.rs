@@ -116,6 +116,7 @@ pub(super) fn failure(span: Span, one: &Judged) -> Option<Diagnostic> {
     match &one.verdict {
         RuleVerdict::Held | RuleVerdict::Unseen(_) => None,
         RuleVerdict::Unknown(name) => Some(failed::unknown(span, name)),
+        RuleVerdict::Open if one.outcome.open == 0 => Some(failed::too_late(span)),
         RuleVerdict::Open => Some(failed::too_short(span)),
         RuleVerdict::Violated { .. } => {
             let (what, values) = violation(one);
@@ -193,9 +194,7 @@ pub(super) fn run<'a>(
             (board, surroundings.commands)
         };
         let mut host = Trial::new(job, test, &of_world);
-        if !board.sees_inside() {
-            unseen.extend(host.unseen());
-        }
+        unseen.extend(host.unseen(board.as_ref()));
         stopped = host.run(board.as_mut(), &mut recording);
         if stopped.is_some() {
             break;

@@ -57,6 +57,8 @@ struct Said {
     counts: Option<f64>,
     is_reversed: bool,
     noise: f64,
+    /// What a part adds that is not quite right, as it is shown.
+    bias: f64,
     points: Option<[(f64, f64); 2]>,
 }
 
@@ -226,6 +228,7 @@ impl<'a, 'i> Keys<'a, 'i> {
             counts: keys.plain("counts")?,
             is_reversed: keys.flag("reversed")?,
             noise: keys.plain("noise")?.unwrap_or(0.0).abs(),
+            bias: keys.plain("bias")?.unwrap_or(0.0),
             points: keys.points()?,
         };
         keys.finish("a sensor of a plant")?;
@@ -280,7 +283,7 @@ impl<'a, 'i> Keys<'a, 'i> {
         let range = shown_range(device);
         let shows = Shows {
             factor: sign * factor,
-            offset,
+            offset: offset + said.bias,
             range,
             is_counter: is_counter(&device.kind, device),
         };

@@ -1,10 +1,14 @@
 /*
  * Balances: a complementary filter tells the lean from the gyroscope and the accelerometer, and the speed of the wheels
- * follows lean and rate. What the wheels have gone away pulls it back.
+ * follows lean and rate. Its speed, and the way that it has gone, lean it back to where it began.
  */
 #include "balance.h"
 
 #define DEGREES 57.29578f
+/* The wheels' greatest speed, metres a second: 300 rpm at 80 mm. */
+#define FASTEST 1.26f
+/* A count of 840 a turn. */
+#define METRE (840.0f / (0.08f * 3.1415927f))
 
 static float lean;
 static float speed;
@@ -16,12 +20,14 @@ void balance_init(void) {
   is_begun = false;
 }
 
-static float clamped(float value, float most) {
-  return value < -most ? -most : value > most ? most : value;
+static void drive(struct balance_out *out, float metres_a_second) {
+  balance_set_left(out, metres_a_second / FASTEST * 100.0f);
+  balance_set_right(out, metres_a_second / FASTEST * 100.0f);
 }
 
 void balance_step(const struct balance_in *in, struct balance_out *out, uint32_t dt_us) {
   if (!in->imu_acceleration.is_valid || !in->imu_rate.is_valid) {
+    drive(out, 0.0f);
     return;
   }
   const float dt = (float)dt_us * 1e-6f;
@@ -32,13 +38,13 @@ void balance_step(const struct balance_in *in, struct balance_out *out, uint32_t
     lean = from_gravity;
     is_begun = true;
   }
-  lean = 0.999f * (lean + rate * dt) + 0.001f * from_gravity;
+  lean = 0.998f * (lean + rate * dt) + 0.002f * from_gravity;
 
-  /* The push that holds it, summed to a speed; and speed leans it back, so that it comes to rest. */
-  const float push = 60.0f * lean + 7.0f * rate + 1.2f * speed;
-  speed = clamped(speed + push * dt, 1.2f);
-  const float share = clamped(speed / 1.26f * 100.0f, 100.0f);
-  balance_set_left(out, share);
-  balance_set_right(out, share);
+  /* The push that holds it, summed to a speed. */
+  const float way = (float)in->wheels.value[0] / METRE;
+  const float push = 60.0f * lean + 7.0f * rate + 3.0f * speed + 1.0f * way;
+  speed += push * dt;
+  speed = speed > FASTEST ? FASTEST : speed < -FASTEST ? -FASTEST : speed;
+  drive(out, speed);
   balance_put_lean(out, lean * DEGREES);
 }
