@@ -61,6 +61,40 @@ fn a_file_that_needs_no_change_is_not_written_again() {
     assert_eq!(time(&makefile), before, "make would build all again");
 }
 
+/// The user's code is never changed: what to change in it is said, once, when what it gets or gives is another.
+#[test]
+fn whoever_wrote_a_controller_is_told_what_it_gets_now() {
+    let scratch = TempDir::new("interface");
+    let design = |reads: &str, sets: &str| {
+        let board = "board Robot on NUCLEO_F446RE {
+    sensor Line returns uint16[8] { type = analog; }
+    sensor Front returns uint16 { type = analog; }
+    actuator Left accepts int16 { type = pwm; }
+    controller Follow every 5 ms { reads = [READS]; sets = [SETS]; }
+}";
+        let _ = scratch.write("a.sense", board.replace("READS", reads).replace("SETS", sets));
+    };
+    for (target, own) in [("chibios", "user/follow.c"), ("embassy", "src/user/follow.rs")] {
+        let run = || {
+            let (file, out) = (scratch.join("a.sense"), scratch.join(target));
+            let call = sensedsl(["generate", "--target", target, "-o"]).arg(out).arg(file);
+            call.run().exits(0).stderr
+        };
+        design("Line", "");
+        assert!(!run().contains("change "));
+        let file = scratch.join(&format!("{target}/firmware/Robot/{own}"));
+        fs::write(&file, "mine").unwrap();
+        design("Front", "Left");
+        let wanted = format!(
+            "change firmware/Robot/{own}: its step gets Front (uint16); no longer gets Line (uint16[8]); sets Left (int16)\n"
+        );
+        let said = run();
+        assert!(said.contains(&wanted), "{said}");
+        assert!(!run().contains("change "), "it is said once");
+        assert_eq!(read(&file), "mine");
+    }
+}
+
 #[test]
 fn a_list_that_lies_does_no_harm() {
     let scratch = TempDir::new("lies");

@@ -120,7 +120,7 @@ fn slips(code: &str) -> Vec<(String, String)> {
 }
 
 /// Slips of the pen in the code of the templates' controllers, drawn by the seed: of forty, the templates' tests notice
-/// at least 29: some change nothing that a robot does, and the tests do not look for all others yet.
+/// at least 36: some change nothing that a robot does.
 #[test]
 fn tests_of_the_templates_notice_broken_code() {
     if !has("cc") {
@@ -138,7 +138,7 @@ fn tests_of_the_templates_notice_broken_code() {
         all.extend(slips(&text).into_iter().map(|(line, text)| (name, file.clone(), line, text)));
     }
     assert!(all.len() > 100, "{}", all.len());
-    let (count, least) = if is_exhaustive() { (40, 29) } else { (4, 2) };
+    let (count, least) = if is_exhaustive() { (40, 36) } else { (4, 3) };
     let mut chance = Random::new(SEED);
     let mut missed = Vec::new();
     for _ in 0..count {

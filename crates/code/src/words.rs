@@ -75,6 +75,15 @@ pub(crate) fn number(number: &f64) -> String {
     if text.contains(['.', 'e', 'n', 'i']) { text } else { format!("{text}.0") }
 }
 
+/// What code gets or gives, in one line that a later run compares with its own: `Line (uint16[8]), Cruise (int16)`.
+pub(crate) fn interface(fields: &[FieldPlan]) -> String {
+    let each = fields
+        .iter()
+        .map(|field| format!("{} ({}{})", field.name, field.scalar.name(), dimension(field)));
+    let all = each.collect::<Vec<_>>().join(", ");
+    if all.is_empty() { "nothing".to_owned() } else { all }
+}
+
 /// What a set value is kept within, in codes.
 pub(crate) struct Limits {
     pub(crate) least: String,

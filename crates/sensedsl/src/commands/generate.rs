@@ -20,6 +20,7 @@ use sensedsl_session::{Ask, has_errors};
 use sensedsl_wiring::assignment::Assignment;
 
 use super::input;
+use super::interface;
 use super::output::{self, Changes};
 use crate::cli::{GenerateArgs, LeftOut};
 use crate::files::tree::{Away, Failure, Output, Trouble};
@@ -159,8 +160,14 @@ fn update(
     if let Some(why) = why {
         return Ok(Err(Refusal::new(why, Status::Wrong)));
     }
+    let to_change = interface::changes(output.root(), files, &changes.different);
     Ok(match output::write(&mut output, files, &changes) {
-        Ok(()) => Ok(changes),
+        Ok(()) => {
+            for one in to_change {
+                terminal.aside(&one)?;
+            }
+            Ok(changes)
+        }
         Err(Failure::Before(error)) => {
             let why = e0509_not_written::not_written(at, &folder, &error.to_string());
             Err(Refusal::new(why, Status::Misused))

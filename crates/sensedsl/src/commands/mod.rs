@@ -19,6 +19,7 @@ pub(crate) mod help;
 pub(crate) mod import;
 mod in_the_way;
 mod input;
+mod interface;
 pub(crate) mod lsp;
 pub(crate) mod monitor;
 pub(crate) mod new;
