@@ -67,4 +67,4 @@ pub use value::{CommandError, Overstep};
 #[cfg(feature = "schema")]
 pub use watch::{Faults, keep_alive};
 #[cfg(feature = "schema")]
-pub use words::{causes, reset_cause, status};
+pub use words::{causes, reset_cause, restarted, status};

@@ -1,6 +1,6 @@
 //! What happened, as JSON: values, presence and health in, one object each out.
 
-use sensedsl_host::status;
+use sensedsl_host::{reset_cause, status};
 use sensedsl_wire::{Health, NEVER_MS};
 use serde_json::{Map, Value, json};
 
@@ -67,9 +67,12 @@ pub(crate) fn health(on: &BoardPlan, health: &Health) -> Value {
             Some((device.name.clone(), of))
         })
         .collect();
+    let hung = on.board.devices.iter().find(|device| device.id == health.reset_device);
     json!({
         "board": on.board.name,
         "uptime_s": f64::from(health.uptime_ms) / 1e3,
+        "reset_cause": reset_cause(health.reset_cause),
+        "hung": hung.map(|device| &device.name),
         "reports_sent": health.reports_sent,
         "reports_refused": health.reports_refused,
         "load_percent": known(health.load_percent.into(), u8::MAX.into()),

@@ -15,13 +15,21 @@ pub(super) fn mark(device: &Device, value: &[Scalar]) -> String {
     }
 }
 
+/// What a board was restarted by, if not by its supply.
+pub(super) fn restarted(board: &Board, health: &Health) -> Option<String> {
+    let device = |id| board.devices.iter().find(|device| device.id == id);
+    sensedsl_host::restarted(health, |id| device(id).map(|device| device.name.clone()))
+}
+
 /// How a board is, in lines.
 pub(super) fn health(board: &Board, health: &Health) -> String {
     let Health { uptime_ms, reports_sent, reports_refused, .. } = health;
+    let restarted = restarted(board, health).map(|text| format!(", {text}"));
     let head = format!(
-        "health of {}: up {:.1} s, {reports_sent} reports sent, {reports_refused} refused\n",
+        "health of {}: up {:.1} s{}, {reports_sent} reports sent, {reports_refused} refused\n",
         board.name,
-        f64::from(*uptime_ms) / 1e3
+        f64::from(*uptime_ms) / 1e3,
+        restarted.unwrap_or_default()
     );
     let rows: Vec<[String; 4]> = health
         .devices

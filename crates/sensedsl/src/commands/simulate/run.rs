@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{e0546_image_refused, e0548_locked_up, e0573_process_failed};
+use sensedsl_host::restarted;
 use sensedsl_model::design::Transport;
 #[cfg(unix)]
 use sensedsl_twin::bench::Peer;
@@ -384,16 +385,20 @@ impl<'a> Session<'a> {
     /// Asks the board for its health, and prints the answer.
     fn health(&mut self) -> Result<()> {
         let Some(health) = self.ask_health()? else { bail!("the board did not say how it is") };
+        let item = |id| self.scenery.job.schema.items.iter().find(|item| item.id == id);
+        let restarted = restarted(&health, |id| item(id).map(|item| item.name.clone()));
         let text = format!(
-            "up for {} ms, {} reports sent, {} not\n",
-            health.uptime_ms, health.reports_sent, health.reports_refused
+            "up for {} ms{}, {} reports sent, {} not\n",
+            health.uptime_ms,
+            restarted.map(|text| format!(", {text}")).unwrap_or_default(),
+            health.reports_sent,
+            health.reports_refused
         );
         let rows: Vec<[String; 4]> = health
             .devices
             .iter()
             .map(|one| {
-                let item = self.scenery.job.schema.items.iter().find(|item| item.id == one.id);
-                let name = item.map_or("", |item| item.name.as_str()).to_owned();
+                let name = item(one.id).map_or("", |item| item.name.as_str()).to_owned();
                 let causes = one.causes;
                 let faults = [
                     causes.not_acknowledged,

@@ -11,6 +11,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_wire::Direction;
 
 use super::super::link::Link;
+use super::super::words::restarted;
 use super::keys::HELP;
 use super::prompt::Check;
 use super::state::{Condition, Mode, State};
@@ -157,6 +158,8 @@ fn facts(link: &Link<'_>, now: Duration) -> Vec<(String, Tone)> {
         vec![(moment(now), Tone::Plain), (format!("{} frames", counts.frames), Tone::Plain)];
     let some = wrong.iter().filter(|(count, _)| *count > 0);
     facts.extend(some.map(|(count, what)| (format!("{count} {what}"), Tone::Warning)));
+    let restarted = health.and_then(|health| restarted(link.board, health));
+    facts.extend(restarted.map(|text| (text, Tone::Warning)));
     if let Some(health) = health {
         let up = moment(Duration::from_millis(health.uptime_ms.into()));
         facts.push((format!("up {up}"), Tone::Plain));
