@@ -13,7 +13,7 @@ use sensedsl_session::{Ask, On, Workspace};
 
 use super::*;
 use crate::bench::Bench;
-use crate::soft::UserCode;
+use crate::soft::{SoftBoard, UserCode};
 use crate::world::{self, Scene};
 
 const BOARD: &str = "board Oven on NUCLEO_F446RE {
@@ -43,6 +43,16 @@ impl UserCode for Copies {
 
 /// The verdicts on the rules of the one test of a design.
 fn judged(controller: &str, steps: &str, of_world: &str) -> Vec<Judged> {
+    judged_on(controller, steps, of_world, &|board| Box::new(board))
+}
+
+/// The same on a board that is made of that of this program.
+fn judged_on(
+    controller: &str,
+    steps: &str,
+    of_world: &str,
+    as_seen: &dyn Fn(SoftBoard) -> Box<dyn Tested>,
+) -> Vec<Judged> {
     let board = BOARD.replace("CONTROLLER", controller);
     let text = format!("{board}test A {{ for = 3 s; {steps} }}");
     let mut workspace = Workspace::default();
@@ -68,9 +78,74 @@ fn judged(controller: &str, steps: &str, of_world: &str) -> Vec<Judged> {
     if !controller.is_empty() {
         board = board.with_code(Box::new(Copies));
     }
+    let mut board = as_seen(board);
     let mut recording = Recording::new(test);
-    assert_eq!(Trial::new(&job, test, &world.commands).run(&mut board, &mut recording), None);
-    judge(design, test, &recording.trace, &[])
+    let mut trial = Trial::new(&job, test, &world.commands);
+    let unseen = trial.unseen(board.as_ref());
+    assert_eq!(trial.run(board.as_mut(), &mut recording), None);
+    judge(design, test, &recording.trace, &unseen)
+}
+
+/// A board that nobody looks into, and whose clock stands a little behind each millisecond: as an emulated one, if its
+/// wires are measured, or as a real one.
+struct Outside {
+    board: SoftBoard,
+    has_probes: bool,
+}
+
+impl Tested for Outside {
+    fn now_ns(&self) -> u64 {
+        self.board.now_ns() + 7
+    }
+
+    fn run_until(&mut self, until_ns: u64) {
+        Tested::run_until(&mut self.board, until_ns);
+    }
+
+    fn link_open(&mut self) {
+        Tested::link_open(&mut self.board);
+    }
+
+    fn link_write(&mut self, bytes: &[u8]) {
+        self.board.link_write(bytes);
+    }
+
+    fn link_read(&mut self) -> Vec<u8> {
+        self.board.link_read()
+    }
+
+    fn outputs(&self) -> Option<Outputs> {
+        self.has_probes.then(|| self.board.bench().outputs().clone())
+    }
+
+    fn stopped(&mut self) -> Option<Stopped> {
+        self.board.stopped()
+    }
+}
+
+/// What code sets is read from the wires where somebody measures them, and health is asked for whatever the clock.
+#[test]
+fn what_code_sets_is_seen_on_the_wires() {
+    let controller = "controller Hold every 10 ms { reads = Heat; sets = Heater; }
+        actuator Goal accepts float32 { type = code; default = 7; }";
+    let steps = "always Heater > 900 from 1 s; never Heater > 900 from 1 s;
+        when rising(health(Air) == failed) then Heater > 900 within 100 ms;
+        always Goal == 7;
+        eventually Heat > 1000 degC within 1 us;
+        fault no_answer of Air at 1 s for 1 s;";
+    let of_world = "[devices]\nHeat = 100\n";
+    let on = |has_probes| {
+        judged_on(controller, steps, of_world, &|board| Box::new(Outside { board, has_probes }))
+    };
+    let all = on(true);
+    assert!(all[0].is_held() && is_violated(&all[1]), "{:?}", &all[..2]);
+    assert!(all[2].is_held() && all[2].outcome.occasions == 1, "{:?}", all[2]);
+    assert!(all[3].is_held(), "{:?}", all[3]);
+    // Its values came after its time.
+    assert!(all[4].verdict == RuleVerdict::Open && all[4].outcome.open == 0, "{:?}", all[4]);
+    let all = on(false);
+    let unseen = RuleVerdict::Unseen("Heater".to_owned());
+    assert_eq!([&all[0].verdict, &all[1].verdict, &all[2].verdict], [&unseen; 3]);
 }
 
 fn is_violated(one: &Judged) -> bool {
