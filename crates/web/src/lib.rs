@@ -39,6 +39,7 @@ mod request;
 mod studio;
 
 pub use editor::Editor;
+pub use live::Outside;
 pub use studio::Studio;
 
 use sensedsl_diagnostics::render;

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::live::{Live, Wanted};
+use crate::live::{Around, Live, Outside, Wanted};
 use crate::request::Request;
 use crate::{editor, library, project, reports};
 
@@ -51,6 +51,7 @@ enum Call {
         of: Request,
         #[serde(default)]
         name: Option<String>,
+        /// Which of the files is its world.
         #[serde(default)]
         world: Option<String>,
     },
@@ -81,9 +82,16 @@ enum Call {
 #[derive(Default)]
 pub struct Studio {
     live: Option<Live>,
+    outside: Option<Box<dyn Outside>>,
 }
 
 impl Studio {
+    /// One that can run programs.
+    #[must_use]
+    pub fn beside(outside: Box<dyn Outside>) -> Self {
+        Self { live: None, outside: Some(outside) }
+    }
+
     /// Answers a call, in JSON. The answer to a call that is not understood has `error`, which gives the reason.
     #[must_use]
     pub fn call(&mut self, call: &str) -> String {
@@ -119,18 +127,10 @@ impl Studio {
             Call::Boards => library::boards(),
             Call::Parts => library::parts(),
             Call::BoardSvg { name } => json!(library::picture(&name)),
-            Call::Robot { of, name, world } => self.start(&Wanted {
-                of: &of,
-                name: name.as_deref(),
-                world: world.as_deref(),
-                is_simulated: true,
-            }),
-            Call::Host { of, name } => self.start(&Wanted {
-                of: &of,
-                name: name.as_deref(),
-                world: None,
-                is_simulated: false,
-            }),
+            Call::Robot { of, name, world } => {
+                self.start(&of, name.as_deref(), Around::World(world.as_deref()))
+            }
+            Call::Host { of, name } => self.start(&of, name.as_deref(), Around::Nothing),
             Call::Run { until_ms } => self.with(|live| live.run(until_ms)),
             Call::Steer { device, element, shown } => {
                 self.with(|live| live.steer(&device, element, shown))
@@ -143,8 +143,11 @@ impl Studio {
         }
     }
 
-    fn start(&mut self, wanted: &Wanted<'_>) -> Value {
-        let (told, live) = Live::start(wanted);
+    fn start(&mut self, of: &Request, name: Option<&str>, around: Around<'_>) -> Value {
+        // Its programs end before others begin.
+        self.live = None;
+        let outside = self.outside.as_deref();
+        let (told, live) = Live::start(&Wanted { of, name, around, outside });
         self.live = live;
         told
     }

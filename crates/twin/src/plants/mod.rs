@@ -22,4 +22,4 @@ pub(crate) use facts::{
 pub use process::{Process, Value};
 pub(crate) use run::SharedPlants;
 pub use run::Trouble;
-pub use story::{Floor, Path, Story, Told};
+pub use story::{Floor, Path, Stand, Story, Told};

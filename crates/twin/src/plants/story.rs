@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use sensedsl_plants::Map;
 
+use super::on_wheels::RobotRun;
 use super::run::{Plants, SharedPlants};
 use crate::bench::Bench;
 use crate::world::Course;
@@ -56,7 +57,33 @@ pub struct Story {
     pub end_ns: u64,
 }
 
+/// Where a robot is now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// The middle of its axle, in metres to the right and upwards.
+    pub at: (f64, f64),
+    /// The direction that it looks in, to the right and upwards, with a length of 1.
+    pub looks: (f64, f64),
+}
+
 impl Bench {
+    /// Where each robot of the world is now, in the order of [`Story::floors`].
+    #[must_use]
+    pub fn stands(&self) -> Vec<Stand> {
+        let Some(plants) = &self.plants else { return Vec::new() };
+        let stand = |robot: &RobotRun| {
+            let pose = robot.drive.pose();
+            Stand { at: (pose.at.x, pose.at.y), looks: looks(pose.heading) }
+        };
+        plants.lock().robots.iter().map(stand).collect()
+    }
+
+    /// What the plants of the world have come to so far, in words, a line each.
+    #[must_use]
+    pub fn figures(&self) -> Vec<String> {
+        self.plants.as_ref().map(|plants| figures(&plants.lock())).unwrap_or_default()
+    }
+
     /// What the plants of the world have come to so far; `None` if it has none.
     #[must_use]
     pub fn story(&self, design: &sensedsl_model::design::Design) -> Option<Story> {

@@ -21,6 +21,7 @@ pub(super) fn info(all: &[BoardJob<'_>], job: &BoardJob<'_>, host: &Board) -> Va
         "boards": names,
         "hash": format!("{:#010x}", host.schema.hash()),
         "baud": host.baud,
+        "controllers": job.controllers.iter().map(|one| one.ident.as_str()).collect::<Vec<_>>(),
         "devices": devices.map(|(device, own)| one(device, own)).collect::<Vec<_>>(),
     })
 }

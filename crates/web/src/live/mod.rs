@@ -9,9 +9,13 @@ mod seen;
 
 use std::time::Duration;
 
+use sensedsl_diagnostics::Diagnostic;
 use sensedsl_host::{Board, Session};
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_report::schema::schema;
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::soft::UserCode;
+use sensedsl_twin::world::World;
 use serde_json::{Value, json};
 
 use self::robot::Robot;
@@ -35,9 +39,34 @@ pub(crate) struct Wanted<'a> {
     pub(crate) of: &'a Request,
     /// The board's name in the design; the first one if none is given.
     pub(crate) name: Option<&'a str>,
-    /// The world around a simulated board.
-    pub(crate) world: Option<&'a str>,
-    pub(crate) is_simulated: bool,
+    pub(crate) around: Around<'a>,
+    pub(crate) outside: Option<&'a dyn Outside>,
+}
+
+/// What is around a board.
+#[derive(Clone, Copy)]
+pub(crate) enum Around<'a> {
+    /// It is a real one.
+    Nothing,
+    /// It is simulated in a world: that of one of the files, or the usual one.
+    World(Option<&'a str>),
+}
+
+/// What a page by itself has not: programs of the computer that serves it.
+pub trait Outside {
+    /// The code of a board's controllers, built and started; `None` where there is none. `design` is the path of the
+    /// design among the page's files.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn code(
+        &self,
+        design: &str,
+        job: &BoardJob<'_>,
+    ) -> Result<Option<Box<dyn UserCode>>, Box<Diagnostic>>;
+
+    /// Starts the programs of a world. `path` is that of the world among the page's files.
+    fn attach(&self, bench: &mut Bench, world: &World, path: &str);
 }
 
 impl Live {
@@ -60,12 +89,16 @@ impl Live {
             // Whoever ends the worker frees it.
             let board: &'static Board = Box::leak(Box::new(board));
             let mut robot = None;
-            if wanted.is_simulated {
-                let (made, of_world) = Robot::new(job, wanted.world.unwrap_or_default());
+            if let Around::World(world) = wanted.around {
+                let (made, of_world) = Robot::new(job, wanted.of, world, wanted.outside);
                 wrong = of_world;
                 robot = Some(made?);
             }
-            let info = info::info(&all, job, board);
+            let mut info = info::info(&all, job, board);
+            if let (Some(robot), Some(fields)) = (&robot, info.as_object_mut()) {
+                fields.insert("maps".to_owned(), robot.maps(job));
+                fields.insert("has_code".to_owned(), robot.has_code.into());
+            }
             live = Some(Self {
                 board,
                 session: Session::new(board, Duration::ZERO),
@@ -104,10 +137,15 @@ impl Live {
             self.session.look(now, &mut |event| watch.take(event, now));
             self.now = now;
         }
+        for what in robot.stopped() {
+            self.watch.note("error", what);
+        }
         let outputs = robot.outputs(self.board);
         let mut seen = self.watch.seen(&self.session, self.now);
         if let Some(fields) = seen.as_object_mut() {
             fields.insert("outputs".to_owned(), outputs);
+            fields.insert("poses".to_owned(), robot.poses());
+            fields.insert("figures".to_owned(), robot.figures().into());
         }
         seen
     }

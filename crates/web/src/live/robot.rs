@@ -1,15 +1,20 @@
-//! A simulated board: the job of the firmware, done here in virtual time, with a world on its pins.
+//! A simulated board: the job of the firmware, done here in virtual time, with a world on its pins, and the code of its
+//! controllers where somebody runs it.
 
 use sensedsl_diagnostics::{Diagnostic, SourceMap, render};
 use sensedsl_host::Board;
 use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, DeviceIndex};
 use sensedsl_model::kind::Role;
+use sensedsl_model::normal_path;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{Direction, Scalar};
 use serde_json::{Value, json};
+
+use super::Outside;
+use crate::request::Request;
 
 const MS_NS: u64 = 1_000_000;
 /// The seed of a world that has none: a page shows the same each time.
@@ -22,36 +27,69 @@ pub(super) struct Robot {
     sensors: Vec<(String, DeviceIndex)>,
     /// The wires of each actuator, in the order of the schema.
     wires: Vec<Vec<ConnectionIndex>>,
+    /// Whether the code of its controllers runs.
+    pub(super) has_code: bool,
 }
 
 impl Robot {
-    /// A board whose sensors measure a world, and what is wrong with the world's text; none if that has errors.
-    pub(super) fn new(job: &BoardJob<'_>, text: &str) -> (Option<Self>, Vec<Value>) {
+    /// A board whose sensors measure a world, and what is wrong with that; none if that has errors. The world is one of
+    /// the page's texts, as is what it names.
+    pub(super) fn new(
+        job: &BoardJob<'_>,
+        of: &Request,
+        path: Option<&str>,
+        outside: Option<&dyn Outside>,
+    ) -> (Option<Self>, Vec<Value>) {
         let devices: Vec<DeviceIndex> = job.devices.iter().map(|one| one.index).collect();
+        let (path, text) = match path {
+            Some(path) => (path, of.files.get(path).map_or("", String::as_str)),
+            None => ("world", ""),
+        };
+        let beside = |name: &str| {
+            let path = match path.rsplit_once('/') {
+                Some((folder, _)) => normal_path(&format!("{folder}/{name}")),
+                None => normal_path(name),
+            };
+            of.files.get(&path).cloned().ok_or_else(|| "it is not among the open files".to_owned())
+        };
         let scene = Scene {
             design: job.design,
             devices: &devices,
             transport: job.board.link.transport,
             seed: None,
-            samples: &|name| Err(format!("{name}: a page has no files beside its world")),
+            samples: &beside,
         };
         let mut sources = SourceMap::default();
-        let file = sources.add("world.toml", text);
-        let (world, wrong) = world::read(file, text, &scene);
+        let file = sources.add(path, text);
+        let (world, mut wrong) = world::read(file, text, &scene);
+        let mut bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
+        let code = match outside {
+            Some(outside) if !sensedsl_session::has_errors(&wrong) => {
+                outside.attach(&mut bench, &world, path);
+                outside.code(&of.path, job).unwrap_or_else(|why| {
+                    wrong.push(*why);
+                    None
+                })
+            }
+            _ => None,
+        };
         let shown = |one: &Diagnostic| render::json_value(one, &sources);
         let told: Vec<Value> = wrong.iter().map(shown).collect();
         if sensedsl_session::has_errors(&wrong) {
             return (None, told);
         }
-        let bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
+        let has_code = code.is_some();
         let mut board = SoftBoard::new(job, bench);
+        if let Some(code) = code {
+            board = board.with_code(code);
+        }
         board.link_open(true);
         let is_sensor =
             |one: &&sensedsl_job::JobDevice<'_>| one.device.direction == Direction::Sensor;
         let sensors = job.devices.iter().filter(is_sensor);
         let sensors = sensors.map(|one| (one.name().to_owned(), one.index)).collect();
         let wires = (0..job.devices.len()).map(|device| wires(job, device)).collect();
-        (Some(Self { board, sensors, wires }), told)
+        (Some(Self { board, sensors, wires, has_code }), told)
     }
 
     pub(super) fn now_ms(&self) -> u64 {
@@ -79,6 +117,56 @@ impl Robot {
             self.board.hold(*index, element, shown);
         }
         found.is_some()
+    }
+
+    /// What has stopped since the last call, a sentence for each.
+    pub(super) fn stopped(&mut self) -> Vec<String> {
+        let moment = |ns: u64| format!("{:.3} s", sensedsl_twin::bench::seconds(ns));
+        let code = self.board.code_ended();
+        let code = code.map(|(at_ns, why)| {
+            format!("the controllers' code stopped after {}: {why}", moment(at_ns))
+        });
+        let trouble = self.board.bench().trouble();
+        let trouble = trouble.map(|one| {
+            format!("the program of {} stopped after {}: {}", one.plant, moment(one.at_ns), one.why)
+        });
+        code.into_iter().chain(trouble).collect()
+    }
+
+    /// The maps that robots of the world drive on, each with the robot's name.
+    pub(super) fn maps(&self, job: &BoardJob<'_>) -> Value {
+        let story = self.board.bench().story(job.design);
+        let floors = story.iter().flat_map(|story| &story.floors);
+        let all = floors.map(|floor| {
+            let strokes = floor.map.strokes();
+            let strokes = strokes.iter().map(|stroke| {
+                let pieces = stroke.pieces.iter().map(|(from, to)| [from.x, from.y, to.x, to.y]);
+                json!({
+                    "pieces": pieces.collect::<Vec<_>>(),
+                    "width": stroke.width_m,
+                    "is_wall": stroke.is_wall,
+                })
+            });
+            json!({
+                "name": floor.name,
+                "size": [floor.map.size.0, floor.map.size.1],
+                "body": floor.body_m,
+                "strokes": strokes.collect::<Vec<_>>(),
+            })
+        });
+        Value::Array(all.collect())
+    }
+
+    /// Where each robot is now: metres to the right and upwards, then the direction that it looks in.
+    pub(super) fn poses(&self) -> Value {
+        let stands = self.board.bench().stands().into_iter();
+        let all = stands.map(|one| json!([[one.at.0, one.at.1, one.looks.0, one.looks.1]]));
+        Value::Array(all.collect())
+    }
+
+    /// What the plants of the world came to, in words.
+    pub(super) fn figures(&self) -> Vec<String> {
+        self.board.bench().figures()
     }
 
     /// What each actuator is set to, and what its wires do.

@@ -175,7 +175,7 @@ impl Watch {
         }
     }
 
-    fn note(&mut self, level: &str, text: impl Into<Value>) {
+    pub(super) fn note(&mut self, level: &str, text: impl Into<Value>) {
         if self.notes.len() < WAITING_MAX {
             self.notes.push(json!({ "level": level, "text": text.into() }));
         }

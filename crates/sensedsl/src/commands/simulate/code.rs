@@ -28,6 +28,15 @@ pub(crate) struct Built {
     program: PathBuf,
 }
 
+/// Where the words of a compiler go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Words {
+    /// To the terminal.
+    Above,
+    /// Its first error into the diagnostic, for whoever has no terminal.
+    Within,
+}
+
 /// Compiles the code of a board's controllers; `folder` is that of its firmware. A mistake is a diagnostic at `at`.
 ///
 /// # Errors
@@ -36,6 +45,7 @@ pub(crate) fn build(
     job: &BoardJob<'_>,
     folder: &Path,
     at: Span,
+    words: Words,
 ) -> Result<Result<Built, Box<Diagnostic>>> {
     let plans = controllers(job);
     let language = Language::of(job);
@@ -55,9 +65,21 @@ pub(crate) fn build(
     let tool = command.get_program().to_string_lossy().into_owned();
     let refused =
         |why: &str| Ok(Err(e0535_user_code_not_built::user_code_not_built(at, why).into()));
-    match command.stdin(Stdio::null()).status() {
-        Ok(status) if status.success() => Ok(Ok(Built { program })),
-        Ok(status) => refused(&format!("{tool} ended with {status}")),
+    command.stdin(Stdio::null());
+    if words == Words::Within {
+        command.stderr(Stdio::piped());
+    }
+    let ended = command.spawn().and_then(Child::wait_with_output);
+    match ended {
+        Ok(ended) if ended.status.success() => Ok(Ok(Built { program })),
+        Ok(ended) => {
+            let said = String::from_utf8_lossy(&ended.stderr);
+            let first = said.lines().find(|line| line.contains("error")).map(|line| {
+                let folder = format!("{}/", folder.display());
+                format!(": {}", line.replace(&folder, ""))
+            });
+            refused(&format!("{tool} ended with {}{}", ended.status, first.unwrap_or_default()))
+        }
         Err(why) => refused(&format!("{tool} cannot be run ({why})")),
     }
 }

@@ -53,7 +53,7 @@ use crate::files::shown;
 use crate::status::Status;
 use crate::terminal::Terminal;
 use board::Board;
-pub(crate) use code::{Built, Running, build};
+pub(crate) use code::{Built, Running, Words, build};
 pub(crate) use process::attach_all;
 #[cfg(unix)]
 pub(crate) use pty::Pty;
@@ -190,7 +190,7 @@ fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Code>, Box<Diagnostic>
         scenery.terminal.aside(&missing)?;
         return Ok(Ok(None));
     }
-    let built = match build(job, &folder, scenery.at)? {
+    let built = match build(job, &folder, scenery.at, Words::Above)? {
         Ok(built) => built,
         Err(why) => return Ok(Err(why)),
     };

@@ -15,6 +15,7 @@ const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; 
 pub(super) enum Method {
     Get,
     Put,
+    Post,
     Delete,
     Other,
 }
@@ -24,6 +25,7 @@ impl Method {
         match request.method().as_str() {
             "GET" | "HEAD" => Self::Get,
             "PUT" => Self::Put,
+            "POST" => Self::Post,
             "DELETE" => Self::Delete,
             _ => Self::Other,
         }
@@ -54,6 +56,11 @@ impl Answer {
     /// An answer for the page's program.
     pub(super) fn json(status: u16, value: &Value) -> Self {
         Self { status, kind: "application/json", tag: None, body: value.to_string().into_bytes() }
+    }
+
+    /// The same of what is JSON already.
+    pub(super) fn json_text(text: String) -> Self {
+        Self { status: 200, kind: "application/json", tag: None, body: text.into_bytes() }
     }
 
     /// A text of the folder with its tag, or only the tag.

@@ -133,7 +133,9 @@ impl Folder {
                 Err(refused) => refused,
             },
             Method::Delete => self.write(&name, None, request),
-            Method::Other => Answer::refused(405, "a file can be read, written and removed"),
+            Method::Post | Method::Other => {
+                Answer::refused(405, "a file can be read, written and removed")
+            }
         }
     }
 
@@ -225,7 +227,7 @@ fn decoded(path: &str) -> Option<String> {
 }
 
 /// Whether a name is that of a file in the folder, and not hidden.
-fn is_inside(name: &str) -> bool {
+pub(super) fn is_inside(name: &str) -> bool {
     let is_plain = |part: &str| {
         !part.is_empty() && !part.starts_with('.') && !part.contains(['\\', ':', '\0'])
     };

@@ -5,6 +5,7 @@
 //! beside it can reach the folder.
 
 mod answer;
+mod boards;
 mod folder;
 mod guard;
 mod site;
@@ -16,6 +17,7 @@ use anyhow::{Context as _, Result, anyhow};
 use tiny_http::{Request, Server};
 
 use self::answer::{Answer, Method};
+use self::boards::Boards;
 use self::folder::Folder;
 use self::guard::Guard;
 use self::site::Site;
@@ -31,6 +33,7 @@ const THREADS: usize = 4;
 struct Studio {
     site: Site,
     folder: Folder,
+    boards: Boards,
     guard: Guard,
 }
 
@@ -49,7 +52,8 @@ pub(crate) fn run(args: &StudioArgs, terminal: &mut Terminal) -> Result<Status> 
     if args.open {
         open(&url).with_context(|| format!("cannot start a browser; open {url}"))?;
     }
-    let studio = Arc::new(Studio { site, folder, guard });
+    let boards = Boards::of(folder.root());
+    let studio = Arc::new(Studio { site, folder, boards, guard });
     let server = Arc::new(server);
     let threads = (1..THREADS).map(|_| {
         let (studio, server) = (Arc::clone(&studio), Arc::clone(&server));
@@ -87,13 +91,7 @@ impl Studio {
                     "the token is missing: open the address that the terminal shows",
                 );
             }
-            return match (method, path) {
-                (Method::Get, "project") => self.folder.project(),
-                (_, path) => match path.strip_prefix("files/") {
-                    Some(path) => self.folder.answer(method, path, request),
-                    None => Answer::refused(404, "not found"),
-                },
-            };
+            return self.called(method, path, request);
         }
         match (method, path) {
             (Method::Get, "/" | "/index.html") if self.guard.is_token(query) => {
@@ -107,6 +105,23 @@ impl Studio {
             (Method::Get, "/service.js") => Answer::refused(404, "not found"),
             (Method::Get, path) => self.site.file(path),
             (_, _) => Answer::refused(405, "files of the page can only be read"),
+        }
+    }
+}
+
+impl Studio {
+    /// What the page's program asks for.
+    fn called(&self, method: Method, path: &str, request: &mut Request) -> Answer {
+        let (what, of) = path.split_once('/').unwrap_or((path, ""));
+        match (method, what) {
+            (Method::Get, "project") => self.folder.project(),
+            (_, "files") => self.folder.answer(method, of, request),
+            (Method::Post, "boards") => self.boards.answer(of, request),
+            (Method::Delete, "boards") => {
+                self.boards.end(of);
+                Answer::json(200, &serde_json::Value::Null)
+            }
+            (_, _) => Answer::refused(404, "not found"),
         }
     }
 }

@@ -23,7 +23,9 @@ use super::bed::Bed;
 use super::bed::Place;
 use super::place;
 use crate::cli::SimulateArgs;
-use crate::commands::simulate::{Built, Running, SEED, attach_all, build, usual_code, world};
+use crate::commands::simulate::{
+    Built, Running, SEED, Words, attach_all, build, usual_code, world,
+};
 use crate::files::{Disk, shown};
 
 /// How much of a run is drawn before and after a violation, at most.
@@ -268,7 +270,7 @@ fn soft_board(
                 refuse(e0534_no_user_code::no_user_code(at, own, &shown(&file)))?;
                 return Ok(None);
             }
-            match build(job, &folder, at)? {
+            match build(job, &folder, at, Words::Above)? {
                 Ok(built) => built,
                 Err(why) => {
                     refuse(*why)?;
