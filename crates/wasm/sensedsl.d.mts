@@ -74,7 +74,7 @@ export interface Tool {
     /** The picture of a built-in board that nothing is wired to. */
     board_svg(name: string): string | null;
 
-    /** Starts a simulated board of the design: the one of that name, or the first. Its world is `world` (TOML) or the usual one. */
+    /** Starts a simulated board of the design: the one of that name, or the first. Its world is `world`, the path of one of the files (TOML; what it names is looked for beside it), or the usual one. */
     robot(request: Request & { name?: string; world?: string }): { diagnostics: Diagnostic[]; robot: RobotInfo | null };
     /** Runs the simulated board up to a virtual time, and returns what its host sees. */
     run(until_ms: number): Seen;
@@ -110,6 +110,23 @@ export interface RobotInfo {
     boards: string[];
     hash: string;
     baud: number | null;
+    /** Its controllers by name. */
+    controllers: string[];
+    /** Of the simulated board: whether their code runs, for which it takes a compiler (`sensedsl studio` has one). */
+    has_code?: boolean;
+    /** Of the simulated board: the controllers that blocks of the world stand in for. */
+    stand_ins?: string[];
+    /** Of the simulated board: the maps that robots of its world drive on, in metres. */
+    maps?: {
+        /** The robot's name. */
+        name: string;
+        /** Width and height. The top left corner is at 0, 0; x goes to the right and y upwards, so that what is on the map has a negative y. */
+        size: [number, number];
+        /** The robot's radius. */
+        body: number;
+        /** Lines on the floor, and walls. A piece is from x, y to x, y. */
+        strokes: { pieces: [number, number, number, number][]; width: number; is_wall: boolean }[];
+    }[];
     devices: {
         name: string; id: number; direction: "sensor" | "actuator"; kind: string; type: string;
         /** Elements of its value; 1 for a plain number. */
@@ -136,6 +153,10 @@ export interface Seen {
     counts: { bytes: number; frames: number; dropped_bytes: number; withheld: number; lost: number };
     /** Of the simulated board: [index of an actuator, shown numbers, what its wires do (such as "1500 us of 20 ms")]. */
     outputs?: [number, number[], string][];
+    /** Of the simulated board, for each map: where the robot was (x, y), and where it looked (x, y). */
+    poses?: [number, number, number, number][][];
+    /** Of the simulated board: what its robots have come to so far, such as "Robot: 1.59 m, at most 3.4 mm off the line". */
+    figures?: string[];
 }
 
 /** Loads the module, or takes one that another worker has compiled. */

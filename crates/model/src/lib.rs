@@ -56,5 +56,6 @@ pub use source::fixes::settle_fixes;
 pub use source::numbered::{blocks_without_ids, with_ids};
 pub use source::reader::normal as normal_path;
 pub use source::syntax_errors::diagnostic as syntax_diagnostic;
+pub use test::{Expression, Like, expression, unit_of_device};
 pub use value::constants::Constants;
 pub use value::written;

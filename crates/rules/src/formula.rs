@@ -64,6 +64,26 @@ pub enum Formula {
 }
 
 impl Term {
+    /// Its value where those of its signals are known; `None` where one is missing, or something is divided by 0.
+    #[must_use]
+    pub fn at(&self, signal: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
+        let two = |one: &Self, other: &Self| Some((one.at(signal)?, other.at(signal)?));
+        match self {
+            Self::Signal(number) => signal(*number),
+            Self::Number(value) => Some(*value),
+            Self::Negative(one) => one.at(signal).map(|value| -value),
+            Self::Absolute(one) => one.at(signal).map(f64::abs),
+            Self::Sum(one, other) => two(one, other).map(|(one, other)| one + other),
+            Self::Difference(one, other) => two(one, other).map(|(one, other)| one - other),
+            Self::Product(one, other) => two(one, other).map(|(one, other)| one * other),
+            Self::Quotient(one, other) => {
+                two(one, other).filter(|of| of.1 != 0.0).map(|(one, other)| one / other)
+            }
+            Self::Least(one, other) => two(one, other).map(|(one, other)| one.min(other)),
+            Self::Greatest(one, other) => two(one, other).map(|(one, other)| one.max(other)),
+        }
+    }
+
     /// Calls back with the number of each signal in it.
     pub fn for_each_signal(&self, seen: &mut dyn FnMut(usize)) {
         match self {

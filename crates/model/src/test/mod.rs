@@ -4,6 +4,7 @@
 //! Tests are read last, because they are about the finished design: its devices, and the units in which hosts show them.
 
 mod condition;
+mod expression;
 mod names;
 mod quantity;
 mod sort;
@@ -23,6 +24,8 @@ use crate::value::constants::Constants;
 use names::Scope;
 use times::Length;
 use words::{LENGTH_MAX_US, LENGTH_MIN_US, PROPERTIES};
+
+pub use expression::{Expression, Like, expression, unit_of_device};
 
 /// Reads the tests of a design, each in its file. Names of devices that could not be read are `absent`: their mistakes
 /// were told already.

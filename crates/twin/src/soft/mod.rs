@@ -13,6 +13,7 @@ mod link;
 mod motors;
 mod outputs;
 mod sensors;
+mod stand_in;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,6 +34,7 @@ use dialogue::Dialogue;
 use link::{Link, QUEUE_BYTES};
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
+pub use stand_in::StandIns;
 
 const MS_NS: u64 = 1_000_000;
 /// The longest cycle of the reporter, unless the link sets its rate.

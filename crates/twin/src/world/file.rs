@@ -115,12 +115,13 @@ impl<'a> Reader<'a> {
                 "fault" => self.faults(value),
                 "command" => self.commands(value),
                 "plants" => {}
+                "controllers" => self.stand_ins(value),
                 other => {
-                    let all = ["seed", "devices", "plants", "fault", "command"];
+                    let all = ["seed", "devices", "plants", "fault", "command", "controllers"];
                     let near = nearest(other, all);
                     let span = self.span(key);
-                    let list =
-                        "`seed`, `[devices]`, `[plants.NAME]`, `[[fault]]` and `[[command]]`";
+                    let list = "`seed`, `[devices]`, `[plants.NAME]`, `[[fault]]`, `[[command]]` and \
+                        `[controllers.NAME.DEVICE]`";
                     self.reported.push(unknown::unknown_word(span, other, "a world", near, list));
                 }
             }

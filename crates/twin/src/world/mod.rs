@@ -13,6 +13,7 @@ mod plants;
 mod recorded;
 mod samples;
 mod signal;
+mod stand_in;
 mod units;
 mod usual;
 
@@ -28,6 +29,7 @@ pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
 pub use recorded::{Again, Point, Recorded, recorded};
 pub use signal::{Shape, Signal, Visit};
+pub use stand_in::{Pid, StandIn};
 pub use usual::usual;
 
 /// The events around a board.
@@ -43,6 +45,8 @@ pub struct World {
     pub commands: Vec<Command>,
     /// What turns the board's outputs into what its sensors measure; one that drives another comes before it.
     pub plants: Vec<Plant>,
+    /// What stands in for the code of controllers where that cannot run.
+    pub stand_ins: Vec<StandIn>,
     /// The length of the run that it is a record of.
     pub lasts_ns: Option<u64>,
 }

@@ -21,9 +21,14 @@ pub(super) fn info(all: &[BoardJob<'_>], job: &BoardJob<'_>, host: &Board) -> Va
         "boards": names,
         "hash": format!("{:#010x}", host.schema.hash()),
         "baud": host.baud,
-        "controllers": job.controllers.iter().map(|one| one.ident.as_str()).collect::<Vec<_>>(),
+        "controllers": controllers(job),
         "devices": devices.map(|(device, own)| one(device, own)).collect::<Vec<_>>(),
     })
+}
+
+fn controllers<'a>(job: &BoardJob<'a>) -> Vec<&'a str> {
+    let devices = job.controllers.iter().filter_map(|one| job.devices.get(one.own));
+    devices.map(|one| one.device.name.value.as_str()).collect()
 }
 
 fn one(device: &Device, own: &JobDevice<'_>) -> Value {

@@ -98,6 +98,7 @@ impl Live {
             if let (Some(robot), Some(fields)) = (&robot, info.as_object_mut()) {
                 fields.insert("maps".to_owned(), robot.maps(job));
                 fields.insert("has_code".to_owned(), robot.has_code.into());
+                fields.insert("stand_ins".to_owned(), robot.stand_ins.clone().into());
             }
             live = Some(Self {
                 board,

@@ -8,8 +8,8 @@ use sensedsl_model::design::{ConnectionIndex, DeviceIndex};
 use sensedsl_model::kind::Role;
 use sensedsl_model::normal_path;
 use sensedsl_twin::bench::Bench;
-use sensedsl_twin::soft::SoftBoard;
-use sensedsl_twin::world::{self, Scene};
+use sensedsl_twin::soft::{SoftBoard, StandIns, UserCode};
+use sensedsl_twin::world::{self, Scene, World};
 use sensedsl_wire::{Direction, Scalar};
 use serde_json::{Value, json};
 
@@ -29,6 +29,8 @@ pub(super) struct Robot {
     wires: Vec<Vec<ConnectionIndex>>,
     /// Whether the code of its controllers runs.
     pub(super) has_code: bool,
+    /// The controllers that the world stands in for.
+    pub(super) stand_ins: Vec<String>,
 }
 
 impl Robot {
@@ -73,12 +75,17 @@ impl Robot {
             }
             _ => None,
         };
+        let has_code = code.is_some();
+        let stands_in = !has_code && !world.stand_ins.is_empty();
+        let code = code.or_else(|| {
+            stands_in.then(|| Box::new(StandIns::new(job, &world.stand_ins)) as Box<dyn UserCode>)
+        });
+        let stand_ins = if stands_in { stood_in(job, &world) } else { Vec::new() };
         let shown = |one: &Diagnostic| render::json_value(one, &sources);
         let told: Vec<Value> = wrong.iter().map(shown).collect();
         if sensedsl_session::has_errors(&wrong) {
             return (None, told);
         }
-        let has_code = code.is_some();
         let mut board = SoftBoard::new(job, bench);
         if let Some(code) = code {
             board = board.with_code(code);
@@ -89,7 +96,7 @@ impl Robot {
         let sensors = job.devices.iter().filter(is_sensor);
         let sensors = sensors.map(|one| (one.name().to_owned(), one.index)).collect();
         let wires = (0..job.devices.len()).map(|device| wires(job, device)).collect();
-        (Some(Self { board, sensors, wires, has_code }), told)
+        (Some(Self { board, sensors, wires, has_code, stand_ins }), told)
     }
 
     pub(super) fn now_ms(&self) -> u64 {
@@ -201,6 +208,12 @@ impl Robot {
             self.wires.get(device).into_iter().flatten().filter_map(wire).collect();
         all.join(", ")
     }
+}
+
+/// The names of the controllers that a world stands in for.
+fn stood_in(job: &BoardJob<'_>, world: &World) -> Vec<String> {
+    let devices = world.stand_ins.iter().filter_map(|one| job.design.device(one.controller));
+    devices.map(|one| one.name.value.clone()).collect()
 }
 
 /// The connections of a device.

@@ -42,8 +42,9 @@ use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
-use sensedsl_twin::soft::UserCode;
+use sensedsl_twin::soft::{StandIns, UserCode};
 use sensedsl_twin::trial::Tested;
+use sensedsl_twin::world::World;
 
 use super::input;
 use crate::cli::{On, SimulateArgs};
@@ -127,7 +128,7 @@ fn simulate(
         bench.start_log();
     }
     let Some(firmware) = &args.firmware else {
-        let code = match code(&scenery)? {
+        let code = match code(&scenery, &world)? {
             Ok(code) => code,
             Err(why) => {
                 scenery.say(*why)?;
@@ -173,8 +174,9 @@ pub(crate) fn usual_code(file: &Path, board: &str) -> PathBuf {
 /// The user's code, running.
 type Code = Box<dyn UserCode>;
 
-/// The user's code, built and started; none if the board has no controller, or no code was made yet.
-fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Code>, Box<Diagnostic>>> {
+/// The user's code, built and started, or what stands in for it in the world as long as no code was made; none if the
+/// board has no controller, or neither is there.
+fn code(scenery: &Simulation<'_>, world: &World) -> Result<Result<Option<Code>, Box<Diagnostic>>> {
     let (job, args) = (scenery.job, scenery.args);
     if job.controllers.is_empty() {
         return Ok(Ok(None));
@@ -182,13 +184,16 @@ fn code(scenery: &Simulation<'_>) -> Result<Result<Option<Code>, Box<Diagnostic>
     let usual = || usual_code(&args.file, &job.board.name.value);
     let folder = args.code.clone().unwrap_or_else(usual);
     if args.code.is_none() && !folder.is_dir() {
-        let names: Vec<&str> = job.controllers.iter().map(|one| one.ident.as_str()).collect();
-        let missing = format!(
-            "no code of {}: it sets nothing. `sensedsl generate` makes its first file",
-            names.join(", ")
-        );
+        let devices = job.controllers.iter().filter_map(|one| job.devices.get(one.own));
+        let names: Vec<&str> = devices.map(|one| one.device.name.value.as_str()).collect();
+        let (names, stands_in) = (names.join(", "), !world.stand_ins.is_empty());
+        let missing = if stands_in {
+            format!("no code of {names}: the world's `[controllers]` stand in for it")
+        } else {
+            format!("no code of {names}: it sets nothing. `sensedsl generate` makes its first file")
+        };
         scenery.terminal.aside(&missing)?;
-        return Ok(Ok(None));
+        return Ok(Ok(stands_in.then(|| Box::new(StandIns::new(job, &world.stand_ins)) as Code)));
     }
     let built = match build(job, &folder, scenery.at, Words::Above)? {
         Ok(built) => built,
