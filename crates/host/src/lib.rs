@@ -63,7 +63,7 @@ pub use session::{Counts, Event, Session, State};
 #[cfg(feature = "schema")]
 pub use stats::{DeviceStats, Histogram};
 #[cfg(feature = "schema")]
-pub use value::{CommandError, Overstep, real};
+pub use value::{CommandError, Overstep};
 #[cfg(feature = "schema")]
 pub use watch::{Faults, keep_alive};
 #[cfg(feature = "schema")]

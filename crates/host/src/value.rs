@@ -346,9 +346,7 @@ impl Board {
     }
 }
 
-/// What was on the wire as a number; a `bool` is 0 or 1. Whole numbers beyond 2^53 are rounded.
-#[must_use]
-pub fn real(raw: Scalar) -> f64 {
+fn real(raw: Scalar) -> f64 {
     match raw {
         Scalar::Bool(flag) => f64::from(u8::from(flag)),
         #[expect(clippy::cast_precision_loss, reason = "shown to fewer digits than a double has")]

@@ -3,7 +3,7 @@
 //! In: the newest values of what the controller reads, as its code gets them. Out: what it sets. As long as a value is
 //! missing or not good, what is made of it is not set.
 
-use sensedsl_host::{Scale, real};
+use sensedsl_host::Scale;
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{DeviceIndex, SignalOf, TestUnit};
 use sensedsl_model::{Expression, unit_of_device};
@@ -11,7 +11,7 @@ use sensedsl_wire::{Scalar, ScalarType};
 
 use super::UserCode;
 use crate::tables;
-use crate::truth::scale_of;
+use crate::truth::{real, scale_of};
 use crate::world::{Pid, StandIn};
 
 /// A device as it travels to and from code.

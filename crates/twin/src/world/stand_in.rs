@@ -9,12 +9,12 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 use sensedsl_model::design::{Controller, Device, DeviceIndex};
-use sensedsl_model::{Expression, Like, expression, unit_of_device};
+use sensedsl_model::{Expression, Like, expression, reach, unit_of_device};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::file::Reader;
-use crate::range::shown_range;
+use crate::truth::scale_of;
 
 /// The keys of a block.
 const KEYS: [&str; 8] = ["setpoint", "measured", "kp", "ki", "kd", "feedforward", "min", "max"];
@@ -188,8 +188,10 @@ impl Block<'_, '_> {
         let gain = |key| self.number(table, key).map(|found| found.unwrap_or(0.0));
         // People read an output of pulses in percent, hosts in hundredths of that.
         let share = if unit_of_device(index, device).is_of_ten_thousand { 100.0 } else { 1.0 };
-        let (least, most) = shown_range(device).unwrap_or((f64::MIN, f64::MAX));
-        let (least, most) = (least / share, most / share);
+        let scale = scale_of(&device.shown);
+        let ends = reach::raw(device).map(|(one, other)| (scale.shown(one), scale.shown(other)));
+        let (one, other) = ends.unwrap_or((f64::MIN, f64::MAX));
+        let (least, most) = (one.min(other) / share, one.max(other) / share);
         let min = self.number(table, "min")?.map_or(least, |min| min.max(least));
         let max = self.number(table, "max")?.map_or(most, |max| max.min(most));
         if min > max {

@@ -14,6 +14,7 @@ mod motors;
 mod plants;
 mod ranges;
 mod run;
+mod stand_ins;
 #[cfg(feature = "machine")]
 mod watched;
 mod worlds;
