@@ -76,22 +76,31 @@ async function bundle(entry, name, more = {}) {
     for (const { path, contents } of found.outputFiles) write(path.slice(next.length + 1), contents);
 }
 
-/** The examples, with the first comment of each as its title. */
+/** Projects whose robots drive in the page, with the worlds that their tests name; the first name is that of the design. */
+const DRIVING = [["Line follower on its oval", "line_follower", "robot.sense", "oval.toml", "oval.svg", "aside.toml", "eight.toml", "eight.svg"]];
+
+/** The examples, each with the first sentence of its design's comment. */
 function examples() {
     const folder = join(root, "examples");
     const names = readdirSync(folder).filter((name) => name.endsWith(".sense"));
-    return names.sort().map((name) => {
-        const text = readFileSync(join(folder, name), "utf8");
-        const lines = text.split("\n");
-        const comment = [];
-        for (const line of lines) {
-            if (!line.startsWith("//")) break;
-            comment.push(line.replace(/^\/\/\s*/, ""));
-        }
+    const alone = names.map((name) => {
         const title = name.replace(".sense", "").replaceAll("_", " ");
-        const about = comment.join(" ").split(/(?<=\.)\s/)[0] ?? "";
-        return { path: name, title: title[0].toUpperCase() + title.slice(1), about, text };
+        return example(title[0].toUpperCase() + title.slice(1), folder, [name]);
     });
+    const templates = join(root, "crates/sensedsl/templates/projects");
+    const driving = DRIVING.map(([title, name, ...files]) => example(title, join(templates, name), files));
+    return [...alone, ...driving].sort((one, other) => (one.title < other.title ? -1 : 1));
+}
+
+function example(title, folder, names) {
+    const files = Object.fromEntries(names.map((name) => [name, readFileSync(join(folder, name), "utf8")]));
+    const [open] = names;
+    const comment = [];
+    for (const line of files[open].split("\n")) {
+        if (!line.startsWith("//")) break;
+        comment.push(line.replace(/^\/\/\s*/, ""));
+    }
+    return { title, about: comment.join(" ").split(/(?<=\.)\s/)[0] ?? "", open, files };
 }
 
 /** What is said once for all pages: the licences of what is bundled. */

@@ -1,15 +1,19 @@
-// `sensedsl studio` on a folder: what is typed is written, and never over somebody else's change.
+// `sensedsl studio` on a folder: what is typed is written, and never over somebody else's change; boards run here, with
+// the code of their controllers.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { example, launch, missing, open, program, site } from "./site.mjs";
 
+const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const skip = missing({ "the program: cargo build": program() });
+const skipCode = skip ?? missing({ "a C compiler as /usr/bin/cc": "/usr/bin/cc" });
 let browser;
 
 before(async () => {
@@ -19,20 +23,25 @@ before(async () => {
 after(() => browser?.close());
 
 /** The studio with a folder that has Fig. 2; its page, and the paths of files there. */
-async function begin() {
+function begin() {
+    return opened((folder) => writeFileSync(join(folder, "fig2.sense"), example("fig2")), "WheelEncoder");
+}
+
+/** The studio with a folder of files, once the text shows a word. */
+async function opened(fill, word) {
     const folder = mkdtempSync(join(tmpdir(), "studio-"));
     const path = (name) => join(folder, name);
-    writeFileSync(path("fig2.sense"), example("fig2"));
+    fill(folder);
     const server = spawn(program(), ["studio", folder, "--site", site], { stdio: ["ignore", "pipe", "inherit"] });
     const [first] = await once(server.stdout, "data");
-    const opened = await open(browser, first.toString().trim());
-    await opened.page.locator(".cm-line", { hasText: "WheelEncoder" }).waitFor();
+    const shown = await open(browser, first.toString().trim(), { reducedMotion: "reduce" });
+    await shown.page.locator(".cm-line", { hasText: word }).first().waitFor();
     const end = async () => {
-        await opened.context.close();
+        await shown.context.close();
         server.kill();
         rmSync(folder, { recursive: true });
     };
-    return { ...opened, folder, path, end };
+    return { ...shown, folder, path, server, end };
 }
 
 /** Waits until something is so. */
@@ -111,5 +120,96 @@ test("a change before the first one here is seen, too", { skip }, async () => {
     await type(page, "// one\n");
     await page.getByRole("dialog", { name: /changed on the disk/ }).waitFor();
     assert.equal(readFileSync(path("fig2.sense"), "utf8"), "// theirs\n");
+    await end();
+});
+
+/** The line follower that `sensedsl new` makes, with the panel that runs it. */
+async function follower() {
+    const make = (folder) => execFileSync(program(), ["new", folder, "--template", "line_follower", "--quiet"]);
+    const all = await opened(make, "Follow");
+    const { page, path } = all;
+    page.setDefaultTimeout(60_000);
+    // Boards of the server: those that were asked for, and those that were ended.
+    const boards = { asked: new Set(), ended: new Set() };
+    page.context().on("request", (request) => {
+        const name = new URL(request.url()).pathname.split("/api/boards/")[1];
+        if (name) boards[request.method() === "DELETE" ? "ended" : "asked"].add(name);
+    });
+    await page.getByRole("tab", { name: "Run" }).click();
+    return { ...all, boards, code: path("build/firmware/Robot/user/follow.c") };
+}
+
+/** How far the robot has driven, in metres, once it is so far. */
+async function driven(page, least) {
+    const told = page.locator(".live-map .live-told");
+    const metres = async () => Number(/^Robot: ([\d.]+) m/.exec(await told.textContent())?.[1] ?? 0);
+    await told.waitFor();
+    for (const end = Date.now() + 60_000; Date.now() < end && (await metres()) < least; ) await page.waitForTimeout(100);
+    assert.ok((await metres()) >= least, await told.textContent());
+    return metres();
+}
+
+test("a robot drives with its code, and a map shows it", { skip: skipCode }, async () => {
+    const { page, boards, wrong, end } = await follower();
+    // The world that the first test names is chosen.
+    assert.equal(await page.getByLabel("World").inputValue(), "oval.toml");
+    await page.getByRole("button", { name: "Start", exact: true }).click();
+    await driven(page, 0.3);
+    const drawing = page.locator(".live-map svg");
+    assert.equal(await drawing.locator(".live-line").count(), 1);
+    assert.equal(await drawing.locator(".live-wall").count(), 1);
+    // It has begun at 1.2 m and is 0.3 m from the top; its path is where it has been.
+    const [, x, y] = /translate\(([\d.]+) ([\d.]+)\)/.exec(await drawing.locator(".live-robot").getAttribute("transform"));
+    assert.ok(Number(x) > 1_450 && Number(y) > 280, `${x} ${y}`);
+    assert.match(await drawing.locator(".live-trail path").first().getAttribute("d"), /^M1200 300L/);
+    await page.waitForFunction(() => /2\.4 m by 1\.4 m.* Robot is 1\.[4-9]\d m from the left.*Robot: [\d.]+ m/.test(document.querySelector(".live-map svg").getAttribute("aria-label")));
+    assert.equal(await page.locator('.live-notes li[data-level="error"]').count(), 0);
+    assert.equal(await page.locator(".live-about").isVisible(), false);
+    await page.evaluate(readFileSync(AXE, "utf8"));
+    const found = await page.evaluate(async () => (await window.axe.run(document.querySelector(".live"))).violations.map((one) => one.id));
+    assert.deepEqual(found, []);
+    await page.getByRole("button", { name: "Stop" }).click();
+    await until(() => boards.ended.size === boards.asked.size, () => `${[...boards.asked]} are not all ended: ${[...boards.ended]}`);
+    assert.equal(boards.asked.size, 1);
+    assert.deepEqual(wrong, []);
+    await end();
+});
+
+test("code that does not compile is told by its file, and drives once it is mended", { skip: skipCode }, async () => {
+    const { page, boards, code, server, end } = await follower();
+    const good = readFileSync(code, "utf8");
+    writeFileSync(code, `${good}\nint broken = ;\n`);
+    await page.getByRole("button", { name: "Start", exact: true }).click();
+    const banner = page.locator('[aria-label="Run"] .live-banner:visible');
+    await banner.getByText("The code cannot run as it is.").waitFor();
+    assert.match(await banner.textContent(), /E0535: .*follow\.c:\d+:\d+: error: /);
+    writeFileSync(code, good);
+    await page.getByRole("button", { name: "Start", exact: true }).click();
+    const far = await driven(page, 0.3);
+    // What runs goes on while its code is broken on the disk, and beginning again says so.
+    writeFileSync(code, `${good}\nint broken = ;\n`);
+    await page.getByRole("button", { name: "Restart" }).click();
+    await banner.getByText("follow.c").waitFor();
+    await driven(page, far + 0.02);
+    writeFileSync(code, good);
+    await page.getByRole("button", { name: "Restart" }).click();
+    await banner.waitFor({ state: "detached" }).catch(() => banner.waitFor({ state: "hidden" }));
+    await driven(page, 0.1);
+    await until(() => boards.ended.size === boards.asked.size - 1, () => `${boards.ended.size} of ${boards.asked.size} are ended`);
+    // A server that is gone is told of.
+    server.kill();
+    await banner.getByText("the server does not answer").waitFor();
+    assert.equal(await page.locator(".live-view").getAttribute("data-stale"), "true");
+    await end();
+});
+
+test("a controller without code is told of, and sets nothing", { skip: skipCode }, async () => {
+    const { page, folder, end } = await follower();
+    rmSync(join(folder, "build"), { recursive: true });
+    await page.getByLabel("World").selectOption("aside.toml");
+    await page.getByRole("button", { name: "Start", exact: true }).click();
+    await page.getByText("Follow has no code yet and sets nothing: sensedsl generate makes its first file.").waitFor();
+    await page.waitForFunction(() => /: [1-9]\.\d s/.test(document.querySelector('[aria-label="Run"] .live-clock').textContent));
+    assert.match(await page.locator(".live-map .live-told").textContent(), /^Robot: 0\.00 m/);
     await end();
 });

@@ -16,8 +16,8 @@ async function modules(...names) {
     return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
 }
 
-const { History, histories, Columns, summary, Readings, rate, isOverdue, shownNumber, Recorder, MemorySink, Full, Newest, Window, merged, SerialLink, notChosen } =
-    await modules("history", "plotdata", "readings", "record", "newest", "window", "merge", "serial");
+const { History, histories, Columns, summary, Readings, rate, isOverdue, shownNumber, Recorder, MemorySink, Full, Newest, Window, merged, SerialLink, notChosen, Trail, scaleLength, shownLength, directionName, controllersNote, isWorld, usualWorld, ServedBoard, endServed } =
+    await modules("history", "plotdata", "readings", "record", "newest", "window", "merge", "serial", "trail", "controllers", "worlds", "served");
 
 function device(name, more = {}) {
     const slider = { min: 0, max: 100, step: 1 };
@@ -162,6 +162,106 @@ test("what was seen in several steps is one", () => {
     assert.equal(all.state, "refused");
     assert.equal(all.health, health);
     assert.deepEqual(all.outputs, [[1, [1], "high"]]);
+});
+
+test("where a robot was in several steps is one path on each map, and the newest figures count", () => {
+    const step = (at, figures) => seen(at, [], { poses: [[[at, 0, 1, 0]], [[0, at, 0, 1]]], figures });
+    const all = merged(merged(merged(null, step(1, ["A: 1 m"])), step(2, ["A: 2 m"])), step(3, ["A: 3 m"]));
+    assert.deepEqual(all.poses, [[[1, 0, 1, 0], [2, 0, 1, 0], [3, 0, 1, 0]], [[0, 1, 0, 1], [0, 2, 0, 1], [0, 3, 0, 1]]]);
+    assert.deepEqual(all.figures, ["A: 3 m"]);
+    // A real board has neither.
+    assert.equal(merged(seen(1), seen(2)).poses, undefined);
+});
+
+test("a path of hours keeps its newest part, without a gap and in bounded memory", () => {
+    const trail = new Trail(5);
+    let [x, points] = [0, 0];
+    for (let at = 0; at < 200_000; at += 1) {
+        x += 2;
+        if (trail.push(x, -x)) points += 1;
+    }
+    assert.ok(points > 60_000, `${points}`);
+    const paths = trail.pieces.map((one) => one.path);
+    assert.ok(paths.length > 10 && paths.join("").length < 60_000, `${paths.length}`);
+    const ends = paths.map((path) => [/^M([^L]+)/.exec(path)[1], /L([^L]+)$/.exec(path)[1]]);
+    for (const [index, [begin]] of ends.entries()) if (index > 0) assert.equal(begin, ends[index - 1][1]);
+    assert.ok(x - Number(ends.at(-1)[1].split(" ")[0]) < 6);
+    const opacities = trail.pieces.map((_, index) => trail.opacity(index));
+    assert.equal(opacities.at(-1), 1);
+    assert.ok(opacities.every((one, index) => one > 0.1 && (index === 0 || one > opacities[index - 1])));
+    // A robot that stands adds nothing, and a place that is none is not drawn.
+    assert.equal(trail.push(x, -x) || trail.push(x + 1, -x) || trail.push(NaN, 0), false);
+});
+
+test("a scale is round, and directions have names", () => {
+    assert.deepEqual([0.72, 0.5, 0.3, 12, 0.019].map(scaleLength), [0.5, 0.5, 0.2, 10, 0.01]);
+    assert.deepEqual([10, 2.4, 0.5, 0.05, 0.002].map(shownLength), ["10 m", "2.4 m", "50 cm", "5 cm", "2 mm"]);
+    const of = (degrees) => directionName(Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180));
+    assert.deepEqual([0, 10, 46, 90, 180, -179, -90, -46].map(of), ["right", "right", "up and right", "up", "left", "left", "down", "down and right"]);
+});
+
+test("what is said of controllers whose code does not run", () => {
+    const of = (more) => ({ ...info(), controllers: ["Follow"], has_code: false, ...more });
+    const text = (more, isServed) => controllersNote(of(more), isServed).join("");
+    assert.equal(text({ has_code: true }, true), "");
+    assert.equal(text({ controllers: [] }, false), "");
+    assert.equal(text({}, true), "Follow has no code yet and sets nothing: sensedsl generate makes its first file.");
+    assert.match(text({}, false), /^Follow sets nothing here: .* sensedsl studio can, .* \[controllers\.Follow\] that stands in for it\.$/);
+    assert.equal(text({ stand_ins: ["Follow"] }, false), "Follow is run by the world’s PID.");
+    assert.equal(text({ controllers: ["A", "B", "C"], stand_ins: ["C"] }, true), "A and B have no code yet and set nothing: sensedsl generate makes their first files. C is run by the world’s PID.");
+});
+
+test("a world is told from other tables, and the usual one is that of the first test", () => {
+    const world = '# A world.\nseed = 1\n[plants.Robot]\nleft = "Left"\npoints = [\n  ["a", 1],\n]\n[[command]]\ndevice = "Left"\n';
+    assert.equal(isWorld("oval.toml", world), true);
+    assert.equal(isWorld("new.toml", ""), true);
+    assert.equal(isWorld("Cargo.toml", "[package]\nname = 'x'\n[dependencies]\n"), false);
+    assert.equal(isWorld("oval.csv", world), false);
+    const design = "board Robot on X {\n    actuator Left accepts int16 { id = 1; }\n}\n";
+    const tested = `${design}test Drives {\n    world = "worlds/b.toml";\n}\ntest More { world = "a.toml"; }\n`;
+    const files = { "Cargo.toml": "[package]\n", "p/a.toml": world, "p/worlds/b.toml": world };
+    assert.equal(usualWorld("p/robot.sense", { ...files, "p/robot.sense": tested }), "p/worlds/b.toml");
+    // One of two is not chosen for somebody, the only one is; but not that of another design.
+    assert.equal(usualWorld("p/robot.sense", { ...files, "p/robot.sense": design }), "");
+    assert.equal(usualWorld("robot.sense", { "robot.sense": design, "oval.toml": world }), "oval.toml");
+    assert.equal(usualWorld("robot.sense", { "robot.sense": design.replace("Left", "Arm"), "oval.toml": world }), "");
+    const parts = { "robot.sense": 'use "parts.sense";\nboard B on X {}\n', "parts.sense": design, "oval.toml": world };
+    assert.equal(usualWorld("robot.sense", parts), "oval.toml");
+});
+
+test("calls of a served board are requests, and a failure says what has happened", async () => {
+    const asked = [];
+    let answer = () => Response.json({ now_ms: 20 });
+    const { fetch } = globalThis;
+    globalThis.fetch = async (place, { method, headers, body, keepalive }) => {
+        asked.push([method, place, headers["X-Sensedsl-Token"], body && JSON.parse(body), keepalive ?? false]);
+        return answer();
+    };
+    const served = { token: "secret", board: "b-1" };
+    const board = new ServedBoard(served);
+    assert.deepEqual(await board.run(20), { now_ms: 20 });
+    await board.robot({ path: "a.sense", files: { "a.sense": "" }, world: "w.toml" });
+    await board.steer("Light", 0, null);
+    answer = () => Response.json({ error: "no", text: null });
+    assert.equal((await board.set("Servo", "x")).error, "no");
+    await assert.rejects(board.run(40), /^Error: no$/);
+    answer = () => Response.json({ error: "it has ended" }, { status: 410 });
+    await assert.rejects(board.run(40), /the server has ended the board/);
+    answer = () => Response.json({ error: "too large" }, { status: 413 });
+    await assert.rejects(board.run(40), /too large/);
+    answer = () => Promise.reject(new TypeError("Failed to fetch"));
+    await assert.rejects(board.run(40), /the server does not answer/);
+    endServed(served);
+    await until(() => asked.length === 9);
+    globalThis.fetch = fetch;
+    const at = (call) => ["POST", "/api/boards/b-1", "secret", call, false];
+    assert.deepEqual(asked.slice(0, 4), [
+        at({ do: "run", until_ms: 20 }),
+        at({ do: "robot", of: { path: "a.sense", files: { "a.sense": "" } }, world: "w.toml" }),
+        at({ do: "steer", device: "Light", element: 0, shown: null }),
+        at({ do: "set", device: "Servo", value: "x" }),
+    ]);
+    assert.deepEqual(asked[8], ["DELETE", "/api/boards/b-1", "secret", undefined, true]);
 });
 
 async function recorded(format) {

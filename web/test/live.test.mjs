@@ -342,6 +342,30 @@ test("what comes is recorded to a file", { skip }, async () => {
 });
 
 for (const [colorScheme, width] of [["light", 1400], ["dark", 360]]) {
+    test(`an example has a robot that drives on its map: ${colorScheme}, ${width} pixels`, { skip }, async () => {
+        const { context, page, wrong } = await at("Run", example("fig2"), { colorScheme, viewport: { width, height: 800 } });
+        await page.getByRole("button", { name: "Examples" }).click();
+        await page.getByRole("button", { name: /^Line follower on its oval/ }).click();
+        await page.getByRole("tab", { name: "oval.svg" }).waitFor();
+        assert.equal(await page.getByLabel("World").inputValue(), "oval.toml");
+        await start(page);
+        await has(page.locator(".live-about"), /^Follow is run by the world’s PID\.$/);
+        await has(page.locator(".live-map .live-told"), /^Robot: (0\.[1-9]|[1-9]\.)\d+ m, at most [\d.]+ mm off the line, at least \d+ mm from walls$/);
+        const drawing = page.locator(".live-map svg");
+        await page.waitForFunction(() => /translate\(1[3-9]\d\d/.test(document.querySelector(".live-robot").getAttribute("transform")));
+        assert.equal(await drawing.locator(".live-line, .live-wall").count(), 2);
+        // It has its own proportions, and is as wide as there is room.
+        const box = await drawing.boundingBox();
+        assert.ok(Math.abs(box.width / box.height - 2_400 / 1_400) < 0.02, JSON.stringify(box));
+        const room = await page.locator(".live-maps").evaluate((one) => one.clientWidth);
+        assert.ok(Math.abs(box.width - Math.min(room, 460 * (2_400 / 1_400))) < 2, `${box.width} of ${room}`);
+        await page.evaluate(readFileSync(AXE, "utf8"));
+        const found = await page.evaluate(async () => (await window.axe.run(document.querySelector(".live"))).violations.map((one) => one.id));
+        assert.deepEqual(found, []);
+        assert.deepEqual(wrong.filter(isForeign), []);
+        await context.close();
+    });
+
     test(`anybody can use the panels: ${colorScheme}, ${width} pixels`, { skip }, async () => {
         const { context, page } = await at("Run", example("all_kinds"), { colorScheme, viewport: { width, height: 800 } });
         await start(page);

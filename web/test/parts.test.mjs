@@ -111,3 +111,17 @@ test("paths stay below the project", async () => {
     for (const path of ["a.sense", "parts/legs-2.sense", "t.csv"]) assert.equal(wrongPath(path, []), null, path);
     assert.notEqual(wrongPath("a.sense", ["a.sense"]), null);
 });
+
+test("a drawing is taken with the world that names it, and no other one", async () => {
+    const { readFiles } = await module("project/filebar.ts");
+    const file = (name, text) => new File([text], name);
+    const svg = "<svg xmlns='http://www.w3.org/2000/svg'/>";
+    const world = 'map = "oval.svg"\n';
+    const both = await readFiles([file("oval.svg", svg), file("logo.svg", svg), file("oval.toml", world), file("photo.png", new Uint8Array([0x89, 0, 1]))], {});
+    assert.deepEqual(both, { texts: { "oval.svg": svg, "oval.toml": world }, refused: ["photo.png"], unnamed: ["logo.svg"] });
+    // A world that is in the project already counts, a design does not.
+    assert.deepEqual(Object.keys((await readFiles([file("oval.svg", svg)], { "w/oval.toml": world })).texts), ["oval.svg"]);
+    assert.deepEqual((await readFiles([file("oval.svg", svg)], { "robot.sense": world })).unnamed, ["oval.svg"]);
+    const large = await readFiles([file("oval.svg", "x".repeat(1_000_001)), file("oval.toml", world)], {});
+    assert.deepEqual(large.refused, ["oval.svg"]);
+});

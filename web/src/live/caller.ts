@@ -1,5 +1,6 @@
 import type { Seen } from "../../../crates/wasm/sensedsl.mjs";
-import type { Calls, FromWorker, ToWorker } from "./messages.js";
+import type { Calls, FromWorker, Runner, ToWorker } from "./messages.js";
+import { endServed } from "./served.js";
 
 /** Where the worker's program is, as the build names it. */
 declare const LIVE_WORKER_URL: string;
@@ -8,6 +9,7 @@ declare const LIVE_WORKER_URL: string;
 export class Caller {
     readonly #worker = new Worker(LIVE_WORKER_URL);
     readonly #asked = new Map<number, { done: (answer: never) => void; failed: (error: Error) => void }>();
+    readonly #runner: Runner;
     #next = 0;
     #isEnded = false;
 
@@ -16,11 +18,16 @@ export class Caller {
     /** The tool has failed; the worker does nothing more. */
     onEnded: (error: string) => void = () => {};
 
-    constructor(module: WebAssembly.Module) {
+    constructor(runner: Runner) {
+        this.#runner = runner;
         this.#worker.addEventListener("message", ({ data }: MessageEvent<FromWorker>) => this.#take(data));
         this.#worker.addEventListener("error", (event) => this.#fail(event.message || "the worker cannot be started"));
-        this.#post({ kind: "module", module });
+        this.#post(runner);
+        if (runner.kind === "server") addEventListener("pagehide", this.#left);
     }
+
+    /** The page is left: the server need not wait until nobody has called for long. */
+    readonly #left = (): void => this.end();
 
     /** Asks the worker for something. */
     call<Name extends keyof Calls>(name: Name, given: Calls[Name]["given"]): Promise<Calls[Name]["answer"]> {
@@ -37,10 +44,15 @@ export class Caller {
         if (!this.#isEnded) this.#worker.postMessage({ kind: "bytes", bytes } satisfies ToWorker, [bytes.buffer]);
     }
 
-    /** Ends the worker and frees its memory. */
+    /** Ends the worker and the server's board, and frees their memory. */
     end(): void {
+        if (this.#isEnded) return;
         this.#isEnded = true;
         this.#worker.terminate();
+        if (this.#runner.kind === "server") {
+            removeEventListener("pagehide", this.#left);
+            endServed(this.#runner.served);
+        }
         for (const { failed } of this.#asked.values()) failed(new Error("the board has ended"));
         this.#asked.clear();
     }

@@ -5,9 +5,15 @@ export class Choice {
     readonly element: HTMLElement;
     readonly #select: HTMLSelectElement;
     #names: readonly (readonly [string, string])[] = [];
+    /** Whether somebody has chosen what is chosen. */
+    #isChosen = false;
 
     constructor(label: string, changed: () => void) {
-        this.#select = make("select", { change: changed });
+        const choose = () => {
+            this.#isChosen = true;
+            changed();
+        };
+        this.#select = make("select", { change: choose });
         this.element = make("label", { hidden: true }, `${label} `, this.#select);
     }
 
@@ -16,14 +22,20 @@ export class Choice {
         return this.element.hidden ? "" : this.#select.value;
     }
 
-    /** Offers values with their names; what was chosen stays so if it is still there. */
-    offer(names: readonly (readonly [string, string])[]): void {
+    /**
+     * Offers values with their names. What somebody has chosen stays so while it is there, and some value that was
+     * offered with it; otherwise the usual one is chosen.
+     */
+    offer(names: readonly (readonly [string, string])[], usual = names[0]?.[0] ?? ""): void {
         this.element.hidden = names.length < 2;
-        if (JSON.stringify(names) === JSON.stringify(this.#names)) return;
-        this.#names = names;
         const { value } = this.#select;
-        this.#select.replaceChildren(...names.map(([one, name]) => make("option", { value: one }, name)));
-        this.#select.value = names.some(([one]) => one === value) ? value : (names[0]?.[0] ?? "");
+        if (JSON.stringify(names) !== JSON.stringify(this.#names)) {
+            const had = new Set(this.#names.map(([one]) => one).filter((one) => one !== ""));
+            this.#isChosen &&= names.some(([one]) => had.has(one)) && names.some(([one]) => one === value);
+            this.#names = names;
+            this.#select.replaceChildren(...names.map(([one, name]) => make("option", { value: one }, name)));
+        }
+        this.#select.value = this.#isChosen ? value : usual;
     }
 }
 

@@ -2,6 +2,8 @@
 
 /** The page around the panels: text, theme, files and announcements. */
 export interface LiveStudio {
+    /** The secret of the server that runs boards for the page; null where the page runs them by itself. */
+    readonly token: string | null;
     /** The compiled module, for workers of its own. */
     module(): Promise<WebAssembly.Module>;
     /** The request for the text as it is now. */

@@ -22,6 +22,14 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
     return element;
 }
 
+/** A shape of a drawing, with attributes and shapes inside. */
+export function shape(tag: string, attributes: { [key: string]: string | number } = {}, ...children: Node[]): SVGElement {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, `${value}`);
+    element.append(...children);
+    return element;
+}
+
 /** A button that does something. */
 export function button(label: string, click: () => void, attributes: Made = {}): HTMLButtonElement {
     return make("button", { type: "button", click, ...attributes }, label);

@@ -15,7 +15,7 @@ export class Host {
         design: Design,
         module: WebAssembly.Module,
     ): Promise<{ host: Host | null; diagnostics: Diagnostic[] }> {
-        const caller = new Caller(module);
+        const caller = new Caller({ kind: "module", module });
         try {
             const { robot, diagnostics } = await caller.call("host", design);
             if (robot === null) caller.end();

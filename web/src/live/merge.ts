@@ -10,5 +10,13 @@ export function merged(first: Seen | null, second: Seen): Seen {
     first.counts = second.counts;
     first.health = second.health ?? first.health;
     if (second.outputs !== undefined) first.outputs = second.outputs;
+    if (second.figures !== undefined) first.figures = second.figures;
+    first.poses = concatenated(first.poses, second.poses);
     return first;
+}
+
+/** Where robots were, one list after the other on each map. */
+function concatenated(first: Seen["poses"], second: Seen["poses"]): Seen["poses"] {
+    if (first === undefined || second === undefined) return second ?? first;
+    return second.map((poses, map) => [...(first[map] ?? []), ...poses]);
 }

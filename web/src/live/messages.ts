@@ -10,9 +10,20 @@ export interface Design {
     board?: string;
     /** Which of the design's boards; the first unless given. */
     name?: string;
-    /** What the sensors measure (TOML); the usual world unless given. */
+    /** Which of the files is its world; the usual one unless given. */
     world?: string;
 }
+
+/** A board that the page's server runs. */
+export interface Served {
+    /** The secret that the server has put into the page. */
+    token: string;
+    /** What the server is to call the board: a name that no other has. */
+    board: string;
+}
+
+/** What runs a board: the module in a worker, or the page's server. */
+export type Runner = { kind: "module"; module: WebAssembly.Module } | { kind: "server"; served: Served };
 
 /** The answer to a design: a board, or why there is none. */
 export interface Started {
@@ -46,7 +57,7 @@ export interface Calls {
 
 /** A message to the worker. */
 export type ToWorker =
-    | { kind: "module"; module: WebAssembly.Module }
+    | Runner
     | { [Name in keyof Calls]: { kind: "call"; id: number; name: Name; given: Calls[Name]["given"] } }[keyof Calls]
     | { kind: "bytes"; bytes: Uint8Array<ArrayBuffer> }
     | { kind: "taken" };

@@ -1,20 +1,27 @@
+import type { RobotInfo } from "../../../crates/wasm/sensedsl.mjs";
 import { Banner } from "./banner.js";
 import { boardNames, boardOf, Choice } from "./choice.js";
 import type { LiveStudio } from "./contract.js";
+import { controllersNote } from "./controllers.js";
 import { button, make, mark, shownTime, write } from "./dom.js";
-import type { Design } from "./messages.js";
+import type { Design, Runner } from "./messages.js";
 import { Speaker } from "./notes.js";
 import { SimulatedBoard } from "./simulated.js";
 import { View } from "./view.js";
+import { usualWorld, worldsOf } from "./worlds.js";
 
 const PACES = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 /** How long nobody must have typed before the new text is tried. */
 const TRY_AFTER_MS = 700;
+/** What is wrong with the code of controllers: none, not compiled, stopped at once. */
+const OF_CODE = ["E0534", "E0535", "E0536"];
 /** The board is this much slower than it should be when it is told. */
 const LATE = 0.8;
 
 const INTRODUCTION =
     "This simulates the board in the page: it does the firmware's work in a world that you control. Nothing is sent anywhere.";
+const INTRODUCTION_SERVED =
+    "This simulates the board on this computer: it does the firmware's work in a world that you control, and runs the code of its controllers.";
 
 /** The panel that runs the design on a simulated board. */
 export class Run {
@@ -22,6 +29,8 @@ export class Run {
     readonly #studio: LiveStudio;
     readonly #speaker: Speaker;
     readonly #banner = new Banner();
+    /** What is quietly told of the board that runs. */
+    readonly #about = make("p", { class: "live-hint live-about", hidden: true });
     readonly #empty = make("div", { class: "live-empty" });
     readonly #start: HTMLButtonElement;
     readonly #pause: HTMLButtonElement;
@@ -74,8 +83,8 @@ export class Run {
             this.#worlds.element,
             this.#clock,
         );
-        this.element = make("section", { class: "live-panel", "aria-label": "Run" }, bar, this.#banner.element, this.#empty);
-        this.#empty.append(make("p", {}, INTRODUCTION), make("p", {}, "Start it to see what the sensors report and to set actuators."));
+        this.element = make("section", { class: "live-panel", "aria-label": "Run" }, bar, this.#banner.element, this.#about, this.#empty);
+        this.#empty.append(make("p", {}, studio.token === null ? INTRODUCTION : INTRODUCTION_SERVED), make("p", {}, "Start it to see what the sensors report and to set actuators."));
         this.#show();
     }
 
@@ -92,13 +101,16 @@ export class Run {
         await next?.board.stop();
         const search = this.#begin();
         mark(this.#start, "aria-busy", "true");
-        write(this.#clock, "Looking for a wiring…");
+        write(this.#clock, this.#studio.token === null ? "Looking for a wiring…" : "Making the board ready…");
         try {
-            const { board, diagnostics } = await SimulatedBoard.of(design, await this.#studio.module(), search.signal);
+            const { board, diagnostics } = await SimulatedBoard.of(design, await this.#runner(), search.signal);
             if (search.signal.aborted) return void board?.stop();
             if (board === null) {
-                this.#banner.wrong("The text cannot run as it is.", diagnostics);
-                this.#speaker.say("The text cannot run as it is.");
+                const errors = diagnostics.filter((one) => one.severity === "error");
+                const isCode = errors.length > 0 && errors.every((one) => OF_CODE.includes(one.code));
+                const text = `The ${isCode ? "code" : "text"} cannot run as it is.`;
+                this.#banner.wrong(text, diagnostics);
+                this.#speaker.say(text);
             } else await this.#run(board, text);
         } catch (error) {
             if (!search.signal.aborted) this.#banner.show("error", `The board cannot be started: ${message(error)}`, "");
@@ -109,6 +121,13 @@ export class Run {
                 this.#writeClock();
             }
         }
+    }
+
+    /** What runs the next board: the page's server where it has one, which can compile code. */
+    async #runner(): Promise<Runner> {
+        const { token } = this.#studio;
+        if (token === null) return { kind: "module", module: await this.#studio.module() };
+        return { kind: "server", served: { token, board: crypto.randomUUID() } };
     }
 
     /** The text has changed: what runs goes on, and the new text is offered once it has a wiring. */
@@ -147,21 +166,25 @@ export class Run {
 
     /** What runs, however the text has changed since. */
     #same(): Design {
-        const { path, files, board } = JSON.parse(this.#running) as Design;
-        return this.#chosen({ path, files, ...(board === undefined ? {} : { board }) });
+        const { path, files, board, world } = JSON.parse(this.#running) as Design;
+        const same = this.#chosen({ path, files, ...(board === undefined ? {} : { board }) });
+        // A world that has come since is not one of its files.
+        const isNew = this.#worlds.value !== "" && same.world === undefined;
+        return isNew && world !== undefined ? { ...same, world } : same;
     }
 
     /** A design with the board and the world that are chosen. */
     #chosen(design: Design): Design {
         const name = boardOf(design.files, this.#boards.value);
-        const world = design.files[this.#worlds.value];
-        return { ...design, ...(name === undefined ? {} : { name }), ...(world === undefined ? {} : { world }) };
+        const world = this.#worlds.value;
+        const hasWorld = design.files[world] !== undefined;
+        return { ...design, ...(name === undefined ? {} : { name }), ...(hasWorld ? { world } : {}) };
     }
 
     #offerWorlds(): void {
-        const { files } = this.#studio.request();
-        const names = Object.keys(files).filter((one) => one.endsWith(".toml"));
-        this.#worlds.offer([["", "the usual"], ...names.map((one) => [one, one] as const)]);
+        const { path, files } = this.#studio.request();
+        const names = worldsOf(files).map((one) => [one, one] as const);
+        this.#worlds.offer([["", "the usual"], ...names], usualWorld(path, files));
     }
 
     #begin(): AbortController {
@@ -202,6 +225,7 @@ export class Run {
         this.#boards.offer(boardNames(board.info.boards));
         if (this.#banner.element.contains(document.activeElement)) this.#restart.focus();
         this.#banner.hide();
+        this.#tellAbout(board.info);
         this.element.append(view.element);
         await board.setPace(Number(this.#pace.value));
         await board.start();
@@ -211,8 +235,15 @@ export class Run {
         this.changed();
     }
 
+    #tellAbout(info: RobotInfo): void {
+        const parts = controllersNote(info, this.#studio.token !== null);
+        this.#about.replaceChildren(...parts.map((text, at) => (at % 2 === 0 ? text : make("code", {}, text))));
+        this.#about.hidden = parts.length === 0;
+    }
+
     #release(): void {
         void this.#board?.stop();
+        this.#about.hidden = true;
         this.#view?.dispose();
         this.#board = null;
         this.#view = null;
@@ -267,13 +298,15 @@ export class Run {
         }
         const search = this.#begin();
         try {
-            const { board } = await SimulatedBoard.of(design, await this.#studio.module(), search.signal);
+            const { board } = await SimulatedBoard.of(design, await this.#runner(), search.signal);
             if (search.signal.aborted) return void board?.stop();
             if (board === null) {
                 this.#banner.show("info", "The text has changed and cannot run yet.", "The board keeps running the previous text.");
                 return;
             }
-            this.#next = { board, text };
+            // Its code may be another one by the time that somebody starts it.
+            if (board.info.has_code) await board.stop();
+            else this.#next = { board, text };
             const again = button("Start again with the new text", () => void this.start(), { class: "live-main" });
             this.#banner.show("info", "The text has changed.", "The board keeps running the previous text.", again);
         } catch {

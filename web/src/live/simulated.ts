@@ -1,9 +1,9 @@
 import type { Diagnostic, RobotInfo, Seen } from "../../../crates/wasm/sensedsl.mjs";
 import { Caller } from "./caller.js";
-import type { Answered, Design } from "./messages.js";
+import type { Answered, Design, Runner } from "./messages.js";
 import type { Board, Closed } from "./transport.js";
 
-/** A board in a worker, in a simulated world. */
+/** A board in a simulated world, in a worker or at the page's server. */
 export class SimulatedBoard implements Board {
     onSeen: (seen: Seen, pace: number | null) => void = () => {};
     onOpened: () => void = () => {};
@@ -25,10 +25,10 @@ export class SimulatedBoard implements Board {
     /** Makes the board of a design, which does not run yet; or tells why there is none. */
     static async of(
         design: Design,
-        module: WebAssembly.Module,
+        runner: Runner,
         signal: AbortSignal,
     ): Promise<{ board: SimulatedBoard | null; diagnostics: Diagnostic[] }> {
-        const caller = new Caller(module);
+        const caller = new Caller(runner);
         const end = () => caller.end();
         signal.addEventListener("abort", end);
         try {

@@ -2,6 +2,7 @@ import type { Seen } from "../../../crates/wasm/sensedsl.mjs";
 import { Actuators } from "./actuators.js";
 import type { LiveStudio } from "./contract.js";
 import { make, mark, section } from "./dom.js";
+import { RobotMaps } from "./map.js";
 import { Condition, Notes, type Speaker } from "./notes.js";
 import { Plots } from "./plots.js";
 import { type Note, Readings } from "./readings.js";
@@ -35,6 +36,8 @@ export class View {
     readonly #speaker: Speaker;
     readonly #parts: { update(): void }[];
     readonly #plots: Plots;
+    readonly #maps: RobotMaps;
+    readonly #others: HTMLElement;
     #written_ms = 0;
     #drawn_ms = 0;
 
@@ -46,16 +49,21 @@ export class View {
         const plotted = new Set(sensors.slice(0, PLOTTED));
         this.#plots = new Plots(this.readings, plotted);
         this.recording = new Recording(info, studio);
+        this.#maps = new RobotMaps(info);
+        this.#others = section("Robot", this.#maps.others);
+        this.#others.hidden = true;
         const table = new Table(this.readings, plotted, () => this.#plots.choose());
         const actuators = new Actuators(this.readings, (device, value) => this.#set(board, device, value, steer === null), steer === null ? "sent:" : "the board has");
         const world = steer === null ? null : new World(this.readings, steer);
         const notes = new Notes(this.readings);
         const condition = new Condition(this.readings);
-        this.#parts = [table, this.#plots, actuators, notes, condition, this.recording];
+        this.#parts = [table, this.#maps, this.#plots, actuators, notes, condition, this.recording];
         if (world !== null) this.#parts.push(world);
         this.element = make(
             "div",
             { class: "live-view" },
+            // A robot that drives is seen first.
+            make("div", { class: "live-column" }, this.#maps.isEmpty ? null : section("Map", this.#maps.element), this.#others),
             // What is moved stands below what follows it, and beside it where there is room.
             make("div", { class: "live-column" }, section("Values", table.element, this.recording.element)),
             make("div", { class: "live-column" }, section("Plots", this.#plots.element)),
@@ -84,6 +92,7 @@ export class View {
     take(seen: Seen): void {
         this.readings.take(seen);
         this.recording.take(seen);
+        this.#maps.take(seen);
         for (const { level, text } of seen.notes) this.#speaker.note(level, text);
     }
 
@@ -106,9 +115,11 @@ export class View {
         if (now_ms - this.#written_ms >= WRITE_EVERY_MS) {
             this.#written_ms = now_ms;
             for (const part of this.#parts) part.update();
+            this.#others.hidden = !this.#maps.hasOthers;
         }
         if (calm.matches && now_ms - this.#drawn_ms < CALM_EVERY_MS) return;
         this.#drawn_ms = now_ms;
+        this.#maps.draw();
         this.#plots.draw();
     }
 

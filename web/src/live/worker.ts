@@ -1,14 +1,15 @@
-// A board in a worker of its own: the simulated one, or the host of a real one. Ending the worker frees it.
+// A board in a worker of its own: the simulated one, which the page's server may run instead, or the host of a real one.
+// Ending the worker frees it.
 
 import { load, type Seen, type Tool } from "../../../crates/wasm/sensedsl.mjs";
+import { type Engine, engineOf } from "./engine.js";
 import { merged } from "./merge.js";
 import type { Calls, FromWorker, ToWorker } from "./messages.js";
+import { ServedBoard } from "./served.js";
 
 /** How often the simulated board goes on, and how often a real one is listened to. */
 const TICK_MS = 16;
 const LISTEN_MS = 50;
-/** The simulated board goes on in steps, so that a slow machine is late by one of them at most. */
-const STEP_MS = 20;
 /** The most time that steps of one tick take; the rest is for messages. */
 const BUSY_MS = 12;
 /** After a pause of the whole page, the board does not catch up. */
@@ -19,9 +20,13 @@ const UNTAKEN_MAX = 2;
 const ABSENT_MS = 5_000;
 /** How long the pace is measured. */
 const PACE_MS = 500;
+/** A board that stands still is called once in a while: the server ends those that nobody calls. */
+const ALIVE_MS = 60_000;
 
 let tool: Promise<Tool> | null = null;
+let engine: Promise<Engine> | null = null;
 let timer: ReturnType<typeof setInterval> | undefined;
+let isWorking = false;
 let untaken = 0;
 let taken_ms = 0;
 let waiting: Seen | null = null;
@@ -55,7 +60,7 @@ function measure(): void {
     measured.from_ms = clock.done_ms;
 }
 
-function tick(board: Tool): void {
+async function tick(board: Engine): Promise<void> {
     const at_ms = now();
     const passed_ms = Math.min(at_ms - clock.last_ms, CATCH_UP_MS);
     clock.last_ms = at_ms;
@@ -63,11 +68,11 @@ function tick(board: Tool): void {
     clock.virtual_ms += passed_ms * clock.pace;
     let seen: Seen | null = null;
     while (Math.floor(clock.virtual_ms) > clock.done_ms && now() - at_ms < BUSY_MS) {
-        clock.done_ms = Math.min(Math.floor(clock.virtual_ms), clock.done_ms + STEP_MS);
-        seen = merged(seen, board.run(clock.done_ms));
+        clock.done_ms = Math.min(Math.floor(clock.virtual_ms), clock.done_ms + board.step_ms);
+        seen = merged(seen, await board.run(clock.done_ms));
     }
     // What could not be done in time is not made up for: the board is as fast as this machine can.
-    clock.virtual_ms = Math.min(clock.virtual_ms, clock.done_ms + STEP_MS);
+    clock.virtual_ms = Math.min(clock.virtual_ms, clock.done_ms + board.step_ms);
     measure();
     tell(seen, measured.pace);
 }
@@ -79,64 +84,82 @@ function listen(board: Tool, bytes: Uint8Array): void {
 }
 
 /** Errors end the worker's work, because the tool is in an unknown state after them. */
-function guarded(work: () => void): void {
+async function guarded(work: () => void | Promise<void>): Promise<void> {
     try {
-        work();
+        await work();
     } catch (error) {
         clearInterval(timer);
-        post({ kind: "ended", error: String(error) });
+        post({ kind: "ended", error: message(error) });
     }
 }
 
-function every(wait_ms: number, work: () => void): void {
-    clearInterval(timer);
-    timer = setInterval(() => guarded(work), wait_ms);
+function message(error: unknown): string {
+    return String(error).replace(/^Error: /, "");
 }
 
-function setPace(board: Tool, pace: number): void {
+/** Works again and again; what takes longer than the wait is not begun twice. */
+function every(wait_ms: number, work: () => void | Promise<void>): void {
+    clearInterval(timer);
+    timer = setInterval(() => {
+        if (isWorking) return;
+        isWorking = true;
+        void guarded(work).finally(() => {
+            isWorking = false;
+        });
+    }, wait_ms);
+}
+
+function setPace(board: Engine, pace: number): void {
     Object.assign(clock, { pace, last_ms: now() });
     Object.assign(measured, { since_ms: now(), from_ms: clock.done_ms, pace: null });
-    clearInterval(timer);
     if (pace > 0) every(TICK_MS, () => tick(board));
+    else every(ALIVE_MS, async () => tell(await board.run(clock.done_ms), null));
 }
 
-type Handlers = { [Name in keyof Calls]: (board: Tool, given: Calls[Name]["given"]) => Calls[Name]["answer"] };
+/** What runs the board, once it is there. */
+async function there<One>(one: Promise<One> | null): Promise<One> {
+    if (one === null) throw new Error("the module has not come");
+    return one;
+}
+
+type Handlers = { [Name in keyof Calls]: (given: Calls[Name]["given"]) => Promise<Calls[Name]["answer"]> };
 
 const handlers: Handlers = {
-    robot(board, design) {
+    async robot(design) {
         clearInterval(timer);
         Object.assign(clock, { pace: 0, virtual_ms: 0, done_ms: 0, last_ms: now() });
-        return board.robot(design);
+        return (await there(engine)).robot(design);
     },
-    host(board, design) {
+    async host(design) {
         clearInterval(timer);
         origin_ms = performance.now();
-        return board.host(design);
+        return (await there(tool)).host(design);
     },
-    pace(board, pace) {
-        setPace(board, pace);
+    async pace(pace) {
+        setPace(await there(engine), pace);
         return null;
     },
-    steer(board, { device, element, shown }) {
-        board.steer(device, element, shown);
+    async steer({ device, element, shown }) {
+        await (await there(engine)).steer(device, element, shown);
         return null;
     },
-    set: (board, { device, value }) => board.set(device, value),
-    opened(board) {
+    async set({ device, value }) {
+        return (await there(engine)).set(device, value);
+    },
+    async opened() {
+        const board = await there(tool);
         board.opened(now());
         every(LISTEN_MS, () => listen(board, new Uint8Array()));
-        guarded(() => listen(board, new Uint8Array()));
+        await guarded(() => listen(board, new Uint8Array()));
         return null;
     },
 };
 
 async function call<Name extends keyof Calls>(id: number, name: Name, given: Calls[Name]["given"]): Promise<void> {
     try {
-        if (tool === null) throw new Error("the module has not come");
-        const board = await tool;
-        post({ kind: "answer", id, answer: handlers[name](board, given) });
+        post({ kind: "answer", id, answer: await handlers[name](given) });
     } catch (error) {
-        post({ kind: "refused", id, error: String(error) });
+        post({ kind: "refused", id, error: message(error) });
     }
 }
 
@@ -144,15 +167,19 @@ addEventListener("message", async ({ data }: MessageEvent<ToWorker>) => {
     switch (data.kind) {
         case "module":
             tool = load(data.module);
+            engine = tool.then(engineOf);
             // Whoever calls is told why it could not be loaded.
-            tool.catch(() => {});
+            engine.catch(() => {});
+            break;
+        case "server":
+            engine = Promise.resolve(new ServedBoard(data.served));
             break;
         case "call":
             await call(data.id, data.name, data.given);
             break;
         case "bytes": {
             const board = await tool;
-            if (board != null) guarded(() => listen(board, data.bytes));
+            if (board != null) await guarded(() => listen(board, data.bytes));
             break;
         }
         case "taken":

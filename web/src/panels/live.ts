@@ -1,6 +1,7 @@
 // The panels "Run" and "Connect", which are one thing with two faces. They are fetched when one of them is wanted.
 
 import type { Live } from "../live/index";
+import { token } from "../project/folder";
 import type { Studio } from "../studio";
 import { module } from "../tool";
 import { announce, el, note } from "../ui/dom";
@@ -17,7 +18,7 @@ export function liveViews(studio: Studio): View[] {
     const mounted = async () => {
         const { mountLive } = (await import(new URL(RUN_URL, document.baseURI).href)) as Panels;
         const { request, onChange, save } = studio;
-        return mountLive(place, { module, request, onChange, onTheme, save, announce });
+        return mountLive(place, { token: token(), module, request, onChange, onTheme, save, announce });
     };
     const failed = (why: unknown) => {
         live = undefined;

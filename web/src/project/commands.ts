@@ -4,20 +4,20 @@ import type { Studio } from "../studio";
 import { announce, button, el, find, note } from "../ui/dom";
 import { dialog, menu, type Choice } from "../ui/dialog";
 import { isDark, onTheme, toggleTheme } from "../ui/theme";
-import { chooseFiles, readFiles } from "./filebar";
+import { chooseFiles, readFiles, type Taken } from "./filebar";
 import { fragmentOf, type Project } from "./share";
 import { former } from "./store";
 import { zipped } from "./zip";
 
-interface Example {
-    path: string;
+interface Example extends Project {
     title: string;
     about: string;
-    text: string;
 }
 
 /** What the commands need besides the studio. */
 export interface Commands {
+    /** Whether the project is a folder, which has other files. */
+    isFolder: boolean;
     project(): Project;
     /** Takes another project in place of the one that is open, which is kept as the former one. */
     replace(project: Project, what: string): void;
@@ -46,17 +46,32 @@ async function gallery(commands: Commands): Promise<void> {
     const cards = all.map((example) => {
         const open = () => {
             close();
-            commands.replace({ files: { [example.path]: example.text }, open: example.path }, example.title);
+            commands.replace(commands.isFolder ? apart(example) : example, example.title);
         };
         return el("li", {}, el("button", { type: "button", class: "card", onclick: open }, el("strong", {}, example.title), el("span", {}, example.about)));
     });
     const { close } = dialog("Examples", el("ul", { class: "cards" }, ...cards));
 }
 
+/** An example of several files in a folder of its own, where their names are not those of other files. */
+function apart({ title, files, open }: Example): Project {
+    if (Object.keys(files).length === 1) return { files, open };
+    const folder = title.toLowerCase().replaceAll(" ", "_");
+    const all = Object.entries(files).map(([path, text]) => [`${folder}/${path}`, text] as const);
+    return { files: Object.fromEntries(all), open: `${folder}/${open}` };
+}
+
+/** Tells which files were not taken. */
+function tellRefused({ refused, unnamed }: Taken): void {
+    if (refused.length > 0) note(`${refused.join(", ")}: only text files of up to 1 MB can be taken.`, [], "refused");
+    if (unnamed.length > 0) note(`${unnamed.join(", ")}: a drawing is taken with the world (.toml) that has it as its map.`, [], "unnamed");
+}
+
 /** Takes files of the machine: into the project, or as a project of their own if it is a design that is open alone. */
 export async function addFiles(studio: Studio, files: Iterable<File>): Promise<void> {
-    const { texts, refused } = await readFiles(files);
-    if (refused.length > 0) note(`${refused.join(", ")}: only text files of up to 1 MB can be taken.`);
+    const taken = await readFiles(files, studio.editor.texts());
+    tellRefused(taken);
+    const { texts } = taken;
     const first = Object.keys(texts)[0];
     if (first === undefined) return;
     studio.editor.write(texts);
@@ -65,8 +80,9 @@ export async function addFiles(studio: Studio, files: Iterable<File>): Promise<v
 }
 
 async function open(commands: Commands): Promise<void> {
-    const { texts, refused } = await readFiles(await chooseFiles());
-    if (refused.length > 0) note(`${refused.join(", ")}: only text files of up to 1 MB can be opened.`);
+    const taken = await readFiles(await chooseFiles(), {});
+    tellRefused(taken);
+    const { texts } = taken;
     const design = Object.keys(texts).find((path) => path.endsWith(".sense")) ?? Object.keys(texts)[0];
     if (design !== undefined) commands.replace({ files: texts, open: design }, design);
 }

@@ -5,7 +5,7 @@ import { ask, confirm, menu } from "../ui/dialog";
 import { button, el } from "../ui/dom";
 
 /** Files that the project can have. */
-export const ACCEPTED = ".sense,.csv,.toml,.txt,.json,.ioc,text/*";
+export const ACCEPTED = ".sense,.csv,.toml,.svg,.txt,.json,.ioc,text/*";
 const PATH = /^[A-Za-z0-9_][A-Za-z0-9_.-]*(\/[A-Za-z0-9_][A-Za-z0-9_.-]*)*$/;
 const BYTES_MAX = 1_000_000;
 
@@ -17,8 +17,17 @@ export function wrongPath(path: string, others: string[]): string | null {
     return null;
 }
 
-/** Reads text files of the machine; the names of those that are no text come back, too. */
-export async function readFiles(files: Iterable<File>): Promise<{ texts: Record<string, string>; refused: string[] }> {
+/** Files of the machine that were read, and the names of those that were not taken. */
+export interface Taken {
+    texts: Record<string, string>;
+    /** They are no text, or too large. */
+    refused: string[];
+    /** They are drawings that no world has for its map. */
+    unnamed: string[];
+}
+
+/** Reads text files of the machine. Drawings are taken only where a world, one of them or of those that are `there`, names them. */
+export async function readFiles(files: Iterable<File>, there: Record<string, string>): Promise<Taken> {
     const texts: Record<string, string> = {};
     const refused: string[] = [];
     for (const file of files) {
@@ -31,7 +40,10 @@ export async function readFiles(files: Iterable<File>): Promise<{ texts: Record<
             refused.push(file.name);
         }
     }
-    return { texts, refused };
+    const worlds = Object.entries({ ...there, ...texts }).filter(([path]) => path.endsWith(".toml"));
+    const unnamed = Object.keys(texts).filter((name) => name.endsWith(".svg") && !worlds.some(([, text]) => text.includes(name)));
+    for (const name of unnamed) delete texts[name];
+    return { texts, refused, unnamed };
 }
 
 /** Lets files of the machine be chosen. */

@@ -66,6 +66,7 @@ export function mountProject(studio: Studio, forget: () => void): Kept {
         editor.replace(next.files, next.open);
     };
     mountCommands(studio, {
+        isFolder: store.folder !== null,
         project,
         replace: (next, what) => {
             const before = project();
@@ -126,8 +127,8 @@ async function opened(store: Store): Promise<{ project: Project; isShared: boole
     const kept = await store.load();
     if (kept && Object.keys(kept.files).length > 0) return { project: kept, isShared: false };
     const examples = await loadExamples();
-    const first = examples.find((one) => one.path === FIRST) ?? examples[0];
-    return { project: { files: { [first?.path ?? FIRST]: first?.text ?? "" }, open: first?.path ?? FIRST }, isShared: false };
+    const { files, open } = examples.find((one) => one.open === FIRST) ?? { files: { [FIRST]: "" }, open: FIRST };
+    return { project: { files, open }, isShared: false };
 }
 
 /** Takes files that are dropped onto the page. */

@@ -20,8 +20,8 @@ use super::answer::{Answer, Method, header};
 use crate::files::state::digest;
 use crate::files::{Disk, files_below, remove_file, shown, write_whole};
 
-/// The ends of names of files that a page shows.
-const ENDS: [&str; 3] = ["sense", "csv", "toml"];
+/// The ends of names of files that a page shows; of pictures, those that a world names as its map.
+const ENDS: [&str; 4] = ["sense", "csv", "toml", "svg"];
 /// Folders that other tools fill.
 const OTHERS: [&str; 3] = ["build", "node_modules", "target"];
 /// The most folders that are looked into.
@@ -85,15 +85,30 @@ impl Folder {
             folders.set(folders.get() + 1);
             name.starts_with('.') || OTHERS.contains(&name) || folders.get() > FOLDERS_MAX
         };
-        let (mut texts, mut bytes) = (BTreeMap::new(), 0);
         let found = files_below(&self.root, &skip)?;
         if folders.get() > FOLDERS_MAX {
             bail!("there are more than {FOLDERS_MAX} folders inside: open a smaller folder");
         }
-        for path in found {
-            let name = path.to_string_lossy().replace('\\', "/");
-            if !is_shown(&name) || texts.len() >= FILES_MAX {
-                continue;
+        let names = found.iter().map(|path| path.to_string_lossy().replace('\\', "/"));
+        let (pictures, others): (Vec<String>, Vec<String>) =
+            names.filter(|name| is_shown(name)).partition(|name| has_end(name, "svg"));
+        let mut texts = BTreeMap::new();
+        self.take(others, &mut texts)?;
+        let is_named = |picture: &String| {
+            let name = picture.rsplit('/').next().unwrap_or(picture);
+            texts.iter().any(|(path, text)| has_end(path, "toml") && text.contains(name))
+        };
+        let maps = pictures.into_iter().filter(is_named).collect();
+        self.take(maps, &mut texts)?;
+        Ok(texts)
+    }
+
+    /// Reads files.
+    fn take(&self, names: Vec<String>, texts: &mut BTreeMap<String, String>) -> Result<()> {
+        let mut bytes: usize = texts.values().map(String::len).sum();
+        for name in names {
+            if texts.len() >= FILES_MAX {
+                break;
             }
             let Some(text) = self.read(&name) else { continue };
             bytes += text.len();
@@ -102,7 +117,7 @@ impl Folder {
             }
             texts.insert(name, text);
         }
-        Ok(texts)
+        Ok(())
     }
 
     /// A text of the folder; none if it is not there, or is no text.
@@ -117,7 +132,7 @@ impl Folder {
         let Some(name) = decoded(path).filter(|name| is_inside(name) && is_shown(name)) else {
             return Answer::refused(
                 404,
-                "only .sense, .csv and .toml files of the folder can be read and written",
+                "only .sense, .csv, .toml and .svg files of the folder can be read and written",
             );
         };
         match method {
@@ -236,7 +251,11 @@ pub(super) fn is_inside(name: &str) -> bool {
 
 /// Whether a page shows a file.
 fn is_shown(name: &str) -> bool {
-    name.rsplit_once('.').is_some_and(|(stem, end)| {
-        !stem.is_empty() && ENDS.iter().any(|one| end.eq_ignore_ascii_case(one))
-    })
+    ENDS.iter().any(|end| has_end(name, end))
+}
+
+/// Whether a name has something before a dot, and that end after it.
+fn has_end(name: &str, end: &str) -> bool {
+    let parts = name.rsplit_once('.');
+    parts.is_some_and(|(stem, own)| !stem.is_empty() && own.eq_ignore_ascii_case(end))
 }
