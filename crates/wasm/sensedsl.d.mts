@@ -92,6 +92,9 @@ export interface Tool {
 
     /** Sets an actuator, for `robot` and for `host` alike: a shown value as people type it (`45 deg`). `error` says why not; `text` is what was sent. */
     set(device: string, value: string): { error: string | null; text: string | null };
+
+    /** Puts back what `web/split.mjs` has taken out of the module; `project` needs it. */
+    fill(texts: Uint8Array): void;
 }
 
 export interface Report { diagnostics: Diagnostic[]; text: string | null; value: unknown }

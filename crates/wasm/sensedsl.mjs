@@ -54,5 +54,13 @@ export async function load(wasm) {
             return JSON.parse(read(exports.feed(now_ms)));
         },
         to_send: (now_ms) => got(exports.to_send(now_ms)).slice(),
+        fill: (texts) => {
+            const view = new DataView(texts.buffer, texts.byteOffset, texts.byteLength);
+            for (let at = 0; at < texts.length; ) {
+                const [address, length] = [view.getUint32(at, true), view.getUint32(at + 4, true)];
+                new Uint8Array(memory.buffer, address, length).set(texts.subarray(at + 8, at + 8 + length));
+                at += 8 + length;
+            }
+        },
     });
 }

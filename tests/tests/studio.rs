@@ -191,3 +191,93 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     assert_eq!(fs::read_to_string(studio.folder.join("robot.sense")).unwrap(), ROBOT);
     assert_eq!(studio.get("/api/project").status, 200);
 }
+
+/// The code of a controller in the folder is compiled and stepped, and the robot follows its line.
+#[test]
+fn a_robot_with_code_drives_on_its_map() {
+    let studio = Studio::start("studio-drives");
+    let folder = studio.folder.join("follower");
+    let made = Command::new(binary())
+        .arg("new")
+        .arg(&folder)
+        .args(["--template", "line_follower", "--quiet"])
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{made:?}");
+    fs::write(folder.join("picture.svg"), "<svg/>").unwrap();
+    let project: Value = serde_json::from_str(&studio.get("/api/project").body).unwrap();
+    let files = project["files"].as_object().unwrap();
+    assert!(files.contains_key("follower/oval.svg"), "a world names it");
+    assert!(!files.contains_key("follower/picture.svg"), "no world names it");
+    let call = |board: &str, call: Value| -> Value {
+        let path = format!("/api/boards/{board}");
+        let answer = studio.ask("POST", &path, &[], &call.to_string());
+        assert_eq!(answer.status, 200, "{}", answer.body);
+        serde_json::from_str(&answer.body).unwrap()
+    };
+    let of = serde_json::json!({ "path": "follower/robot.sense", "files": files });
+    let robot = serde_json::json!({ "do": "robot", "of": of, "world": "follower/oval.toml" });
+    let told = call("one", robot.clone());
+    let told = &told["robot"];
+    assert_eq!((&told["has_code"], &told["controllers"][0]), (&true.into(), &"Follow".into()));
+    assert!(told["maps"][0]["strokes"].as_array().unwrap().len() > 1, "{told}");
+    let seen = call("one", serde_json::json!({ "do": "run", "until_ms": 2_000 }));
+    let way = seen["figures"][0].as_str().unwrap();
+    let metres: f64 = way.split([' ', ':']).find_map(|word| word.parse().ok()).unwrap();
+    assert!(metres > 0.8 && way.contains("off the line"), "{way}");
+    assert_eq!(
+        seen["notes"],
+        serde_json::json!([{ "level": "info", "text": seen["notes"][0]["text"] }])
+    );
+
+    // What the compiler says is told, and what was mended runs.
+    let code = folder.join("build/firmware/Robot/user/follow.c");
+    let text = fs::read_to_string(&code).unwrap();
+    let broken = text.replace("last_mm = now_mm;", "last_mm = now_mm");
+    fs::write(&code, broken).unwrap();
+    let refused = call("one", robot.clone());
+    let wrong = &refused["diagnostics"][0];
+    assert_eq!((&refused["robot"], &wrong["code"]), (&Value::Null, &"E0535".into()));
+    assert!(wrong["message"].as_str().unwrap().contains("user/follow.c:"), "{wrong}");
+    fs::write(&code, "#include \"follow.h\"\nvoid follow_init(void) {}\nvoid follow_step(const struct follow_in *in, struct follow_out *out, uint32_t dt_us) { (void)in; (void)out; for (;;) { if (dt_us > 0) __builtin_trap(); else break; } }\n").unwrap();
+    call("one", robot.clone());
+    let seen = call("one", serde_json::json!({ "do": "run", "until_ms": 100 }));
+    let notes = seen["notes"].to_string();
+    assert!(notes.contains("the controllers' code stopped after 0.00"), "{notes}");
+
+    // Without code the world's PID stands in for it.
+    fs::remove_dir_all(folder.join("build")).unwrap();
+    let told = call("two", robot.clone());
+    assert_eq!(told["robot"]["has_code"], false);
+    assert_eq!(told["robot"]["stand_ins"], serde_json::json!(["Follow"]));
+    let seen = call("two", serde_json::json!({ "do": "run", "until_ms": 1_000 }));
+    assert!(seen["figures"][0].as_str().unwrap().contains("off the line"), "{seen}");
+    assert_eq!(studio.ask("DELETE", "/api/boards/two", &[], "").status, 200);
+    let gone = call("two", serde_json::json!({ "do": "run", "until_ms": 2_000 }));
+    assert_eq!(gone["error"], "no board is running or connected");
+}
+
+/// Only the page runs boards, and the oldest of too many ends.
+#[test]
+fn boards_are_the_pages_own() {
+    let studio = Studio::start("studio-boards");
+    let path = "/api/boards/one";
+    assert_eq!(studio.ask("POST", path, &[("X-Sensedsl-Token", "0")], "{}").status, 403);
+    assert_eq!(studio.ask("POST", path, &[("Origin", "http://evil.example")], "{}").status, 403);
+    let text =
+        "board B on STM32F407G_DISC1 { sensor Light returns uint16 { id = 1; type = analog; } }";
+    let of = serde_json::json!({ "path": "a.sense", "files": { "a.sense": text } });
+    let robot = serde_json::json!({ "do": "robot", "of": of }).to_string();
+    for name in ["one", "two", "three", "four", "five"] {
+        let told = studio.ask("POST", &format!("/api/boards/{name}"), &[], &robot);
+        assert!(told.body.contains("\"board\":\"B\""), "{}", told.body);
+    }
+    let run = |name: &str| {
+        let path = format!("/api/boards/{name}");
+        studio.ask("POST", &path, &[], "{\"do\":\"run\",\"until_ms\":20}").body
+    };
+    assert!(run("five").contains("\"now_ms\":20"));
+    assert!(run("one").contains("no board is running"), "it was the oldest");
+    assert!(studio.ask("POST", path, &[], "{").body.contains("error"));
+    assert_eq!(studio.ask("GET", path, &[], "").status, 404);
+}
