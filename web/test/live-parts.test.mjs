@@ -206,7 +206,7 @@ test("what is said of controllers whose code does not run", () => {
     assert.equal(text({ has_code: true }, true), "");
     assert.equal(text({ controllers: [] }, false), "");
     assert.equal(text({}, true), "Follow has no code yet and sets nothing: sensedsl generate makes its first file.");
-    assert.match(text({}, false), /^Follow sets nothing here: .* sensedsl studio can, .* \[controllers\.Follow\] that stands in for it\.$/);
+    assert.match(text({}, false), /^Follow sets nothing here: .* sensedsl studio can, .* \[controllers\.Follow\.OUTPUT\] of a world stands in for it\.$/);
     assert.equal(text({ stand_ins: ["Follow"] }, false), "Follow is run by the world’s PID.");
     assert.equal(text({ controllers: ["A", "B", "C"], stand_ins: ["C"] }, true), "A and B have no code yet and set nothing: sensedsl generate makes their first files. C is run by the world’s PID.");
 });

@@ -199,7 +199,7 @@ test("a text that cannot run says why", { skip }, async () => {
     const { context, page } = await at("Run", DESIGN.replace("type = analog", "type = analog; pin = PX1"));
     await page.getByRole("button", { name: "Start", exact: true }).click();
     await page.getByText("The text cannot run as it is.").first().waitFor();
-    assert.match(await page.locator('[aria-label="Run"] .live-banner').textContent(), /E\d{4}: /);
+    assert.match(await page.locator('[aria-label="Run"] .live-banner:visible').textContent(), /E\d{4}: /);
     assert.equal(await page.locator(".live-view").count(), 0);
     await context.close();
 });

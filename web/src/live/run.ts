@@ -29,6 +29,8 @@ export class Run {
     readonly #studio: LiveStudio;
     readonly #speaker: Speaker;
     readonly #banner = new Banner();
+    /** What becomes of a text that has changed. */
+    readonly #offer = new Banner();
     /** What is quietly told of the board that runs. */
     readonly #about = make("p", { class: "live-hint live-about", hidden: true });
     readonly #empty = make("div", { class: "live-empty" });
@@ -48,10 +50,12 @@ export class Run {
     #isRunning = false;
     /** What runs now, to know whether the text is another one. */
     #running = "";
-    /** The search for a board that is under way. */
+    /** The search for a board that somebody wants to start. */
     #search: AbortController | null = null;
-    /** A board of the new text, ready to be started. */
-    #next: { board: SimulatedBoard; text: string } | null = null;
+    /** The search for a board of a text that has changed. */
+    #trial: AbortController | null = null;
+    /** The new text that can be started, with its board unless that is made anew. */
+    #next: { board: SimulatedBoard | null; text: string } | null = null;
     #timer: ReturnType<typeof setTimeout> | undefined;
     #written_ms = 0;
     /** How fast the board really goes. */
@@ -83,7 +87,7 @@ export class Run {
             this.#worlds.element,
             this.#clock,
         );
-        this.element = make("section", { class: "live-panel", "aria-label": "Run" }, bar, this.#banner.element, this.#about, this.#empty);
+        this.element = make("section", { class: "live-panel", "aria-label": "Run" }, bar, this.#banner.element, this.#offer.element, this.#about, this.#empty);
         this.#empty.append(make("p", {}, studio.token === null ? INTRODUCTION : INTRODUCTION_SERVED), make("p", {}, "Start it to see what the sensors report and to set actuators."));
         this.#show();
     }
@@ -97,8 +101,8 @@ export class Run {
     async start(design = this.#design()): Promise<void> {
         const text = JSON.stringify(design);
         const next = this.#takeNext();
-        if (next?.text === text) return this.#run(next.board, text);
-        await next?.board.stop();
+        if (next?.board && next.text === text) return this.#run(next.board, text);
+        await next?.board?.stop();
         const search = this.#begin();
         mark(this.#start, "aria-busy", "true");
         write(this.#clock, this.#studio.token === null ? "Looking for a wiring…" : "Making the board ready…");
@@ -119,6 +123,8 @@ export class Run {
                 this.#search = null;
                 mark(this.#start, "aria-busy", null);
                 this.#writeClock();
+                // The text may have changed meanwhile.
+                this.changed();
             }
         }
     }
@@ -152,8 +158,6 @@ export class Run {
 
     dispose(): void {
         clearTimeout(this.#timer);
-        this.#search?.abort();
-        void this.#next?.board.stop();
         this.#end();
         this.element.remove();
     }
@@ -189,11 +193,12 @@ export class Run {
 
     #begin(): AbortController {
         this.#search?.abort();
+        this.#trial?.abort();
         this.#search = new AbortController();
         return this.#search;
     }
 
-    #takeNext(): { board: SimulatedBoard; text: string } | null {
+    #takeNext(): { board: SimulatedBoard | null; text: string } | null {
         const next = this.#next;
         this.#next = null;
         return next;
@@ -218,13 +223,14 @@ export class Run {
         board.onClosed = ({ text: why, help }) => {
             this.#isRunning = false;
             view.setStale(true);
+            this.#offer.hide();
             this.#banner.show("error", why, help);
             this.#speaker.say(why);
             this.#show();
         };
         this.#boards.offer(boardNames(board.info.boards));
-        if (this.#banner.element.contains(document.activeElement)) this.#restart.focus();
-        this.#banner.hide();
+        if (this.#offer.element.contains(document.activeElement)) this.#restart.focus();
+        for (const one of [this.#banner, this.#offer]) one.hide();
         this.#tellAbout(board.info);
         this.element.append(view.element);
         await board.setPace(Number(this.#pace.value));
@@ -253,9 +259,9 @@ export class Run {
 
     #end(): void {
         this.#release();
-        void this.#takeNext()?.board.stop();
-        this.#search?.abort();
-        this.#banner.hide();
+        void this.#takeNext()?.board?.stop();
+        for (const one of [this.#search, this.#trial]) one?.abort();
+        for (const one of [this.#banner, this.#offer]) one.hide();
         this.#show();
         this.#start.focus();
     }
@@ -286,33 +292,38 @@ export class Run {
     }
 
     async #tryNext(): Promise<void> {
+        // A board that is being started looks again once it runs.
+        if (!this.#isRunning || this.#search !== null) return;
         const design = this.#design();
         const text = JSON.stringify(design);
         if (this.#next?.text === text) return;
         const old = this.#takeNext();
-        await old?.board.stop();
+        await old?.board?.stop();
         if (text === this.#running) {
-            this.#search?.abort();
-            this.#banner.hide();
+            this.#trial?.abort();
+            this.#offer.hide();
             return;
         }
-        const search = this.#begin();
+        this.#trial?.abort();
+        const trial = new AbortController();
+        this.#trial = trial;
         try {
-            const { board } = await SimulatedBoard.of(design, await this.#runner(), search.signal);
-            if (search.signal.aborted) return void board?.stop();
+            const { board } = await SimulatedBoard.of(design, await this.#runner(), trial.signal);
+            if (trial.signal.aborted) return void board?.stop();
             if (board === null) {
-                this.#banner.show("info", "The text has changed and cannot run yet.", "The board keeps running the previous text.");
+                this.#offer.show("info", "The text has changed and cannot run yet.", "The board keeps running the previous text.");
                 return;
             }
             // Its code may be another one by the time that somebody starts it.
-            if (board.info.has_code) await board.stop();
-            else this.#next = { board, text };
+            const isKept = !board.info.has_code;
+            if (!isKept) await board.stop();
+            this.#next = { board: isKept ? board : null, text };
             const again = button("Start again with the new text", () => void this.start(), { class: "live-main" });
-            this.#banner.show("info", "The text has changed.", "The board keeps running the previous text.", again);
+            this.#offer.show("info", "The text has changed.", "The board keeps running the previous text.", again);
         } catch {
             // A search that was ended, or a tool that has failed: what runs is not concerned.
         } finally {
-            if (this.#search === search) this.#search = null;
+            if (this.#trial === trial) this.#trial = null;
         }
     }
 

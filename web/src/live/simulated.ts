@@ -19,7 +19,7 @@ export class SimulatedBoard implements Board {
         this.#caller = caller;
         caller.onSeen = (seen, pace) => this.onSeen(seen, pace);
         caller.onEnded = (error) =>
-            this.onClosed({ text: `The simulation failed: ${error}`, help: "Start it again.", isWaiting: false });
+            this.onClosed({ text: `The simulation failed: ${/[.?!]$/.test(error) ? error : `${error}.`}`, help: "Start it again.", isWaiting: false });
     }
 
     /** Makes the board of a design, which does not run yet; or tells why there is none. */
