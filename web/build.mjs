@@ -11,6 +11,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { build } from "esbuild";
+import { split } from "./split.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
@@ -23,6 +24,22 @@ if (!existsSync(wasm)) {
     process.exit(1);
 }
 process.chdir(here);
+
+/** What is written into projects as it is: nothing but a download needs it. */
+const TEXTS = [
+    "firmware-c/runtime",
+    "firmware-chibios/runtime",
+    "firmware-embassy/src/templates",
+    "host/src",
+    "host-c/runtime",
+    "host-cpp/runtime",
+    "host-matlab/runtime",
+    "host-python/runtime",
+    "host-rust/runtime",
+    "sense-embassy/src",
+    "sense-rt/src",
+    "wire/src",
+];
 
 /** By name in the site: the hash of the content. */
 const hashes = new Map();
@@ -115,11 +132,13 @@ function licences() {
 
 rmSync(next, { recursive: true, force: true });
 mkdirSync(next, { recursive: true });
-write("sensedsl.wasm", readFileSync(wasm));
+const { module, texts } = split(readFileSync(wasm), TEXTS.map((folder) => join(root, "crates", folder)));
+write("sensedsl.wasm", module);
+write("texts.bin", texts);
 write("examples.json", JSON.stringify(examples()));
 write("licences.txt", licences());
 for (const name of readdirSync("static")) write(name, readFileSync(join("static", name)));
-await bundle("src/worker.ts", "worker.js");
+await bundle("src/worker.ts", "worker.js", { define: { TEXTS_URL: JSON.stringify(named("texts.bin")) } });
 if (existsSync("src/live/worker.ts")) await bundle("src/live/worker.ts", "live.js");
 else write("live.js", "");
 const define = {

@@ -253,8 +253,8 @@ fn a_robot_with_code_drives_on_its_map() {
     let seen = call("two", serde_json::json!({ "do": "run", "until_ms": 1_000 }));
     assert!(seen["figures"][0].as_str().unwrap().contains("off the line"), "{seen}");
     assert_eq!(studio.ask("DELETE", "/api/boards/two", &[], "").status, 200);
-    let gone = call("two", serde_json::json!({ "do": "run", "until_ms": 2_000 }));
-    assert_eq!(gone["error"], "no board is running or connected");
+    let run = "{\"do\":\"run\",\"until_ms\":2000}";
+    assert_eq!(studio.ask("POST", "/api/boards/two", &[], run).status, 410);
 }
 
 /// Only the page runs boards, and the oldest of too many ends.
@@ -274,10 +274,13 @@ fn boards_are_the_pages_own() {
     }
     let run = |name: &str| {
         let path = format!("/api/boards/{name}");
-        studio.ask("POST", &path, &[], "{\"do\":\"run\",\"until_ms\":20}").body
+        studio.ask("POST", &path, &[], "{\"do\":\"run\",\"until_ms\":20}")
     };
-    assert!(run("five").contains("\"now_ms\":20"));
-    assert!(run("one").contains("no board is running"), "it was the oldest");
-    assert!(studio.ask("POST", path, &[], "{").body.contains("error"));
+    assert!(run("five").body.contains("\"now_ms\":20"));
+    assert_eq!(run("one").status, 410, "it was the oldest");
+    assert_eq!(studio.ask("POST", path, &[], "{").status, 410);
+    assert!(studio.ask("POST", "/api/boards/five", &[], "{").body.contains("error"));
+    let head = studio.ask("HEAD", &format!("/?token={}", studio.token), &[], "");
+    assert!(head.body.is_empty() && head.head.contains("Content-Length: "), "{}", head.head);
     assert_eq!(studio.ask("GET", path, &[], "").status, 404);
 }

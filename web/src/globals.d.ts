@@ -1,5 +1,6 @@
 /** Names of files of the site with the hash of their content; `build.mjs` puts them in. */
 declare const WASM_URL: string;
+declare const TEXTS_URL: string;
 declare const EXAMPLES_URL: string;
 declare const WORKER_URL: string;
 declare const LIVE_WORKER_URL: string;

@@ -61,12 +61,29 @@ function take(of: Tool, message: ToWorker): void {
             tell({ type: "settled", messages: [], uri: shown, wiring: wiring(of), change, took_ms: 0 });
             break;
         case "call":
-            call(of, message);
+            void call(of, message);
     }
 }
 
-function call(of: Tool, { id, name, args }: ToWorker & { type: "call" }): void {
+/** The texts of generated projects, which `build.mjs` has taken out of the module. */
+let texts: Promise<void> | undefined;
+
+async function fill(of: Tool): Promise<void> {
+    const response = await fetch(TEXTS_URL);
+    if (!response.ok) throw new Error(`${TEXTS_URL}: ${response.status} ${response.statusText}`);
+    of.fill(new Uint8Array(await response.arrayBuffer()));
+}
+
+async function call(of: Tool, { id, name, args }: ToWorker & { type: "call" }): Promise<void> {
     try {
+        if (name === "project") {
+            texts ??= fill(of);
+            await texts.catch((why: unknown) => {
+                // The next call tries again.
+                texts = undefined;
+                throw why;
+            });
+        }
         const value: unknown = name === "ask" ? of(args[0] as never) : (of[name] as (...args: unknown[]) => unknown)(...args);
         tell({ type: "answer", id, value });
     } catch (why) {

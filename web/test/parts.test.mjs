@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
 import { build, stop } from "esbuild";
-import { example, root } from "./site.mjs";
+import { load } from "../../crates/wasm/sensedsl.mjs";
+import { example, root, site } from "./site.mjs";
 
 // Else its process is waited for.
 after(stop);
@@ -124,4 +125,20 @@ test("a drawing is taken with the world that names it, and no other one", async 
     assert.deepEqual((await readFiles([file("oval.svg", svg)], { "robot.sense": world })).unnamed, ["oval.svg"]);
     const large = await readFiles([file("oval.svg", "x".repeat(1_000_001)), file("oval.toml", world)], {});
     assert.deepEqual(large.refused, ["oval.svg"]);
+});
+
+test("without the texts of projects the tool answers the same, and with them a project is whole", async () => {
+    const module = await WebAssembly.compile(readFileSync(`${site}/sensedsl.wasm`));
+    const [lean, full] = [await load(module), await load(module)];
+    full.fill(new Uint8Array(readFileSync(`${site}/texts.bin`)));
+    for (const name of ["fig2", "rover", "line_follower"]) {
+        for (const target of ["chibios", "embassy"]) {
+            const request = { path: "a.sense", files: { "a.sense": example(name) }, target };
+            assert.deepEqual(lean(request), full(request), `${name} ${target}`);
+            const [without, whole] = [lean.project(request), full.project(request)].map(({ files }) => Object.values(files ?? {}));
+            const hasHole = (text) => text.includes("\0".repeat(100));
+            assert.ok(without.some(hasHole), "nothing was taken out");
+            assert.ok(!whole.some(hasHole), `${name} ${target}: something is missing`);
+        }
+    }
 });

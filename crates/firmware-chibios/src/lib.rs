@@ -119,6 +119,10 @@ impl Target for Chibios {
         }
     }
 
+    fn keeps_parameters(&self) -> bool {
+        true
+    }
+
     fn build_option(&self) -> &'static str {
         " --chibios /path/to/ChibiOS"
     }

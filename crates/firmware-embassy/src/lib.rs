@@ -116,6 +116,10 @@ impl Target for Embassy {
         generate::generate(job, HALS)
     }
 
+    fn keeps_parameters(&self) -> bool {
+        false
+    }
+
     fn build_option(&self) -> &'static str {
         ""
     }

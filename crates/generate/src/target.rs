@@ -7,10 +7,10 @@
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_diagnostics::codes::{
-    e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware,
+    e0501_no_generator, e0504_no_firmware_target, w0601_unused_property, w0615_no_firmware,
 };
 use sensedsl_diagnostics::{Diagnostic, Severity};
-use sensedsl_model::design::Design;
+use sensedsl_model::design::{Design, Device};
 use sensedsl_model::{drop_allowed, sort};
 use sensedsl_wiring::assignment::Assignment;
 
@@ -89,6 +89,19 @@ fn unmade(
     Some(e0501_no_generator::not_made_yet(name.span, &name.value, what))
 }
 
+/// The parameters that should be kept over a reset and are not.
+fn forgotten(job: &BoardJob<'_>, profile: &TargetProfile) -> Vec<Diagnostic> {
+    if of(profile).is_none_or(Target::keeps_parameters) {
+        return Vec::new();
+    }
+    let stored = job.devices.iter().map(|one| one.device);
+    let stored = stored.filter(|one| one.kind.code().is_some_and(|code| code.is_stored));
+    let warn = |one: &Device| {
+        w0601_unused_property::not_stored(one.name.span, &one.name.value, profile.system())
+    };
+    stored.map(warn).collect()
+}
+
 fn missing_kinds(
     target: &dyn Target,
     profile: &TargetProfile,
@@ -148,8 +161,8 @@ fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
     Err(diagnostics)
 }
 
-/// Adds what [`firmware`] would reject to the diagnostics of a design, as warnings for users who do not generate yet. A
-/// board whose target is `none` wants no firmware, and a design with errors gets none.
+/// Adds what [`firmware`] would reject to the diagnostics of a design, as warnings for users who do not generate yet, and
+/// what it would not do. A board whose target is `none` wants no firmware, and a design with errors gets none.
 pub fn foresee(design: &Design, wiring: &Assignment, reported: &mut Vec<Diagnostic>) {
     if reported.iter().any(|one| one.severity == Severity::Error) {
         return;
@@ -163,6 +176,7 @@ pub fn foresee(design: &Design, wiring: &Assignment, reported: &mut Vec<Diagnost
         let gaps = of_board(&job).err().unwrap_or_default();
         let gaps = gaps.into_iter().filter(|gap| !is_known(gap));
         found.extend(gaps.map(|gap| w0615_no_firmware::no_firmware(gap, profile.system())));
+        found.extend(forgotten(&job, profile));
     }
     drop_allowed(design, &mut found);
     if !found.is_empty() {

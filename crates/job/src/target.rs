@@ -21,6 +21,8 @@ pub trait Target: Sync {
     /// What a connection of such a kind needs and this target has no code for, worded to follow "has no code for":
     /// without it the values would be wrong or missing.
     fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str>;
+    /// Whether a parameter with `store = true` keeps its value when the board is reset.
+    fn keeps_parameters(&self) -> bool;
     /// The firmware of one board, relative to the board's folder.
     ///
     /// # Errors

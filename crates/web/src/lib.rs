@@ -123,6 +123,28 @@ mod tests {
         assert_eq!(asked(&request)["diagnostics"], json!([]));
     }
 
+    /// A parameter that is to be kept over a reset is only as good as the system that keeps it.
+    #[test]
+    fn what_is_not_kept_is_said() {
+        let text = |allow: &str| {
+            format!(
+                "board Robot on NUCLEO_F446RE {{ actuator Gain accepts float32 {{ type = code; \
+                 default = 1; store = true; {allow} }} }}"
+            )
+        };
+        let found = |text: &str, target: &str| {
+            let files = json!({ "a.sense": text });
+            asked(&json!({ "path": "a.sense", "files": files, "target": target }))
+        };
+        assert_eq!(found(&text(""), "chibios")["diagnostics"], json!([]));
+        let told = found(&text(""), "embassy");
+        let one = &told["diagnostics"][0];
+        assert_eq!((&one["code"], &one["severity"]), (&json!("W0601"), &json!("warning")));
+        assert!(one["message"].as_str().unwrap().contains("`store` of `Gain`"), "{one:#}");
+        let known = text("allow W0601 \"the host sets it\";");
+        assert_eq!(found(&known, "embassy")["diagnostics"], json!([]));
+    }
+
     #[test]
     fn what_cannot_be_answered_is_said() {
         let missing = asked(&json!({ "path": "a.sense" }));

@@ -6,7 +6,7 @@ import type { Engine } from "./engine.js";
 import type { Answered, Design, Served, Started } from "./messages.js";
 
 /** Longer than the module's: a request takes some time, however little it asks for. */
-const STEP_MS = 60;
+const STEP_MS = 20;
 
 function place({ board }: Served): string {
     return `/api/boards/${encodeURIComponent(board)}`;

@@ -145,7 +145,7 @@ impl Live {
         let mut seen = self.watch.seen(&self.session, self.now);
         if let Some(fields) = seen.as_object_mut() {
             fields.insert("outputs".to_owned(), outputs);
-            fields.insert("poses".to_owned(), robot.poses());
+            fields.insert("poses".to_owned(), json!(robot.poses()));
             fields.insert("figures".to_owned(), robot.figures().into());
         }
         seen

@@ -19,6 +19,8 @@ use crate::request::Request;
 const MS_NS: u64 = 1_000_000;
 /// The seed of a world that has none: a page shows the same each time.
 const SEED: u64 = 1;
+/// How often it is noted where a robot is.
+const POSE_EVERY_MS: u64 = 10;
 
 /// A simulated board.
 pub(super) struct Robot {
@@ -31,6 +33,7 @@ pub(super) struct Robot {
     pub(super) has_code: bool,
     /// The controllers that the world stands in for.
     pub(super) stand_ins: Vec<String>,
+    poses: Vec<Vec<[f64; 4]>>,
 }
 
 impl Robot {
@@ -96,7 +99,7 @@ impl Robot {
         let sensors = job.devices.iter().filter(is_sensor);
         let sensors = sensors.map(|one| (one.name().to_owned(), one.index)).collect();
         let wires = (0..job.devices.len()).map(|device| wires(job, device)).collect();
-        (Some(Self { board, sensors, wires, has_code, stand_ins }), told)
+        (Some(Self { board, sensors, wires, has_code, stand_ins, poses: Vec::new() }), told)
     }
 
     pub(super) fn now_ms(&self) -> u64 {
@@ -107,6 +110,9 @@ impl Robot {
     pub(super) fn step(&mut self) -> Vec<u8> {
         self.board.run_until(self.board.now_ns() + MS_NS);
         let _ = self.board.received();
+        if self.now_ms().is_multiple_of(POSE_EVERY_MS) {
+            self.stand();
+        }
         self.board.link_read()
     }
 
@@ -164,11 +170,20 @@ impl Robot {
         Value::Array(all.collect())
     }
 
-    /// Where each robot is now: metres to the right and upwards, then the direction that it looks in.
-    pub(super) fn poses(&self) -> Value {
-        let stands = self.board.bench().stands().into_iter();
-        let all = stands.map(|one| json!([[one.at.0, one.at.1, one.looks.0, one.looks.1]]));
-        Value::Array(all.collect())
+    /// Where each robot has been since the last call, and is now: metres to the right and upwards, then the direction
+    /// that it looks in.
+    pub(super) fn poses(&mut self) -> Vec<Vec<[f64; 4]>> {
+        self.stand();
+        std::mem::take(&mut self.poses)
+    }
+
+    /// Notes where each robot is.
+    fn stand(&mut self) {
+        let stands = self.board.bench().stands();
+        self.poses.resize(stands.len(), Vec::new());
+        for (all, one) in self.poses.iter_mut().zip(stands) {
+            all.push([one.at.0, one.at.1, one.looks.0, one.looks.1]);
+        }
     }
 
     /// What the plants of the world came to, in words.

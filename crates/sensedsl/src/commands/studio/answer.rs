@@ -1,14 +1,24 @@
 //! Answers of the server, with the headers that all of them have.
 
-use std::io::{self, Cursor};
+use std::io::{self, Write as _};
 
 use serde_json::{Value, json};
-use tiny_http::{Header, Request, Response, StatusCode};
+use tiny_http::{Request, StatusCode};
 
 /// What is not the page's own may neither be loaded nor asked.
 const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; \
     img-src 'self' data: blob:; connect-src 'self'; worker-src 'self' blob:; frame-src 'self' blob:; object-src 'none'; \
     base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// What all answers have.
+const HEADERS: [(&str, &str); 6] = [
+    ("Content-Security-Policy", POLICY),
+    ("X-Content-Type-Options", "nosniff"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Opener-Policy", "same-origin"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Cache-Control", "no-store"),
+];
 
 /// What a request wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,25 +83,30 @@ impl Answer {
         Self::json(status, &json!({ "error": why }))
     }
 
-    /// Sends it.
+    /// Sends it, in one piece: what comes in two waits for the other side to say that it has got the first one, which
+    /// takes it 40 ms.
     pub(super) fn send(self, request: Request) -> io::Result<()> {
-        let length = self.body.len();
-        let mut headers = vec![
-            ("Content-Type", self.kind.to_owned()),
-            ("Content-Security-Policy", POLICY.to_owned()),
-            ("X-Content-Type-Options", "nosniff".to_owned()),
-            ("Referrer-Policy", "no-referrer".to_owned()),
-            ("Cross-Origin-Opener-Policy", "same-origin".to_owned()),
-            ("Cross-Origin-Resource-Policy", "same-origin".to_owned()),
-            ("Cache-Control", "no-store".to_owned()),
-        ];
-        headers.extend(self.tag.map(|tag| ("ETag", tag)));
-        // None of them has bytes that a header may not have.
-        let headers = headers
-            .iter()
-            .filter_map(|(name, value)| Header::from_bytes(name.as_bytes(), value.as_bytes()).ok());
-        let body = Cursor::new(self.body);
         let status = StatusCode(self.status);
-        request.respond(Response::new(status, headers.collect(), body, Some(length), None))
+        let mut head =
+            format!("HTTP/1.1 {} {}\r\n", status.0, status.default_reason_phrase()).into_bytes();
+        let mut line = |name: &str, value: &str| {
+            head.extend_from_slice(format!("{name}: {value}\r\n").as_bytes());
+        };
+        line("Content-Type", self.kind);
+        line("Content-Length", &self.body.len().to_string());
+        for (name, value) in HEADERS {
+            line(name, value);
+        }
+        // None of its signs can end the line: it is a digest.
+        if let Some(tag) = &self.tag {
+            line("ETag", tag);
+        }
+        head.extend_from_slice(b"\r\n");
+        if *request.method() != tiny_http::Method::Head {
+            head.extend_from_slice(&self.body);
+        }
+        let mut writer = request.into_writer();
+        writer.write_all(&head)?;
+        writer.flush()
     }
 }

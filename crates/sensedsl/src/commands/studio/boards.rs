@@ -19,6 +19,7 @@ use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::UserCode;
 use sensedsl_twin::world::World;
 use sensedsl_web::{Outside, Studio};
+use serde_json::Value;
 use tiny_http::Request;
 
 use super::answer::Answer;
@@ -53,8 +54,10 @@ impl Boards {
             Err(refused) => return refused,
         };
         let (sender, answer) = channel();
-        let board = self.board(name);
-        let told = board.send((call, sender)).is_ok().then(|| answer.recv().ok()).flatten();
+        let told = self.board(name, &call).and_then(|board| {
+            board.send((call, sender)).ok()?;
+            answer.recv().ok()
+        });
         match told {
             Some(told) => Answer::json_text(told),
             None => {
@@ -69,10 +72,15 @@ impl Boards {
         self.all.lock().unwrap_or_else(PoisonError::into_inner).remove(name);
     }
 
-    fn board(&self, name: &str) -> Sender<Call> {
+    /// The board of that name; a call that starts one makes it, any other comes too late.
+    fn board(&self, name: &str, call: &str) -> Option<Sender<Call>> {
         let mut all = self.all.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, board)) = all.get(name) {
-            return board.clone();
+            return Some(board.clone());
+        }
+        let call: Value = serde_json::from_str(call).ok()?;
+        if call.get("do").and_then(Value::as_str) != Some("robot") {
+            return None;
         }
         while all.len() >= BOARDS_MAX {
             let oldest = all.iter().min_by_key(|(_, (came, _))| *came);
@@ -84,7 +92,7 @@ impl Boards {
         let root = self.root.clone();
         std::thread::spawn(move || run(root, &calls));
         all.insert(name.to_owned(), (came, sender.clone()));
-        sender
+        Some(sender)
     }
 }
 
