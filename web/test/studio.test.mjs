@@ -261,6 +261,7 @@ test("the download is what generate writes", { skip }, async () => {
     }
     assert.ok(bytes[0].equals(bytes[1]), "twice the same bytes");
     const tool = await load(readFileSync(join(site, "sensedsl.wasm")));
+    tool.fill(new Uint8Array(readFileSync(join(site, "texts.bin"))));
     const { files } = tool.project({ path: "fig2.sense", files: { "fig2.sense": FIG2 } });
     const unpacked = Object.entries(unzipSync(bytes[0])).map(([path, text]) => [path, new TextDecoder().decode(text)]);
     assert.deepEqual(Object.fromEntries(unpacked), files);
