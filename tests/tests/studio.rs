@@ -245,6 +245,17 @@ fn a_robot_with_code_drives_on_its_map() {
     let notes = seen["notes"].to_string();
     assert!(notes.contains("the controllers' code stopped after 0.00"), "{notes}");
 
+    // What is not a number sets nothing, and what is too much sets the most.
+    let wild = "#include \"follow.h\"\n#include <math.h>\nvoid follow_init(void) {}\n\
+        void follow_step(const struct follow_in *in, struct follow_out *out, uint32_t dt_us) {\n\
+        (void)in; (void)dt_us; follow_set_left(out, NAN); follow_set_right(out, 1e9f); }\n";
+    fs::write(&code, wild).unwrap();
+    call("one", robot.clone());
+    let seen = call("one", serde_json::json!({ "do": "run", "until_ms": 100 }));
+    let outputs = seen["outputs"].as_array().unwrap().iter();
+    let numbers: Vec<&Value> = outputs.map(|one| &one[1][0]).collect();
+    assert_eq!(numbers[..2], [&serde_json::json!(0.0), &serde_json::json!(100.0)], "{seen}");
+
     // Without code the world's PID stands in for it.
     fs::remove_dir_all(folder.join("build")).unwrap();
     let told = call("two", robot.clone());

@@ -212,6 +212,21 @@ mod tests {
         assert!(called(&mut studio, &json!({ "do": "run", "until_ms": 1 }))["error"].is_string());
     }
 
+    /// A page is told what only a program of its computer could do.
+    #[test]
+    fn a_program_of_the_world_is_named() {
+        let world = "[plants.Sun]\nkind = 'process'\ncommand = ['python3', 'sun.py']\n\
+            step = '1 ms'\nsensors = ['Light']\n";
+        let files = json!({ "rover.sense": TEXT, "sun.toml": world });
+        let of = json!({ "path": "rover.sense", "files": files });
+        let mut studio = Studio::default();
+        let told = called(&mut studio, &json!({ "do": "robot", "of": of, "world": "sun.toml" }));
+        assert_eq!(told["robot"]["board"], "Rover", "{told:#}");
+        let seen = called(&mut studio, &json!({ "do": "run", "until_ms": 20 }));
+        let note = &seen["notes"][0];
+        assert!(note["text"].as_str().unwrap().starts_with("Sun: a page runs no"), "{seen:#}");
+    }
+
     #[test]
     fn a_wire_is_put_on_the_pin_that_somebody_chose() {
         let mut studio = Studio::default();

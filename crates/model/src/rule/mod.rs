@@ -11,13 +11,13 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0110_misplaced_item, e0201_unknown_property, e0209_wrong_value,
-    e0212_unknown_word, w0604_unused_rule, w0615_no_firmware,
+    e0212_unknown_word, w0601_unused_property, w0604_unused_rule, w0615_no_firmware,
 };
 use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
 use sensedsl_syntax::TextRange;
 use sensedsl_syntax::ast::{self, AstNode as _, Rule};
 
-use crate::design::{Allow, Design, PinRef, Preference, PreferenceSubject, Together};
+use crate::design::{Allow, Design, Device, PinRef, Preference, PreferenceSubject, Together};
 use crate::fields::name_or_text;
 use crate::kind::Role;
 use crate::spanned::{Spanned, span};
@@ -195,8 +195,17 @@ fn allow(
 pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let allows = allows(design);
     let used = drop_covered(&allows, diagnostics);
-    // What only `check` foresees is reported after this.
-    let is_due = |allow: &Allow| allow.code != w0615_no_firmware::CODE;
+    // What only `check` foresees is reported after this: what has no firmware, and parameters that are not kept.
+    let stored = |device: &Device| device.kind.code().is_some_and(|code| code.is_stored);
+    let stored: Vec<Span> =
+        design.devices.iter().filter(|one| stored(one)).map(|one| one.name.span).collect();
+    let is_due = |allow: &Allow| {
+        let has = |at: &Span| {
+            at.file == allow.scope.file && (allow.scope.start..allow.scope.end).contains(&at.start)
+        };
+        let is_of_stored = allow.code == w0601_unused_property::CODE && stored.iter().any(has);
+        allow.code != w0615_no_firmware::CODE && !is_of_stored
+    };
     let unused = allows.iter().enumerate().filter(|(index, _)| !used.contains(index));
     let unused = unused.filter(|(_, allow)| is_due(allow));
     diagnostics.extend(unused.map(|(_, allow)| {

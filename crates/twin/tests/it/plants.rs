@@ -218,6 +218,12 @@ fn a_robot_turns_as_its_gyroscope_says() {
         let wanted = (2.0_f64 * 0.06 / 0.15).to_degrees();
         let [x, y, z] = found.last("ImuRate") else { panic!("three axes") };
         assert!((z - wanted).abs() < 0.2 && *x == 0.0 && *y == 0.0, "{x} {y} {z}");
+        // One that is not calibrated shows as much more on all axes, and the judge knows.
+        let biased = world.replace("gyro = 'ImuRate'", "gyro = { sensor = 'ImuRate', bias = 1.5 }");
+        let found = run(job, &biased, &Told { seconds: 3, commands }, None);
+        assert_eq!(found.wrong, Vec::<String>::new());
+        let [x, _, z] = found.last("ImuRate") else { panic!("three axes") };
+        assert!((z - wanted - 1.5).abs() < 0.2 && (x - 1.5).abs() < 0.1, "{x} {z}");
     });
 }
 

@@ -100,10 +100,15 @@ impl Live {
                 fields.insert("has_code".to_owned(), robot.has_code.into());
                 fields.insert("stand_ins".to_owned(), robot.stand_ins.clone().into());
             }
+            let mut watch = Watch::new(board);
+            for plant in robot.iter().flat_map(|robot| &robot.idle) {
+                let what = "a page runs no programs, so its sensors stay as they are";
+                watch.note("warning", format!("{plant}: {what}; `sensedsl studio` runs it"));
+            }
             live = Some(Self {
                 board,
                 session: Session::new(board, Duration::ZERO),
-                watch: Watch::new(board),
+                watch,
                 robot,
                 outbox: Vec::new(),
                 now: Duration::ZERO,

@@ -33,6 +33,8 @@ pub(super) struct Robot {
     pub(super) has_code: bool,
     /// The controllers that the world stands in for.
     pub(super) stand_ins: Vec<String>,
+    /// The plants whose programs nobody runs.
+    pub(super) idle: Vec<String>,
     poses: Vec<Vec<[f64; 4]>>,
 }
 
@@ -84,6 +86,9 @@ impl Robot {
             stands_in.then(|| Box::new(StandIns::new(job, &world.stand_ins)) as Box<dyn UserCode>)
         });
         let stand_ins = if stands_in { stood_in(job, &world) } else { Vec::new() };
+        let programs =
+            world.plants.iter().filter(|one| outside.is_none() && one.command().is_some());
+        let idle = programs.map(|one| one.name.clone()).collect();
         let shown = |one: &Diagnostic| render::json_value(one, &sources);
         let told: Vec<Value> = wrong.iter().map(shown).collect();
         if sensedsl_session::has_errors(&wrong) {
@@ -99,7 +104,7 @@ impl Robot {
         let sensors = job.devices.iter().filter(is_sensor);
         let sensors = sensors.map(|one| (one.name().to_owned(), one.index)).collect();
         let wires = (0..job.devices.len()).map(|device| wires(job, device)).collect();
-        (Some(Self { board, sensors, wires, has_code, stand_ins, poses: Vec::new() }), told)
+        (Some(Self { board, sensors, wires, has_code, stand_ins, idle, poses: Vec::new() }), told)
     }
 
     pub(super) fn now_ms(&self) -> u64 {
