@@ -9,6 +9,7 @@ mod course;
 mod entry;
 mod fault;
 mod file;
+mod pid;
 mod plants;
 mod recorded;
 mod samples;
@@ -27,9 +28,9 @@ use crate::plants::Plant;
 pub use course::Course;
 pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
+pub use pid::{Pid, StandIn};
 pub use recorded::{Again, Point, Recorded, recorded};
 pub use signal::{Shape, Signal, Visit};
-pub use stand_in::{Pid, StandIn};
 pub use usual::usual;
 
 /// The events around a board.
