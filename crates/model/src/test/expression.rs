@@ -60,10 +60,10 @@ pub fn expression(
         diagnostics.push(wrong::not_computed(at, &report.message, help));
         return None;
     }
-    let mut items = parsed.ast().items().filter_map(|item| match item {
-        FileItem::Test(test) => Some(test),
-        _ => None,
-    });
+    let mut items = parsed
+        .ast()
+        .items()
+        .filter_map(|item| if let FileItem::Test(test) = item { Some(test) } else { None });
     let mut steps = items.next().into_iter().flat_map(|test| test.steps().collect::<Vec<_>>());
     let (Some(Step::Always(rule)), None) = (steps.next(), steps.next()) else {
         diagnostics.push(e0256_not_a_condition::condition(whole));

@@ -11,7 +11,7 @@ use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 use sensedsl_model::design::{Controller, Device, DeviceIndex};
 use sensedsl_model::{Expression, Like, expression, reach, unit_of_device};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
 
 use super::file::Reader;
 use super::pid::{Pid, StandIn};
@@ -94,11 +94,10 @@ fn elements<'v, 'i>(
     given: &'v Value<'i>,
 ) -> Result<Vec<&'v DeTable<'i>>, Failed> {
     let (name, count) = (&device.name.value, device.value.value.count());
-    let blocks: Option<Vec<&DeTable<'_>>> = match given.get_ref() {
-        DeValue::Table(table) => Some(vec![table]),
-        DeValue::Array(all) => all.iter().map(|one| one.get_ref().as_table()).collect(),
-        _ => None,
-    };
+    let value = given.get_ref();
+    let one = value.as_table().map(|table| vec![table]);
+    let each = |all: &'v DeArray<'i>| all.iter().map(|one| one.get_ref().as_table()).collect();
+    let blocks: Option<Vec<&DeTable<'_>>> = one.or_else(|| value.as_array().and_then(each));
     let Some(blocks) = blocks else {
         let example =
             format!("{name} = {{ measured = \"Speed\", setpoint = \"Wanted\", kp = 0.5 }}");
@@ -230,10 +229,8 @@ impl Block<'_, '_> {
 
 /// A text, or a number as it is written.
 fn written<'v>(of: &'v Value<'_>) -> Option<&'v str> {
-    match of.get_ref() {
-        DeValue::String(text) => Some(text),
-        DeValue::Integer(number) => Some(number.as_str()),
-        DeValue::Float(number) => Some(number.as_str()),
-        _ => None,
-    }
+    let value = of.get_ref();
+    let number =
+        || value.as_integer().map(DeInteger::as_str).or(value.as_float().map(DeFloat::as_str));
+    value.as_str().or_else(number)
 }

@@ -104,74 +104,76 @@ fn what_is_not_known_is_not_set() {
     });
 }
 
+/// Worlds with a mistake: what is said of it, and what its place has.
+const MISTAKES: [(&str, &str, &str); 18] = [
+    ("[controllers.Hald.Heater]\nkp = 1", "`Hald` means nothing in `[controllers]`", "Hald"),
+    (
+        "[controllers.Hold.Setpoint]\nkp = 1",
+        "`Setpoint` means nothing in what Hold sets",
+        "Setpoint",
+    ),
+    ("[controllers.Hold.Heater]\ngain = 1", "`gain` means nothing in a block of Hold", "gain"),
+    ("[controllers.Hold.Heater]\nkp = 1", "`kp` needs `measured`", "1"),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature\"\nkp = 1",
+        "`measured` needs `setpoint`",
+        "\"Temperature\"",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Light\"\nsetpoint = 1",
+        "`measured`: Hold does not read `Light`",
+        "\"Light\"",
+    ),
+    ("[controllers.Hold.Heater]\nmeasured = \"Temperature +\"\nsetpoint = 1", "expected", ""),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature; never Off[0] == 0\"\nsetpoint = 1",
+        "",
+        "",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature == 0 and Temperature\"\nsetpoint = 1",
+        "",
+        "",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temprature\"\nsetpoint = 1",
+        "Temprature",
+        "Temprature",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature\"\nsetpoint = \"20 cm\"",
+        "degC",
+        "20 cm",
+    ),
+    ("[controllers.Hold.Heater]\nfeedforward = \"Temperature\"", "is needed", "Temperature"),
+    (
+        "[controllers.Hold.Heater]\nfeedforward = \"5 %\"\nmin = 9\nmax = 3",
+        "`max`: `min` is above it",
+        "3",
+    ),
+    (
+        "[controllers.Hold.Heater]\nfeedforward = [1]",
+        "`feedforward` must be a text or a number",
+        "[1]",
+    ),
+    (
+        "[controllers.Hold.Heater]\nkp = \"much\"\nmeasured = \"Temperature\"\nsetpoint = 1",
+        "`kp` must be a number",
+        "\"much\"",
+    ),
+    (
+        "[controllers.Hold.Off]\nfeedforward = 1",
+        "`Off` has 2 elements, and there are 1 here",
+        "Off",
+    ),
+    ("[controllers]\nHold = 3", "`Hold` must be a table for each output", "Hold"),
+    ("controllers = 3", "`controllers` must be a table for each controller", "3"),
+];
+
 #[test]
 fn mistakes_have_places() {
-    let cases = [
-        ("[controllers.Hald.Heater]\nkp = 1", "`Hald` means nothing in `[controllers]`", "Hald"),
-        (
-            "[controllers.Hold.Setpoint]\nkp = 1",
-            "`Setpoint` means nothing in what Hold sets",
-            "Setpoint",
-        ),
-        ("[controllers.Hold.Heater]\ngain = 1", "`gain` means nothing in a block of Hold", "gain"),
-        ("[controllers.Hold.Heater]\nkp = 1", "`kp` needs `measured`", "1"),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Temperature\"\nkp = 1",
-            "`measured` needs `setpoint`",
-            "\"Temperature\"",
-        ),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Light\"\nsetpoint = 1",
-            "`measured`: Hold does not read `Light`",
-            "\"Light\"",
-        ),
-        ("[controllers.Hold.Heater]\nmeasured = \"Temperature +\"\nsetpoint = 1", "expected", ""),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Temperature; never Off[0] == 0\"\nsetpoint = 1",
-            "",
-            "",
-        ),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Temperature == 0 and Temperature\"\nsetpoint = 1",
-            "",
-            "",
-        ),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Temprature\"\nsetpoint = 1",
-            "Temprature",
-            "Temprature",
-        ),
-        (
-            "[controllers.Hold.Heater]\nmeasured = \"Temperature\"\nsetpoint = \"20 cm\"",
-            "degC",
-            "20 cm",
-        ),
-        ("[controllers.Hold.Heater]\nfeedforward = \"Temperature\"", "is needed", "Temperature"),
-        (
-            "[controllers.Hold.Heater]\nfeedforward = \"5 %\"\nmin = 9\nmax = 3",
-            "`max`: `min` is above it",
-            "3",
-        ),
-        (
-            "[controllers.Hold.Heater]\nfeedforward = [1]",
-            "`feedforward` must be a text or a number",
-            "[1]",
-        ),
-        (
-            "[controllers.Hold.Heater]\nkp = \"much\"\nmeasured = \"Temperature\"\nsetpoint = 1",
-            "`kp` must be a number",
-            "\"much\"",
-        ),
-        (
-            "[controllers.Hold.Off]\nfeedforward = 1",
-            "`Off` has 2 elements, and there are 1 here",
-            "Off",
-        ),
-        ("[controllers]\nHold = 3", "`Hold` must be a table for each output", "Hold"),
-        ("controllers = 3", "`controllers` must be a table for each controller", "3"),
-    ];
     with_job(OVEN, |job| {
-        for (text, message, place) in cases {
+        for (text, message, place) in MISTAKES {
             let (_, wrong, sources) = read(job, text);
             let [one] = wrong.as_slice() else { panic!("{text}: {wrong:#?}") };
             assert!(one.message.contains(message), "{text}: {}", one.message);
