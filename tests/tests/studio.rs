@@ -239,6 +239,7 @@ fn a_robot_with_code_drives_on_its_map() {
     let wrong = &refused["diagnostics"][0];
     assert_eq!((&refused["robot"], &wrong["code"]), (&Value::Null, &"E0535".into()));
     assert!(wrong["message"].as_str().unwrap().contains("user/follow.c:"), "{wrong}");
+    assert_eq!(wrong["file"], "follower/robot.sense");
     fs::write(&code, "#include \"follow.h\"\nvoid follow_init(void) {}\nvoid follow_step(const struct follow_in *in, struct follow_out *out, uint32_t dt_us) { (void)in; (void)out; for (;;) { if (dt_us > 0) __builtin_trap(); else break; } }\n").unwrap();
     call("one", robot.clone());
     let seen = call("one", serde_json::json!({ "do": "run", "until_ms": 100 }));

@@ -106,7 +106,7 @@ fn what_is_not_known_is_not_set() {
 
 /// Worlds with a mistake: what is said of it, and what its place has.
 const MISTAKES: [(&str, &str, &str); 18] = [
-    ("[controllers.Hald.Heater]\nkp = 1", "`Hald` means nothing in `[controllers]`", "Hald"),
+    ("[controllers.Hover.Heater]\nkp = 1", "`Hover` means nothing in `[controllers]`", "Hover"),
     (
         "[controllers.Hold.Setpoint]\nkp = 1",
         "`Setpoint` means nothing in what Hold sets",
@@ -135,11 +135,7 @@ const MISTAKES: [(&str, &str, &str); 18] = [
         "",
         "",
     ),
-    (
-        "[controllers.Hold.Heater]\nmeasured = \"Temprature\"\nsetpoint = 1",
-        "Temprature",
-        "Temprature",
-    ),
+    ("[controllers.Hold.Heater]\nmeasured = \"Warmth\"\nsetpoint = 1", "Warmth", "Warmth"),
     (
         "[controllers.Hold.Heater]\nmeasured = \"Temperature\"\nsetpoint = \"20 cm\"",
         "degC",

@@ -75,7 +75,7 @@ impl Live {
         let mut live = None;
         let mut wrong = Vec::new();
         let mut unknown = None;
-        let mut told = wanted.of.of_wiring("robot", |design, wiring, _| {
+        let mut told = wanted.of.of_wiring("robot", |design, wiring, reported| {
             let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
             let named =
                 |job: &&BoardJob<'_>| wanted.name.is_none_or(|name| job.board.name.value == name);
@@ -90,7 +90,8 @@ impl Live {
             let board: &'static Board = Box::leak(Box::new(board));
             let mut robot = None;
             if let Around::World(world) = wanted.around {
-                let (made, of_world) = Robot::new(job, wanted.of, world, wanted.outside);
+                let around = (world, wanted.outside);
+                let (made, of_world) = Robot::new(job, wanted.of, around, reported);
                 wrong = of_world;
                 robot = Some(made?);
             }

@@ -39,61 +39,36 @@ pub(super) struct Robot {
 }
 
 impl Robot {
-    /// A board whose sensors measure a world, and what is wrong with that; none if that has errors. The world is one of
-    /// the page's texts, as is what it names.
+    /// A board whose sensors measure a world; none if something is wrong. Mistakes of the world are told in JSON, as the
+    /// page has its text, those of the design's code in `reported`.
     pub(super) fn new(
         job: &BoardJob<'_>,
         of: &Request,
-        path: Option<&str>,
-        outside: Option<&dyn Outside>,
+        (path, outside): (Option<&str>, Option<&dyn Outside>),
+        reported: &mut Vec<Diagnostic>,
     ) -> (Option<Self>, Vec<Value>) {
-        let devices: Vec<DeviceIndex> = job.devices.iter().map(|one| one.index).collect();
-        let (path, text) = match path {
-            Some(path) => (path, of.files.get(path).map_or("", String::as_str)),
-            None => ("world", ""),
-        };
-        let beside = |name: &str| {
-            let path = match path.rsplit_once('/') {
-                Some((folder, _)) => normal_path(&format!("{folder}/{name}")),
-                None => normal_path(name),
-            };
-            of.files.get(&path).cloned().ok_or_else(|| "it is not among the open files".to_owned())
-        };
-        let scene = Scene {
-            design: job.design,
-            devices: &devices,
-            transport: job.board.link.transport,
-            seed: None,
-            samples: &beside,
-        };
-        let mut sources = SourceMap::default();
-        let file = sources.add(path, text);
-        let (world, mut wrong) = world::read(file, text, &scene);
+        let (world, told) = read(job, of, path);
+        let Some(world) = world else { return (None, told) };
         let mut bench = Bench::new(job, &world, world.seed.unwrap_or(SEED));
-        let code = match outside {
-            Some(outside) if !sensedsl_session::has_errors(&wrong) => {
-                outside.attach(&mut bench, &world, path);
-                outside.code(&of.path, job).unwrap_or_else(|why| {
-                    wrong.push(*why);
-                    None
-                })
-            }
-            _ => None,
-        };
+        let mut code = None;
+        if let Some(outside) = outside {
+            outside.attach(&mut bench, &world, path.unwrap_or_default());
+            code = match outside.code(&of.path, job) {
+                Ok(code) => code,
+                Err(why) => {
+                    reported.push(*why);
+                    return (None, told);
+                }
+            };
+        }
         let has_code = code.is_some();
-        let stands_in = !has_code && !world.stand_ins.is_empty();
-        let code = code.or_else(|| {
-            stands_in.then(|| Box::new(StandIns::new(job, &world.stand_ins)) as Box<dyn UserCode>)
-        });
-        let stand_ins = if stands_in { stood_in(job, &world) } else { Vec::new() };
+        let stand_ins = if has_code { Vec::new() } else { stood_in(job, &world) };
+        if !stand_ins.is_empty() {
+            code = Some(Box::new(StandIns::new(job, &world.stand_ins)));
+        }
         let programs =
             world.plants.iter().filter(|one| outside.is_none() && one.command().is_some());
         let idle = programs.map(|one| one.name.clone()).collect();
-        let shown = |one: &Diagnostic| render::json_value(one, &sources);
-        let told: Vec<Value> = wrong.iter().map(shown).collect();
-        if sensedsl_session::has_errors(&wrong) {
-            return (None, told);
-        }
         let mut board = SoftBoard::new(job, bench);
         if let Some(code) = code {
             board = board.with_code(code);
@@ -228,6 +203,32 @@ impl Robot {
             self.wires.get(device).into_iter().flatten().filter_map(wire).collect();
         all.join(", ")
     }
+}
+
+/// The world of one of the page's texts, or the usual one, with what it names; none if it has mistakes.
+fn read(job: &BoardJob<'_>, of: &Request, path: Option<&str>) -> (Option<World>, Vec<Value>) {
+    let devices: Vec<DeviceIndex> = job.devices.iter().map(|one| one.index).collect();
+    let path = path.unwrap_or_default();
+    let text = of.files.get(path).map_or("", String::as_str);
+    let beside = |name: &str| {
+        let path = match path.rsplit_once('/') {
+            Some((folder, _)) => normal_path(&format!("{folder}/{name}")),
+            None => normal_path(name),
+        };
+        of.files.get(&path).cloned().ok_or_else(|| "it is not among the open files".to_owned())
+    };
+    let scene = Scene {
+        design: job.design,
+        devices: &devices,
+        transport: job.board.link.transport,
+        seed: None,
+        samples: &beside,
+    };
+    let mut sources = SourceMap::default();
+    let file = sources.add(path, text);
+    let (world, wrong) = world::read(file, text, &scene);
+    let told = wrong.iter().map(|one| render::json_value(one, &sources)).collect();
+    ((!sensedsl_session::has_errors(&wrong)).then_some(world), told)
 }
 
 /// The names of the controllers that a world stands in for.
