@@ -8,7 +8,7 @@ use sensedsl_model::design::{ConnectionIndex, DeviceIndex};
 use sensedsl_model::kind::Role;
 use sensedsl_model::normal_path;
 use sensedsl_twin::bench::Bench;
-use sensedsl_twin::soft::{SoftBoard, StandIns, UserCode};
+use sensedsl_twin::soft::{SoftBoard, StandIns};
 use sensedsl_twin::world::{self, Scene, World};
 use sensedsl_wire::{Direction, Scalar};
 use serde_json::{Value, json};
