@@ -166,8 +166,10 @@ test("a robot drives with its code, and a map shows it", { skip: skipCode }, asy
     assert.equal(await drawing.locator(".live-line").count(), 1);
     assert.equal(await drawing.locator(".live-wall").count(), 1);
     // It has begun at 1.2 m from the left, 0.3 m from the top; its path is where it has been.
-    const [, x, y] = /translate\(([\d.]+) ([\d.]+)\)/.exec(await drawing.locator(".live-robot").getAttribute("transform"));
-    assert.ok(Number(x) > 1_450 && Number(y) > 280, `${x} ${y}`);
+    await page.waitForFunction(() => {
+        const [, x, y] = /translate\(([\d.]+) ([\d.]+)\)/.exec(document.querySelector(".live-robot").getAttribute("transform"));
+        return Number(x) > 1_450 && Number(y) > 280;
+    });
     assert.match(await drawing.locator(".live-trail path").first().getAttribute("d"), /^M12\d\d(\.\d)? 300/);
     await page.waitForFunction(() => /2\.4 m by 1\.4 m.* Robot is 1\.[4-9]\d m from the left.*Robot: [\d.]+ m/.test(document.querySelector(".live-map svg").getAttribute("aria-label")));
     assert.equal(await page.locator('.live-notes li[data-level="error"]').count(), 0);
