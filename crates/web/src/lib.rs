@@ -39,7 +39,7 @@ mod request;
 mod studio;
 
 pub use editor::Editor;
-pub use live::Outside;
+pub use live::{Outside, ServedBoard};
 pub use studio::Studio;
 
 use sensedsl_diagnostics::render;

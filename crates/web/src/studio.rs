@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::live::{Around, Live, Outside, Wanted};
+use crate::live::{Around, Live, Wanted};
 use crate::request::Request;
 use crate::{editor, library, project, reports};
 
@@ -82,16 +82,9 @@ enum Call {
 #[derive(Default)]
 pub struct Studio {
     live: Option<Live>,
-    outside: Option<Box<dyn Outside>>,
 }
 
 impl Studio {
-    /// One that can run programs.
-    #[must_use]
-    pub fn beside(outside: Box<dyn Outside>) -> Self {
-        Self { live: None, outside: Some(outside) }
-    }
-
     /// Answers a call, in JSON. The answer to a call that is not understood has `error`, which gives the reason.
     #[must_use]
     pub fn call(&mut self, call: &str) -> String {
@@ -144,10 +137,7 @@ impl Studio {
     }
 
     fn start(&mut self, of: &Request, name: Option<&str>, around: Around<'_>) -> Value {
-        // Its programs end before others begin.
-        self.live = None;
-        let outside = self.outside.as_deref();
-        let (told, live) = Live::start(&Wanted { of, name, around, outside });
+        let (told, live) = Live::start(&Wanted { of, name, around, outside: None });
         self.live = live;
         told
     }

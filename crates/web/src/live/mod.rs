@@ -6,6 +6,7 @@
 mod info;
 mod robot;
 mod seen;
+mod served;
 
 use std::time::Duration;
 
@@ -20,6 +21,7 @@ use serde_json::{Value, json};
 
 use self::robot::Robot;
 use self::seen::Watch;
+pub use self::served::ServedBoard;
 use crate::request::Request;
 
 /// A board and its host.

@@ -18,7 +18,7 @@ use sensedsl_limits::TOTAL_BYTES_MAX;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::UserCode;
 use sensedsl_twin::world::World;
-use sensedsl_web::{Outside, Studio};
+use sensedsl_web::{Outside, ServedBoard};
 use serde_json::Value;
 use tiny_http::Request;
 
@@ -98,10 +98,10 @@ impl Boards {
 
 /// A board's thread.
 fn run(root: PathBuf, calls: &Receiver<Call>) {
-    let mut studio = Studio::beside(Box::new(Computer { root }));
+    let mut board = ServedBoard::beside(Box::new(Computer { root }));
     while let Ok((call, answer)) = calls.recv_timeout(ALONE) {
         // Who asked may have gone.
-        let _ = answer.send(studio.call(&call));
+        let _ = answer.send(board.call(&call));
     }
 }
 
