@@ -3,11 +3,11 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::live::{Around, Live, Wanted};
+use crate::live::{Around, BoardCall, Live, Wanted, with};
 use crate::request::Request;
 use crate::{editor, library, project, reports};
 
-/// A page's call. `of` is what [`ask`](crate::ask) takes.
+/// A page's call, beside those of a simulated board. `of` is what [`ask`](crate::ask) takes.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
 enum Call {
@@ -46,23 +46,6 @@ enum Call {
     BoardSvg {
         name: String,
     },
-    /// A simulated board takes the place of the board that was there.
-    Robot {
-        of: Request,
-        #[serde(default)]
-        name: Option<String>,
-        /// Which of the files is its world.
-        #[serde(default)]
-        world: Option<String>,
-    },
-    Run {
-        until_ms: f64,
-    },
-    Steer {
-        device: String,
-        element: usize,
-        shown: Option<f64>,
-    },
     /// The host of a real board takes the place of the board that was there.
     Host {
         of: Request,
@@ -71,10 +54,6 @@ enum Call {
     },
     Opened {
         now_ms: f64,
-    },
-    Set {
-        device: String,
-        value: String,
     },
 }
 
@@ -88,6 +67,9 @@ impl Studio {
     /// Answers a call, in JSON. The answer to a call that is not understood has `error`, which gives the reason.
     #[must_use]
     pub fn call(&mut self, call: &str) -> String {
+        if BoardCall::is_one(call) {
+            return BoardCall::answer(call, &mut self.live, None).to_string();
+        }
         let answer = match serde_json::from_str::<Call>(call) {
             Ok(call) => self.answer(call),
             Err(why) => json!({ "error": why.to_string() }),
@@ -99,8 +81,7 @@ impl Studio {
     /// least twenty times a second: what does not come is noticed then.
     #[must_use]
     pub fn feed(&mut self, bytes: &[u8], now_ms: f64) -> String {
-        let seen = self.live.as_mut().map(|live| live.feed(bytes, now_ms));
-        seen.unwrap_or_else(nothing).to_string()
+        with(&mut self.live, |live| live.feed(bytes, now_ms)).to_string()
     }
 
     /// The bytes that a real board must get now.
@@ -120,36 +101,18 @@ impl Studio {
             Call::Boards => library::boards(),
             Call::Parts => library::parts(),
             Call::BoardSvg { name } => json!(library::picture(&name)),
-            Call::Robot { of, name, world } => {
-                self.start(&of, name.as_deref(), Around::World(world.as_deref()))
+            Call::Host { of, name } => {
+                let (name, around) = (name.as_deref(), Around::Nothing);
+                let (told, live) = Live::start(&Wanted { of: &of, name, around, outside: None });
+                self.live = live;
+                told
             }
-            Call::Host { of, name } => self.start(&of, name.as_deref(), Around::Nothing),
-            Call::Run { until_ms } => self.with(|live| live.run(until_ms)),
-            Call::Steer { device, element, shown } => {
-                self.with(|live| live.steer(&device, element, shown))
-            }
-            Call::Opened { now_ms } => self.with(|live| {
+            Call::Opened { now_ms } => with(&mut self.live, |live| {
                 live.opened(now_ms);
                 Value::Null
             }),
-            Call::Set { device, value } => self.with(|live| live.set(&device, &value)),
         }
     }
-
-    fn start(&mut self, of: &Request, name: Option<&str>, around: Around<'_>) -> Value {
-        let (told, live) = Live::start(&Wanted { of, name, around, outside: None });
-        self.live = live;
-        told
-    }
-
-    fn with(&mut self, then: impl FnOnce(&mut Live) -> Value) -> Value {
-        self.live.as_mut().map_or_else(nothing, then)
-    }
-}
-
-/// The answer of a board that is not there.
-fn nothing() -> Value {
-    json!({ "error": "no board is running or connected" })
 }
 
 #[cfg(test)]

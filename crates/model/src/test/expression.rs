@@ -4,13 +4,14 @@
 use sensedsl_diagnostics::codes::{e0253_not_comparable as wrong, e0256_not_a_condition};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_rules::Term;
-use sensedsl_syntax::ast::{Condition, FileItem, Step};
+use sensedsl_syntax::ast::{AstNode as _, Condition, FileItem, SourceFile, Step};
 
 use super::names::{self, Scope};
 use super::quantity::{Quantities, Quantity};
 use super::sort::Sort;
 use crate::design::{Design, Device, DeviceIndex, TestSignal, TestUnit};
 use crate::source::syntax_errors;
+use crate::spanned::span;
 use crate::value::Measure;
 use crate::value::constants::Constants;
 
@@ -60,26 +61,26 @@ pub fn expression(
         diagnostics.push(wrong::not_computed(at, &report.message, help));
         return None;
     }
-    let mut items = parsed
-        .ast()
-        .items()
-        .filter_map(|item| if let FileItem::Test(test) = item { Some(test) } else { None });
-    let mut steps = items.next().into_iter().flat_map(|test| test.steps().collect::<Vec<_>>());
-    let (Some(Step::Always(rule)), None) = (steps.next(), steps.next()) else {
-        diagnostics.push(e0256_not_a_condition::condition(whole));
-        return None;
-    };
-    let Some(Condition::Compare(compare)) = rule.condition() else {
+    let Some(written) = only(&parsed.ast(), whole) else {
         diagnostics.push(e0256_not_a_condition::condition(whole));
         return None;
     };
     let constants = Constants::default();
     let scope = Scope { file, design, absent: &[], constants: &constants };
     let mut quantities = Quantities { scope, signals: Vec::new(), diagnostics };
-    let quantity = quantities.quantity(&compare.left()?)?;
+    let quantity = quantities.quantity(&written)?;
     let (term, sort) = fitted(&mut quantities, quantity, like, whole)?;
     let signals = quantities.signals;
     Some(Expression { term, signals, unit: sort.unit.clone(), sort })
+}
+
+/// The expression between what stands around it; none if it is something else, or ends what stands around it by itself.
+fn only(file: &SourceFile, whole: Span) -> Option<Condition> {
+    let FileItem::Test(test) = file.items().next()? else { return None };
+    let Step::Always(rule) = test.steps().next()? else { return None };
+    let Condition::Compare(compare) = rule.condition()? else { return None };
+    let behind = span(whole.file, compare.right()?.range());
+    (behind.start >= whole.end).then(|| compare.left()).flatten()
 }
 
 /// A place in an expression; what lies around it is nobody's.

@@ -105,7 +105,7 @@ fn what_is_not_known_is_not_set() {
 }
 
 /// Worlds with a mistake: what is said of it, and what its place has.
-const MISTAKES: [(&str, &str, &str); 18] = [
+const MISTAKES: [(&str, &str, &str); 20] = [
     ("[controllers.Hover.Heater]\nkp = 1", "`Hover` means nothing in `[controllers]`", "Hover"),
     (
         "[controllers.Hold.Setpoint]\nkp = 1",
@@ -134,6 +134,16 @@ const MISTAKES: [(&str, &str, &str); 18] = [
         "[controllers.Hold.Heater]\nmeasured = \"Temperature == 0 and Temperature\"\nsetpoint = 1",
         "",
         "",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature == 5;}//\"\nsetpoint = 1",
+        "not a number",
+        "Temperature",
+    ),
+    (
+        "[controllers.Hold.Heater]\nmeasured = \"Temperature == 5;} test Y{always Off[0]\"\nsetpoint = 1",
+        "not a number",
+        "Temperature",
     ),
     ("[controllers.Hold.Heater]\nmeasured = \"Warmth\"\nsetpoint = 1", "Warmth", "Warmth"),
     (

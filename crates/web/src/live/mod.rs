@@ -3,10 +3,10 @@
 //! Both have the same host, so that a page shows them in the same way. Only one is there at a time; a worker that is
 //! ended frees it with everything that it needed.
 
+mod calls;
 mod info;
 mod robot;
 mod seen;
-mod served;
 
 use std::time::Duration;
 
@@ -19,9 +19,10 @@ use sensedsl_twin::soft::UserCode;
 use sensedsl_twin::world::World;
 use serde_json::{Value, json};
 
+pub use self::calls::ServedBoard;
+pub(crate) use self::calls::{BoardCall, with};
 use self::robot::Robot;
 use self::seen::Watch;
-pub use self::served::ServedBoard;
 use crate::request::Request;
 
 /// A board and its host.

@@ -186,14 +186,21 @@ fn code(scenery: &Simulation<'_>, world: &World) -> Result<Result<Option<Code>, 
     if args.code.is_none() && !folder.is_dir() {
         let devices = job.controllers.iter().filter_map(|one| job.devices.get(one.own));
         let names: Vec<&str> = devices.map(|one| one.device.name.value.as_str()).collect();
-        let (names, stands_in) = (names.join(", "), !world.stand_ins.is_empty());
-        let missing = if stands_in {
-            format!("no code of {names}: the world's `[controllers]` stand in for it")
-        } else {
-            format!("no code of {names}: it sets nothing. `sensedsl generate` makes its first file")
-        };
-        scenery.terminal.aside(&missing)?;
-        return Ok(Ok(stands_in.then(|| Box::new(StandIns::new(job, &world.stand_ins)) as Code)));
+        let held = world.stand_ins.iter().filter_map(|one| job.design.device(one.controller));
+        let held: Vec<&str> = held.map(|one| one.name.value.as_str()).collect();
+        let idle: Vec<&str> = names.into_iter().filter(|name| !held.contains(name)).collect();
+        if !held.is_empty() {
+            let names = held.join(", ");
+            let what = format!("no code of {names}: the world's `[controllers]` stand in for it");
+            scenery.terminal.aside(&what)?;
+        }
+        if !idle.is_empty() {
+            let names = idle.join(", ");
+            let next = "`sensedsl generate` makes its first file";
+            scenery.terminal.aside(&format!("no code of {names}: it sets nothing. {next}"))?;
+        }
+        let code = || Box::new(StandIns::new(job, &world.stand_ins)) as Code;
+        return Ok(Ok((!held.is_empty()).then(code)));
     }
     let built = match build(job, &folder, scenery.at, Words::Above)? {
         Ok(built) => built,
