@@ -18,7 +18,7 @@ use crate::registry::{TARGETS, Target as Entry};
 use file::{File, starts};
 pub use rates::{Costs, Cycles, Dividers, I2cTiming};
 pub use types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Exception, Exti, ExtiRule, Fallback,
+    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Edges, Exception, Exti, ExtiRule, Fallback,
     I2cMode, I2cs, Kernel, Own, Pio, Stream, TargetProfile, Timer, TimerUse, Transport, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
@@ -29,8 +29,8 @@ pub const NONE: &str = "none";
 /// The default target, if it covers the MCU.
 pub const DEFAULT: &str = "chibios";
 
-/// The default target if [`DEFAULT`] does not cover the MCU.
-const SECOND: &str = "embassy";
+/// The targets of which the first that covers the MCU is meant if none is named.
+const USUAL: [&str; 3] = [DEFAULT, "embassy", "arduino"];
 
 /// The target that a target name and an MCU select.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,8 +107,7 @@ pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
 /// The target for an MCU if none is named; also [`DEFAULT`] if no target covers the MCU.
 #[must_use]
 pub fn usual(mcu: &str) -> &'static str {
-    let is_second = covered_by(DEFAULT, mcu).is_none() && covered_by(SECOND, mcu).is_some();
-    if is_second { SECOND } else { DEFAULT }
+    USUAL.into_iter().find(|target| covered_by(target, mcu).is_some()).unwrap_or(DEFAULT)
 }
 
 /// The file with the profile of an MCU under a target, both by their full names, and its place.

@@ -4,6 +4,7 @@
 mod buses;
 mod candidates;
 mod cases;
+mod edges;
 mod pio;
 pub(crate) mod timers;
 
@@ -78,6 +79,11 @@ pub(crate) trait Served {
     /// The abilities of the board's timer channels for the kind, if its silicon differs from most.
     fn ability(&self, _board: &Board) -> Option<&'static Ability> {
         None
+    }
+
+    /// Whether handlers of pin interrupts can serve the device, where a system has them.
+    fn takes_handlers(&self) -> bool {
+        false
     }
 
     /// Whether a programmable state machine can serve the device.

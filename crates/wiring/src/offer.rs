@@ -225,6 +225,11 @@ impl<'a> Offer<'a> {
         is_input && !self.is_analog_only(pin)
     }
 
+    /// Whether the pin's edges can interrupt, as far as that is known.
+    pub(crate) fn interrupts_at(&self, pin: &Pin) -> bool {
+        self.board.profile().is_none_or(|profile| profile.interrupts_at(&pin.name))
+    }
+
     /// Whether a name in a file means this peripheral instance of the board.
     pub(crate) fn same_unit(&self, written: &str, unit: &str) -> bool {
         written == unit || self.silicon.is_some_and(|silicon| silicon.same_unit(written, unit))

@@ -13,7 +13,8 @@ use super::entries::{
     TimerEntry, TimerGroup, UsbGroup,
 };
 use super::rates::Costs;
-use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
+use super::types::{Debug, Edges, Exti, Kernel, Own, Stream, TargetProfile, Timer, all_pins};
+use crate::pin::PinName;
 
 /// A file of `targets/`.
 #[derive(Clone, Debug, Deserialize)]
@@ -28,6 +29,7 @@ pub(crate) struct File {
     kernel: Kernel,
     costs: Option<Costs>,
     exti: Exti,
+    edges: Option<Edges>,
     debug: Debug,
     #[serde(default)]
     multiplexer: Vec<Multiplexer>,
@@ -56,6 +58,9 @@ pub(crate) struct Line {
     pub(crate) gpio_ports: String,
     /// The names of the units, separated by white space.
     pub(crate) units: String,
+    /// The pins whose edges can interrupt, separated by white space, if not all can.
+    #[serde(default, deserialize_with = "all_pins")]
+    pub(crate) interrupts: Option<Vec<PinName>>,
     /// Units that the registry names but the line does not use.
     #[serde(default)]
     pub(crate) left_out: String,
@@ -166,6 +171,8 @@ impl File {
             kernel,
             costs: self.costs,
             exti: self.exti,
+            interrupts: line.interrupts.clone(),
+            edges: self.edges,
             debug: self.debug,
             timers,
             pios,
@@ -264,6 +271,7 @@ impl File {
             self.serials.dividers.as_ref().map(|dividers| dividers.source.as_str()),
             dividers_of(self.cans.as_ref()),
             self.pios.as_ref().map(|group| group.source.as_str()),
+            self.edges.as_ref().map(|edges| edges.source.as_str()),
         ];
         let multiplexers = self.multiplexer.iter().map(|mux| mux.source.as_str());
         groups.into_iter().chain(lines).chain(optional.into_iter().flatten()).chain(multiplexers)

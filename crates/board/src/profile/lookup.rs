@@ -71,6 +71,12 @@ impl TargetProfile {
         adc.or_else(|| self.unit(unit).map(|unit| unit.dma.as_slice())).unwrap_or_default()
     }
 
+    /// Whether edges at a pin can interrupt.
+    #[must_use]
+    pub fn interrupts_at(&self, pin: &PinName) -> bool {
+        self.interrupts.as_ref().is_none_or(|all| all.contains(pin))
+    }
+
     /// The interrupt line of a pin; pins on the same line exclude each other. `None` if each pin
     /// has its own line.
     #[must_use]

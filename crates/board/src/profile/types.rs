@@ -28,6 +28,10 @@ pub struct TargetProfile {
     pub costs: Option<Costs>,
     /// Pin interrupts.
     pub exti: Exti,
+    /// The pins whose edges can interrupt; `None` if all can.
+    pub interrupts: Option<Vec<PinName>>,
+    /// What handlers of pin interrupts measure without a timer, if they do.
+    pub edges: Option<Edges>,
     /// Pins of the debug port.
     pub debug: Debug,
     /// Timers.
@@ -136,6 +140,18 @@ pub enum ExtiRule {
     /// No pins: each has its own line.
     #[serde(rename = "one line per pin")]
     OneLinePerPin,
+}
+
+/// What handlers of pin interrupts measure: pulses with the framework's clock, quadrature by their own state.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edges {
+    /// The steps of the clock, in nanoseconds.
+    pub resolution_ns: u32,
+    /// The most edges per second of all wires together that leave half of the processor.
+    pub rate_max_hz: u32,
+    /// How that was measured.
+    pub source: String,
 }
 
 /// Pins of the debug port.
@@ -408,4 +424,15 @@ pub(crate) fn optional_pin<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<PinName>, D::Error> {
     pin(deserializer).map(Some)
+}
+
+/// Reads pin names that stand in one text, with white space between them.
+pub(crate) fn all_pins<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<PinName>>, D::Error> {
+    let text = String::deserialize(deserializer)?;
+    let read = |text: &str| {
+        PinName::parse(text).ok_or_else(|| D::Error::custom(format!("`{text}` is no pin")))
+    };
+    text.split_whitespace().map(read).collect::<Result<_, _>>().map(Some)
 }

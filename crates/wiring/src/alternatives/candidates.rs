@@ -42,8 +42,9 @@ impl Maker<'_, '_> {
                     }
                 }
                 Need::Gpio | Need::Interrupt | Need::Shared(_) => {
-                    if !offer.bus_only(pin) && offer.is_gpio(pin, role) {
-                        let interrupt = matches!(need, Need::Interrupt);
+                    let interrupt = matches!(need, Need::Interrupt);
+                    let has_line = !interrupt || offer.interrupts_at(pin);
+                    if has_line && !offer.bus_only(pin) && offer.is_gpio(pin, role) {
                         let (mut candidate, chosen) = self.bare(role, index, pin, interrupt);
                         let shared = match (need, bus) {
                             (Need::Shared(wire), _) => {

@@ -1,4 +1,5 @@
-//! `encoder`: the first two channels of one timer, which it takes, or a state machine.
+//! `encoder`: the first two channels of one timer, which it takes, a state machine, or a handler of
+//! the interrupts of two pins.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;
@@ -14,11 +15,16 @@ impl Served for Encoder {
         let wires = &[(Role::A, Some(1)), (Role::B, Some(2))];
         let mut all = maker.timers(&TimerUse { wires, takes, shared_hz: None });
         all.extend(maker.machines("decoder", &[Role::A, Role::B]));
+        all.extend(maker.handlers(&[Role::A, Role::B]));
         all
     }
 
     fn ability(&self, board: &Board) -> Option<&'static Ability> {
         board.silicon()?.timers.encoder.as_ref()
+    }
+
+    fn takes_handlers(&self) -> bool {
+        true
     }
 
     fn takes_machines(&self) -> bool {

@@ -1,4 +1,5 @@
-//! `icu`: an input-capture channel, whose whole timer a driver takes, or a state machine.
+//! `icu`: an input-capture channel, whose whole timer a driver takes, a state machine, or a
+//! handler of a pin's interrupts.
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::silicon::Ability;
@@ -23,7 +24,12 @@ impl Served for Icu {
         if self.mode != Mode::Count {
             all.extend(maker.machines("capture", &[Role::In]));
         }
+        all.extend(maker.handlers(&[Role::In]));
         all
+    }
+
+    fn takes_handlers(&self) -> bool {
+        true
     }
 
     fn takes_machines(&self) -> bool {

@@ -4,11 +4,19 @@
 use sensedsl_board::signal::Function;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
+use sensedsl_model::kind::Kind;
 
 use super::{Fixed, Placed};
 use crate::alternatives::served;
 use crate::alternatives::timers::{Channel, channel};
 use crate::offer::Offer;
+
+/// Whether something else than a timer can serve the kind on the board: a state machine, or handlers of interrupts.
+fn has_substitute(kind: &Kind, offer: &Offer<'_>) -> bool {
+    let served = served(kind);
+    let has_handlers = offer.board.profile().is_some_and(|profile| profile.edges.is_some());
+    (served.takes_machines() && has_machines(offer)) || (served.takes_handlers() && has_handlers)
+}
 
 /// Whether the board's system programs state machines, and pins name them.
 fn has_machines(offer: &Offer<'_>) -> bool {
@@ -21,10 +29,8 @@ impl Placed<'_> {
     /// The report for a kind that the silicon of no board in question supports.
     pub(super) fn without_silicon(&self) -> Option<Diagnostic> {
         let unable = self.offers.iter().map(|offer| {
-            let served = served(&self.wires.kind);
-            let ability = served.ability(offer.board)?;
-            let is_programmed = served.takes_machines() && has_machines(offer);
-            (ability.channels.is_empty() && !is_programmed)
+            let ability = served(&self.wires.kind).ability(offer.board)?;
+            (ability.channels.is_empty() && !has_substitute(&self.wires.kind, offer))
                 .then_some((ability, offer.board.mcu.as_deref()?))
         });
         let all: Option<Vec<_>> = unable.collect();
@@ -68,9 +74,8 @@ impl Placed<'_> {
         if let Some(report) = self.without_silicon() {
             return Some(report);
         }
-        let programmed =
-            |offer: &&Offer<'_>| served(&self.wires.kind).takes_machines() && has_machines(offer);
-        let ability = self.offers.iter().filter(|offer| !programmed(offer)).find_map(|offer| {
+        let without = self.offers.iter().filter(|offer| !has_substitute(&self.wires.kind, offer));
+        let ability = without.into_iter().find_map(|offer| {
             let ability = served(&self.wires.kind).ability(offer.board)?;
             let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
             let mut channels = usages.iter().filter_map(channel);
