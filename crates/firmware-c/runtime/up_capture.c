@@ -34,7 +34,7 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   return true;
 }
 
-static void store_capture(const up_capture_config_t *config, const up_capture_raw_t *raw, uint8_t type,
+static void store_capture(UP_ROM up_capture_config_t *config, const up_capture_raw_t *raw, uint8_t type,
                           void *element) {
   switch ((up_capture_mode_t)config->mode) {
   case UP_CAPTURE_WIDTH:
@@ -55,7 +55,7 @@ static void store_capture(const up_capture_config_t *config, const up_capture_ra
 }
 
 /* A signal that has stopped has no frequency; its last width and period remain. */
-static bool read_silence(const up_capture_config_t *config, up_capture_state_t *state, uint32_t now_ms,
+static bool read_silence(UP_ROM up_capture_config_t *config, up_capture_state_t *state, uint32_t now_ms,
                          uint8_t type, void *element) {
   const bool tells_silence = config->mode == UP_CAPTURE_FREQUENCY || config->mode == UP_CAPTURE_DUTY;
 
@@ -67,7 +67,7 @@ static bool read_silence(const up_capture_config_t *config, up_capture_state_t *
   return true;
 }
 
-bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+bool up_capture_read(UP_ROM up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
                      bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element) {
   const uint32_t captures = (config->mode == UP_CAPTURE_WIDTH) ? raw->widths : raw->periods;
 

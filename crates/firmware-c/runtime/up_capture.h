@@ -48,7 +48,7 @@ void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks);
 
 /* Reader side: true if there is something new; then one element was stored. `first_edge_seen` makes up for an edge
  * that a driver does not report: the one that starts the first period. */
-bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+bool up_capture_read(UP_ROM up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
                      bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element);
 
 #endif

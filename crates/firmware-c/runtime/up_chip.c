@@ -13,10 +13,10 @@
 #define IDENTITY_ATTEMPTS 16U
 
 typedef struct {
-  const up_chip_t *chip;
+  UP_ROM up_chip_t *chip;
   up_chip_state_t *state;
   const up_bus_t *bus;
-  const up_schema_t *schema;
+  UP_ROM up_schema_t *schema;
   const up_value_sink_t *sink;
   up_clock_t clock;
   uint32_t now_ms; /* the start of the step */
@@ -64,29 +64,29 @@ static bool went_through(up_chip_state_t *state, up_bus_result_t result) {
   return true;
 }
 
-static bool write_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
-  memcpy(step->state->work, bytes, count);
+static bool write_bytes(const step_t *step, UP_ROM uint8_t *bytes, size_t count) {
+  up_rom_copy(step->state->work, bytes, count);
   return went_through(step->state, step->bus->write(step->bus->context, step->chip->address, step->state->work, count));
 }
 
 /* The bytes read, in the work buffer; NULL if it failed. */
-static const uint8_t *read_bytes(const step_t *step, const uint8_t *select, size_t select_count, size_t count) {
+static const uint8_t *read_bytes(const step_t *step, UP_ROM uint8_t *select, size_t select_count, size_t count) {
   uint8_t *work = step->state->work;
   up_bus_result_t result;
 
   if (select_count > 0U) {
-    memcpy(work, select, select_count);
+    up_rom_copy(work, select, select_count);
   }
   result = step->bus->write_read(step->bus->context, step->chip->address, work, select_count, &work[select_count],
                                  count);
   return went_through(step->state, result) ? &work[select_count] : NULL;
 }
 
-static const uint8_t *exchange_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
+static const uint8_t *exchange_bytes(const step_t *step, UP_ROM uint8_t *bytes, size_t count) {
   uint8_t *work = step->state->work;
   up_bus_result_t result = UP_BUS_ERROR;
 
-  memcpy(work, bytes, count);
+  up_rom_copy(work, bytes, count);
   if (step->bus->exchange != NULL) {
     result = step->bus->exchange(step->bus->context, step->chip->address, work, &work[count], count);
   }
@@ -107,7 +107,7 @@ static bool initialise(const step_t *step) {
   }
   state->is_pausing = false;
   while (state->init_at < step->chip->init_count) {
-    const up_chip_init_t *init = &step->chip->init[state->init_at];
+    UP_ROM up_chip_init_t *init = &step->chip->init[state->init_at];
     if (init->count > 0U && !write_bytes(step, init->bytes, init->count)) {
       return false;
     }
@@ -122,12 +122,12 @@ static bool initialise(const step_t *step) {
 }
 
 static bool identify(const step_t *step) {
-  const up_chip_identity_t *identity = step->chip->identity;
+  UP_ROM up_chip_identity_t *identity = step->chip->identity;
   up_chip_state_t *state = step->state;
   const uint8_t *found;
   size_t i;
 
-  if (!UP_USES_CHIP_IDENTITY || identity == NULL) {
+  if (!UP_USES_CHIP_IDENTITY || identity == UP_ROM_NULL) {
     return true;
   }
   found = read_bytes(step, identity->select, identity->select_count, identity->count);
@@ -135,7 +135,7 @@ static bool identify(const step_t *step) {
     return false;
   }
   for (i = 0U; i < identity->count; i++) {
-    const unsigned mask = (identity->mask != NULL) ? identity->mask[i] : 0xFFU;
+    const unsigned mask = (identity->mask != UP_ROM_NULL) ? identity->mask[i] : 0xFFU;
     if ((((unsigned)found[i] ^ identity->expected[i]) & mask) != 0U) {
       state->identity_seen = found[i];
       count_fault(state, UP_WRONG_IDENTITY);
@@ -152,7 +152,7 @@ static bool calibrate(const step_t *step) {
   size_t i;
 
   for (i = 0U; UP_USES_CHIP_FORMULAS && i < step->chip->calibration_count; i++) {
-    const up_chip_calibration_t *block = &step->chip->calibration[i];
+    UP_ROM up_chip_calibration_t *block = &step->chip->calibration[i];
     const uint8_t *bytes = read_bytes(step, block->select, block->select_count, block->count);
     if (bytes == NULL) {
       return false;
@@ -190,7 +190,7 @@ static void start(const step_t *step) {
 
 /* ---- readings ---- */
 
-static void say(const step_t *step, const up_chip_reading_t *reading, up_result_t result) {
+static void say(const step_t *step, UP_ROM up_chip_reading_t *reading, up_result_t result) {
   up_chip_state_t *state = step->state;
 
   if (result == UP_FRESH) {
@@ -204,7 +204,7 @@ static void say_fault(const step_t *step, size_t transfer) {
   size_t i;
 
   for (i = 0U; i < step->chip->readings_count; i++) {
-    const up_chip_reading_t *reading = &step->chip->readings[i];
+    UP_ROM up_chip_reading_t *reading = &step->chip->readings[i];
     if (reading->transfer == transfer || transfer == step->chip->transfers_count) {
       say(step, reading, (up_result_t)step->state->fault);
     }
@@ -219,11 +219,11 @@ typedef struct {
   bool is_valid;
 } computed_t;
 
-static up_result_t compute(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
+static up_result_t compute(const step_t *step, UP_ROM up_chip_reading_t *reading, UP_ROM up_field_t *field,
                            const uint8_t *bytes, size_t length, computed_t *computed) {
-  const up_formula_t *formula = step->chip->formula;
+  UP_ROM up_formula_t *formula = step->chip->formula;
 
-  if (formula == NULL || reading->output >= formula->outputs_count ||
+  if (formula == UP_ROM_NULL || reading->output >= formula->outputs_count ||
       (size_t)reading->offset + formula->raw_bytes > length) {
     return UP_INVALID;
   }
@@ -240,7 +240,7 @@ static up_result_t compute(const step_t *step, const up_chip_reading_t *reading,
   return UP_FRESH;
 }
 
-static up_result_t decode(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
+static up_result_t decode(const step_t *step, UP_ROM up_chip_reading_t *reading, UP_ROM up_field_t *field,
                           const uint8_t *bytes, size_t length) {
   if (reading->offset >= length) {
     return UP_INVALID;
@@ -256,8 +256,8 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
 
   computed.is_known = false;
   for (i = 0U; i < step->chip->readings_count; i++) {
-    const up_chip_reading_t *reading = &step->chip->readings[i];
-    const up_field_t *field = &step->schema->fields[reading->field];
+    UP_ROM up_chip_reading_t *reading = &step->chip->readings[i];
+    UP_ROM up_field_t *field = &step->schema->fields[reading->field];
     up_result_t result;
     if (reading->transfer != transfer) {
       continue;
@@ -273,7 +273,7 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
 
 /* ---- transfers ---- */
 
-static uint32_t cycle_of(const up_chip_t *chip, size_t transfer) {
+static uint32_t cycle_of(UP_ROM up_chip_t *chip, size_t transfer) {
   const uint32_t cycle_ms = chip->transfers[transfer].cycle_ms;
 
   return (cycle_ms > chip->cycle_ms) ? cycle_ms : chip->cycle_ms;
@@ -302,7 +302,7 @@ static void set_next(const step_t *step, size_t transfer) {
 }
 
 static bool fetch(const step_t *step, size_t transfer) {
-  const up_chip_transfer_t *table = &step->chip->transfers[transfer];
+  UP_ROM up_chip_transfer_t *table = &step->chip->transfers[transfer];
   const uint8_t *bytes = (UP_USES_CHIP_EXCHANGES && table->exchange) ? exchange_bytes(step, table->select, table->length)
                                          : read_bytes(step, table->select, table->select_count, table->length);
 
@@ -380,7 +380,7 @@ static void run_triggered(const step_t *step) {
   }
 }
 
-void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
+void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, UP_ROM up_schema_t *schema,
                   up_clock_t clock, const up_value_sink_t *sink) {
   const step_t step = {chip, state, bus, schema, sink, clock, clock()};
   const uint8_t fault = state->fault;
@@ -400,7 +400,7 @@ void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t 
   }
 }
 
-uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms) {
+uint32_t up_chip_idle_ms(UP_ROM up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms) {
   uint32_t idle_ms = UINT32_MAX;
   size_t i;
 
@@ -425,7 +425,7 @@ uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, ui
 
 /* Merges the bits that other commands have last written to a register into the bytes of this one, and keeps the
  * result. */
-static void join(const up_chip_command_t *command, up_chip_state_t *state, uint8_t *bytes, size_t count) {
+static void join(UP_ROM up_chip_command_t *command, up_chip_state_t *state, uint8_t *bytes, size_t count) {
   uint8_t *kept = &state->kept[command->kept];
   size_t i;
 
@@ -436,9 +436,9 @@ static void join(const up_chip_command_t *command, up_chip_state_t *state, uint8
   }
 }
 
-up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
-                          const up_schema_t *schema, const up_chip_command_t *command, const void *value) {
-  const up_field_t *field = &schema->fields[command->field];
+up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
+                          UP_ROM up_schema_t *schema, UP_ROM up_chip_command_t *command, const void *value) {
+  UP_ROM up_field_t *field = &schema->fields[command->field];
   uint8_t *bytes = &state->work[command->prefix_count];
   size_t count;
 
@@ -446,13 +446,13 @@ up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const u
     return UP_NOTHING;
   }
   if (command->prefix_count > 0U) {
-    memcpy(state->work, command->prefix, command->prefix_count);
+    up_rom_copy(state->work, command->prefix, command->prefix_count);
   }
   count = up_value_encode(&command->value, field, value, bytes, up_value_bytes(&command->value, field->count));
   if (count == 0U) {
     return UP_INVALID;
   }
-  if (command->own != NULL) {
+  if (command->own != UP_ROM_NULL) {
     join(command, state, bytes, count);
   }
   if (!went_through(state, bus->write(bus->context, chip->address, state->work, command->prefix_count + count))) {
@@ -468,26 +468,26 @@ static size_t greater(size_t left, size_t right) {
   return (left > right) ? left : right;
 }
 
-size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema) {
+size_t up_chip_work_bytes(UP_ROM up_chip_t *chip, UP_ROM up_schema_t *schema) {
   size_t bytes = 1U;
   size_t i;
 
   for (i = 0U; i < chip->init_count; i++) {
     bytes = greater(bytes, chip->init[i].count);
   }
-  if (chip->identity != NULL) {
+  if (chip->identity != UP_ROM_NULL) {
     bytes = greater(bytes, (size_t)chip->identity->select_count + chip->identity->count);
   }
   for (i = 0U; i < chip->calibration_count; i++) {
     bytes = greater(bytes, (size_t)chip->calibration[i].select_count + chip->calibration[i].count);
   }
   for (i = 0U; i < chip->transfers_count; i++) {
-    const up_chip_transfer_t *transfer = &chip->transfers[i];
+    UP_ROM up_chip_transfer_t *transfer = &chip->transfers[i];
     const size_t select = transfer->exchange ? transfer->length : transfer->select_count;
     bytes = greater(bytes, greater(transfer->trigger_count, select + transfer->length));
   }
   for (i = 0U; i < chip->commands_count; i++) {
-    const up_chip_command_t *command = &chip->commands[i];
+    UP_ROM up_chip_command_t *command = &chip->commands[i];
     bytes = greater(bytes, command->prefix_count +
                                up_value_bytes(&command->value, schema->fields[command->field].count));
   }

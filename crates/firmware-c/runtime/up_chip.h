@@ -16,39 +16,39 @@
 
 /* One step of the initialisation: bytes, then a pause. */
 typedef struct {
-  const uint8_t *bytes; /* written in one transfer; NULL for a pause only */
-  uint8_t count;        /* number of bytes, 0 to 255 */
-  uint16_t pause_ms;    /* least pause after them, 0 to 65535 */
+  UP_ROM uint8_t *bytes; /* written in one transfer; NULL for a pause only */
+  uint8_t count;         /* number of bytes, 0 to 255 */
+  uint16_t pause_ms;     /* least pause after them, 0 to 65535 */
 } up_chip_init_t;
 
 /* The register that identifies a part, and its contents. */
 typedef struct {
-  const uint8_t *select;   /* bytes written before reading: the register */
-  const uint8_t *expected; /* `count` bytes */
-  const uint8_t *mask;     /* `count` bytes: the bits that are compared; NULL: all */
-  uint8_t select_count;    /* 0 to 255 */
-  uint8_t count;           /* 1 to 255 */
+  UP_ROM uint8_t *select;   /* bytes written before reading: the register */
+  UP_ROM uint8_t *expected; /* `count` bytes */
+  UP_ROM uint8_t *mask;     /* `count` bytes: the bits that are compared; NULL: all */
+  uint8_t select_count;     /* 0 to 255 */
+  uint8_t count;            /* 1 to 255 */
 } up_chip_identity_t;
 
 /* A block of calibration; blocks are stored one after the other in `calibration` of the state. */
 typedef struct {
-  const uint8_t *select;
+  UP_ROM uint8_t *select;
   uint8_t select_count; /* 0 to 255 */
   uint16_t count;       /* bytes read, at least 1 */
 } up_chip_calibration_t;
 
 /* Bytes that are read together. */
 typedef struct {
-  const uint8_t *trigger; /* written to start a measurement; NULL: the chip measures by itself */
-  const uint8_t *select;  /* written before reading: the register, most significant byte first, including SPI's read
-                           * bit. In an exchange: the bytes sent, `length` in number */
-  uint32_t cycle_ms;      /* from one measurement to the next; 0, or less than the chip's: in every step */
-  uint32_t wait_ms;       /* from the trigger to the reading; without a trigger, from the start of the chip or the
-                           * last reading to the next */
-  uint16_t length;        /* bytes read, as on the wire (including checksums), at least 1 */
-  uint8_t trigger_count;  /* 0 to 255; 0: no trigger */
-  uint8_t select_count;   /* 0 to 255; ignored in an exchange */
-  bool exchange;          /* SPI: the bytes read are those received while `select` is sent */
+  UP_ROM uint8_t *trigger; /* written to start a measurement; NULL: the chip measures by itself */
+  UP_ROM uint8_t *select;  /* written before reading: the register, most significant byte first, including SPI's read
+                            * bit. In an exchange: the bytes sent, `length` in number */
+  uint32_t cycle_ms;       /* from one measurement to the next; 0, or less than the chip's: in every step */
+  uint32_t wait_ms;        /* from the trigger to the reading; without a trigger, from the start of the chip or the
+                            * last reading to the next */
+  uint16_t length;         /* bytes read, as on the wire (including checksums), at least 1 */
+  uint8_t trigger_count;   /* 0 to 255; 0: no trigger */
+  uint8_t select_count;    /* 0 to 255; ignored in an exchange */
+  bool exchange;           /* SPI: the bytes read are those received while `select` is sent */
 } up_chip_transfer_t;
 
 /* A value in a transfer. */
@@ -63,27 +63,27 @@ typedef struct {
 
 /* A value that is written. */
 typedef struct {
-  const uint8_t *prefix; /* written before the value: the register, or any command */
-  const uint8_t *own;    /* the bits that it changes if other commands have bits of the same register, in as many
-                          * bytes as the value has; NULL: all */
-  uint16_t field;        /* index into the schema's fields; its direction is UP_TO_BOARD */
-  uint16_t kept;         /* with `own`: offset of its register in `kept` of the state */
-  uint8_t prefix_count;  /* 0 to 255 */
+  UP_ROM uint8_t *prefix; /* written before the value: the register, or any command */
+  UP_ROM uint8_t *own;    /* the bits that it changes if other commands have bits of the same register, in as many
+                           * bytes as the value has; NULL: all */
+  uint16_t field;         /* index into the schema's fields; its direction is UP_TO_BOARD */
+  uint16_t kept;          /* with `own`: offset of its register in `kept` of the state */
+  uint8_t prefix_count;   /* 0 to 255 */
   up_value_t value;
 } up_chip_command_t;
 
 typedef struct {
-  const up_chip_init_t *init;
-  const up_chip_identity_t *identity; /* NULL: any part that answers is right */
-  const up_chip_calibration_t *calibration;
-  const up_chip_transfer_t *transfers;
-  const up_chip_reading_t *readings;
-  const up_chip_command_t *commands;
-  const up_formula_t *formula;  /* NULL for none */
-  const int32_t *parameters;    /* parameters_count parameters of the formula */
-  uint32_t cycle_ms;            /* how often up_chip_step() is called: a transfer is made in the first step at or
-                                 * after its time, or at most an eighth of this before it (clocks round) */
-  uint8_t address;              /* as in up_bus_t */
+  UP_ROM up_chip_init_t *init;
+  UP_ROM up_chip_identity_t *identity; /* NULL: any part that answers is right */
+  UP_ROM up_chip_calibration_t *calibration;
+  UP_ROM up_chip_transfer_t *transfers;
+  UP_ROM up_chip_reading_t *readings;
+  UP_ROM up_chip_command_t *commands;
+  UP_ROM up_formula_t *formula;  /* NULL for none */
+  UP_ROM int32_t *parameters;    /* parameters_count parameters of the formula */
+  uint32_t cycle_ms;             /* how often up_chip_step() is called: a transfer is made in the first step at or
+                                  * after its time, or at most an eighth of this before it (clocks round) */
+  uint8_t address;               /* as in up_bus_t */
   uint8_t init_count;
   uint8_t calibration_count;
   uint8_t transfers_count; /* 0 to 254 */
@@ -125,7 +125,7 @@ typedef struct {
 } up_chip_state_t;
 
 /* The size of the work buffer: the most bytes that any transfer or command writes and reads together. */
-size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema);
+size_t up_chip_work_bytes(UP_ROM up_chip_t *chip, UP_ROM up_schema_t *schema);
 
 /* Milliseconds since any time in the past; wraps at 2^32. */
 typedef uint32_t (*up_clock_t)(void);
@@ -135,19 +135,19 @@ typedef uint32_t (*up_clock_t)(void);
  * or failed, and the cause for all readings if the chip could not be started; reports nothing for the others. Of the
  * transfers with a trigger only one is under way at a time, the one that has been due for longest, because they
  * share the chip's converter. */
-void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
+void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, UP_ROM up_schema_t *schema,
                   up_clock_t clock, const up_value_sink_t *sink);
 
 /* How long from now until a step has something to do: 0 for at once, a cycle after a failure. A system may call the
  * next step then instead of a cycle later: the initialisation takes only its pauses, and values are younger. Calls
  * between the cycles disturb nothing. */
-uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms);
+uint32_t up_chip_idle_ms(UP_ROM up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms);
 
 /* Writes a value. UP_FRESH: it is written. UP_NOTHING: the chip is not started, so ask again after the next step.
  * UP_INVALID: it does not fit into the command. Another cause: the write failed, and the chip will be started again.
  * A restart loses what was written to the chip before: when counts.starts has changed, the caller must write all
  * commands again. */
-up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
-                          const up_schema_t *schema, const up_chip_command_t *command, const void *value);
+up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
+                          UP_ROM up_schema_t *schema, UP_ROM up_chip_command_t *command, const void *value);
 
 #endif

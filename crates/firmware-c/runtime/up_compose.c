@@ -8,15 +8,15 @@
 /* A number in a text: a sign, its digits, a point, and what separates it from the next. */
 #define TEXT_BYTES (DIGITS_MAX + 3U)
 
-static size_t put(const uint8_t *from, size_t count, uint8_t *to) {
+static size_t put(UP_ROM uint8_t *from, size_t count, uint8_t *to) {
   if (count > 0U) {
-    memcpy(to, from, count);
+    up_rom_copy(to, from, count);
   }
   return count;
 }
 
 /* The digits of a number, the highest first, with a point before the last `decimals`. */
-static size_t put_number(const up_compose_t *how, uint64_t number, uint8_t *text) {
+static size_t put_number(UP_ROM up_compose_t *how, uint64_t number, uint8_t *text) {
   const unsigned base = (how->format == (uint8_t)UP_FORMAT_HEX) ? 16U : 10U;
   const size_t decimals = (base == 10U) ? how->decimals : 0U;
   uint8_t digits[DIGITS_MAX];
@@ -40,7 +40,7 @@ static size_t put_number(const up_compose_t *how, uint64_t number, uint8_t *text
   return size;
 }
 
-static size_t put_text(const up_compose_t *how, const up_field_t *field, const void *value, uint8_t *text,
+static size_t put_text(UP_ROM up_compose_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *text,
                        size_t room) {
   const size_t element_bytes = up_type_bytes(field->type);
   const uint8_t *memory = value;
@@ -66,7 +66,7 @@ static size_t put_text(const up_compose_t *how, const up_field_t *field, const v
   return size;
 }
 
-size_t up_compose(const up_compose_t *how, const up_field_t *field, const void *value, uint8_t *bytes, size_t room) {
+size_t up_compose(UP_ROM up_compose_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes, size_t room) {
   const size_t around =
       (size_t)how->start_count + how->behind_count + how->end_count + up_checksum_bytes(how->checksum);
   uint8_t sum[UP_CHECKSUM_BYTES_MAX];
@@ -87,6 +87,7 @@ size_t up_compose(const up_compose_t *how, const up_field_t *field, const void *
   size += value_bytes;
   size += put(how->behind, how->behind_count, &bytes[size]);
   sum_bytes = up_checksum_put(how->checksum, how->checksum_from, how->start_count, bytes, size, sum);
-  size += put(sum, sum_bytes, &bytes[size]);
+  memcpy(&bytes[size], sum, sum_bytes);
+  size += sum_bytes;
   return size + put(how->end, how->end_count, &bytes[size]);
 }

@@ -7,7 +7,7 @@ typedef struct {
   uint64_t max;
 } range_t;
 
-static const range_t ranges[] = {
+static UP_ROM range_t ranges[] = {
     [UP_TYPE_BOOL] = {0, 1U},
     [UP_TYPE_UINT8] = {0, UINT8_MAX},
     [UP_TYPE_INT8] = {INT8_MIN, INT8_MAX},
@@ -181,13 +181,13 @@ static void store_gathered(uint8_t type, uint64_t bits, size_t size, void *eleme
 }
 
 /* Bytes of a device for each element of a field; 0 if they do not divide evenly. */
-static size_t element_bytes(const up_field_t *field, size_t bytes_count) {
+static size_t element_bytes(UP_ROM up_field_t *field, size_t bytes_count) {
   const size_t size = (field->count == 0U) ? 0U : bytes_count / field->count;
 
   return (size <= 8U && size * field->count == bytes_count) ? size : 0U;
 }
 
-bool up_store_bytes(const up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
+bool up_store_bytes(UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
                     void *value) {
   const size_t size = element_bytes(field, bytes_count);
   const size_t stored_bytes = up_type_bytes(field->type);
@@ -204,7 +204,7 @@ bool up_store_bytes(const up_field_t *field, const uint8_t *bytes, size_t bytes_
   return true;
 }
 
-bool up_load_bytes(const up_field_t *field, const void *value, uint8_t *bytes, size_t bytes_count,
+bool up_load_bytes(UP_ROM up_field_t *field, const void *value, uint8_t *bytes, size_t bytes_count,
                    bool little_endian) {
   const size_t size = element_bytes(field, bytes_count);
   const size_t stored_bytes = up_type_bytes(field->type);

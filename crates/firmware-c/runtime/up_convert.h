@@ -29,11 +29,11 @@ void up_store_mean(uint8_t type, const uint16_t *samples, size_t count, size_t s
  * integers are sign-extended if the type is signed; 4 bytes for a float32 and 8 for a float64 are IEEE 754 bits,
  * fewer are an unsigned number. Bytes that do not divide evenly (or more than 8 per element) store nothing and
  * return false. */
-bool up_store_bytes(const up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
+bool up_store_bytes(UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
                     void *value);
 
 /* The reverse, for a device that is written to: the low bytes of each element. */
-bool up_load_bytes(const up_field_t *field, const void *value, uint8_t *bytes, size_t bytes_count,
+bool up_load_bytes(UP_ROM up_field_t *field, const void *value, uint8_t *bytes, size_t bytes_count,
                    bool little_endian);
 
 #endif

@@ -1,11 +1,11 @@
 #include "up_debounce.h"
 
-static bool counts(const up_contact_config_t *config, bool level) {
+static bool counts(UP_ROM up_contact_config_t *config, bool level) {
   return config->edge == UP_EDGE_BOTH || (config->edge == UP_EDGE_RISING) == level;
 }
 
 /* The level seen before has lasted until now. */
-static void settle(const up_contact_config_t *config, up_contact_t *contact, uint32_t now) {
+static void settle(UP_ROM up_contact_config_t *config, up_contact_t *contact, uint32_t now) {
   if (contact->seen != contact->level && (uint32_t)(now - contact->since) >= config->lasting) {
     contact->level = contact->seen;
     if (counts(config, contact->level)) {
@@ -21,7 +21,7 @@ static void begin(up_contact_t *contact, bool level, uint32_t now) {
   contact->since = now;
 }
 
-void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+void up_contact_on_edge(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
   if (config->lasting == 0U) {
     begin(contact, level, now);
     contact->edges++;
@@ -36,7 +36,7 @@ void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact
   contact->since = now;
 }
 
-void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+void up_contact_look(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
   if (!contact->has_level || config->lasting == 0U) {
     begin(contact, level, now);
     return;
@@ -48,7 +48,7 @@ void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, b
   }
 }
 
-void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+void up_contact_sample(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
   if (contact->has_level && config->lasting > 0U && level != contact->seen) {
     contact->seen = level;
     contact->since = now;
@@ -57,7 +57,7 @@ void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact,
   up_contact_look(config, contact, level, now);
 }
 
-bool up_contact_report(const up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported) {
+bool up_contact_report(UP_ROM up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported) {
   const bool has_edge = contact->edges != reported->edges;
 
   reported->edges = contact->edges;

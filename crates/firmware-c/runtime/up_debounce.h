@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "up_rom.h"
+
 typedef enum {
   UP_EDGE_RISING,
   UP_EDGE_FALLING,
@@ -32,13 +34,13 @@ typedef struct {
 
 /* An interrupt came and found this level. Without `lasting`, only edges that count may interrupt; with it, both
  * edges must. */
-void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
+void up_contact_on_edge(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
 
 /* The wire was polled; this must happen often enough to see a level last. */
-void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
+void up_contact_look(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
 
 /* The wire was polled, and there are no interrupts: a level that differs from the last one has not lasted until now. */
-void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
+void up_contact_sample(UP_ROM up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
 
 /* The last report of a contact. All zero at the start. */
 typedef struct {
@@ -49,6 +51,6 @@ typedef struct {
 
 /* True if there is a level to report, in reported->level: one that differs from the last, or that of a pulse that came
  * and went since the last call; the present level is then reported by the next call. */
-bool up_contact_report(const up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported);
+bool up_contact_report(UP_ROM up_contact_config_t *config, const up_contact_t *contact, up_contact_report_t *reported);
 
 #endif

@@ -16,7 +16,7 @@ static void restart(up_decoder_t *decoder) {
   decoder->checksum_right = false;
 }
 
-bool up_decoder_init(up_decoder_t *decoder, const up_wire_t *wire, uint8_t *buffer, size_t buffer_bytes,
+bool up_decoder_init(up_decoder_t *decoder, UP_ROM up_wire_t *wire, uint8_t *buffer, size_t buffer_bytes,
                      const up_sink_t *sink) {
   const size_t frame_bytes = UP_WIRE_FRAME_BYTES(wire);
   const size_t wanted_bytes = (!UP_WIRE_HAS_MEMO(wire)) ? frame_bytes : UP_DECODER_BYTES(frame_bytes);
@@ -49,7 +49,7 @@ bool up_decoder_is_idle(const up_decoder_t *decoder) {
 }
 
 /* The size of the longest payload except health, without a checksum. */
-static size_t short_bytes_max(const up_wire_t *wire) {
+static size_t short_bytes_max(UP_ROM up_wire_t *wire) {
   const size_t asked_bytes = (wire->direction == (uint8_t)UP_TO_HOST) ? HELLO_BYTES : HEALTH_REQUEST_BYTES;
 
   return (wire->values_bytes_max > asked_bytes) ? wire->values_bytes_max : asked_bytes;
@@ -85,7 +85,7 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
 
 /* A payload that begins with 0: a hello or a stamp to the host, a request to the board. */
 static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  const up_wire_t *wire = decoder->wire;
+  UP_ROM up_wire_t *wire = decoder->wire;
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
 
   if (wire->direction == (uint8_t)UP_TO_HOST) {
@@ -118,7 +118,7 @@ static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, si
 /* Determines the type of the payload from its first byte and its length; skips a stamp, or a whole payload that has
  * no items. */
 static up_verdict_t begin(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  const up_wire_t *wire = decoder->wire;
+  UP_ROM up_wire_t *wire = decoder->wire;
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
   uint8_t first;
 

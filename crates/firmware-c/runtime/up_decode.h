@@ -59,7 +59,7 @@ typedef struct {
 } up_walk_t;
 
 typedef struct {
-  const up_wire_t *wire;
+  UP_ROM up_wire_t *wire;
   const up_sink_t *sink;
   uint8_t *buffer; /* the first bytes of an unfinished frame; the candidate starts at `start` */
   size_t buffer_bytes;
@@ -95,7 +95,7 @@ typedef struct {
 
 /* The wire must have an item(). `buffer` must hold at least UP_WIRE_FRAME_BYTES(wire) bytes, and UP_DECODER_BYTES()
  * of that with &up_memo; otherwise the result is false, and every frame is dropped. */
-bool up_decoder_init(up_decoder_t *decoder, const up_wire_t *wire, uint8_t *buffer, size_t buffer_bytes,
+bool up_decoder_init(up_decoder_t *decoder, UP_ROM up_wire_t *wire, uint8_t *buffer, size_t buffer_bytes,
                      const up_sink_t *sink);
 
 /* Takes the next bytes of the stream and passes each complete frame to the sink, which must not feed the decoder. */

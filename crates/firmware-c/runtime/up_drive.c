@@ -48,7 +48,7 @@ static size_t drive_pwms(up_drive_write_t *writes, int8_t direction, uint32_t ma
   return count;
 }
 
-size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
+size_t up_drive(UP_ROM up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
                 up_drive_write_t writes[UP_DRIVE_WRITES_MAX]) {
   bool is_negative;
   const uint64_t asked = up_load_magnitude(type, element, &is_negative);

@@ -40,7 +40,7 @@ typedef struct {
  * magnitude; both pins are low at 0. With one pin, the magnitude is 0 while the pin changes; the pin is low at 0. With
  * two PWM outputs, the one that goes to 0 is written first. Returns their
  * number. */
-size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
+size_t up_drive(UP_ROM up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
                 up_drive_write_t writes[UP_DRIVE_WRITES_MAX]);
 
 #endif

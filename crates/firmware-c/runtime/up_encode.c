@@ -22,7 +22,7 @@ uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size) {
 
 /* Four bits at a time, so the table has only 64 bytes. */
 uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
-  static const uint32_t of_nibble[16] = {
+  static UP_ROM uint32_t of_nibble[16] = {
       0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU, 0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
       0xEDB88320U, 0xF00F9344U, 0xD6D6A3E8U, 0xCB61B38CU, 0x9B64C2B0U, 0x86D3D2D4U, 0xA00AE278U, 0xBDBDF21CU,
   };
@@ -37,13 +37,13 @@ uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
 }
 
 /* The start of the payload; NULL if the longest frame would not fit. */
-static uint8_t *open_frame(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+static uint8_t *open_frame(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   return (frame_bytes < UP_WIRE_FRAME_BYTES(wire)) ? NULL : &frame[wire->head_bytes];
 }
 
 /* Adds a checksum, if the link has one, and the comma after the payload, which ends at `end`, and its length before
  * it. A payload that is shorter than the longest may move down by a few bytes. Returns the size of the frame. */
-static size_t close_frame(const up_wire_t *wire, uint8_t *frame, uint8_t *end) {
+static size_t close_frame(UP_ROM up_wire_t *wire, uint8_t *frame, uint8_t *end) {
   uint8_t *const payload = &frame[wire->head_bytes];
   uint8_t *head = payload;
   size_t rest, bytes;
@@ -68,7 +68,7 @@ static size_t close_frame(const up_wire_t *wire, uint8_t *frame, uint8_t *end) {
   return bytes;
 }
 
-size_t up_encode_values(const up_wire_t *wire, const up_stamp_t *stamp, const uint8_t *due, const void *values,
+size_t up_encode_values(UP_ROM up_wire_t *wire, const up_stamp_t *stamp, const uint8_t *due, const void *values,
                         uint8_t *frame, size_t frame_bytes) {
   uint8_t *at = open_frame(wire, frame, frame_bytes);
   size_t bytes;
@@ -83,7 +83,7 @@ size_t up_encode_values(const up_wire_t *wire, const up_stamp_t *stamp, const ui
   return (bytes == 0U) ? 0U : close_frame(wire, frame, &at[bytes]);
 }
 
-size_t up_encode_hello(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+size_t up_encode_hello(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   uint8_t *const at = open_frame(wire, frame, frame_bytes);
 
   return (at == NULL) ? 0U : close_frame(wire, frame, up_put_32(up_put_8(at, UP_ID_HELLO), wire->hash));
@@ -94,7 +94,7 @@ static uint8_t *put_row(uint8_t *at, const up_health_row_t *row) {
   return up_put_array(at, row->counts, sizeof row->counts[0], UP_FAULTS);
 }
 
-size_t up_encode_health(const up_wire_t *wire, const up_health_board_t *board,
+size_t up_encode_health(UP_ROM up_wire_t *wire, const up_health_board_t *board,
                         void (*row_of)(void *context, size_t field, up_health_row_t *row), void *context,
                         uint8_t *frame, size_t frame_bytes) {
   const size_t devices = ((size_t)wire->health_bytes - UP_HEALTH_BOARD_BYTES) / UP_HEALTH_DEVICE_BYTES;
@@ -116,13 +116,13 @@ size_t up_encode_health(const up_wire_t *wire, const up_health_board_t *board,
   return close_frame(wire, frame, at);
 }
 
-size_t up_encode_hello_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+size_t up_encode_hello_request(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   uint8_t *const at = open_frame(wire, frame, frame_bytes);
 
   return (at == NULL) ? 0U : close_frame(wire, frame, up_put_8(at, UP_ID_HELLO));
 }
 
-size_t up_encode_health_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+size_t up_encode_health_request(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   uint8_t *const at = open_frame(wire, frame, frame_bytes);
 
   return (at == NULL) ? 0U : close_frame(wire, frame, up_put_8(up_put_8(at, UP_ID_HELLO), UP_HEALTH_REQUEST));

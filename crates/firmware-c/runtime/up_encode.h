@@ -25,17 +25,17 @@ typedef uint32_t up_register_t;
 typedef uint16_t up_register_t;
 #endif
 
-static inline up_register_t up_register_init(const up_wire_t *wire) {
+static inline up_register_t up_register_init(UP_ROM up_wire_t *wire) {
   return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? UP_CRC32_INIT : UP_CRC16_INIT);
 }
 
-static inline up_register_t up_register_add(const up_wire_t *wire, up_register_t crc, const uint8_t *bytes,
+static inline up_register_t up_register_add(UP_ROM up_wire_t *wire, up_register_t crc, const uint8_t *bytes,
                                             size_t size) {
   return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? up_crc32(crc, bytes, size) : up_crc16((uint16_t)crc, bytes, size));
 }
 
 /* Writes the checksum for a register and returns the position after it. */
-static inline uint8_t *up_register_put(const up_wire_t *wire, up_register_t crc, uint8_t *at) {
+static inline uint8_t *up_register_put(UP_ROM up_wire_t *wire, up_register_t crc, uint8_t *at) {
   return UP_WIRE_HAS_CRC32(wire) ? up_put_32(at, ~(uint32_t)crc) : up_put_16(at, (uint16_t)crc);
 }
 
@@ -47,20 +47,20 @@ typedef struct {
 
 /* Packs the values whose bit is set in `due`. `stamp` is ignored if the wire has none. Returns the size of the
  * frame, 0 if there is nothing to send. */
-size_t up_encode_values(const up_wire_t *wire, const up_stamp_t *stamp, const uint8_t *due, const void *values,
+size_t up_encode_values(UP_ROM up_wire_t *wire, const up_stamp_t *stamp, const uint8_t *due, const void *values,
                         uint8_t *frame, size_t frame_bytes);
 
 /* The hello of the board, with the hash of its schema. */
-size_t up_encode_hello(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
+size_t up_encode_hello(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
 
 /* The health of the board, and of each device as given by `row_of`. */
-size_t up_encode_health(const up_wire_t *wire, const up_health_board_t *board,
+size_t up_encode_health(UP_ROM up_wire_t *wire, const up_health_board_t *board,
                         void (*row_of)(void *context, size_t field, up_health_row_t *row), void *context,
                         uint8_t *frame, size_t frame_bytes);
 
 /* The host's requests. */
-size_t up_encode_hello_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
-size_t up_encode_health_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
+size_t up_encode_hello_request(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
+size_t up_encode_health_request(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_bytes);
 
 /* Bitmaps with one bit per field. */
 bool up_bit_get(const uint8_t *bitmap, size_t index);

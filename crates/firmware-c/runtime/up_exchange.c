@@ -30,7 +30,7 @@ size_t up_echo_take(up_echo_t *state, const uint8_t *sent, size_t sent_count, co
   return i;
 }
 
-up_heard_t up_reply_take(size_t *heard, const uint8_t *wanted, size_t wanted_count, const uint8_t *bytes,
+up_heard_t up_reply_take(size_t *heard, UP_ROM uint8_t *wanted, size_t wanted_count, const uint8_t *bytes,
                          size_t count) {
   size_t i;
 
@@ -43,16 +43,18 @@ up_heard_t up_reply_take(size_t *heard, const uint8_t *wanted, size_t wanted_cou
   return (*heard == wanted_count) ? UP_HEARD_ANSWERED : UP_HEARD_WAITING;
 }
 
-void up_exchange_begin(const up_exchange_t *how, up_message_state_t *state, const up_schema_t *schema) {
+void up_exchange_begin(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_ROM up_schema_t *schema) {
   const up_value_sink_t nobody = {.on_value = ignore};
+  uint8_t i;
 
   up_message_gap(state);
-  if (how->is_primed) {
-    up_message_feed(how->answer, state, schema, how->request, how->request_count, &nobody);
+  for (i = 0U; how->is_primed && i < how->request_count; i++) {
+    const uint8_t byte = how->request[i];
+    up_message_feed(how->answer, state, schema, &byte, 1U, &nobody);
   }
 }
 
-up_heard_t up_exchange_take(const up_exchange_t *how, up_message_state_t *state, const up_schema_t *schema,
+up_heard_t up_exchange_take(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_ROM up_schema_t *schema,
                             const uint8_t *bytes, size_t count, const up_value_sink_t *sink) {
   const uint32_t messages = state->messages;
   const uint32_t wrong_checksum = state->wrong_checksum;
@@ -72,7 +74,7 @@ up_heard_t up_exchange_take(const up_exchange_t *how, up_message_state_t *state,
   return UP_HEARD_REFUSED;
 }
 
-void up_exchange_fail(const up_exchange_t *how, up_result_t result, const up_value_sink_t *sink) {
+void up_exchange_fail(UP_ROM up_exchange_t *how, up_result_t result, const up_value_sink_t *sink) {
   uint8_t i;
 
   for (i = 0U; i < how->answer->fields_count; i++) {

@@ -10,11 +10,11 @@
 
 /* A request, and the message that answers it. */
 typedef struct {
-  const uint8_t *request;
-  const up_message_t *answer; /* with its values */
-  uint8_t request_count;      /* 1 to 255 */
-  bool is_primed;             /* the answer's checksum begins with the request, which is its `start` */
-  uint16_t wait_ms;           /* the time that the device has for the answer */
+  UP_ROM uint8_t *request;
+  UP_ROM up_message_t *answer; /* with its values */
+  uint8_t request_count;       /* 1 to 255 */
+  bool is_primed;              /* the answer's checksum begins with the request, which is its `start` */
+  uint16_t wait_ms;            /* the time that the device has for the answer */
 } up_exchange_t;
 
 typedef enum {
@@ -33,16 +33,17 @@ typedef struct {
 size_t up_echo_take(up_echo_t *state, const uint8_t *sent, size_t sent_count, const uint8_t *bytes, size_t count);
 
 /* The bytes that a device says when it has taken a command. `heard` is 0 at the start. */
-up_heard_t up_reply_take(size_t *heard, const uint8_t *wanted, size_t wanted_count, const uint8_t *bytes, size_t count);
+up_heard_t up_reply_take(size_t *heard, UP_ROM uint8_t *wanted, size_t wanted_count, const uint8_t *bytes,
+                         size_t count);
 
 /* The request is being sent: what comes from now on is the answer. */
-void up_exchange_begin(const up_exchange_t *how, up_message_state_t *state, const up_schema_t *schema);
+void up_exchange_begin(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_ROM up_schema_t *schema);
 
 /* Takes the next bytes of the answer, and reports the values or that they were damaged. */
-up_heard_t up_exchange_take(const up_exchange_t *how, up_message_state_t *state, const up_schema_t *schema,
+up_heard_t up_exchange_take(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_ROM up_schema_t *schema,
                             const uint8_t *bytes, size_t count, const up_value_sink_t *sink);
 
 /* Reports that there is no answer, for all its values. */
-void up_exchange_fail(const up_exchange_t *how, up_result_t result, const up_value_sink_t *sink);
+void up_exchange_fail(UP_ROM up_exchange_t *how, up_result_t result, const up_value_sink_t *sink);
 
 #endif

@@ -10,7 +10,7 @@
 #define ROOTS 16U
 
 /* 2^-(2^-i) times 2^32, for i from 1. */
-static const uint32_t roots[ROOTS] = {
+static UP_ROM uint32_t roots[ROOTS] = {
     0xB504F334U, 0xD744FCCBU, 0xEAC0C6E8U, 0xF5257D15U, 0xFA83B2DBU, 0xFD3E0C0DU, 0xFE9E115CU, 0xFF4ECB59U,
     0xFFA75652U, 0xFFD3A752U, 0xFFE9D2B3U, 0xFFF4E91CU, 0xFFFA747FU, 0xFFFD3A3BU, 0xFFFE9D1DU, 0xFFFF4E8EU,
 };
@@ -66,17 +66,17 @@ static uint64_t bits_of_key(uint8_t type, uint64_t key) {
   return is_signed(type) ? key ^ sign_of(type) : key;
 }
 
-static uint64_t bits_of_number(uint8_t type, const up_number_t *number) {
+static uint64_t bits_of_number(uint8_t type, UP_ROM up_number_t *number) {
   const uint64_t mask = 2U * sign_of(type) - 1U;
   uint32_t single;
   uint64_t wide;
 
   if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
-    memcpy(&single, &number->f, sizeof single);
+    up_rom_copy(&single, &number->f, sizeof single);
     return single;
   }
   if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
-    memcpy(&wide, &number->d, sizeof wide);
+    up_rom_copy(&wide, &number->d, sizeof wide);
     return wide;
   }
   return number->u & mask;
@@ -84,14 +84,14 @@ static uint64_t bits_of_number(uint8_t type, const up_number_t *number) {
 
 /* ---- invalid ---- */
 
-static bool is_invalid(const up_filter_t *filter, const up_field_t *field, const uint8_t *value) {
+static bool is_invalid(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, const uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   size_t element, i;
 
   for (element = 0U; element < field->count; element++) {
     const uint64_t key = key_of(field->type, up_element_load(field->type, &value[element * element_bytes]));
     for (i = 0U; i < filter->invalid_count; i++) {
-      const up_range_t *range = &filter->invalid[i];
+      UP_ROM up_range_t *range = &filter->invalid[i];
       if (key >= key_of(field->type, bits_of_number(field->type, &range->low)) &&
           key <= key_of(field->type, bits_of_number(field->type, &range->high))) {
         return true;
@@ -125,7 +125,7 @@ static uint64_t middle(uint8_t type, const uint8_t *window, size_t stride, size_
   return bits;
 }
 
-static void take_median(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field, uint8_t *window,
+static void take_median(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field, uint8_t *window,
                         uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   const size_t stride = up_field_bytes(field);
@@ -222,11 +222,11 @@ static void smooth_single(uint64_t *state, uint32_t decay, void *element) {
   up_element_store(UP_TYPE_FLOAT32, state[0], element);
 }
 
-static void smooth_element(const up_filter_t *filter, uint8_t type, uint64_t *state, uint32_t decay, void *element) {
+static void smooth_element(UP_ROM up_filter_t *filter, uint8_t type, uint64_t *state, uint32_t decay, void *element) {
   if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     smooth_single(state, decay, element);
   } else if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
-    if (filter->wide != NULL) {
+    if (filter->wide != UP_ROM_NULL) {
       filter->wide->smooth(state, decay, element);
     }
   } else {
@@ -235,7 +235,7 @@ static void smooth_element(const up_filter_t *filter, uint8_t type, uint64_t *st
   }
 }
 
-static void smooth(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field, uint32_t now_ms,
+static void smooth(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field, uint32_t now_ms,
                    uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   const uint32_t elapsed_ms = (uint32_t)(now_ms - state->seen_ms);
@@ -250,7 +250,7 @@ static void smooth(const up_filter_t *filter, up_filter_state_t *state, const up
 
 /* ---- change ---- */
 
-static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint64_t to) {
+static bool is_far(UP_ROM up_filter_t *filter, uint8_t type, uint64_t from, uint64_t to) {
   const uint64_t from_key = key_of(type, from), to_key = key_of(type, to);
 
   if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
@@ -259,12 +259,13 @@ static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint6
     return !(distance < filter->change.f && distance > -filter->change.f);
   }
   if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
-    return filter->wide == NULL || filter->wide->is_far(from, to, filter->change.d);
+    return filter->wide == UP_ROM_NULL || filter->wide->is_far(from, to, filter->change.d);
   }
   return ((from_key > to_key) ? from_key - to_key : to_key - from_key) >= filter->change.u;
 }
 
-static bool has_changed(const up_filter_t *filter, const up_field_t *field, const uint8_t *reported, const uint8_t *value) {
+static bool has_changed(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, const uint8_t *reported,
+                        const uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   size_t i;
 
@@ -279,14 +280,14 @@ static bool has_changed(const up_filter_t *filter, const up_field_t *field, cons
 
 /* Whether the next value would be too late for the heartbeat if it comes after three quarters of the present
  * interval. */
-static bool is_heartbeat(const up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
+static bool is_heartbeat(UP_ROM up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
   const uint64_t silent_ms = (uint32_t)(now_ms - state->reported_ms);
   const uint64_t interval_ms = (uint32_t)(now_ms - state->seen_ms);
 
   return filter->heartbeat_ms != 0U && silent_ms + interval_ms - interval_ms / 4U > filter->heartbeat_ms;
 }
 
-up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
+up_result_t up_filter_apply(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field,
                             uint32_t now_ms, void *value) {
   const size_t count = field->count;
   const size_t smooth_words = (UP_USES_SMOOTH && filter->smooth_ms > 0U) ? UP_FILTER_SMOOTH_WORDS(count) : 0U;

@@ -33,20 +33,20 @@ typedef struct {
   void (*smooth)(uint64_t *state, uint32_t decay, void *element);
   bool (*is_far)(uint64_t from_bits, uint64_t to_bits, double distance);
 } up_filter_double_t;
-extern const up_filter_double_t up_filter_double;
+extern UP_ROM up_filter_double_t up_filter_double;
 
 typedef struct {
-  const up_range_t *invalid; /* raw elements that are not a measurement */
-  const up_filter_double_t *wide; /* &up_filter_double for a float64 with `smooth` or `change`, otherwise NULL;
-                                   * without it these two do nothing to a float64 */
-  uint8_t invalid_count;     /* 0 to 255 */
-  uint8_t median;            /* number of values for the median: odd, 3 to 15; 0: off. At first, those received so
-                              * far */
-  bool has_change;           /* report only changes */
-  uint32_t smooth_ms;        /* time constant of a first-order low-pass; 0: off */
-  up_number_t change;        /* how far an element must be from the last one reported; `u` for bool and all integers,
-                              * `f` or `d` for floats; not negative */
-  uint32_t heartbeat_ms;     /* with has_change: the longest time between reports while values come; 0: unlimited */
+  UP_ROM up_range_t *invalid; /* raw elements that are not a measurement */
+  UP_ROM up_filter_double_t *wide; /* &up_filter_double for a float64 with `smooth` or `change`, otherwise NULL;
+                                    * without it these two do nothing to a float64 */
+  uint8_t invalid_count;      /* 0 to 255 */
+  uint8_t median;             /* number of values for the median: odd, 3 to 15; 0: off. At first, those received so
+                               * far */
+  bool has_change;            /* report only changes */
+  uint32_t smooth_ms;         /* time constant of a first-order low-pass; 0: off */
+  up_number_t change;         /* how far an element must be from the last one reported; `u` for bool and all integers,
+                               * `f` or `d` for floats; not negative */
+  uint32_t heartbeat_ms;      /* with has_change: the longest time between reports while values come; 0: unlimited */
 } up_filter_t;
 
 /* 64-bit words of memory for a field with `count` elements of `element_bytes`. */
@@ -69,7 +69,7 @@ typedef struct {
 
 /* Filters one value in place. UP_FRESH: report it. UP_NOTHING: valid, but too little changed to be reported.
  * UP_INVALID: not a measurement; `value` and the filter's state are unchanged. */
-up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
+up_result_t up_filter_apply(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field,
                             uint32_t now_ms, void *value);
 
 /* exp(-elapsed/constant) times 2^32, at most 2^32 - 1; 0 if the constant is 0. Within 6 of the exact value. */

@@ -47,4 +47,4 @@ static bool is_far(uint64_t from_bits, uint64_t to_bits, double distance) {
   return !(difference < distance && difference > -distance);
 }
 
-const up_filter_double_t up_filter_double = {smooth, is_far};
+UP_ROM up_filter_double_t up_filter_double = {smooth, is_far};

@@ -97,7 +97,7 @@ static int64_t humidity(const uint8_t *calibration, const uint8_t *raw, int64_t 
   return result >> 12;
 }
 
-static bool compute_bmp280(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw,
+static bool compute_bmp280(const uint8_t *calibration, UP_ROM int32_t *parameters, const uint8_t *raw,
                            int64_t *outputs) {
   int64_t fine;
 
@@ -109,7 +109,7 @@ static bool compute_bmp280(const uint8_t *calibration, const int32_t *parameters
   return pressure(calibration, raw, fine, &outputs[1]);
 }
 
-static bool compute_bme280(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw,
+static bool compute_bme280(const uint8_t *calibration, UP_ROM int32_t *parameters, const uint8_t *raw,
                            int64_t *outputs) {
   int64_t fine;
 
@@ -121,8 +121,8 @@ static bool compute_bme280(const uint8_t *calibration, const int32_t *parameters
   return true;
 }
 
-const up_formula_t up_formula_bmp280 = {
+UP_ROM up_formula_t up_formula_bmp280 = {
     .calibration_bytes = 24U, .raw_bytes = 6U, .parameters_count = 0U, .outputs_count = 2U, .compute = compute_bmp280};
 
-const up_formula_t up_formula_bme280 = {
+UP_ROM up_formula_t up_formula_bme280 = {
     .calibration_bytes = 32U, .raw_bytes = 8U, .parameters_count = 0U, .outputs_count = 3U, .compute = compute_bme280};

@@ -8,7 +8,8 @@
 #define RANGE 0x1000000
 
 /* Each pair of bits is one clock: the second one is read while the clock is low, when the part's bit is stable. */
-static bool compute_hx711(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw, int64_t *outputs) {
+static bool compute_hx711(const uint8_t *calibration, UP_ROM int32_t *parameters, const uint8_t *raw,
+                          int64_t *outputs) {
   int32_t code = 0;
   size_t i;
   unsigned pair;
@@ -27,5 +28,5 @@ static bool compute_hx711(const uint8_t *calibration, const int32_t *parameters,
   return true;
 }
 
-const up_formula_t up_formula_hx711 = {
+UP_ROM up_formula_t up_formula_hx711 = {
     .calibration_bytes = 0U, .raw_bytes = 8U, .parameters_count = 0U, .outputs_count = 1U, .compute = compute_hx711};

@@ -31,7 +31,7 @@ static int64_t log2_q24(uint64_t number) {
   return result;
 }
 
-static bool compute_ntc(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw, int64_t *outputs) {
+static bool compute_ntc(const uint8_t *calibration, UP_ROM int32_t *parameters, const uint8_t *raw, int64_t *outputs) {
   const uint32_t level = (uint32_t)raw[0] << 8 | raw[1];
   const int64_t beta = parameters[0], r25 = parameters[1], series = parameters[2];
   int64_t log_ratio, divisor, kelvin_centi;
@@ -54,5 +54,5 @@ static bool compute_ntc(const uint8_t *calibration, const int32_t *parameters, c
   return true;
 }
 
-const up_formula_t up_formula_ntc = {
+UP_ROM up_formula_t up_formula_ntc = {
     .calibration_bytes = 0U, .raw_bytes = 2U, .parameters_count = 3U, .outputs_count = 1U, .compute = compute_ntc};

@@ -13,7 +13,7 @@ typedef struct {
   uint16_t m;
 } piece_t;
 
-static const piece_t pieces[] = {
+static UP_ROM piece_t pieces[] = {
     {0x0040U, 0x01F2U, 0x01BEU}, {0x0080U, 0x0214U, 0x02D1U}, {0x00C0U, 0x023FU, 0x037BU}, {0x0100U, 0x0270U, 0x03FEU},
     {0x0138U, 0x016FU, 0x01FCU}, {0x019AU, 0x00D2U, 0x00FBU}, {0x029AU, 0x0018U, 0x0012U},
 };
@@ -25,9 +25,9 @@ typedef struct {
   uint32_t end;
 } timing_t;
 
-static const timing_t timings[] = {{13, 0x7517U, 5047U}, {101, 0x0FE7U, 37177U}, {402, 0x0400U, 65535U}};
+static UP_ROM timing_t timings[] = {{13, 0x7517U, 5047U}, {101, 0x0FE7U, 37177U}, {402, 0x0400U, 65535U}};
 
-static const timing_t *timing_of(int32_t time_ms) {
+static UP_ROM timing_t *timing_of(int32_t time_ms) {
   size_t i;
 
   for (i = 0U; i < sizeof timings / sizeof timings[0]; i++) {
@@ -35,7 +35,7 @@ static const timing_t *timing_of(int32_t time_ms) {
       return &timings[i];
     }
   }
-  return NULL;
+  return UP_ROM_NULL;
 }
 
 static int64_t millilux(uint64_t channel0, uint64_t channel1) {
@@ -52,16 +52,17 @@ static int64_t millilux(uint64_t channel0, uint64_t channel1) {
   return (sum <= 0) ? 0 : (sum * 1000 + 8192) >> 14;
 }
 
-static bool compute_tsl2561(const uint8_t *calibration, const int32_t *parameters, const uint8_t *raw,
+static bool compute_tsl2561(const uint8_t *calibration, UP_ROM int32_t *parameters, const uint8_t *raw,
                             int64_t *outputs) {
   const uint32_t channel0 = (uint32_t)raw[1] << 8 | raw[0];
   const uint32_t channel1 = (uint32_t)raw[3] << 8 | raw[2];
-  const int32_t gain = (parameters != NULL) ? parameters[1] : NOMINAL_GAIN;
-  const timing_t *timing = timing_of((parameters != NULL) ? parameters[0] : NOMINAL_MS);
+  const int32_t gain = (parameters != UP_ROM_NULL) ? parameters[1] : NOMINAL_GAIN;
+  UP_ROM timing_t *timing = timing_of((parameters != UP_ROM_NULL) ? parameters[0] : NOMINAL_MS);
   uint64_t scale;
 
   (void)calibration;
-  if (timing == NULL || (gain != 1 && gain != NOMINAL_GAIN) || channel0 >= timing->end || channel1 >= timing->end) {
+  if (timing == UP_ROM_NULL || (gain != 1 && gain != NOMINAL_GAIN) || channel0 >= timing->end ||
+      channel1 >= timing->end) {
     return false;
   }
   scale = (uint64_t)timing->scale * (uint32_t)(NOMINAL_GAIN / gain);
@@ -69,5 +70,5 @@ static bool compute_tsl2561(const uint8_t *calibration, const int32_t *parameter
   return true;
 }
 
-const up_formula_t up_formula_tsl2561 = {
+UP_ROM up_formula_t up_formula_tsl2561 = {
     .calibration_bytes = 0U, .raw_bytes = 4U, .parameters_count = 2U, .outputs_count = 1U, .compute = compute_tsl2561};

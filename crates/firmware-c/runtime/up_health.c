@@ -7,31 +7,22 @@
 /* A value whose time is ahead of the caller's by at most this much came meanwhile, from another thread. */
 #define AHEAD_MS 0x10000U
 
-static size_t fault_of(up_result_t result) {
-  switch (result) {
-  case UP_NOT_ACKNOWLEDGED:
-    return UP_FAULT_NOT_ACKNOWLEDGED;
-  case UP_BUS_ERROR:
-    return UP_FAULT_BUS;
-  case UP_ARBITRATION_LOST:
-    return UP_FAULT_ARBITRATION;
-  case UP_TIMED_OUT:
-    return UP_FAULT_TIME_OUT;
-  case UP_WRONG_CRC:
-    return UP_FAULT_CRC;
-  case UP_INVALID:
-  case UP_WRONG_IDENTITY:
-    return UP_FAULT_INVALID;
-  case UP_NOTHING:
-  case UP_FRESH:
-  default:
-    return UP_FAULTS;
-  }
-}
+/* The fault that a result stands for. As a table, because compilers may make one in RAM of a `switch`. */
+static UP_ROM uint8_t faults[UP_RESULTS] = {
+    [UP_NOTHING] = UP_FAULTS,
+    [UP_FRESH] = UP_FAULTS,
+    [UP_INVALID] = UP_FAULT_INVALID,
+    [UP_WRONG_CRC] = UP_FAULT_CRC,
+    [UP_NOT_ACKNOWLEDGED] = UP_FAULT_NOT_ACKNOWLEDGED,
+    [UP_BUS_ERROR] = UP_FAULT_BUS,
+    [UP_ARBITRATION_LOST] = UP_FAULT_ARBITRATION,
+    [UP_TIMED_OUT] = UP_FAULT_TIME_OUT,
+    [UP_WRONG_IDENTITY] = UP_FAULT_INVALID,
+};
 
 void up_health_note(up_health_t *health, size_t field, up_result_t result, uint32_t now_ms) {
   up_health_device_t *device = &health->devices[field];
-  const size_t fault = fault_of(result);
+  const size_t fault = ((size_t)result < UP_RESULTS) ? faults[result] : UP_FAULTS;
 
   if (result == UP_NOTHING) {
     return;
@@ -94,7 +85,7 @@ static up_status_t status(const up_health_device_t *device, uint32_t age, uint32
 
 void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row) {
   const up_health_device_t *device = &health->devices[field];
-  const uint32_t cycle_ms = (health->cycles_ms == NULL) ? 0U : health->cycles_ms[field];
+  const uint32_t cycle_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
   size_t i;
 
   row->age_ms = age_ms(device, now_ms);

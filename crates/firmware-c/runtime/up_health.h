@@ -46,7 +46,7 @@ typedef struct {
 
 typedef struct {
   up_health_device_t *devices; /* one for each field of the schema */
-  const uint32_t *cycles_ms;   /* how often each is read; 0: only when something happens, and then it is never stale.
+  UP_ROM uint32_t *cycles_ms;  /* how often each is read; 0: only when something happens, and then it is never stale.
                                 * NULL: all are like that */
   uint8_t devices_count;
   uint8_t looked_at; /* the next device for up_health_tick() */

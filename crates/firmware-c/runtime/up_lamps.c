@@ -13,11 +13,11 @@
 #define LED_MARK 0xE0U
 #define BRIGHTNESS_MAX 31U
 
-static bool is_leds(const up_value_t *how) {
+static bool is_leds(UP_ROM up_value_t *how) {
   return how->code == (uint8_t)UP_CODE_LEDS;
 }
 
-size_t up_lamps_bytes(const up_value_t *how, uint16_t count) {
+size_t up_lamps_bytes(UP_ROM up_value_t *how, uint16_t count) {
   if (is_leds(how)) {
     /* Each LED delays the clock by half a period. */
     return 2U * LED_START_BYTES + (size_t)count * LED_BYTES + ((size_t)count + 15U) / 16U;
@@ -25,7 +25,7 @@ size_t up_lamps_bytes(const up_value_t *how, uint16_t count) {
   return 1U + ((size_t)count * how->words + REST_BYTES) * how->bits;
 }
 
-static uint32_t colour_of(const up_field_t *field, const void *element) {
+static uint32_t colour_of(UP_ROM up_field_t *field, const void *element) {
   bool is_negative;
   const uint64_t magnitude = up_load_magnitude(field->type, element, &is_negative);
 
@@ -37,7 +37,7 @@ static unsigned byte_of(uint32_t colour, unsigned place) {
 }
 
 /* Sets the bits of the pulses of a byte; the others are 0 already. `at` is the first bit; the next one is returned. */
-static size_t put_pulses(const up_value_t *how, unsigned byte, uint8_t *bytes, size_t at) {
+static size_t put_pulses(UP_ROM up_value_t *how, unsigned byte, uint8_t *bytes, size_t at) {
   unsigned bit, i;
 
   for (bit = 8U; bit > 0U; bit--) {
@@ -50,7 +50,7 @@ static size_t put_pulses(const up_value_t *how, unsigned byte, uint8_t *bytes, s
   return at;
 }
 
-static void put_led(const up_value_t *how, uint32_t colour, uint8_t *bytes) {
+static void put_led(UP_ROM up_value_t *how, uint32_t colour, uint8_t *bytes) {
   const unsigned brightness = byte_of(colour, 3U) & BRIGHTNESS_MAX;
   size_t i;
 
@@ -60,7 +60,7 @@ static void put_led(const up_value_t *how, uint32_t colour, uint8_t *bytes) {
   }
 }
 
-void up_lamps_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes) {
+void up_lamps_encode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes) {
   const size_t element_bytes = up_type_bytes(field->type);
   const uint8_t *memory = value;
   size_t at = 8U;

@@ -18,9 +18,9 @@
 #include "up_value.h"
 
 /* The size of what is sent for `count` colours. */
-size_t up_lamps_bytes(const up_value_t *how, uint16_t count);
+size_t up_lamps_bytes(UP_ROM up_value_t *how, uint16_t count);
 
 /* Writes up_lamps_bytes() bytes. */
-void up_lamps_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes);
+void up_lamps_encode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes);
 
 #endif

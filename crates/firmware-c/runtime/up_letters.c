@@ -11,7 +11,7 @@
 #define COLUMNS (UP_LETTER_COLUMNS - 1U)
 
 /* The columns of each letter from the left, the dot at the top in the lowest bit. */
-static const uint8_t columns_of[LAST - FIRST + 1U][COLUMNS] = {
+static UP_ROM uint8_t columns_of[LAST - FIRST + 1U][COLUMNS] = {
     {0x00, 0x00, 0x00, 0x00, 0x00}, /* space */
     {0x00, 0x00, 0x5F, 0x00, 0x00}, /* ! */
     {0x00, 0x07, 0x00, 0x07, 0x00}, /* " */
@@ -109,7 +109,7 @@ static const uint8_t columns_of[LAST - FIRST + 1U][COLUMNS] = {
     {0x08, 0x04, 0x08, 0x10, 0x08}, /* ~ */
 };
 
-void up_letters_encode(const up_field_t *field, const void *value, uint8_t *bytes) {
+void up_letters_encode(UP_ROM up_field_t *field, const void *value, uint8_t *bytes) {
   const size_t element_bytes = up_type_bytes(field->type);
   const uint8_t *memory = value;
   size_t i;
@@ -120,7 +120,7 @@ void up_letters_encode(const up_field_t *field, const void *value, uint8_t *byte
     const uint64_t code = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
 
     if (!is_negative && code >= FIRST && code <= LAST) {
-      memcpy(&bytes[i * UP_LETTER_COLUMNS], columns_of[code - FIRST], COLUMNS);
+      up_rom_copy(&bytes[i * UP_LETTER_COLUMNS], columns_of[code - FIRST], COLUMNS);
     }
   }
 }

@@ -11,6 +11,6 @@
 #define UP_LETTER_COLUMNS 6U
 
 /* Writes UP_LETTER_COLUMNS bytes for each element of the value. */
-void up_letters_encode(const up_field_t *field, const void *value, uint8_t *bytes);
+void up_letters_encode(UP_ROM up_field_t *field, const void *value, uint8_t *bytes);
 
 #endif

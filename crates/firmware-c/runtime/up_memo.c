@@ -14,12 +14,12 @@ typedef struct {
 } sums_t;
 
 /* The register that multiplies by 1: CRC-32 has its highest power in the lowest bit. */
-static up_register_t one(const up_wire_t *wire) {
+static up_register_t one(UP_ROM up_wire_t *wire) {
   return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? 0x80000000U : 1U);
 }
 
 /* The product of two registers as polynomials over GF(2), modulo the polynomial of the CRC. */
-static up_register_t product(const up_wire_t *wire, up_register_t left, up_register_t right) {
+static up_register_t product(UP_ROM up_wire_t *wire, up_register_t left, up_register_t right) {
   const bool is_32 = UP_WIRE_HAS_CRC32(wire);
   const unsigned bits = is_32 ? 32U : 16U;
   uint32_t result = 0U;
@@ -40,16 +40,18 @@ static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
 }
 
 static void init(up_decoder_t *decoder, size_t frame_bytes) {
-  static const uint8_t zeros[BLOCK_BYTES];
+  const uint8_t zero = 0U;
   const size_t blocks = UP_DECODER_BLOCKS(frame_bytes);
   up_register_t power = one(decoder->wire);
-  size_t i;
+  size_t i, byte;
 
   decoder->sums = &decoder->buffer[decoder->buffer_bytes];
   decoder->ring_bytes = blocks * BLOCK_BYTES;
   for (i = 0U; i < blocks; i++) {
     memcpy(power_of(decoder, i), &power, sizeof power);
-    power = up_register_add(decoder->wire, power, zeros, sizeof zeros);
+    for (byte = 0U; byte < BLOCK_BYTES; byte++) {
+      power = up_register_add(decoder->wire, power, &zero, 1U);
+    }
   }
 #if UP_DECODER_WALKS > 0U
   for (i = 0U; i < UP_DECODER_WALKS; i++) {
@@ -367,7 +369,7 @@ static void leave(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped, b
   }
 }
 
-const up_memo_t up_memo = {
+UP_ROM up_memo_t up_memo = {
     .init = init,
     .crc = crc_of,
     .bools = are_bools,

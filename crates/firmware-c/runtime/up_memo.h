@@ -30,6 +30,6 @@ typedef struct up_memo {
 /* For up_memo: checks the elements of the value [value, end), as many as are there. */
 up_verdict_t up_decoder_look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t value, size_t end);
 
-extern const up_memo_t up_memo;
+extern UP_ROM up_memo_t up_memo;
 
 #endif

@@ -12,7 +12,7 @@
 #define IBUS_START 0xFFFFU
 #define SLAMTEC_SUM_BYTES 2U
 
-static const uint8_t checksum_bytes[] = {
+static UP_ROM uint8_t checksum_bytes[] = {
     [UP_CHECKSUM_NONE] = 0U,       [UP_CHECKSUM_SUM8] = 1U,     [UP_CHECKSUM_XOR8] = 1U,
     [UP_CHECKSUM_IBUS] = 2U,       [UP_CHECKSUM_NMEA] = 3U,     [UP_CHECKSUM_CRC8_DVB_S2] = 1U,
     [UP_CHECKSUM_SUM7] = 1U,       [UP_CHECKSUM_NOT_SUM8] = 1U, [UP_CHECKSUM_NEG_SUM8] = 1U,
@@ -115,12 +115,12 @@ size_t up_checksum_put(uint8_t checksum, uint8_t from, uint8_t start_count, cons
   return up_checksum_bytes(checksum);
 }
 
-static size_t checksum_size(const up_message_t *message) {
+static size_t checksum_size(UP_ROM up_message_t *message) {
   return up_checksum_bytes(message->checksum);
 }
 
 /* The bytes around a body. */
-static size_t frame_bytes(const up_message_t *message) {
+static size_t frame_bytes(UP_ROM up_message_t *message) {
   return (size_t)message->start_count + checksum_size(message) + message->end_count;
 }
 
@@ -139,39 +139,39 @@ static bool begins_slamtec(uint8_t byte) {
 }
 
 /* Before the messages, the part says once how long they are. This has the marks of a message. */
-static bool announces_slamtec(const up_message_t *message, const uint8_t *bytes, size_t size) {
+static bool announces_slamtec(UP_ROM up_message_t *message, const uint8_t *bytes, size_t size) {
   const uint8_t announced[] = {0xA5U, 0x5AU, (uint8_t)message->length, 0U, 0U, 0x40U};
 
   return size >= sizeof announced && memcmp(bytes, announced, sizeof announced) == 0;
 }
 
-static bool starts_slamtec(const up_message_t *message, const uint8_t *bytes, size_t size) {
+static bool starts_slamtec(UP_ROM up_message_t *message, const uint8_t *bytes, size_t size) {
   return (size < 1U || begins_slamtec(bytes[0])) && (size < 2U || (bytes[1] >> 4) == 0x5U) &&
          !announces_slamtec(message, bytes, size);
 }
 
-static bool is_slamtec(const up_message_t *message) {
+static bool is_slamtec(UP_ROM up_message_t *message) {
   return message->checksum == (uint8_t)UP_CHECKSUM_SLAMTEC;
 }
 
-static bool starts_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
+static bool starts_right(UP_ROM up_message_t *message, const uint8_t *bytes, size_t size) {
   const size_t count = (size < message->start_count) ? size : message->start_count;
 
   if (is_slamtec(message)) {
     return starts_slamtec(message, bytes, size);
   }
-  return count == 0U || memcmp(bytes, message->start, count) == 0;
+  return count == 0U || up_rom_is(bytes, message->start, count);
 }
 
-static bool ends_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
-  return message->end_count == 0U || memcmp(&bytes[size - message->end_count], message->end, message->end_count) == 0;
+static bool ends_right(UP_ROM up_message_t *message, const uint8_t *bytes, size_t size) {
+  return message->end_count == 0U || up_rom_is(&bytes[size - message->end_count], message->end, message->end_count);
 }
 
 /* If only `end` bounds a body and no checksum covers it, a second start means that the end was lost. */
-static bool begins_anew(const up_message_t *message, const uint8_t *bytes, size_t size) {
+static bool begins_anew(UP_ROM up_message_t *message, const uint8_t *bytes, size_t size) {
   return message->length == 0U && message->checksum == UP_CHECKSUM_NONE && message->start_count > 0U &&
          size >= 2U * (size_t)message->start_count &&
-         memcmp(&bytes[size - message->start_count], message->start, message->start_count) == 0;
+         up_rom_is(&bytes[size - message->start_count], message->start, message->start_count);
 }
 
 static uint8_t upper(uint8_t letter) {
@@ -186,7 +186,7 @@ static bool sums_slamtec(const uint8_t *bytes, size_t size) {
 }
 
 /* Whether the checksum at `at` is right. Hexadecimal digits may be in lower case. */
-static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t at) {
+static bool sums_right(UP_ROM up_message_t *message, const uint8_t *bytes, size_t at) {
   const bool is_text = message->checksum == (uint8_t)UP_CHECKSUM_NMEA;
   uint8_t sum[UP_CHECKSUM_BYTES_MAX];
   const size_t size =
@@ -204,7 +204,7 @@ static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t
   return true;
 }
 
-static verdict_t judge(const up_message_t *message, const up_message_state_t *state) {
+static verdict_t judge(UP_ROM up_message_t *message, const up_message_state_t *state) {
   const uint8_t *bytes = state->buffer;
   const size_t size = state->size;
   const size_t least = frame_bytes(message) + message->length;
@@ -227,15 +227,15 @@ static verdict_t judge(const up_message_t *message, const up_message_state_t *st
 /* ---- values ---- */
 
 /* True if the first field of a sentence ends with its type. */
-static bool is_sentence(up_piece_t text, const char *sentence, char separator) {
-  const size_t count = strlen(sentence);
+static bool is_sentence(up_piece_t text, UP_ROM char *sentence, char separator) {
+  const size_t count = up_rom_length(sentence);
   up_piece_t first;
 
   return up_parse_field(text, separator, 0U, &first) && first.size >= count &&
-         memcmp(&first.start[first.size - count], sentence, count) == 0;
+         up_rom_is(&first.start[first.size - count], sentence, count);
 }
 
-static up_result_t text_element(const up_message_field_t *how, uint8_t type, up_piece_t text, size_t at,
+static up_result_t text_element(UP_ROM up_message_field_t *how, uint8_t type, up_piece_t text, size_t at,
                                 void *element) {
   up_piece_t piece, next;
 
@@ -258,10 +258,15 @@ static up_result_t text_element(const up_message_field_t *how, uint8_t type, up_
   }
 }
 
+/* The index of the first element; with a sentence, its type is before it. */
+static size_t first_of(UP_ROM up_message_field_t *how) {
+  return (how->sentence == UP_ROM_NULL) ? how->index : (size_t)how->index + 1U;
+}
+
 /* One invalid element makes the whole value invalid, an empty one makes it UP_NOTHING. */
-static up_result_t text_value(const up_message_field_t *how, const up_field_t *field, up_piece_t text, void *value) {
+static up_result_t text_value(UP_ROM up_message_field_t *how, UP_ROM up_field_t *field, up_piece_t text, void *value) {
   const size_t stride = (how->format == UP_FORMAT_DEGREES) ? 2U : 1U;
-  const size_t first = (size_t)how->index + ((how->sentence != NULL) ? 1U : 0U);
+  const size_t first = first_of(how);
   const size_t element_bytes = up_type_bytes(field->type);
   up_result_t result = UP_FRESH;
   uint8_t *memory = value;
@@ -279,13 +284,14 @@ static up_result_t text_value(const up_message_field_t *how, const up_field_t *f
 }
 
 /* Whether the body is of a kind that contains this value. */
-static bool is_of_body(const up_message_field_t *how, const uint8_t *body, size_t body_count) {
+static bool is_of_body(UP_ROM up_message_field_t *how, const uint8_t *body, size_t body_count) {
   const up_piece_t text = {(const char *)body, body_count};
 
-  return how->format == UP_FORMAT_BINARY || how->sentence == NULL || is_sentence(text, how->sentence, how->separator);
+  return how->format == UP_FORMAT_BINARY || how->sentence == UP_ROM_NULL ||
+         is_sentence(text, how->sentence, how->separator);
 }
 
-bool up_message_value(const up_message_field_t *how, const up_field_t *field, const uint8_t *body, size_t body_count,
+bool up_message_value(UP_ROM up_message_field_t *how, UP_ROM up_field_t *field, const uint8_t *body, size_t body_count,
                       void *value, up_result_t *result) {
   up_piece_t text;
 
@@ -306,7 +312,7 @@ bool up_message_value(const up_message_field_t *how, const up_field_t *field, co
 }
 
 /* A damaged message is reported for all its values. Without a start or an end it cannot be recognised as a message. */
-static void say_damaged(const up_message_t *message, const up_message_state_t *state, const up_value_sink_t *sink) {
+static void say_damaged(UP_ROM up_message_t *message, const up_message_state_t *state, const up_value_sink_t *sink) {
   const uint8_t *body = &state->buffer[message->start_count];
   size_t i;
 
@@ -320,14 +326,14 @@ static void say_damaged(const up_message_t *message, const up_message_state_t *s
   }
 }
 
-static void say_values(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+static void say_values(UP_ROM up_message_t *message, up_message_state_t *state, UP_ROM up_schema_t *schema,
                        const up_value_sink_t *sink) {
   const uint8_t *body = &state->buffer[message->start_count];
   const size_t body_count = state->size - frame_bytes(message);
   size_t i;
 
   for (i = 0U; i < message->fields_count; i++) {
-    const up_message_field_t *how = &message->fields[i];
+    UP_ROM up_message_field_t *how = &message->fields[i];
     up_result_t result = UP_NOTHING;
     if (!up_message_value(how, &schema->fields[how->field], body, body_count, state->scratch, &result)) {
       continue;
@@ -347,7 +353,7 @@ static void drop(up_message_state_t *state, size_t count) {
 }
 
 /* Drops the first byte and those after it, up to the next at which a message could begin. */
-static void drop_candidate(const up_message_t *message, up_message_state_t *state) {
+static void drop_candidate(UP_ROM up_message_t *message, up_message_state_t *state) {
   size_t count = 1U;
 
   if (message->start_count > 0U) {
@@ -362,14 +368,14 @@ static void drop_candidate(const up_message_t *message, up_message_state_t *stat
 }
 
 /* Whether only its position tells where a message begins. */
-static bool needs_alignment(const up_message_t *message) {
+static bool needs_alignment(UP_ROM up_message_t *message) {
   const bool is_recognised = message->checksum != UP_CHECKSUM_NONE || message->end_count > 0U;
 
   return message->start_count == 0U && (message->length == 0U || !is_recognised);
 }
 
 /* Before the first end, the start of a message is unknown. True if the byte was consumed. */
-static bool align(const up_message_t *message, up_message_state_t *state) {
+static bool align(UP_ROM up_message_t *message, up_message_state_t *state) {
   if (state->is_aligned || !needs_alignment(message)) {
     return false;
   }
@@ -384,7 +390,7 @@ static bool align(const up_message_t *message, up_message_state_t *state) {
   return true;
 }
 
-static void take(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+static void take(UP_ROM up_message_t *message, up_message_state_t *state, UP_ROM up_schema_t *schema,
                  const up_value_sink_t *sink) {
   verdict_t verdict = align(message, state) ? MORE : judge(message, state);
 
@@ -409,7 +415,7 @@ static void take(const up_message_t *message, up_message_state_t *state, const u
   }
 }
 
-void up_message_feed(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+void up_message_feed(UP_ROM up_message_t *message, up_message_state_t *state, UP_ROM up_schema_t *schema,
                      const uint8_t *bytes, size_t count, const up_value_sink_t *sink) {
   size_t i;
 
@@ -433,16 +439,16 @@ void up_message_gap(up_message_state_t *state) {
 
 /* ---- setup ---- */
 
-const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
-                                          uint32_t now_ms) {
-  const up_message_init_t *step;
+UP_ROM up_message_init_t *up_message_start(UP_ROM up_message_init_t *init, uint8_t count, up_message_start_t *state,
+                                           uint32_t now_ms) {
+  UP_ROM up_message_init_t *step;
 
   if (state->is_pausing && (uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U) {
-    return NULL;
+    return UP_ROM_NULL;
   }
   state->is_pausing = false;
   if (state->at >= count) {
-    return NULL;
+    return UP_ROM_NULL;
   }
   step = &init[state->at];
   state->at++;

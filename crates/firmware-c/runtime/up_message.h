@@ -55,18 +55,18 @@ typedef struct {
   uint16_t byte;    /* offset of the value from the first byte after `start` */
   up_value_t value; /* the coding */
   /* Text */
-  const char *sentence; /* only in a sentence whose first field ends with this ("RMC": any talker); NULL: in any
-                         * message */
-  char separator;       /* separator between fields; 0: the whole message is field 0 */
-  uint8_t index;        /* index of the field, from 0; with a sentence, 0 is the first field after its type */
-  uint8_t decimals;     /* decimal: the value is the number times 10^decimals, 0 to 18; integers are rounded */
+  UP_ROM char *sentence; /* only in a sentence whose first field ends with this ("RMC": any talker); NULL: in any
+                          * message */
+  char separator;        /* separator between fields; 0: the whole message is field 0 */
+  uint8_t index;         /* index of the field, from 0; with a sentence, 0 is the first field after its type */
+  uint8_t decimals;      /* decimal: the value is the number times 10^decimals, 0 to 18; integers are rounded */
 } up_message_field_t;
 
 typedef struct {
-  const uint8_t *start; /* first bytes of every message; NULL for none: then everything before the first `end` or the
-                         * first gap is dropped, because it is unknown where it began */
-  const uint8_t *end;   /* last bytes; NULL for none: then `length` is not 0 */
-  const up_message_field_t *fields;
+  UP_ROM uint8_t *start; /* first bytes of every message; NULL for none: then everything before the first `end` or the
+                          * first gap is dropped, because it is unknown where it began */
+  UP_ROM uint8_t *end;   /* last bytes; NULL for none: then `length` is not 0 */
+  UP_ROM up_message_field_t *fields;
   uint16_t length;       /* bytes of the body; 0: up to `end` */
   uint16_t bytes_max;    /* bytes of the longest message with start, checksum and end; the size of the buffer */
   uint8_t start_count;   /* 0 to 255 */
@@ -91,10 +91,10 @@ typedef struct {
 
 /* One step of setting up a serial device: bytes, then a pause. */
 typedef struct {
-  const uint8_t *bytes; /* sent one after the other; NULL for a pause only */
-  uint8_t count;        /* number of bytes, 0 to 255 */
-  uint16_t pause_ms;    /* least pause, 0 to 65535; counted from when the bytes are queued, so it includes their time
-                         * on the line */
+  UP_ROM uint8_t *bytes; /* sent one after the other; NULL for a pause only */
+  uint8_t count;         /* number of bytes, 0 to 255 */
+  uint16_t pause_ms;     /* least pause, 0 to 65535; counted from when the bytes are queued, so it includes their time
+                          * on the line */
 } up_message_init_t;
 
 /* All zero to start from the beginning. */
@@ -106,12 +106,12 @@ typedef struct {
 
 /* The step whose bytes must be sent now; call again until it is NULL. Then there is a pause (call again in the next
  * cycle), or all `count` steps are done. */
-const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
-                                          uint32_t now_ms);
+UP_ROM up_message_init_t *up_message_start(UP_ROM up_message_init_t *init, uint8_t count, up_message_start_t *state,
+                                           uint32_t now_ms);
 
 /* Takes the next bytes of the stream, and reports the values of each complete message. UP_NOTHING: the field is
  * empty. UP_WRONG_CRC: the checksum of its message is wrong. */
-void up_message_feed(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+void up_message_feed(UP_ROM up_message_t *message, up_message_state_t *state, UP_ROM up_schema_t *schema,
                      const uint8_t *bytes, size_t count, const up_value_sink_t *sink);
 
 /* The line was silent for longer than within a message (an idle line interrupt reports this): an unfinished message
@@ -120,7 +120,7 @@ void up_message_feed(const up_message_t *message, up_message_state_t *state, con
 void up_message_gap(up_message_state_t *state);
 
 /* The value of one field of a body, also for a CAN frame; false if it is not in this message. */
-bool up_message_value(const up_message_field_t *how, const up_field_t *field, const uint8_t *body, size_t body_count,
+bool up_message_value(UP_ROM up_message_field_t *how, UP_ROM up_field_t *field, const uint8_t *body, size_t body_count,
                       void *value, up_result_t *result);
 
 #endif

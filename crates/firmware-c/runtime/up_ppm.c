@@ -16,7 +16,7 @@ static void end_train(up_ppm_raw_t *raw) {
   raw->building_count = 0U;
 }
 
-void up_ppm_on_interval(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t interval_ticks) {
+void up_ppm_on_interval(UP_ROM up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t interval_ticks) {
   if (interval_ticks > config->gap_ticks) {
     end_train(raw);
   } else if (!raw->is_inside) {
@@ -30,7 +30,7 @@ void up_ppm_on_interval(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32
   }
 }
 
-void up_ppm_on_edge(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t time_ticks) {
+void up_ppm_on_edge(UP_ROM up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t time_ticks) {
   if (raw->has_edge) {
     up_ppm_on_interval(config, raw, (uint32_t)(time_ticks - raw->last_ticks));
   }
@@ -38,8 +38,8 @@ void up_ppm_on_edge(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t t
   raw->last_ticks = time_ticks;
 }
 
-up_result_t up_ppm_read(const up_ppm_config_t *config, const up_ppm_raw_t *raw, uint32_t *trains_seen,
-                        const up_field_t *field, void *value) {
+up_result_t up_ppm_read(UP_ROM up_ppm_config_t *config, const up_ppm_raw_t *raw, uint32_t *trains_seen,
+                        UP_ROM up_field_t *field, void *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   uint8_t *memory = value;
   size_t i;

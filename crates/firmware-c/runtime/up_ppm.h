@@ -32,12 +32,12 @@ typedef struct {
 
 /* Interrupt side: the time of an edge (all of the same direction), from a counter that wraps at 2^32; or the
  * interval between two edges, for timers that measure it. */
-void up_ppm_on_edge(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t time_ticks);
-void up_ppm_on_interval(const up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t interval_ticks);
+void up_ppm_on_edge(UP_ROM up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t time_ticks);
+void up_ppm_on_interval(UP_ROM up_ppm_config_t *config, up_ppm_raw_t *raw, uint32_t interval_ticks);
 
 /* Reader side: the channels in us, rounded, if a train has come since the last call (`trains_seen` remembers it):
  * UP_FRESH; UP_INVALID if it has fewer channels than the field has elements. Further channels are ignored. */
-up_result_t up_ppm_read(const up_ppm_config_t *config, const up_ppm_raw_t *raw, uint32_t *trains_seen,
-                        const up_field_t *field, void *value);
+up_result_t up_ppm_read(UP_ROM up_ppm_config_t *config, const up_ppm_raw_t *raw, uint32_t *trains_seen,
+                        UP_ROM up_field_t *field, void *value);
 
 #endif

@@ -12,7 +12,7 @@ uint32_t up_pulse_level(uint8_t type, const void *element) {
   return (level > UP_LEVEL_FULL) ? UP_LEVEL_FULL : (uint32_t)level;
 }
 
-uint32_t up_pulse_ticks(const up_pulse_width_t *width, uint32_t level) {
+uint32_t up_pulse_ticks(UP_ROM up_pulse_width_t *width, uint32_t level) {
   const uint32_t least = width->least_ticks;
   const uint32_t greatest = width->greatest_ticks;
   const uint32_t span = (greatest > least) ? greatest - least : least - greatest;

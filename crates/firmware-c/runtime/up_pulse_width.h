@@ -20,6 +20,6 @@ typedef struct {
 uint32_t up_pulse_level(uint8_t type, const void *element);
 
 /* The width of a pulse, rounded. */
-uint32_t up_pulse_ticks(const up_pulse_width_t *width, uint32_t level);
+uint32_t up_pulse_ticks(UP_ROM up_pulse_width_t *width, uint32_t level);
 
 #endif

@@ -6,7 +6,7 @@ static uint8_t *value_of(const up_store_t *store, size_t index) {
   return (uint8_t *)store->values + store->schema->fields[index].offset;
 }
 
-void up_store_init(up_store_t *store, const up_schema_t *schema, void *values) {
+void up_store_init(up_store_t *store, UP_ROM up_schema_t *schema, void *values) {
   memset(store, 0, sizeof *store);
   store->schema = schema;
   store->values = values;
@@ -39,7 +39,7 @@ void up_report_forget(up_store_t *store, size_t index) {
   store->due[index / 8U] = (uint8_t)(store->due[index / 8U] & ~(1U << (index % 8U)));
 }
 
-size_t up_report_take(up_store_t *store, const up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
+size_t up_report_take(up_store_t *store, UP_ROM up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
                       size_t frame_bytes, uint8_t *taken) {
   memcpy(taken, store->due, sizeof store->due);
   memset(store->due, 0, sizeof store->due);

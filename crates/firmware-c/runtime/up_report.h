@@ -11,13 +11,13 @@
 #include "up_encode.h"
 
 typedef struct {
-  const up_schema_t *schema;
+  UP_ROM up_schema_t *schema;
   void *values;                         /* the value buffer of the schema's offsets */
   uint8_t due[UP_FIELD_BITMAP_BYTES];   /* read since the last report */
   uint8_t known[UP_FIELD_BITMAP_BYTES]; /* read at least once */
 } up_store_t;
 
-void up_store_init(up_store_t *store, const up_schema_t *schema, void *values);
+void up_store_init(up_store_t *store, UP_ROM up_schema_t *schema, void *values);
 
 /* Stores the value of fields[index] and makes it due. */
 void up_store_put(up_store_t *store, size_t index, const void *value);
@@ -33,7 +33,7 @@ void up_report_forget(up_store_t *store, size_t index);
 
 /* Packs what is due for the host and makes it no longer due; `taken` (UP_FIELD_BITMAP_BYTES) gets the fields.
  * Returns the size of the frame, 0 if nothing is due. */
-size_t up_report_take(up_store_t *store, const up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
+size_t up_report_take(up_store_t *store, UP_ROM up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
                       size_t frame_bytes, uint8_t *taken);
 
 /* Makes fields due again after their frame could not be sent. */

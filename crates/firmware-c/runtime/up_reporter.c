@@ -175,7 +175,7 @@ static void send_health(up_reporter_t *reporter) {
 /* Whether a value has waited too long for room in the channel without a newer reading. */
 static bool is_old(const up_reporter_t *reporter, size_t field) {
   const up_health_t *health = reporter->config->health;
-  const uint32_t own_ms = (health->cycles_ms == NULL) ? 0U : health->cycles_ms[field];
+  const uint32_t own_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
   const uint32_t cycle_ms = (own_ms > reporter->config->cycle_ms) ? own_ms : reporter->config->cycle_ms;
   up_health_row_t row;
 
@@ -247,12 +247,12 @@ static void transmit(up_reporter_t *reporter) {
 /* ---- the cycle ---- */
 
 bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us) {
-  static const up_sink_t functions = {.on_values = on_values, .on_hello = on_hello, .on_health = on_health};
-
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
   reporter->now_us = now_us;
-  reporter->sink = functions;
+  reporter->sink.on_values = on_values;
+  reporter->sink.on_hello = on_hello;
+  reporter->sink.on_health = on_health;
   reporter->sink.context = reporter;
   up_silence_init(&reporter->silence, config->silence_ms, now_ms(reporter));
   return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&

@@ -28,9 +28,9 @@ typedef struct {
 
 /* The configuration from a generator and a system. The functions from `apply` on may be NULL. */
 typedef struct {
-  const up_schema_t *schema;
-  const up_wire_t *reports;
-  const up_wire_t *commands;
+  UP_ROM up_schema_t *schema;
+  UP_ROM up_wire_t *reports;
+  UP_ROM up_wire_t *commands;
   const up_channel_t *channel;
   up_store_t *store;
   up_health_t *health; /* NULL: health is not noted, and requests for it are not answered */

@@ -2,20 +2,24 @@
 
 #include <string.h>
 
-static const uint8_t type_bytes[] = {
+#define NAME_BYTES 8U
+
+static UP_ROM uint8_t type_bytes[] = {
     [UP_TYPE_BOOL] = 1U,   [UP_TYPE_UINT8] = 1U,   [UP_TYPE_INT8] = 1U,   [UP_TYPE_UINT16] = 2U,
     [UP_TYPE_INT16] = 2U,  [UP_TYPE_UINT32] = 4U,  [UP_TYPE_INT32] = 4U,  [UP_TYPE_UINT64] = 8U,
     [UP_TYPE_INT64] = 8U,  [UP_TYPE_FLOAT32] = 4U, [UP_TYPE_FLOAT64] = 8U,
 };
 
-static const char *const type_names[] = {
+static UP_ROM char type_names[][NAME_BYTES] = {
     [UP_TYPE_BOOL] = "bool",     [UP_TYPE_UINT8] = "uint8",     [UP_TYPE_INT8] = "int8",     [UP_TYPE_UINT16] = "uint16",
     [UP_TYPE_INT16] = "int16",   [UP_TYPE_UINT32] = "uint32",   [UP_TYPE_INT32] = "int32",   [UP_TYPE_UINT64] = "uint64",
     [UP_TYPE_INT64] = "int64",   [UP_TYPE_FLOAT32] = "float32", [UP_TYPE_FLOAT64] = "float64",
 };
 
-const char *up_type_name(uint8_t type) {
-  return (type < sizeof type_names / sizeof type_names[0]) ? type_names[type] : "?";
+static UP_ROM char unknown[] = "?";
+
+UP_ROM char *up_type_name(uint8_t type) {
+  return (type < sizeof type_names / sizeof type_names[0]) ? type_names[type] : unknown;
 }
 
 size_t up_type_bytes(uint8_t type) {
@@ -69,18 +73,18 @@ void up_element_store(uint8_t type, uint64_t bits, void *element) {
   }
 }
 
-size_t up_field_bytes(const up_field_t *field) {
+size_t up_field_bytes(UP_ROM up_field_t *field) {
   return up_type_bytes(field->type) * field->count;
 }
 
-const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direction_t direction) {
+UP_ROM up_field_t *up_schema_find(UP_ROM up_schema_t *schema, uint8_t id, up_direction_t direction) {
   uint8_t i;
 
   for (i = 0U; i < schema->fields_count; i++) {
-    const up_field_t *field = &schema->fields[i];
+    UP_ROM up_field_t *field = &schema->fields[i];
     if (field->id == id && field->direction == (uint8_t)direction) {
       return field;
     }
   }
-  return NULL;
+  return UP_ROM_NULL;
 }

@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "up_rom.h"
 #include "up_uses.h"
 
 /* Identifiers that belong to the link itself. */
@@ -48,37 +49,37 @@ typedef enum {
 
 /* One field: an identifier and the place of its value. */
 typedef struct {
-  const char *name; /* as written by the user; only for people */
-  uint8_t id;       /* 1..254 */
-  uint8_t type;     /* up_type_t */
+  UP_ROM char *name; /* as written by the user; only for people */
+  uint8_t id;        /* 1..254 */
+  uint8_t type;      /* up_type_t */
   uint8_t direction; /* up_direction_t */
-  bool is_array;    /* an array of one element is not a scalar: the schema's text distinguishes them */
-  uint16_t count;   /* number of elements; 1 for a scalar */
-  uint16_t offset;  /* bytes from the start of the value buffer */
+  bool is_array;     /* an array of one element is not a scalar: the schema's text distinguishes them */
+  uint16_t count;    /* number of elements; 1 for a scalar */
+  uint16_t offset;   /* bytes from the start of the value buffer */
 } up_field_t;
 
 /* All fields of a board in the order of the user's file, and the properties of the link. */
 typedef struct {
-  const up_field_t *fields;
+  UP_ROM up_field_t *fields;
   uint8_t fields_count;
-  const char *checksum; /* `none`, or the checksum at the end of payloads */
-  uint32_t hash;        /* the hash that the hello carries */
+  UP_ROM char *checksum; /* `none`, or the checksum at the end of payloads */
+  uint32_t hash;         /* the hash that the hello carries */
 } up_schema_t;
 
 /* The size of one element, on the wire and in memory. */
 size_t up_type_bytes(uint8_t type);
 
 /* The type's name in the language and in the schema's text. */
-const char *up_type_name(uint8_t type);
+UP_ROM char *up_type_name(uint8_t type);
 
 /* The bits of one element in memory (which need not be aligned), as an unsigned number of its size. */
 uint64_t up_element_load(uint8_t type, const void *element);
 void up_element_store(uint8_t type, uint64_t bits, void *element);
 
 /* The size of a whole value. */
-size_t up_field_bytes(const up_field_t *field);
+size_t up_field_bytes(UP_ROM up_field_t *field);
 
 /* The field with this identifier in this direction, or NULL. */
-const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direction_t direction);
+UP_ROM up_field_t *up_schema_find(UP_ROM up_schema_t *schema, uint8_t id, up_direction_t direction);
 
 #endif

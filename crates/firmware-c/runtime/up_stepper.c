@@ -31,7 +31,7 @@ static uint64_t square_of(uint32_t speed) {
   return (uint64_t)speed * speed;
 }
 
-void up_stepper_command(const up_stepper_t *motor, up_stepper_state_t *state, uint8_t type, const void *element) {
+void up_stepper_command(UP_ROM up_stepper_t *motor, up_stepper_state_t *state, uint8_t type, const void *element) {
   const uint32_t least = motor->is_velocity ? motor->speed : (uint32_t)INT32_MAX + 1U;
   const uint32_t greatest = motor->is_velocity ? motor->speed : (uint32_t)INT32_MAX;
   bool is_negative;
@@ -51,7 +51,7 @@ void up_stepper_stop(up_stepper_state_t *state) {
 
 /* How far the target lies ahead in the direction of the motion, and whether the speed may grow and stay: the steps that
  * are needed to stop are no more than those that are left. */
-static uint64_t toward(const up_stepper_t *motor, const up_stepper_state_t *state, int64_t ahead, uint64_t change) {
+static uint64_t toward(UP_ROM up_stepper_t *motor, const up_stepper_state_t *state, int64_t ahead, uint64_t change) {
   const uint64_t most = square_of(motor->speed);
   const uint64_t room = (ahead > 0) ? (uint64_t)(ahead - 1) * change : 0U;
   const uint64_t faster = (state->square + change < most) ? state->square + change : most;
@@ -73,7 +73,7 @@ static uint64_t approach(uint64_t square, uint64_t wanted, uint64_t change) {
 }
 
 /* What the target asks for: steps ahead, or a speed; negative against the direction of the motion. */
-static int64_t wanted(const up_stepper_t *motor, const up_stepper_state_t *state) {
+static int64_t wanted(UP_ROM up_stepper_t *motor, const up_stepper_state_t *state) {
   int64_t ahead = 0;
 
   if (!state->is_stopped) {
@@ -83,7 +83,7 @@ static int64_t wanted(const up_stepper_t *motor, const up_stepper_state_t *state
 }
 
 /* Decides direction and speed of the next step; false at rest. */
-static bool choose(const up_stepper_t *motor, up_stepper_state_t *state) {
+static bool choose(UP_ROM up_stepper_t *motor, up_stepper_state_t *state) {
   const uint64_t change = 2U * (uint64_t)motor->acceleration;
   int64_t ahead = wanted(motor, state);
 
@@ -106,7 +106,7 @@ static bool choose(const up_stepper_t *motor, up_stepper_state_t *state) {
 }
 
 /* The ticks of the next step: one step over the mean of the speeds at its ends. */
-static uint32_t interval(const up_stepper_t *motor, up_stepper_state_t *state) {
+static uint32_t interval(UP_ROM up_stepper_t *motor, up_stepper_state_t *state) {
   const uint32_t dividend = motor->tick_hz * 512U;
   uint32_t sum, ticks, rest;
 
@@ -121,7 +121,7 @@ static uint32_t interval(const up_stepper_t *motor, up_stepper_state_t *state) {
   return ticks + (rest >> 8);
 }
 
-uint32_t up_stepper_advance(const up_stepper_t *motor, up_stepper_state_t *state) {
+uint32_t up_stepper_advance(UP_ROM up_stepper_t *motor, up_stepper_state_t *state) {
   uint32_t left;
 
   state->elapsed += state->lap_ticks;

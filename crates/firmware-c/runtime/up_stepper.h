@@ -41,13 +41,13 @@ typedef struct {
 } up_stepper_state_t;
 
 /* The host's value. A speed greater than the greatest becomes that one. It counts from the next interval on. */
-void up_stepper_command(const up_stepper_t *motor, up_stepper_state_t *state, uint8_t type, const void *element);
+void up_stepper_command(UP_ROM up_stepper_t *motor, up_stepper_state_t *state, uint8_t type, const void *element);
 
 /* Decelerates to a stop, and stays there until the next command. It counts from the next interval on. */
 void up_stepper_stop(up_stepper_state_t *state);
 
 /* The interval under way is over, or there is none: counts its step, and begins the next one. Returns its ticks, at
  * most UP_STEPPER_LONGEST, or 0 at rest; `is_step` and `is_backward` say what is at its end. */
-uint32_t up_stepper_advance(const up_stepper_t *motor, up_stepper_state_t *state);
+uint32_t up_stepper_advance(UP_ROM up_stepper_t *motor, up_stepper_state_t *state);
 
 #endif

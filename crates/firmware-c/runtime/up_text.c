@@ -5,10 +5,17 @@
 #define EXACT_MAX 9007199254740992.0 /* 2^53 */
 #define DECIMALS 1000000U
 
-static size_t put(char *text, const char *word) {
-  const size_t size = strlen(word);
+static UP_ROM char true_word[] = "true";
+static UP_ROM char false_word[] = "false";
+#if UP_USES_REALS
+static UP_ROM char nan_word[] = "nan";
+static UP_ROM char large_word[] = "large";
+#endif
 
-  memcpy(text, word, size + 1U);
+static size_t put(char *text, UP_ROM char *word) {
+  const size_t size = up_rom_length(word);
+
+  up_rom_copy(text, word, size + 1U);
   return size;
 }
 
@@ -43,7 +50,7 @@ static size_t put_real(char *text, double number) {
   uint64_t whole, rest, place;
 
   if (number != number) {
-    return put(text, "nan");
+    return put(text, nan_word);
   }
   if (number < 0.0) {
     text[at] = '-';
@@ -51,7 +58,7 @@ static size_t put_real(char *text, double number) {
     number = -number;
   }
   if (number > EXACT_MAX) {
-    return at + put(&text[at], "large");
+    return at + put(&text[at], large_word);
   }
   whole = (uint64_t)number;
   rest = (uint64_t)((number - (double)whole) * (double)DECIMALS + 0.5);
@@ -88,7 +95,7 @@ size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTE
 #endif
   switch ((up_type_t)type) {
   case UP_TYPE_BOOL:
-    return put(text, (up_element_load(type, element) != 0U) ? "true" : "false");
+    return put(text, (up_element_load(type, element) != 0U) ? true_word : false_word);
   case UP_TYPE_INT8:
   case UP_TYPE_INT16:
   case UP_TYPE_INT32:

@@ -11,35 +11,35 @@
 #define SENSIRION_START 0xFFU
 #define PACKED_BITS_MAX 32U
 
-static size_t words_of(const up_value_t *how, uint16_t count) {
+static size_t words_of(UP_ROM up_value_t *how, uint16_t count) {
   return (how->words != 0U) ? how->words : count;
 }
 
 /* All codes except integers can be left out. */
-static bool is_code(const up_value_t *how, up_code_t code) {
+static bool is_code(UP_ROM up_value_t *how, up_code_t code) {
   return UP_USES_CODES && how->code == (uint8_t)code;
 }
 
-static bool has_crc(const up_value_t *how) {
+static bool has_crc(UP_ROM up_value_t *how) {
   return UP_USES_WORD_CRC && how->crc == (uint8_t)UP_CRC_SENSIRION;
 }
 
-static bool is_lamps(const up_value_t *how) {
+static bool is_lamps(UP_ROM up_value_t *how) {
   return UP_USES_LAMPS && (how->code == (uint8_t)UP_CODE_PULSES || how->code == (uint8_t)UP_CODE_LEDS);
 }
 
-static bool is_letters(const up_value_t *how) {
+static bool is_letters(UP_ROM up_value_t *how) {
   return UP_USES_LETTERS && how->code == (uint8_t)UP_CODE_TEXT;
 }
 
 /* The size of the words alone. */
-static size_t data_bytes(const up_value_t *how, uint16_t count) {
+static size_t data_bytes(UP_ROM up_value_t *how, uint16_t count) {
   const size_t words = words_of(how, count);
 
   return is_code(how, UP_CODE_PACKED) ? (words * how->bits + 7U) / 8U : words * how->word_bytes;
 }
 
-size_t up_value_bytes(const up_value_t *how, uint16_t count) {
+size_t up_value_bytes(UP_ROM up_value_t *how, uint16_t count) {
   const size_t data = data_bytes(how, count);
 
   if (is_lamps(how)) {
@@ -52,11 +52,11 @@ size_t up_value_bytes(const up_value_t *how, uint16_t count) {
 }
 
 /* The place of byte `at` of the words on the wire. */
-static size_t place(const up_value_t *how, size_t at) {
+static size_t place(UP_ROM up_value_t *how, size_t at) {
   return has_crc(how) ? at + at / 2U : at;
 }
 
-bool up_value_crc_is_right(const up_value_t *how, uint16_t count, const uint8_t *bytes) {
+bool up_value_crc_is_right(UP_ROM up_value_t *how, uint16_t count, const uint8_t *bytes) {
   const size_t bytes_count = up_value_bytes(how, count);
   size_t at;
 
@@ -75,7 +75,7 @@ static uint64_t mask_of(unsigned bits) {
 }
 
 /* The number of significant bits of a word; 0 if the table makes no sense. */
-static unsigned bits_of(const up_value_t *how) {
+static unsigned bits_of(UP_ROM up_value_t *how) {
   const unsigned word_bits = 8U * how->word_bytes;
 
   if (is_code(how, UP_CODE_PACKED)) {
@@ -88,13 +88,13 @@ static unsigned bits_of(const up_value_t *how) {
 }
 
 /* The index of an element's word; at least `words` if it has none. */
-static size_t word_of_element(const up_value_t *how, size_t element) {
-  return (how->elements != NULL) ? how->elements[element] : element;
+static size_t word_of_element(UP_ROM up_value_t *how, size_t element) {
+  return (how->elements != UP_ROM_NULL) ? how->elements[element] : element;
 }
 
 /* ---- decoding ---- */
 
-static uint64_t packed_word(const up_value_t *how, const uint8_t *bytes, size_t word, unsigned bits) {
+static uint64_t packed_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word, unsigned bits) {
   const size_t first = word * bits;
   const size_t last = first + bits - 1U;
   uint64_t gathered = 0U;
@@ -106,7 +106,7 @@ static uint64_t packed_word(const up_value_t *how, const uint8_t *bytes, size_t 
   return gathered >> (first % 8U);
 }
 
-static uint64_t whole_word(const up_value_t *how, const uint8_t *bytes, size_t word) {
+static uint64_t whole_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word) {
   const size_t first = word * how->word_bytes;
   uint64_t gathered = 0U;
   size_t i;
@@ -144,7 +144,7 @@ static bool store_float(uint8_t type, uint64_t bits, unsigned word_bytes, void *
   return true;
 }
 
-static void store_integer(const up_value_t *how, uint8_t type, uint64_t number, unsigned bits, void *element) {
+static void store_integer(UP_ROM up_value_t *how, uint8_t type, uint64_t number, unsigned bits, void *element) {
   const uint64_t sign = (uint64_t)1U << (bits - 1U);
   int64_t extended;
 
@@ -164,7 +164,7 @@ static void store_magnitude(uint8_t type, uint64_t number, unsigned bits, void *
   up_store_signed(type, ((number & sign) != 0U) ? -magnitude : magnitude, element);
 }
 
-static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *bytes, size_t word, void *element) {
+static bool decode_element(UP_ROM up_value_t *how, uint8_t type, const uint8_t *bytes, size_t word, void *element) {
   const unsigned bits = bits_of(how);
   uint64_t number;
 
@@ -187,7 +187,7 @@ static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *b
   return true;
 }
 
-up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, const uint8_t *bytes, size_t bytes_count,
+up_result_t up_value_decode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes_count,
                             void *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   uint8_t *memory = value;
@@ -225,7 +225,7 @@ static uint64_t to_bcd(uint64_t number, uint64_t mask) {
   return (rest > 0U || digits > mask) ? greatest : digits;
 }
 
-static uint64_t encode_element(const up_value_t *how, uint8_t type, const void *element, unsigned bits) {
+static uint64_t encode_element(UP_ROM up_value_t *how, uint8_t type, const void *element, unsigned bits) {
   const uint64_t mask = mask_of(bits);
   const uint64_t greatest = how->is_signed ? mask >> 1 : mask;
   bool is_negative;
@@ -258,7 +258,7 @@ static void put_packed(uint8_t *bytes, size_t word, unsigned bits, uint64_t numb
   }
 }
 
-static void put_word(const up_value_t *how, uint8_t *bytes, size_t word, uint64_t number) {
+static void put_word(UP_ROM up_value_t *how, uint8_t *bytes, size_t word, uint64_t number) {
   const size_t first = word * how->word_bytes;
   size_t i;
 
@@ -270,7 +270,7 @@ static void put_word(const up_value_t *how, uint8_t *bytes, size_t word, uint64_
 }
 
 /* What is no words. */
-static void encode_dots(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes) {
+static void encode_dots(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes) {
 #if UP_USES_LAMPS
   if (is_lamps(how)) {
     up_lamps_encode(how, field, value, bytes);
@@ -287,7 +287,7 @@ static void encode_dots(const up_value_t *how, const up_field_t *field, const vo
   (void)bytes;
 }
 
-size_t up_value_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes,
+size_t up_value_encode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes,
                        size_t bytes_room) {
   const size_t bytes_count = up_value_bytes(how, field->count);
   const size_t element_bytes = up_type_bytes(field->type);

@@ -37,35 +37,35 @@ typedef enum {
 /* How the words of a value are coded; one word is one element. All zero except `word_bytes` is a big-endian unsigned
  * number in whole words. Strips use some members in their own way (up_lamps.h). */
 typedef struct {
-  const uint8_t *elements; /* the word number of each element of the field; NULL: in order */
-  uint8_t words;           /* number of words with `elements` (its greatest entry + 1); 0: as many as elements */
-  uint8_t code;            /* up_code_t */
-  uint8_t crc;             /* up_crc_t; not for UP_CODE_PACKED, and word_bytes * words must be even */
-  uint8_t word_bytes;      /* 1 to 8; ignored for UP_CODE_PACKED */
-  uint8_t low;             /* lowest significant bit of the word, 0 for its least significant; PACKED: 0 */
-  uint8_t bits;            /* number of significant bits from there, 1 to 64; 0: up to the word's highest. PACKED: 1
-                            * to 32 */
-  bool is_signed;          /* the highest of the bits is a sign (two's complement); ignored for FLOAT, BCD and
-                            * MAGNITUDE */
-  bool little_endian;      /* the word's first byte is its least significant */
+  UP_ROM uint8_t *elements; /* the word number of each element of the field; NULL: in order */
+  uint8_t words;            /* number of words with `elements` (its greatest entry + 1); 0: as many as elements */
+  uint8_t code;             /* up_code_t */
+  uint8_t crc;              /* up_crc_t; not for UP_CODE_PACKED, and word_bytes * words must be even */
+  uint8_t word_bytes;       /* 1 to 8; ignored for UP_CODE_PACKED */
+  uint8_t low;              /* lowest significant bit of the word, 0 for its least significant; PACKED: 0 */
+  uint8_t bits;             /* number of significant bits from there, 1 to 64; 0: up to the word's highest. PACKED: 1
+                             * to 32 */
+  bool is_signed;           /* the highest of the bits is a sign (two's complement); ignored for FLOAT, BCD and
+                             * MAGNITUDE */
+  bool little_endian;       /* the word's first byte is its least significant */
 } up_value_t;
 
 /* The size of a value with `count` elements on the wire, checksums included. */
-size_t up_value_bytes(const up_value_t *how, uint16_t count);
+size_t up_value_bytes(UP_ROM up_value_t *how, uint16_t count);
 
 /* Stores the value of `field` from the first up_value_bytes() of `bytes`. UP_FRESH; UP_WRONG_CRC if a checksum is
  * wrong; UP_INVALID if a BCD digit is greater than 9, a float is infinite or NaN, or bytes are missing. Unless it is
  * fresh, `value` may be partly written. */
-up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, const uint8_t *bytes, size_t bytes_count,
+up_result_t up_value_decode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes_count,
                             void *value);
 
 /* True if each checksum in the value's bytes is right (also without checksums). */
-bool up_value_crc_is_right(const up_value_t *how, uint16_t count, const uint8_t *bytes);
+bool up_value_crc_is_right(UP_ROM up_value_t *how, uint16_t count, const uint8_t *bytes);
 
 /* The reverse, for a device that is written to: writes up_value_bytes() bytes. Numbers saturate to the bits
  * available; other bits of a word are 0. Float fields are rounded to integers unless the code is UP_CODE_FLOAT.
  * Returns the number of bytes written, 0 if they do not fit. */
-size_t up_value_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes,
+size_t up_value_encode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const void *value, uint8_t *bytes,
                        size_t bytes_room);
 
 #endif

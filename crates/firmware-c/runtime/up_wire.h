@@ -54,7 +54,7 @@ typedef struct {
   void (*take)(const uint8_t *items, const uint8_t *end, void *values, uint8_t *taken);
   /* &up_memo if frames are so long, or have so many items, that overlapping candidates must not process the same
    * bytes again; NULL for others, which can be checked again in no more time. */
-  const struct up_memo *memo;
+  UP_ROM struct up_memo *memo;
 } up_wire_t;
 
 /* Frames without &up_memo are at most this long if they have a checksum or bools, and have at most this many items. */
@@ -68,7 +68,7 @@ typedef struct {
 #define UP_WIRE_CHECKSUM_BYTES(wire) \
   (UP_WIRE_HAS_CRC32(wire) ? (size_t)5U : UP_WIRE_HAS_CHECKSUM(wire) ? (size_t)3U : (size_t)0U)
 #define UP_WIRE_HAS_STAMP(wire) ((UP_WIRE_STAMPS) != 0 && (wire)->has_stamp)
-#define UP_WIRE_HAS_MEMO(wire) ((UP_WIRE_MEMO) != 0 && (wire)->memo != NULL)
+#define UP_WIRE_HAS_MEMO(wire) ((UP_WIRE_MEMO) != 0 && (wire)->memo != UP_ROM_NULL)
 
 /* The size of the longest frame. */
 #define UP_WIRE_FRAME_BYTES(wire) ((size_t)(wire)->head_bytes + (wire)->payload_bytes_max + 1U)

@@ -56,6 +56,7 @@ pub const BASE: &[File] = files![
     "up_reporter.c",
     "up_reporter.h",
     "up_result.h",
+    "up_rom.h",
     "up_schema.c",
     "up_schema.h",
     "up_silence.c",

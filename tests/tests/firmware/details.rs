@@ -32,13 +32,16 @@ pub(super) fn details(
     settings(on, folder, differences);
 }
 
-/// The tables of a type, each from its name to its end: `static const TYPE name = { … };`
+/// The tables of a type, each from its name to its end: `static const TYPE name = { … };`, or with
+/// `UP_ROM` for those of the core.
 fn tables<'a>(hardware: &'a str, kind: &str) -> Vec<(&'a str, &'a str)> {
     let mut tables = Vec::new();
     let mut rest = hardware;
-    while let Some((_, behind)) = rest.split_once("static const ") {
+    while let Some((_, behind)) = rest.split_once("static ") {
         rest = behind;
-        let Some(table) = behind.strip_prefix(kind).and_then(|rest| rest.strip_prefix(' ')) else {
+        let constant = ["const ", "UP_ROM "].iter().find_map(|word| behind.strip_prefix(word));
+        let table = constant.and_then(|rest| rest.strip_prefix(kind));
+        let Some(table) = table.and_then(|rest| rest.strip_prefix(' ')) else {
             continue;
         };
         let name = table.split([' ', '[']).next().unwrap();

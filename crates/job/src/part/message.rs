@@ -145,6 +145,15 @@ impl FieldCoding {
             Self::Text(_) => None,
         }
     }
+
+    /// The type of the only sentence that has it; `None` if any message has it.
+    #[must_use]
+    pub fn sentence(&self) -> Option<&str> {
+        match self {
+            Self::Binary { .. } => None,
+            Self::Text(text) => text.sentence.as_deref(),
+        }
+    }
 }
 
 /// The part's table; `None` if nothing is received from it over a serial port.
