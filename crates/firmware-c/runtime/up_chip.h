@@ -91,12 +91,12 @@ typedef struct {
   uint8_t commands_count;
 } up_chip_t;
 
-/* Event counts since the start of the board; each wraps at 2^32. */
+/* Event counts since the start of the board; they wrap. */
 typedef struct {
-  uint32_t starts;             /* starts that were completed: initialised, identified and calibrated */
-  uint32_t written;            /* commands that succeeded */
-  uint32_t causes[UP_RESULTS]; /* by up_result_t: values that are fresh, invalid or have a wrong checksum; transfers
-                                * that failed; identities that were wrong */
+  up_events_t starts;             /* starts that were completed: initialised, identified and calibrated */
+  up_events_t written;            /* commands that succeeded */
+  up_events_t causes[UP_RESULTS]; /* by up_result_t: values that are fresh, invalid or have a wrong checksum;
+                                   * transfers that failed; identities that were wrong */
 } up_chip_counts_t;
 
 /* The state of one transfer. */

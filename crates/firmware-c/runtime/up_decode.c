@@ -172,7 +172,7 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
   }
   while (decoder->at < decoder->values_end) {
     up_item_t item;
-    uint32_t *seen, bit;
+    up_ids_t *seen, bit;
     size_t end;
     uint8_t id;
 
@@ -191,8 +191,8 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
     }
     id = bytes[decoder->at];
     item = decoder->wire->item(id);
-    seen = &decoder->seen[id / 32U];
-    bit = (uint32_t)1U << (id % 32U);
+    seen = &decoder->seen[id / UP_IDS_BITS];
+    bit = UP_IDS_BIT(id);
     end = decoder->at + 1U + UP_ITEM_BYTES(item);
     if (item == UP_ITEM_NONE || (*seen & bit) != 0U || end > decoder->values_end) {
       return UP_VERDICT_INVALID;
@@ -203,7 +203,7 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
         return bools;
       }
     }
-    *seen |= bit;
+    *seen = (up_ids_t)(*seen | bit);
     decoder->at = end;
     decoder->steps++;
   }
@@ -313,7 +313,7 @@ static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size
       do {
         at++;
       } while (at < limit && !is_digit(bytes[at]));
-      decoder->dropped_bytes += (uint32_t)(at - from);
+      decoder->dropped_bytes = (up_events_t)(decoder->dropped_bytes + (at - from));
     }
     if (UP_WIRE_HAS_MEMO(decoder->wire)) {
       decoder->wire->memo->leave(decoder, &bytes[from], at - from, verdict == UP_VERDICT_INVALID);

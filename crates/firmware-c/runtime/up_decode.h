@@ -24,8 +24,22 @@
 /* The number of walks from identifier to identifier that are kept, 0 to 255: each takes an eighth of a frame and 44
  * bytes (on a 32-bit machine). With 0 a candidate costs a step for each identifier. */
 #ifndef UP_DECODER_WALKS
+#if defined(__AVR__)
+#define UP_DECODER_WALKS 0U
+#else
 #define UP_DECODER_WALKS 1U
 #endif
+#endif
+
+/* A part of a set of identifiers, as large as what the machine handles at once. */
+#if defined(__AVR__)
+typedef uint8_t up_ids_t;
+#else
+typedef uint32_t up_ids_t;
+#endif
+#define UP_IDS_BITS (8U * sizeof(up_ids_t))
+#define UP_IDS_PARTS (256U / UP_IDS_BITS)
+#define UP_IDS_BIT(id) ((up_ids_t)((up_ids_t)1U << ((id) % UP_IDS_BITS)))
 
 /* The buffer of a decoder with &up_memo, by the size of its longest frame: sums take 6 bytes for each block of 32,
  * or 12 if any link of the program may have a CRC-32. Without &up_memo the buffer is as long as a frame. */
@@ -54,7 +68,7 @@ typedef enum { UP_VERDICT_INVALID, UP_VERDICT_INCOMPLETE, UP_VERDICT_COMPLETE } 
 typedef struct {
   size_t tail;
   size_t head; /* after the value of the last one; 0 for no walk */
-  uint32_t ids[UP_FIELD_BITMAP_BYTES / 4U];
+  up_ids_t ids[UP_IDS_PARTS];
   uint8_t *places; /* a ring with a bit for each byte of the stream: set if an identifier of the walk is there */
 } up_walk_t;
 
@@ -74,7 +88,7 @@ typedef struct {
   size_t at;        /* the next identifier */
   size_t looked_at; /* how far arrays of bools and the checksum have been checked */
   bool checksum_right;
-  uint32_t seen[UP_FIELD_BITMAP_BYTES / 4U]; /* identifiers seen in this payload */
+  up_ids_t seen[UP_IDS_PARTS]; /* identifiers seen in this payload */
   /* Sums over the stream; offsets also count from the candidate's first byte. */
   uint8_t *sums;     /* after the buffer: a ring of the blocks, then for each number of blocks the factor for a CRC */
   size_t ring_bytes; /* bytes of the stream that the ring covers */
@@ -89,8 +103,8 @@ typedef struct {
   uint8_t steps;  /* from identifier to identifier, that the candidate has taken by itself */
   bool joined;    /* the candidate has met a walk */
   bool alone;     /* and continues without it */
-  uint32_t frames;
-  uint32_t dropped_bytes; /* bytes that were in no delivered frame */
+  up_events_t frames;
+  up_events_t dropped_bytes; /* bytes that were in no delivered frame */
 } up_decoder_t;
 
 /* The wire must have an item(). `buffer` must hold at least UP_WIRE_FRAME_BYTES(wire) bytes, and UP_DECODER_BYTES()

@@ -56,8 +56,8 @@ void up_exchange_begin(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_
 
 up_heard_t up_exchange_take(UP_ROM up_exchange_t *how, up_message_state_t *state, UP_ROM up_schema_t *schema,
                             const uint8_t *bytes, size_t count, const up_value_sink_t *sink) {
-  const uint32_t messages = state->messages;
-  const uint32_t wrong_checksum = state->wrong_checksum;
+  const up_events_t messages = state->messages;
+  const up_events_t wrong_checksum = state->wrong_checksum;
   passed_t passed = {.to = sink, .is_said = false};
   const up_value_sink_t through = {.on_value = pass, .context = &passed};
 

@@ -3,6 +3,8 @@
 
 #include "up_filter.h"
 
+#if UP_USES_DOUBLES
+
 static double double_of(uint64_t bits) {
   double number;
 
@@ -48,3 +50,5 @@ static bool is_far(uint64_t from_bits, uint64_t to_bits, double distance) {
 }
 
 UP_ROM up_filter_double_t up_filter_double = {smooth, is_far};
+
+#endif

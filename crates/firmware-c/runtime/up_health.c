@@ -29,7 +29,7 @@ void up_health_note(up_health_t *health, size_t field, up_result_t result, uint3
   }
   device->last = (uint8_t)result;
   if (fault < UP_FAULTS) {
-    device->counts[fault] = (uint16_t)(device->counts[fault] + (device->counts[fault] < UINT16_MAX));
+    device->counts[fault] = (up_fault_count_t)(device->counts[fault] + (device->counts[fault] < UP_FAULT_COUNT_MAX));
   } else {
     device->good_ms = now_ms;
     device->has_value = true;

@@ -37,9 +37,9 @@ typedef enum {
 
 /* The state of one device. All zero at the start. */
 typedef struct {
-  uint32_t good_ms;           /* when the last value came; the clock may wrap */
-  uint16_t counts[UP_FAULTS]; /* by up_fault_t; they stop at 65535 */
-  uint8_t last;               /* up_result_t of the last reading; UP_NOTHING before the first */
+  uint32_t good_ms;                   /* when the last value came; the clock may wrap */
+  up_fault_count_t counts[UP_FAULTS]; /* by up_fault_t; they stop at UP_FAULT_COUNT_MAX */
+  uint8_t last;                       /* up_result_t of the last reading; UP_NOTHING before the first */
   bool has_value;
   bool is_ancient; /* the clock cannot tell how old the value is */
 } up_health_device_t;

@@ -147,16 +147,16 @@ typedef enum {
   STEP_UNKNOWN  /* the walk cannot tell */
 } step_t;
 
-static bool has_id(const uint32_t *ids, uint8_t id) {
-  return ((ids[id / 32U] >> (id % 32U)) & 1U) != 0U;
+static bool has_id(const up_ids_t *ids, uint8_t id) {
+  return (ids[id / UP_IDS_BITS] & UP_IDS_BIT(id)) != 0U;
 }
 
-static bool have_common(const uint32_t *ids, const uint32_t *others) {
-  uint32_t common = 0U;
+static bool have_common(const up_ids_t *ids, const up_ids_t *others) {
+  up_ids_t common = 0U;
   size_t i;
 
-  for (i = 0U; i < UP_FIELD_BITMAP_BYTES / 4U; i++) {
-    common |= ids[i] & others[i];
+  for (i = 0U; i < UP_IDS_PARTS; i++) {
+    common = (up_ids_t)(common | (ids[i] & others[i]));
   }
   return common != 0U;
 }
@@ -185,7 +185,7 @@ static void lengthen(const up_decoder_t *decoder, up_walk_t *walk, uint8_t id, s
   uint8_t *byte = place_at(decoder, walk, walk->head, &bit);
 
   *byte = (uint8_t)(*byte | bit);
-  walk->ids[id / 32U] |= (uint32_t)1U << (id % 32U);
+  walk->ids[id / UP_IDS_BITS] = (up_ids_t)(walk->ids[id / UP_IDS_BITS] | UP_IDS_BIT(id));
   walk->head = next;
 }
 
@@ -195,7 +195,7 @@ static void shorten(const up_decoder_t *decoder, up_walk_t *walk, const uint8_t 
   uint8_t bit, *byte = place_at(decoder, walk, walk->tail, &bit);
 
   *byte = (uint8_t)(*byte & ~bit);
-  walk->ids[id / 32U] &= ~((uint32_t)1U << (id % 32U));
+  walk->ids[id / UP_IDS_BITS] = (up_ids_t)(walk->ids[id / UP_IDS_BITS] & ~UP_IDS_BIT(id));
   walk->tail += 1U + UP_ITEM_BYTES(decoder->wire->item(id));
 }
 

@@ -338,8 +338,8 @@ static void say_values(UP_ROM up_message_t *message, up_message_state_t *state, 
     if (!up_message_value(how, &schema->fields[how->field], body, body_count, state->scratch, &result)) {
       continue;
     }
-    state->values += (result == UP_FRESH) ? 1U : 0U;
-    state->invalid += (result == UP_INVALID || result == UP_WRONG_CRC) ? 1U : 0U;
+    state->values = (up_events_t)(state->values + ((result == UP_FRESH) ? 1U : 0U));
+    state->invalid = (up_events_t)(state->invalid + ((result == UP_INVALID || result == UP_WRONG_CRC) ? 1U : 0U));
     sink->on_value(sink->context, how->field, result, (result == UP_FRESH) ? state->scratch : NULL);
   }
 }
@@ -348,7 +348,7 @@ static void say_values(UP_ROM up_message_t *message, up_message_state_t *state, 
 
 static void drop(up_message_state_t *state, size_t count) {
   state->size = (uint16_t)(state->size - count);
-  state->dropped_bytes += (uint32_t)count;
+  state->dropped_bytes = (up_events_t)(state->dropped_bytes + count);
   memmove(state->buffer, &state->buffer[count], state->size);
 }
 
@@ -421,7 +421,7 @@ void up_message_feed(UP_ROM up_message_t *message, up_message_state_t *state, UP
 
   if (message->bytes_max == 0U || frame_bytes(message) + message->length > message->bytes_max) {
     /* No message fits into the buffer. */
-    state->dropped_bytes += (uint32_t)count;
+    state->dropped_bytes = (up_events_t)(state->dropped_bytes + count);
     return;
   }
   for (i = 0U; i < count; i++) {
@@ -432,7 +432,7 @@ void up_message_feed(UP_ROM up_message_t *message, up_message_state_t *state, UP
 }
 
 void up_message_gap(up_message_state_t *state) {
-  state->dropped_bytes += state->size;
+  state->dropped_bytes = (up_events_t)(state->dropped_bytes + state->size);
   state->size = 0U;
   state->is_aligned = true;
 }

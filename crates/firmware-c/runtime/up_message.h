@@ -78,15 +78,15 @@ typedef struct {
 
 /* All zero except the first two members. */
 typedef struct {
-  uint8_t *buffer;   /* bytes_max */
-  uint64_t *scratch; /* as large as the largest value */
-  uint16_t size;     /* bytes in the buffer: a candidate */
-  bool is_aligned;   /* it is known where messages start; only matters without `start` */
-  uint32_t messages; /* complete messages; these counters wrap at 2^32 */
-  uint32_t dropped_bytes;  /* in no message */
-  uint32_t wrong_checksum; /* candidates with a start, a length and an end, but a wrong checksum */
-  uint32_t values;         /* fresh values passed to the sink */
-  uint32_t invalid;        /* values that were not a measurement */
+  uint8_t *buffer;            /* bytes_max */
+  uint64_t *scratch;          /* as large as the largest value */
+  uint16_t size;              /* bytes in the buffer: a candidate */
+  bool is_aligned;            /* it is known where messages start; only matters without `start` */
+  up_events_t messages;       /* complete messages; these counters wrap */
+  up_events_t dropped_bytes;  /* in no message */
+  up_events_t wrong_checksum; /* candidates with a start, a length and an end, but a wrong checksum */
+  up_events_t values;         /* fresh values passed to the sink */
+  up_events_t invalid;        /* values that were not a measurement */
 } up_message_state_t;
 
 /* One step of setting up a serial device: bytes, then a pause. */

@@ -9,7 +9,9 @@
 #include "up_value.h"
 
 /* The most channels of a train; trains with more are ignored. */
+#ifndef UP_PPM_CHANNELS_MAX
 #define UP_PPM_CHANNELS_MAX 16U
+#endif
 
 typedef struct {
   uint32_t tick_hz;   /* clock of the timer, at least 1 */

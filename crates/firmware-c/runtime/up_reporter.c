@@ -2,14 +2,17 @@
 
 #include "up_divide.h"
 
-/* Bytes per read and reads per cycle: a host that sends without end must not delay reports. */
-#define READ_BYTES 64U
+/* Reads per cycle: a host that sends without end must not delay reports. */
 #define READS_MAX 16U
 /* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
 #define FRESH_CYCLES 2U
 
 static uint32_t now_ms(const up_reporter_t *reporter) {
   return up_divide(reporter->now_us, 1000U);
+}
+
+static bool has_health(const up_reporter_t *reporter) {
+  return UP_USES_HEALTH && reporter->config->health != NULL;
 }
 
 static void lock(const up_reporter_t *reporter) {
@@ -57,7 +60,7 @@ static void on_health(void *context, const uint8_t *payload, size_t size) {
 
   (void)payload;
   (void)size;
-  reporter->health_due = reporter->config->health != NULL;
+  reporter->health_due = has_health(reporter);
 }
 
 static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
@@ -77,8 +80,8 @@ static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t siz
 
 static void receive(up_reporter_t *reporter) {
   const up_channel_t *channel = reporter->config->channel;
-  const uint32_t frames = reporter->decoder.frames;
-  uint8_t bytes[READ_BYTES];
+  const up_events_t frames = reporter->decoder.frames;
+  uint8_t bytes[UP_REPORTER_READ_BYTES];
   size_t size = sizeof bytes;
   unsigned reads;
 
@@ -204,7 +207,7 @@ static void send_report(up_reporter_t *reporter) {
   size_t size;
 
   lock(reporter);
-  if (config->health != NULL) {
+  if (has_health(reporter)) {
     drop_old(reporter);
   }
   size = up_report_take(config->store, config->reports, &stamp, config->frame, config->frame_bytes, reporter->taken);
@@ -219,7 +222,7 @@ static void send_report(up_reporter_t *reporter) {
 static bool answer(up_reporter_t *reporter) {
   if (reporter->hello_due) {
     send_hello(reporter);
-  } else if (reporter->health_due) {
+  } else if (UP_USES_HEALTH && reporter->health_due) {
     send_health(reporter);
   } else {
     return false;
@@ -262,7 +265,7 @@ bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *confi
 /* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
 static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) {
   reporter->now_us = now_us;
-  if (reporter->config->health != NULL) {
+  if (has_health(reporter)) {
     lock(reporter);
     up_health_tick(reporter->config->health, now_ms(reporter));
     unlock(reporter);
@@ -301,7 +304,7 @@ void up_reporter_pause(up_reporter_t *reporter, uint64_t now_us) {
 }
 
 bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
-  const uint32_t frames = reporter->decoder.frames;
+  const up_events_t frames = reporter->decoder.frames;
 
   up_decoder_feed(&reporter->decoder, &byte, 1U);
   if (reporter->decoder.frames != frames) {

@@ -13,6 +13,15 @@
 #include "up_report.h"
 #include "up_silence.h"
 
+/* The bytes that are taken out of the channel at a time, on the stack. */
+#ifndef UP_REPORTER_READ_BYTES
+#if defined(__AVR__)
+#define UP_REPORTER_READ_BYTES 16U
+#else
+#define UP_REPORTER_READ_BYTES 64U
+#endif
+#endif
+
 typedef struct {
   /* Whether the other end listens, as far as the channel can tell. */
   bool (*is_open)(void *context);
@@ -33,7 +42,7 @@ typedef struct {
   UP_ROM up_wire_t *commands;
   const up_channel_t *channel;
   up_store_t *store;
-  up_health_t *health; /* NULL: health is not noted, and requests for it are not answered */
+  up_health_t *health; /* NULL, or without UP_USES_HEALTH: health is not noted, and requests for it are not answered */
   uint8_t *frame;      /* UP_WIRE_FRAME_BYTES(reports) */
   uint8_t *buffer;     /* of the decoder; twice as long as a frame, or that and what up_decode.h adds */
   void *received;      /* as large as the store's values; NULL if the host has nothing to set */
@@ -55,12 +64,12 @@ typedef struct {
   void *context;
 } up_reporter_config_t;
 
-/* Event counts since the start; they wrap at 2^32. */
+/* Event counts since the start; they wrap, and what hosts are told does at 2^32. */
 typedef struct {
   uint32_t reports_sent;
   uint32_t reports_refused; /* cycles in which something was due while the line was still busy with a frame */
-  uint32_t frames_torn;     /* frames cut off because the other end went away */
-  uint32_t values_dropped;  /* values dropped because they were too old when the channel had room */
+  up_events_t frames_torn;    /* frames cut off because the other end went away */
+  up_events_t values_dropped; /* values dropped because they were too old when the channel had room */
 } up_reporter_counts_t;
 
 typedef struct {

@@ -22,7 +22,12 @@
 
 /* A schema has at most one field for each identifier 1..254. */
 #define UP_FIELDS_MAX 254U
+
+/* The size of a bitmap with a bit for each field, by its index. A program may have as many as its schema needs: an
+ * eighth of its fields, rounded up. */
+#ifndef UP_FIELD_BITMAP_BYTES
 #define UP_FIELD_BITMAP_BYTES 32U
+#endif
 
 /* The size of the longest payload: its length has at most four digits. */
 #define UP_PAYLOAD_BYTES_LIMIT 9999U

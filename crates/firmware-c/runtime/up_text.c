@@ -87,12 +87,28 @@ static int64_t load_signed(uint8_t type, const void *element) {
   return number;
 }
 
-size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTES]) {
 #if UP_USES_REALS
-  float single;
-  double real;
+static size_t put_single(char *text, const void *element) {
+  float number;
 
+  memcpy(&number, element, sizeof number);
+  return put_real(text, (double)number);
+}
+
+static size_t put_double(char *text, const void *element) {
+#if UP_USES_DOUBLES
+  double number;
+
+  memcpy(&number, element, sizeof number);
+  return put_real(text, number);
+#else
+  (void)element;
+  return put(text, large_word);
 #endif
+}
+#endif
+
+size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTES]) {
   switch ((up_type_t)type) {
   case UP_TYPE_BOOL:
     return put(text, (up_element_load(type, element) != 0U) ? true_word : false_word);
@@ -103,11 +119,9 @@ size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTE
     return put_signed(text, load_signed(type, element));
 #if UP_USES_REALS
   case UP_TYPE_FLOAT32:
-    memcpy(&single, element, sizeof single);
-    return put_real(text, (double)single);
+    return put_single(text, element);
   case UP_TYPE_FLOAT64:
-    memcpy(&real, element, sizeof real);
-    return put_real(text, real);
+    return put_double(text, element);
 #else
   case UP_TYPE_FLOAT32:
   case UP_TYPE_FLOAT64:

@@ -1,15 +1,23 @@
 /*
  * The parts of the core that the values of a program need. A part that none of them needs can be left out: set its
  * macro to 0 for the compiler. The tables of the program must then not use it.
+ *
+ * Sizes that a small machine sets lower stand beside what they are for: UP_FIELD_BITMAP_BYTES, UP_DECODER_WALKS,
+ * UP_PPM_CHANNELS_MAX and UP_REPORTER_READ_BYTES.
  */
 #ifndef UP_USES_H
 #define UP_USES_H
+
+#include <stdint.h>
 
 #ifndef UP_USES_CRC32
 #define UP_USES_CRC32 1 /* links whose frames end with a CRC-32 */
 #endif
 #ifndef UP_USES_REALS
 #define UP_USES_REALS 1 /* fields of float32 and float64 */
+#endif
+#ifndef UP_USES_HEALTH
+#define UP_USES_HEALTH 1 /* reporters that note how devices are, and tell hosts that ask */
 #endif
 #ifndef UP_USES_CODES
 #define UP_USES_CODES 1 /* words that are floats, BCD or packed */
@@ -46,6 +54,32 @@
 #endif
 #ifndef UP_USES_CHIP_EXCHANGES
 #define UP_USES_CHIP_EXCHANGES 1
+#endif
+
+/* Where a double is as short as a float, as on AVR, there can be no fields of float64. */
+#if defined(__SIZEOF_DOUBLE__) && __SIZEOF_DOUBLE__ < 8
+#define UP_USES_DOUBLES 0
+#else
+#define UP_USES_DOUBLES 1
+#endif
+
+/* How far events are counted that only people look at: in 32 bits, and each fault of a device in 16; or, to save RAM,
+ * in 16 and 8. Counts of events wrap, those of faults stop. */
+#ifndef UP_SHORT_COUNTS
+#if defined(__AVR__)
+#define UP_SHORT_COUNTS 1
+#else
+#define UP_SHORT_COUNTS 0
+#endif
+#endif
+#if UP_SHORT_COUNTS
+typedef uint16_t up_events_t;
+typedef uint8_t up_fault_count_t;
+#define UP_FAULT_COUNT_MAX UINT8_MAX
+#else
+typedef uint32_t up_events_t;
+typedef uint16_t up_fault_count_t;
+#define UP_FAULT_COUNT_MAX UINT16_MAX
 #endif
 
 #endif

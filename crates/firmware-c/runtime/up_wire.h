@@ -82,18 +82,19 @@ static inline uint32_t up_bits_of(float value) {
   return bits;
 }
 
-static inline uint64_t up_bits_of_double(double value) {
-  uint64_t bits;
-
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
 static inline float up_float_of(uint32_t bits) {
   float value;
 
   memcpy(&value, &bits, sizeof value);
   return value;
+}
+
+#if UP_USES_DOUBLES
+static inline uint64_t up_bits_of_double(double value) {
+  uint64_t bits;
+
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
 }
 
 static inline double up_double_of(uint64_t bits) {
@@ -102,6 +103,7 @@ static inline double up_double_of(uint64_t bits) {
   memcpy(&value, &bits, sizeof value);
   return value;
 }
+#endif
 
 /* Each writes a number and returns the position after it. */
 static inline uint8_t *up_put_8(uint8_t *at, uint8_t value) {
