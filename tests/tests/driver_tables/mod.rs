@@ -4,6 +4,7 @@
 //! The tables of all drivers are compiled into one program, `tests/drivers/main.c`, under
 //! sanitizers. `rust` is the same program on the runtime in Rust, and `same` compares the two.
 
+mod avr;
 mod examples;
 mod gaps;
 mod judged;

@@ -13,7 +13,7 @@ use super::tools::scratch;
 const STRICT: &[&str] =
     &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-O2"];
 
-fn sources() -> Vec<PathBuf> {
+pub(super) fn sources() -> Vec<PathBuf> {
     files(&root().join("crates/firmware-c/runtime"), "c")
 }
 
@@ -32,7 +32,7 @@ fn vectors() -> Vec<PathBuf> {
 }
 
 /// The generated codecs that the tests need, in their own folder: see `codecs.rs`.
-fn codecs() -> PathBuf {
+pub(super) fn codecs() -> PathBuf {
     static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
         let folder = scratch("codecs");
         super::codecs::write(&folder, &vectors());

@@ -1,6 +1,6 @@
 //! Firmware: the runtime's core, compiled for host and Cortex-M and run against the shared wire
 //! vectors, both with sanitizers and on an emulated Cortex-M4; and generated applications built
-//! with ChibiOS.
+//! with ChibiOS. The core is also compiled for AVR and run on a simulated one.
 //!
 //! Tests whose tools are missing are skipped with a notice (`SKIPPED: …` on stderr); with
 //! `SENSEDSL_REQUIRE_TOOLS=1`, a missing tool that package registries have is a failure. `CHIBIOS`
@@ -9,6 +9,7 @@
 
 mod analog;
 mod applications;
+pub(crate) mod avr;
 mod building;
 mod can_bits;
 mod chibios;
