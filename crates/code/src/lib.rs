@@ -40,11 +40,41 @@ macro_rules! of_controller {
 }
 
 of_controller! {
-    Header = "templates/controller.h.txt";
-    FirstC = "templates/controller.c.txt";
     Module = "templates/controller.rs.txt";
     FirstRust = "templates/user.rs.txt";
 }
+
+/// The declarations of a controller in C.
+#[derive(Template)]
+#[template(path = "templates/controller.h.txt", escape = "none")]
+struct Header<'a> {
+    board: &'a str,
+    one: &'a ControllerPlan,
+    headers: &'a Headers,
+}
+
+/// The first file in C of a controller.
+#[derive(Template)]
+#[template(path = "templates/controller.c.txt", escape = "none")]
+struct FirstC<'a> {
+    board: &'a str,
+    one: &'a ControllerPlan,
+    headers: &'a Headers,
+}
+
+/// Where the headers of controllers are, as the user's files name it and as people do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Headers {
+    /// The path in front of a header's name in the user's files; empty if the compiler finds them.
+    pub path: &'static str,
+    /// The folder, below that of the firmware.
+    pub folder: &'static str,
+    /// The user's folder.
+    pub user: &'static str,
+}
+
+/// A folder of headers that the compiler is told of.
+pub const GENERATED: Headers = Headers { path: "", folder: "generated", user: "user" };
 
 /// Declares templates that print all controllers of a board.
 macro_rules! of_board {
@@ -68,20 +98,20 @@ of_board! {
 
 /// The declarations of a board's controllers in C, a header for each.
 #[must_use]
-pub fn headers(board: &str, all: &[ControllerPlan]) -> FileSet {
+pub fn headers(board: &str, all: &[ControllerPlan], headers: &Headers) -> FileSet {
     let mut files = FileSet::default();
     for one in all {
-        files.add(format!("{}.h", one.ident), print(&Header { board, one }));
+        files.add(format!("{}.h", one.ident), print(&Header { board, one, headers }));
     }
     files
 }
 
 /// The files in C that the user goes on with: they compile, and set nothing.
 #[must_use]
-pub fn first_c(board: &str, all: &[ControllerPlan]) -> FileSet {
+pub fn first_c(board: &str, all: &[ControllerPlan], headers: &Headers) -> FileSet {
     let mut files = FileSet::default();
     for one in all {
-        files.add_once(format!("{}.c", one.ident), print(&FirstC { board, one }));
+        files.add_once(format!("{}.c", one.ident), print(&FirstC { board, one, headers }));
     }
     files
 }

@@ -285,6 +285,11 @@ static void fall_back(up_reporter_t *reporter) {
   }
 }
 
+void up_reporter_listen(up_reporter_t *reporter, uint64_t now_us) {
+  reporter->now_us = now_us;
+  receive(reporter);
+}
+
 void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us) {
   const up_channel_t *channel = reporter->config->channel;
 

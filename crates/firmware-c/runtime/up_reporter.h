@@ -93,6 +93,9 @@ typedef struct {
 /* False if a buffer is too small. */
 bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us);
 
+/* Takes what has come, between cycles: where a system keeps few bytes, the host must not wait for the next cycle. */
+void up_reporter_listen(up_reporter_t *reporter, uint64_t now_us);
+
 /* Runs one cycle. */
 void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us);
 

@@ -10,6 +10,11 @@
 
 #include <stdint.h>
 
+/* Where a program is built without options of its own, they stand in a file. */
+#if defined(ARDUINO)
+#include "sense_conf.h"
+#endif
+
 #ifndef UP_USES_CRC32
 #define UP_USES_CRC32 1 /* links whose frames end with a CRC-32 */
 #endif

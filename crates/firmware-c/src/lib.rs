@@ -21,6 +21,7 @@
 //! assert!(header.contains("uint16_t SENSE_Light;"));
 //! ```
 
+mod fallback;
 pub mod runtime;
 mod schema;
 mod tables;
@@ -29,6 +30,7 @@ pub mod words;
 use askama::Template;
 use sensedsl_wire::Schema;
 
+pub use fallback::FallBackPlan;
 pub use schema::{Role, SchemaPlan};
 use sensedsl_files::FileSet;
 use sensedsl_files::print;

@@ -93,6 +93,13 @@ impl SchemaPlan {
         self.fields.len()
     }
 
+    /// The bytes of the longest report, and of the buffer for commands, of a board without memory for long ones.
+    #[must_use]
+    pub fn buffers_bytes(&self) -> [usize; 2] {
+        let [reports, commands] = &self.wires;
+        [reports.frame_bytes_max, 2 * commands.frame_bytes_max]
+    }
+
     /// Compiler options (`-D`) for what no wire of the program needs.
     #[must_use]
     pub fn left_out(&self) -> Vec<&'static str> {

@@ -13,6 +13,8 @@ pub struct Wiring {
     pub buffer: DmaBuffer,
     /// The number of its chip select, or that on its wire; `None` if its address selects it.
     pub select: Option<u8>,
+    /// Whether all parts use the same memory, `up_work` and `up_scratch`, because one after the other is served.
+    pub shares_memory: bool,
 }
 
 /// The DMA controllers that must reach a buffer.

@@ -183,7 +183,7 @@ mod tests {
             (address(&0x68, &on_bus), buffer(&on_bus.buffer)),
             ("0x68U".to_owned(), "UP_DMA_BUFFER")
         );
-        let selected = Wiring { buffer: DmaBuffer::Basic, select: Some(1) };
+        let selected = Wiring { buffer: DmaBuffer::Basic, select: Some(1), ..Wiring::default() };
         assert_eq!(
             (address(&0, &selected), buffer(&selected.buffer)),
             ("1U".to_owned(), "UP_BDMA_BUFFER")

@@ -40,6 +40,7 @@ fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
             buffer: wired.map_or(DmaBuffer::Main, |wired| context.names.buffer(&wired.streams)),
             select: spi::number_of(context.job, one.index)
                 .or_else(|| onewire::number_of(context.job, one.index)),
+            shares_memory: false,
         },
     )
 }

@@ -6,14 +6,14 @@ use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
 use super::control::ControlPlan;
 use super::doctor::{self, DoctorPlan};
-use super::fallback::{self, FallBackPlan};
+use super::fallback;
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::missed;
 use super::parts::{self, PartsPlan};
 use super::peripherals;
 use super::section::{Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
-use sensedsl_firmware_c::{Role, SchemaPlan};
+use sensedsl_firmware_c::{FallBackPlan, Role, SchemaPlan};
 use sensedsl_job::BoardJob;
 use sensedsl_job::part::uses;
 

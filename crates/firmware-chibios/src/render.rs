@@ -33,8 +33,11 @@ pub(super) fn render(b: &BoardPlan) -> FileSet {
     files.add("generated/sense_hw.c", print(&Hardware { b }));
     files.add_once("user/user.c", USER);
     let plans = b.controllers.plans();
-    files.merge_under("generated", sensedsl_code::headers(&b.name, &plans));
-    files.merge_under("user", sensedsl_code::first_c(&b.name, &plans));
+    files.merge_under(
+        "generated",
+        sensedsl_code::headers(&b.name, &plans, &sensedsl_code::GENERATED),
+    );
+    files.merge_under("user", sensedsl_code::first_c(&b.name, &plans, &sensedsl_code::GENERATED));
     let core = PERIPHERALS.iter().flat_map(|peripheral| peripheral.core.iter().copied().flatten());
     let drivers = PERIPHERALS.iter().flat_map(|peripheral| peripheral.runtime);
     let always = c::runtime::BASE.iter().chain(runtime::FILES);

@@ -7,7 +7,8 @@
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_diagnostics::codes::{
-    e0501_no_generator, e0504_no_firmware_target, w0601_unused_property, w0615_no_firmware,
+    e0501_no_generator, e0504_no_firmware_target, e0574_does_not_fit, w0601_unused_property,
+    w0615_no_firmware,
 };
 use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_model::design::{Design, Device};
@@ -15,12 +16,13 @@ use sensedsl_model::{drop_allowed, sort};
 use sensedsl_wiring::assignment::Assignment;
 
 use sensedsl_files::FileSet;
+use sensedsl_firmware_arduino::Arduino;
 use sensedsl_firmware_chibios::Chibios;
 use sensedsl_firmware_embassy::Embassy;
 use sensedsl_job::{BoardJob, JobConnection, Target, jobs};
 
 /// All systems, in the order in which they are documented.
-pub const TARGETS: &[&dyn Target] = &[&Chibios, &Embassy];
+pub const TARGETS: &[&dyn Target] = &[&Chibios, &Embassy, &Arduino];
 
 /// The system of a profile.
 #[must_use]
@@ -102,6 +104,15 @@ fn forgotten(job: &BoardJob<'_>, profile: &TargetProfile) -> Vec<Diagnostic> {
     stored.map(warn).collect()
 }
 
+/// What does not fit the MCU's memory is wrong whatever generates; all else may have firmware of another system.
+fn foreseen(gap: Diagnostic, system: &str) -> Diagnostic {
+    if gap.code == e0574_does_not_fit::CODE {
+        gap
+    } else {
+        w0615_no_firmware::no_firmware(gap, system)
+    }
+}
+
 fn missing_kinds(
     target: &dyn Target,
     profile: &TargetProfile,
@@ -175,7 +186,7 @@ pub fn foresee(design: &Design, wiring: &Assignment, reported: &mut Vec<Diagnost
         let Some(profile) = job.profile else { continue };
         let gaps = of_board(&job).err().unwrap_or_default();
         let gaps = gaps.into_iter().filter(|gap| !is_known(gap));
-        found.extend(gaps.map(|gap| w0615_no_firmware::no_firmware(gap, profile.system())));
+        found.extend(gaps.map(|gap| foreseen(gap, profile.system())));
         found.extend(forgotten(&job, profile));
     }
     drop_allowed(design, &mut found);

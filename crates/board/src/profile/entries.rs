@@ -67,6 +67,7 @@ pub(crate) struct TimerEntry {
     encoder: bool,
     #[serde(default)]
     gate: bool,
+    slowest_hz: Option<u32>,
 }
 
 impl TimerEntry {
@@ -83,6 +84,7 @@ impl TimerEntry {
             alternate: self.alternate,
             encoder: self.encoder,
             gate: self.gate,
+            slowest_hz: self.slowest_hz,
         }
     }
 }

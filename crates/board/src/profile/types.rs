@@ -188,6 +188,8 @@ pub struct Timer {
     /// True if an input makes it count, instead of keeping the time of an edge: it gives counts of edges of one
     /// direction, and widths.
     pub gate: bool,
+    /// The lowest frequency of its outputs, in hertz; `None` if it makes any.
+    pub slowest_hz: Option<u32>,
 }
 
 /// A block of programmable state machines, which run one program.

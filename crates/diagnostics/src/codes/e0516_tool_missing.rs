@@ -15,6 +15,11 @@ Way out: install them.
     macOS             brew install make && brew install --cask gcc-arm-embedded
     Windows           in WSL (`wsl --install`), as on Ubuntu
 
+Arduino sketches are built by `arduino-cli` with the core `arduino:avr`, or by what Debian and Ubuntu have:
+
+    Debian, Ubuntu    sudo apt install make gcc-avr avr-libc arduino-core-avr avrdude
+    elsewhere         install arduino-cli, then: arduino-cli core install arduino:avr
+
 The formula `arm-none-eabi-gcc` of Homebrew has no newlib; the cask has. A tool that is installed and not found
 is in a folder that PATH does not name."#,
 });
@@ -23,6 +28,15 @@ is in a folder that PATH does not name."#,
 pub fn tool_missing(span: Span, tool: &str, what: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{tool}` is missing: {what}")).help(INSTALL)
 }
+
+/// The same for what builds and writes sketches.
+pub fn missing_for_sketch(span: Span, tool: &str, what: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{tool}` is missing: {what}")).help(INSTALL_ARDUINO)
+}
+
+/// How to install what sketches need.
+const INSTALL_ARDUINO: &str = "Debian, Ubuntu: `sudo apt install make gcc-avr avr-libc arduino-core-avr \
+    avrdude`; elsewhere install arduino-cli, then `arduino-cli core install arduino:avr`";
 
 /// How to install all of them.
 const INSTALL: &str = "Debian, Ubuntu, WSL on Windows: `sudo apt install make gcc-arm-none-eabi \

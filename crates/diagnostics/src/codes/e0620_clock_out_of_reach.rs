@@ -7,7 +7,7 @@ pub const CODE: Code = Code(&CodeInfo {
     code: "E0620",
     title: "the hardware cannot make this clock",
     explanation: r#"A peripheral divides its clock by whole numbers within limits. What is asked for cannot be had: a bus slower than the
-greatest divider makes, a serial rate that the divider misses by more than 2 %, a timer's tick that is off by more than a thousandth,
+greatest divider makes, a serial rate that the divider misses by more than 2.2 %, a timer's tick that is off by more than a thousandth,
 a sampling time that the converter does not have. A program with such a value would not build, halt the board, or talk past the device.
 
 Way out: write the value that the message names. `sensedsl explain timing FILE` shows the exact clocks."#,

@@ -182,6 +182,7 @@ codes! {
     e0571_not_for_this_plant,
     e0572_not_a_map,
     e0573_process_failed,
+    e0574_does_not_fit,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

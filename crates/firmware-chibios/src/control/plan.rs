@@ -6,10 +6,10 @@ use sensedsl_job::{BoardJob, JobController, JobDevice, Owner};
 use sensedsl_wire::Direction;
 
 use crate::context::Context;
-use crate::fallback::FallBackPlan;
 use crate::section::{Section, Work};
 use crate::stacks::Depth;
 use sensedsl_files::{block, templates};
+use sensedsl_firmware_c::FallBackPlan;
 
 templates! {
     s: ControlPlan;

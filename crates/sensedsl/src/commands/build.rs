@@ -15,6 +15,7 @@ use sensedsl_model::design::Board;
 use super::{generate, input, output};
 use crate::cli::{BuildArgs, GenerateArgs, On, Place};
 use crate::files::{files_below, shown};
+use crate::firmware::arduino::{self, Sketch};
 use crate::firmware::cargo::{self, Cargo};
 use crate::firmware::{self, Build, Make, Program, uf2};
 use crate::status::{Reported, Status};
@@ -76,6 +77,7 @@ impl<'a> Job<'a> {
     pub(super) fn elf(&self, program: &Program) -> PathBuf {
         match &program.build {
             Build::Make(_) => program.folder.join("build").join(self.mode()).join("sense.elf"),
+            Build::Sketch(sketch) => program.folder.join(sketch.elf()),
             Build::Cargo(project) => {
                 program.folder.join("target").join(&project.triple).join("release/firmware")
             }
@@ -209,6 +211,7 @@ fn named(place: &Place) -> Result<PathBuf> {
 struct Builders {
     make: Option<(Make, PathBuf)>,
     cargo: Option<Cargo>,
+    sketches: Option<arduino::Builder>,
 }
 
 /// Checks everything that building needs, and keeps only the boards that are asked for.
@@ -235,14 +238,15 @@ fn look(
             return Err(e0519_which_board::unknown(at, wanted, &all).into());
         }
     }
-    let (mut made, mut triples) = (Vec::new(), Vec::new());
+    let (mut made, mut triples, mut has_sketch) = (Vec::new(), Vec::new(), false);
     for program in &job.programs {
         match &program.build {
             Build::Make(wants) => made.push((program, wants)),
             Build::Cargo(project) => triples.push(project.triple.as_str()),
+            Build::Sketch(_) => has_sketch = true,
         }
     }
-    let mut builders = Builders { make: None, cargo: None };
+    let mut builders = Builders { make: None, cargo: None, sketches: None };
     if !made.is_empty() {
         let by_variable = std::env::var_os("CHIBIOS").map(PathBuf::from);
         let named = place.chibios.clone().or(by_variable);
@@ -251,6 +255,9 @@ fn look(
     }
     if !triples.is_empty() {
         builders.cargo = Some(cargo::cargo(&triples, at)?);
+    }
+    if has_sketch {
+        builders.sketches = Some(arduino::builder(at)?);
     }
     ground(job)?;
     Ok(builders)
@@ -309,6 +316,7 @@ fn command(
             }
             command
         }
+        Build::Sketch(sketch) => sketch_command(program, sketch, builders, terminal)?,
         Build::Cargo(_) => {
             let mut command = Command::new(&builders.cargo.as_ref()?.0);
             // In a target folder shared by several boards, one would get the program of another: all are called
@@ -322,5 +330,36 @@ fn command(
         }
     };
     command.stdin(Stdio::null());
+    Some(command)
+}
+
+/// The command that builds a sketch.
+fn sketch_command(
+    program: &Program,
+    sketch: &Sketch,
+    builders: &Builders,
+    terminal: &Terminal,
+) -> Option<Command> {
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut command = match builders.sketches.as_ref()? {
+        arduino::Builder::Cli => {
+            let mut command = Command::new("arduino-cli");
+            command.args(["compile", "--fqbn", &sketch.fqbn, "--output-dir"]);
+            command.arg(program.folder.join("build")).arg(&program.folder);
+            command
+        }
+        arduino::Builder::Make(make, core) => {
+            let mut command = Command::new(make.0);
+            command.args(["--no-print-directory", "-C"]).arg(&program.folder);
+            command.arg(format!("-j{jobs}")).arg(format!("ARDUINO_CORE={}", shown(core)));
+            if terminal.is_quiet() {
+                command.arg("--silent");
+            }
+            command
+        }
+    };
+    if terminal.is_quiet() {
+        command.stdout(Stdio::null());
+    }
     Some(command)
 }

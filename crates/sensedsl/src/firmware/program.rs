@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use sensedsl_board::catalog;
 
+use super::arduino::Sketch;
 use super::uf2::{self, Family};
 use crate::files::{read_if_there, shown};
 
@@ -30,6 +31,8 @@ pub(crate) enum Build {
     Make(Wants),
     /// Cargo.
     Cargo(Project),
+    /// `arduino-cli`, or make with the Arduino core.
+    Sketch(Sketch),
 }
 
 /// A project of Cargo's.
@@ -54,7 +57,8 @@ impl Build {
     /// Determines the tool from a board's files, whose texts `file` looks up; `None` if there is no firmware.
     pub(crate) fn of(file: &mut dyn FnMut(&str) -> Result<Option<String>>) -> Result<Option<Self>> {
         if let Some(makefile) = file("Makefile")? {
-            return Ok(Some(Self::Make(Wants::of(&makefile))));
+            let sketch = Sketch::of(&makefile).map(Self::Sketch);
+            return Ok(Some(sketch.unwrap_or_else(|| Self::Make(Wants::of(&makefile)))));
         }
         let config = file(".cargo/config.toml")?.unwrap_or_default();
         let triple = config.lines().find_map(|line| line.trim().strip_prefix("target = \""));
@@ -66,7 +70,7 @@ impl Build {
     /// The family of the chip in UF2 files, if its boot loader takes them.
     pub(crate) fn family(&self) -> Option<&'static Family> {
         match self {
-            Self::Make(_) => None,
+            Self::Make(_) | Self::Sketch(_) => None,
             Self::Cargo(project) => project.family,
         }
     }
@@ -76,6 +80,7 @@ impl Build {
         match self {
             Self::Make(_) => "make",
             Self::Cargo(_) => "cargo",
+            Self::Sketch(_) => "the build of the sketch",
         }
     }
 }
@@ -131,7 +136,8 @@ pub(crate) fn in_folder(folder: &Path) -> Result<Vec<Program>> {
 
 /// The firmware of one board, if the folder has it.
 fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> {
-    if !folder.join("generated").is_dir() && !folder.join("src/wiring.rs").is_file() {
+    let signs = ["generated/sense_hw.c", "src/wiring.rs", "src/sense_hw.c"];
+    if !signs.iter().any(|sign| folder.join(sign).is_file()) {
         return Ok(None);
     }
     let mut file = |path: &str| -> Result<Option<String>> {

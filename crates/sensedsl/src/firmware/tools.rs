@@ -11,15 +11,20 @@ const OBJCOPY: &str = "arm-none-eabi-objcopy";
 const VERSION_MIN: u32 = 9;
 
 /// GNU make as it is called here.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Make(pub(crate) &'static str);
 
-/// Make, once everything that a build calls is known to be installed.
-pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
+/// GNU make, if it is installed.
+pub(crate) fn gnu_make() -> Option<Make> {
     let is_gnu = |name: &&&str| {
         asked(name, &["--version"]).is_some_and(|reported| reported.starts_with("GNU Make"))
     };
-    let Some(make) = ["make", "gmake"].iter().find(is_gnu) else {
+    ["make", "gmake"].iter().find(is_gnu).map(|name| Make(name))
+}
+
+/// Make, once everything that a build calls is known to be installed.
+pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
+    let Some(make) = gnu_make() else {
         return Err(e0516_tool_missing::tool_missing(at, "make", "GNU make runs the build").into());
     };
     let Some(version) = asked(COMPILER, &["-dumpversion"]) else {
@@ -41,5 +46,5 @@ pub(crate) fn tools(at: Span) -> Result<Make, Box<Diagnostic>> {
         let what = "the C library of the compiler is not installed";
         return Err(e0516_tool_missing::tool_missing(at, "newlib", what).into());
     }
-    Ok(Make(make))
+    Ok(make)
 }

@@ -47,7 +47,12 @@ impl Maker<'_, '_> {
         for unit in self.timer_names() {
             let unit = unit.as_str();
             let timer = self.profile().and_then(|profile| profile.timer(unit)).cloned();
-            if !unit_fits(self.offer, self.wanted, unit) || (whole && timer.is_none()) {
+            let slowest_hz = timer.as_ref().and_then(|timer| timer.slowest_hz);
+            let is_too_fast = slowest_hz > using.shared_hz && using.shared_hz.is_some();
+            if !unit_fits(self.offer, self.wanted, unit)
+                || (whole && timer.is_none())
+                || is_too_fast
+            {
                 continue;
             }
             made.extend(self.timer(using, unit, timer.as_ref()));

@@ -8,7 +8,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
 use anyhow::{Context as _, Result};
-use sensedsl_code::{ControllerPlan, controllers, headers, modules, native_c, native_rust};
+use sensedsl_code::{
+    ControllerPlan, GENERATED, controllers, headers, modules, native_c, native_rust,
+};
 use sensedsl_diagnostics::codes::{e0534_no_user_code, e0535_user_code_not_built};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_files::FileSet;
@@ -60,6 +62,7 @@ pub(crate) fn build(
     let into = folder.join("build").join("native");
     let (mut command, program) = match language {
         Language::C => in_c(job, &plans, folder, &into)?,
+        Language::Sketch => in_sketch(job, &plans, folder, &into)?,
         Language::Rust => in_rust(job, &plans, folder, &into)?,
     };
     let tool = command.get_program().to_string_lossy().into_owned();
@@ -88,25 +91,31 @@ pub(crate) fn build(
 #[derive(Clone, Copy)]
 enum Language {
     C,
+    /// C in a folder that the Arduino framework compiles.
+    Sketch,
     Rust,
 }
 
 impl Language {
     fn of(job: &BoardJob<'_>) -> Self {
-        if job.system() == Some("embassy") { Self::Rust } else { Self::C }
+        match job.system() {
+            Some("embassy") => Self::Rust,
+            Some("arduino") => Self::Sketch,
+            Some(_) | None => Self::C,
+        }
     }
 
     /// The folder of the user's files in that of the firmware.
     const fn user(self) -> &'static str {
         match self {
             Self::C => "user",
-            Self::Rust => "src/user",
+            Self::Sketch | Self::Rust => "src/user",
         }
     }
 
     const fn ending(self) -> &'static str {
         match self {
-            Self::C => "c",
+            Self::C | Self::Sketch => "c",
             Self::Rust => "rs",
         }
     }
@@ -138,18 +147,53 @@ fn in_c(
     into: &Path,
 ) -> Result<(Command, PathBuf)> {
     let generated = into.join("generated");
-    let mut all = headers(&job.board.name.value, plans);
+    write(&native(job, plans), &generated)?;
+    let files = plans.iter().map(|one| folder.join("user").join(format!("{}.c", one.ident)));
+    Ok(compiled(&generated, files, into))
+}
+
+/// The same for a sketch, whose files find their headers in the folder above theirs: copies, beside the headers of now.
+fn in_sketch(
+    job: &BoardJob<'_>,
+    plans: &[ControllerPlan],
+    folder: &Path,
+    into: &Path,
+) -> Result<(Command, PathBuf)> {
+    let generated = into.join("src");
+    write(&native(job, plans), &generated)?;
+    let mut files = Vec::new();
+    for one in plans {
+        let name = Path::new("src/user").join(format!("{}.c", one.ident));
+        let path = folder.join(&name);
+        let text = std::fs::read(&path).with_context(|| format!("cannot read {}", shown(&path)))?;
+        files.push(into.join(&name));
+        write_file(&into.join(name), &text)?;
+    }
+    Ok(compiled(&generated, files.into_iter(), into))
+}
+
+/// What is around the user's code in C on this computer.
+fn native(job: &BoardJob<'_>, plans: &[ControllerPlan]) -> FileSet {
+    let mut all = headers(&job.board.name.value, plans, &GENERATED);
     all.add("native.c", native_c(job));
-    write(&all, &generated)?;
+    all
+}
+
+/// The command that compiles C, and the program that it makes.
+fn compiled(
+    generated: &Path,
+    files: impl Iterator<Item = PathBuf>,
+    into: &Path,
+) -> (Command, PathBuf) {
     let program = into.join("controllers");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     let flags = std::env::var("CFLAGS").unwrap_or_default();
     let mut command = Command::new(compiler);
-    command.args(["-std=gnu11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(&generated);
+    command.args(["-std=gnu11", "-O1", "-g", "-Wall", "-DSENSE_NATIVE", "-I"]).arg(generated);
     command.args(flags.split_whitespace());
-    command.args(plans.iter().map(|one| folder.join("user").join(format!("{}.c", one.ident))));
+    command.args(files);
     command.arg(generated.join("native.c")).arg("-o").arg(&program).arg("-lm");
-    Ok((command, program))
+    (command, program)
 }
 
 /// The same for Rust: a package of its own, with copies of the user's files.
