@@ -259,8 +259,10 @@ fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &
     let ids: Vec<i64> = schema.items.iter().map(|item| i64::from(item.id)).collect();
     differences.same("identifiers", numbers(model, ".id = "), ids);
     let names: Vec<String> = schema.items.iter().map(|item| item.name.clone()).collect();
-    let quoted = model.split(".name = \"").skip(1).map(|rest| rest.split('"').next().unwrap());
+    let quoted = model.split("char name_").skip(1).map(|rest| rest.split('"').nth(1).unwrap());
     differences.same("names", quoted.map(str::to_owned).collect(), names.clone());
+    let places: Vec<i64> = (0..).take(names.len()).collect();
+    differences.same("numbers of names", numbers(model, ".name = name_"), places);
     let types: Vec<String> =
         schema.items.iter().map(|item| item.value.scalar.name().to_uppercase()).collect();
     let found = after(model, ".type = UP_TYPE_");
@@ -275,7 +277,7 @@ fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &
     let directions: Vec<bool> = schema.items.iter().map(to_host).collect();
     let found = after(model, ".direction = UP_TO_");
     differences.same("directions", found.iter().map(|one| *one == "HOST").collect(), directions);
-    differences.same("checksum", after(model, ".checksum = \""), vec![schema.checksum.name()]);
+    differences.same("checksum", after(model, "checksum[] = \""), vec![schema.checksum.name()]);
     let count = vec![i64::try_from(names.len()).unwrap()];
     differences.same("number of fields", numbers(model, ".fields_count = "), count.clone());
     differences.same(
