@@ -180,6 +180,8 @@ void twi_reset(void);
 void watchdog_init(void);
 void watchdog_reset(bool has_bitten);
 void watchdog_fed(void);
+/* How long it waits for food until it resets; 0 if it does not. */
+uint64_t watchdog_ns(void);
 
 typedef struct {
   bool is_known;
@@ -199,7 +201,8 @@ void link_opened(bool is_open);
 
 void usb_init(void);
 void usb_reset(void);
-bool usb_take(const uint8_t *bytes, size_t count);
-void usb_open(bool is_open);
+/* The link's host is there. */
+void usb_connect(void);
+void usb_take(const uint8_t *bytes, size_t count);
 
 #endif

@@ -123,6 +123,9 @@ int main(int argc, char **argv) {
     fail("is no frequency", argv[2]);
   }
   load(argv[3]);
+  if (strcmp(argv[4], "usb") == 0) {
+    usb_connect();
+  }
   for (int at = 5; at < argc; at++) {
     connect(argv[at], argv[4]);
   }

@@ -236,6 +236,7 @@ static void be_done(void) {
   put_letter('D');
   put_number(ns_of(avr->cycle), 8);
   put_number(ns_of(cycles_asleep()), 8);
+  put_number(watchdog_ns(), 8);
   send_all();
 }
 

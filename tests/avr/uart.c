@@ -97,9 +97,13 @@ static bool agrees(const uart_t *uart) {
                               own.data_bits == other->data_bits && own.parity == other->parity);
 }
 
+/* Not on the way to a setting. */
 static void tell_own(uart_t *uart) {
   const serial_t own = setting_of(uart);
 
+  if (!is_set(uart->base + CONTROL, SENDS) && !is_set(uart->base + CONTROL, RECEIVES)) {
+    return;
+  }
   if (own.baud != uart->told.baud || own.data_bits != uart->told.data_bits || own.parity != uart->told.parity ||
       own.stop_bits != uart->told.stop_bits) {
     uart->told = own;
@@ -243,9 +247,7 @@ static void write_control(avr_t *of, avr_io_addr_t address, uint8_t value, void 
 
 static void write_setting(avr_t *of, avr_io_addr_t address, uint8_t value, void *subject) {
   of->data[address] = value;
-  if (is_set(((uart_t *)subject)->base + CONTROL, SENDS)) {
-    tell_own(subject);
-  }
+  tell_own(subject);
 }
 
 void link_received(const uint8_t *bytes, size_t count) {

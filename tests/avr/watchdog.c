@@ -17,18 +17,21 @@
 
 static request_t *request;
 
-static uint64_t cycles(void) {
-  const uint8_t setting = avr->data[WDTCSR];
-  const unsigned time = (setting & 7U) | (is_set(WDTCSR, HIGH_TIME) ? 8U : 0U);
+static uint64_t time_ns(void) {
+  const unsigned time = (avr->data[WDTCSR] & 7U) | (is_set(WDTCSR, HIGH_TIME) ? 8U : 0U);
 
-  return cycle_of(SHORTEST_NS << (time < LONGEST ? time : LONGEST));
+  return SHORTEST_NS << (time < LONGEST ? time : LONGEST);
+}
+
+uint64_t watchdog_ns(void) {
+  return is_set(WDTCSR, RESETS) ? time_ns() : 0;
 }
 
 static avr_cycle_count_t on_time(avr_t *of, avr_cycle_count_t when, void *subject);
 
 void watchdog_fed(void) {
   if (is_set(WDTCSR, RESETS) || is_set(WDTCSR, INTERRUPTS)) {
-    alarm_at(avr->cycle + cycles(), on_time, NULL);
+    alarm_at(avr->cycle + cycle_of(time_ns()), on_time, NULL);
   } else {
     alarm_off(on_time, NULL);
   }
