@@ -35,7 +35,8 @@ struct OnBench {
 impl OnBench {
     fn new(job: &BoardJob<'_>, bench: Bench) -> Self {
         let of_pad = |name: &str| name.strip_prefix("ADC")?.parse().ok();
-        let pads = job.connections.iter().flat_map(|one| one.pads.iter().map(move |pad| (one, pad)));
+        let pads =
+            job.connections.iter().flat_map(|one| one.pads.iter().map(move |pad| (one, pad)));
         let inputs =
             pads.filter_map(|(one, pad)| Some((of_pad(&pad.pin.name.to_string())?, one.index)));
         Self { inputs: inputs.collect(), bench }
@@ -185,7 +186,8 @@ impl AvrBoard {
     /// Checks whether the watchdog runs if it is time.
     fn watch(&mut self, now_ns: u64) {
         let all = self.avr.resets();
-        if let Some(Reset { at_ns, cause }) = all.last().copied().filter(|one| one.at_ns + MS_NS > now_ns)
+        if let Some(Reset { at_ns, cause }) =
+            all.last().copied().filter(|one| one.at_ns + MS_NS > now_ns)
         {
             self.watched_at_ns = Some(at_ns + WATCHED_NS);
             self.forgiven = if cause == Reset::POWER { all.len() } else { self.forgiven };

@@ -2,6 +2,7 @@
 
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_job::BoardJob;
+use sensedsl_surroundings::TimerOutput;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::trial::Tested;
 use sensedsl_twin::world::{self, Scene};
@@ -22,6 +23,11 @@ const LIGHTS: &str = "board ARDUINO_NANO {
 const CHIP: &str = "board ARDUINO_NANO {
     link { transport = uart; baud = 250000; }
     sensor Range returns uint16 { id = 1; type = i2c; address = 0x50; register = 7; length = 2; }
+}";
+
+/// The program sends pulses of 1.5 ms, and after a tenth of a second of 2 ms.
+const SERVO: &str = "board ARDUINO_UNO_R3 {
+    actuator Servo accepts uint16 { id = 1; type = pwm; pin = PB1; frequency = 50 Hz; }
 }";
 
 fn bench(job: &BoardJob<'_>, text: &str) -> Bench {
@@ -65,6 +71,25 @@ fn a_converter_measures_the_world() {
         read(&mut board, 2_600);
         assert_eq!(board.unwatched().as_deref(), Some("does not run"));
         assert_eq!(board.stopped(), None);
+        // The program waits, but does not sleep.
+        assert_eq!(board.worked_ns(), board.now_ns());
+    });
+}
+
+#[test]
+fn pulses_are_those_of_their_device() {
+    if !is_possible() {
+        return;
+    }
+    with_job(SERVO, None, |job| {
+        let mut board = AvrBoard::new(job, bench(job, ""), &program("pwm"));
+        for (to_ms, width_ns) in [(90, 1_500_000), (190, 2_000_000)] {
+            read(&mut board, to_ms);
+            let pulses = Tested::outputs(&board).unwrap().pulses(job.connections[0].index);
+            assert_eq!(pulses, Some((20 * MS, width_ns)));
+        }
+        let servo = TimerOutput { timer: 1, channel: 1, is_complement: false };
+        assert_eq!(board.waves()[&servo], (20 * MS, 2_000_000));
     });
 }
 
@@ -92,5 +117,8 @@ fn faults_of_the_world_reach_the_program() {
         assert!(has_read(&sent), "{sent:02x?}");
         let resets = board.resets();
         assert!(matches!(resets, [Reset { cause: Reset::POWER, .. }]), "{resets:?}");
+        // It has no identity that is known, and was treated as its design says.
+        assert!(board.unasked().iter().all(|one| !one.is_known));
+        assert_eq!(board.odd_transfers(), <[(String, String); 0]>::default());
     });
 }

@@ -9,7 +9,8 @@ use crate::firmware::tools::empty;
 
 const HEADERS: &str = "/usr/include/simavr/sim_avr.h";
 const CORE: &str = "/usr/share/arduino/hardware/arduino/avr";
-const FLAGS: [&str; 5] = ["-Os", "-ffunction-sections", "-fdata-sections", "-flto", "-DF_CPU=16000000UL"];
+const FLAGS: [&str; 5] =
+    ["-Os", "-ffunction-sections", "-fdata-sections", "-flto", "-DF_CPU=16000000UL"];
 
 fn folder() -> PathBuf {
     root().join("tests/avr")
@@ -63,7 +64,9 @@ pub(super) fn sketch(name: &str) -> PathBuf {
         let core = Path::new(CORE).join("cores/arduino");
         let compile = |compiler: &str, standard: &str, sources: &[PathBuf]| {
             let mut command = Command::new(compiler);
-            command.args(["-mmcu=atmega32u4", standard, "-w", "-fno-threadsafe-statics", "-c"]).args(FLAGS);
+            command
+                .args(["-mmcu=atmega32u4", standard, "-w", "-fno-threadsafe-statics", "-c"])
+                .args(FLAGS);
             command.args(["-DARDUINO=10819", "-DARDUINO_AVR_LEONARDO", "-DARDUINO_ARCH_AVR"]);
             command.args(["-DUSB_VID=0x2341", "-DUSB_PID=0x8036", "-DDECIMAL_DIG=17"]);
             command.arg("-I").arg(&core);
