@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests make files, run programs and measure time")]
 
 mod alloy;
+mod avr;
 mod boards;
 mod boards_page;
 mod can_peer;
