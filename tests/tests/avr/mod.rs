@@ -7,6 +7,7 @@
 pub(crate) mod board;
 pub(crate) mod child;
 mod jobs;
+mod sketches;
 mod tools;
 mod units;
 mod usb;

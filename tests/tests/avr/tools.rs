@@ -8,7 +8,7 @@ use sensedsl_tests::{compiled_once, files, has, missing, root, run};
 use crate::firmware::tools::empty;
 
 const HEADERS: &str = "/usr/include/simavr/sim_avr.h";
-const CORE: &str = "/usr/share/arduino/hardware/arduino/avr";
+pub(super) const CORE: &str = "/usr/share/arduino/hardware/arduino/avr";
 const FLAGS: [&str; 5] =
     ["-Os", "-ffunction-sections", "-fdata-sections", "-flto", "-DF_CPU=16000000UL"];
 

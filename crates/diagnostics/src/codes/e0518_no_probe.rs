@@ -24,8 +24,23 @@ DFU: hold BOOT0 while you plug the board in, or hold BOOT0 and press NRST. Insta
 
 On Linux, a probe that only root sees needs udev rules, which these packages bring: unplug it and plug it in again. A
 drive must be mounted, which a desktop does by itself. `--with TOOL` takes one tool only, `--drive DIR` the drive that
-is mounted there."#,
+is mounted there.
+
+An Arduino takes its program at its serial port, by `arduino-cli` or `avrdude`: the only USB port that has a device, or
+the one that `--port PORT` names."#,
 });
+
+/// No USB port has a device, and an Arduino is to be flashed.
+pub fn no_port(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "no USB port of this machine has a device")
+        .help("plug the board in with a cable that carries data, or name its port with `--port`")
+}
+
+/// Several ports have one.
+pub fn several_ports(span: Span, ports: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, "several USB ports have a device, and the board is at one of them")
+        .help(format!("say which with `--port`: {ports}"))
+}
 
 /// A board that no way was found to.
 #[derive(Clone, Debug, Default)]

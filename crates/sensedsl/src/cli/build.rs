@@ -44,6 +44,9 @@ pub(crate) struct FlashArgs {
     /// Copy the program to the drive that is mounted at this folder
     #[arg(long, value_name = "DIR", conflicts_with = "with")]
     pub(crate) drive: Option<PathBuf>,
+    /// The serial port of an Arduino; unless you say, the only USB port that has a device
+    #[arg(long, value_name = "PORT", conflicts_with_all = ["with", "drive"])]
+    pub(crate) port: Option<String>,
 }
 
 /// What writes a program to a board, in the order in which they are tried.

@@ -13,6 +13,7 @@ use sensedsl_diagnostics::{Diagnostic, visible};
 use super::build::{After, Job, built};
 use crate::cli::FlashArgs;
 use crate::files::shown;
+use crate::firmware::arduino;
 use crate::firmware::drive::Drive;
 use crate::firmware::probe::{self, Way};
 use crate::firmware::{Build, ending, raw};
@@ -25,6 +26,12 @@ pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
             let names: Vec<&str> = job.programs.iter().map(|one| one.board.as_str()).collect();
             return Err(e0519_which_board::several(job.at, &names).into());
         };
+        if let Build::Sketch(sketch) = &program.build {
+            let port = args.port.as_deref();
+            let words = arduino::upload(sketch, &program.folder, port, job.at)?;
+            job.after = Some(After::Run(words));
+            return Ok(());
+        }
         let way = match &args.drive {
             Some(drive) => Way::Drive(probe::drive_at(drive, program, job.at)?),
             None => probe::choose(args.with, program, job.at)?,

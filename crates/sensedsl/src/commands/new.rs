@@ -16,6 +16,7 @@ use crate::terminal::Terminal;
 
 const README: &str = include_str!("../../templates/project-readme.md");
 const README_OF_EMBASSY: &str = include_str!("../../templates/project-readme-embassy.md");
+const README_OF_ARDUINO: &str = include_str!("../../templates/project-readme-arduino.md");
 const README_OF_WIRING: &str = include_str!("../../templates/project-readme-wiring.md");
 const README_OF_WORLD: &str = include_str!("../../templates/project-readme-world.md");
 const README_OF_CODE: &str = include_str!("../../templates/project-readme-code.md");
@@ -89,23 +90,33 @@ fn begin(board: &catalog::Entry) -> Texts {
 
 /// The files of a template: its worlds, and the code of its controller where the firmware will have it.
 fn robot_of(template: &Template, board: &catalog::Entry) -> Result<Texts> {
-    let (robot, system) = template.on(board)?;
+    let made = template.on(board)?;
+    let system = made.system;
     let world = template.worlds.first().map_or("", |(name, _)| name);
     let of_world = if template.code.is_some() { README_OF_CODE } else { README_OF_WORLD };
     let code = template.code.as_ref().map_or("", |code| code.of(system).0);
     let of_robot = of_world.replace("WORLD", world).replace("CODE", code);
     let readme = format!("{}{of_robot}", readme_of(system));
-    let mut texts = project(readme, robot);
-    texts.extend(
-        template.worlds.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())),
-    );
-    if let Some(code) = &template.code {
+    let worlds = template.worlds.iter().map(|(name, text)| ((*name).to_owned(), made.adapt(text)));
+    let worlds: Texts = worlds.collect();
+    let code = template.code.as_ref().map(|code| {
         let (name, text) = code.of(system);
-        texts.push((format!("build/firmware/Robot/{name}"), text.to_owned()));
+        (format!("build/firmware/Robot/{name}"), made.adapt(&of_folder(name, text)))
+    });
+    let mut texts = project(readme, made.text);
+    texts.extend(worlds);
+    if let Some(code) = code {
+        texts.push(code);
         texts.retain(|(name, _)| name != GITIGNORE);
         texts.push((GITIGNORE.to_owned(), IGNORED_BUT_CODE.to_owned()));
     }
     Ok(texts)
+}
+
+/// A user's file in C in the folder of a sketch, whose headers are in the folder above.
+fn of_folder(name: &str, text: &str) -> String {
+    let is_of_sketch = name.starts_with("src/") && Path::new(name).extension().is_some_and(|one| one == "c");
+    if is_of_sketch { text.replacen("#include \"", "#include \"../", 1) } else { text.to_owned() }
 }
 
 fn project(readme: String, robot: String) -> Texts {
@@ -118,6 +129,7 @@ fn readme_of(system: Option<&str>) -> &'static str {
     match system {
         None => README_OF_WIRING,
         Some(_) if system == profile::full_name(profile::DEFAULT) => README,
+        Some(system) if system.starts_with("arduino-") => README_OF_ARDUINO,
         Some(_) => README_OF_EMBASSY,
     }
 }

@@ -19,21 +19,67 @@ pub(crate) struct Template {
     pub(crate) worlds: &'static [(&'static str, &'static str)],
     /// The code of its controller, if it has one.
     pub(crate) code: Option<Code>,
+    /// What is exchanged in all its texts for boards that cannot carry it as it is, tried in this order.
+    sizes: &'static [Changes],
 }
+
+/// Pairs of a text and what takes its place.
+pub(crate) type Changes = &'static [(&'static str, &'static str)];
+
+/// A template on a board.
+pub(crate) struct Made {
+    /// The design.
+    pub(crate) text: String,
+    /// The system that its firmware is for; `None` if there is a wiring alone.
+    pub(crate) system: Option<&'static str>,
+    changes: Changes,
+}
+
+impl Made {
+    /// Another text of the template, as it is for that board.
+    pub(crate) fn adapt(&self, text: &str) -> String {
+        changed(text, self.changes)
+    }
+}
+
+fn changed(text: &str, changes: Changes) -> String {
+    changes.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
+/// Fewer samples, for converters that take a tenth of a millisecond for each.
+const SLOW: Changes = &[(LINE, LINE_SLOW)];
+/// Six sensors instead of eight.
+const SIX: Changes = &[
+    (LINE, LINE_SLOW),
+    ("uint16[8]", "uint16[6]"),
+    ("eight reflectance sensors", "six reflectance sensors"),
+    ("SENSORS 8", "SENSORS 6"),
+    ("at) - 3.5)", "at) - 2.5)"),
+    (
+        "(Line[4] - Line[3] + 3*(Line[5] - Line[2]) + 5*(Line[6] - Line[1]) + 7*(Line[7] - Line[0])) / 6000",
+        "(Line[3] - Line[2] + 3*(Line[4] - Line[1]) + 5*(Line[5] - Line[0])) / 6000",
+    ),
+    // The outermost sensor sees the line when that is less far away.
+    ("Offset < -25 mm", "Offset < -16 mm"),
+];
+const LINE: &str = "        type = analog;\n        delay = 5 ms;\n";
+const LINE_SLOW: &str = "        type = analog;\n        samples = 2;\n        delay = 5 ms;\n";
 
 /// The code of a controller, in each language that a firmware can have.
 pub(crate) struct Code {
     c: (&'static str, &'static str),
+    sketch: (&'static str, &'static str),
     rust: (&'static str, &'static str),
 }
 
 impl Code {
     /// The file in the firmware's folder, and its text: as the firmware of that system is written.
     pub(crate) fn of(&self, system: Option<&str>) -> (&'static str, &'static str) {
-        let is_c = system.is_none_or(|system| {
-            system == profile::full_name(profile::DEFAULT).unwrap_or_default()
-        });
-        if is_c { self.c } else { self.rust }
+        match system.and_then(|system| system.rsplit_once('-')).map(|(system, _)| system) {
+            Some("embassy") => self.rust,
+            Some("arduino") => self.sketch,
+            Some(_) | None => self.c,
+        }
     }
 }
 
@@ -51,6 +97,10 @@ macro_rules! code {
     ($template:literal, $code:literal) => {
         Some(Code {
             c: (concat!("user/", $code, ".c"), text!($template, concat!("user/", $code, ".c"))),
+            sketch: (
+                concat!("src/user/", $code, ".c"),
+                text!($template, concat!("user/", $code, ".c")),
+            ),
             rust: (
                 concat!("src/user/", $code, ".rs"),
                 text!($template, concat!("src/user/", $code, ".rs")),
@@ -60,12 +110,13 @@ macro_rules! code {
 }
 
 macro_rules! templates {
-    ($($name:literal: [$($world:literal),+] $($code:literal)?;)+) => {
+    ($($name:literal: [$($world:literal),+] $($code:literal)? $(, $size:ident)*;)+) => {
         &[$(Template {
             name: $name,
             design: text!($name, "robot.sense"),
             worlds: &[$(($world, text!($name, $world))),+],
             code: code!($name, $($code)?),
+            sizes: &[$($size),*],
         }),+]
     };
 }
@@ -74,7 +125,7 @@ macro_rules! templates {
 const TEMPLATES: &[Template] = templates! {
     "arm": ["bench.toml"] "trace";
     "balancer": ["floor.toml"] "balance";
-    "line_follower": ["oval.toml", "oval.svg", "aside.toml", "eight.toml", "eight.svg"] "follow";
+    "line_follower": ["oval.toml", "oval.svg", "aside.toml", "eight.toml", "eight.svg"] "follow", SLOW, SIX;
     "quadcopter": ["world.toml"];
     "rover": ["corridor.toml", "corridor.svg"] "stop";
     "thermostat": ["oven.toml"] "hold";
@@ -111,16 +162,22 @@ impl Template {
     /// # Errors
     ///
     /// The board has no wiring for it; the text names boards that have one.
-    pub(crate) fn on(&self, board: &catalog::Entry) -> Result<(String, Option<&'static str>)> {
-        for system in target::systems_of(board) {
-            let text = self.text(board, Some(system));
-            if starter::is_made(&text, true) {
-                return Ok((text, Some(system)));
+    pub(crate) fn on(&self, board: &catalog::Entry) -> Result<Made> {
+        let whole: Changes = &[];
+        let sizes = || std::iter::once(whole).chain(self.sizes.iter().copied());
+        for changes in sizes() {
+            for system in target::systems_of(board) {
+                let text = changed(&self.text(board, Some(system)), changes);
+                if starter::is_made(&text, true) {
+                    return Ok(Made { text, system: Some(system), changes });
+                }
             }
         }
-        let text = self.text(board, None);
-        if starter::is_made(&text, false) {
-            return Ok((text, None));
+        for changes in sizes() {
+            let text = changed(&self.text(board, None), changes);
+            if starter::is_made(&text, false) {
+                return Ok(Made { text, system: None, changes });
+            }
         }
         let fitting: Vec<_> = PROPOSED
             .iter()

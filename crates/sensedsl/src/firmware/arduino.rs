@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sensedsl_diagnostics::codes::e0516_tool_missing;
+use sensedsl_diagnostics::codes::{e0516_tool_missing, e0518_no_probe};
 use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_host::port::{Port, usb_ports};
 
 use super::asked;
 use super::tools::{Make, gnu_make};
+use crate::files::shown;
 
 /// Where packages and the Arduino IDE put the core for AVR. A folder of versions ends with a slash.
 const PLACES: [&str; 2] =
@@ -17,6 +19,10 @@ const OF_USER: [&str; 3] = [
     "Library/Arduino15/packages/arduino/hardware/avr",
     "AppData/Local/Arduino15/packages/arduino/hardware/avr",
 ];
+
+/// How avrdude calls the boot loader of MCUs with a USB port of their own, and what starts it.
+const WITH_USB: &str = "avr109";
+const TOUCH_BAUD: u32 = 1_200;
 
 /// A generated sketch, as its Makefile describes it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -112,6 +118,51 @@ pub(crate) fn core() -> Option<PathBuf> {
         all.pop()
     });
     PLACES.iter().map(PathBuf::from).chain(newest).find(is_core)
+}
+
+/// The command that writes a built sketch to the board at a port. A board with a USB port of its own is made ready first:
+/// it starts its boot loader when the port is opened at 1200 baud and closed.
+pub(crate) fn upload(
+    sketch: &Sketch,
+    folder: &Path,
+    port: Option<&str>,
+    at: Span,
+) -> Result<Vec<String>, Box<Diagnostic>> {
+    let port = match port {
+        Some(port) => port.to_owned(),
+        None => only_port(at)?,
+    };
+    let built = folder.join("build");
+    let cores = asked("arduino-cli", &["core", "list"]);
+    if cores.is_some_and(|cores| cores.contains("arduino:avr")) {
+        let (built, folder) = (shown(&built), shown(folder));
+        let words = ["arduino-cli", "upload", "--port", &port, "--fqbn", &sketch.fqbn];
+        let rest = ["--input-dir", &built, &folder];
+        return Ok(words.into_iter().chain(rest).map(str::to_owned).collect());
+    }
+    if asked("avrdude", &["-?"]).is_none() {
+        let what = "it writes programs to boards with an AVR";
+        return Err(e0516_tool_missing::missing_for_sketch(at, "avrdude", what).into());
+    }
+    if sketch.protocol == WITH_USB {
+        // Whether that worked shows when the program is written.
+        drop(Port::open(&port, TOUCH_BAUD));
+    }
+    let hex = shown(&folder.join(sketch.elf()).with_extension("hex"));
+    let program = format!("flash:w:{hex}:i");
+    let words = ["avrdude", "-p", &sketch.mcu, "-c", &sketch.protocol, "-P", &port];
+    let rest = ["-b", &sketch.speed, "-D", "-U", &program];
+    Ok(words.into_iter().chain(rest).map(str::to_owned).collect())
+}
+
+/// The only USB port that has a device.
+fn only_port(at: Span) -> Result<String, Box<Diagnostic>> {
+    let ports: Vec<String> = usb_ports().into_iter().map(|(name, _)| name).collect();
+    match ports.as_slice() {
+        [one] => Ok(one.clone()),
+        [] => Err(e0518_no_probe::no_port(at).into()),
+        several => Err(e0518_no_probe::several_ports(at, &several.join(", ")).into()),
+    }
 }
 
 #[cfg(test)]

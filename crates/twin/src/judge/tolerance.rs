@@ -10,6 +10,9 @@ use crate::parts::formula;
 use crate::truth::Subject;
 use crate::world::Signal;
 
+/// What handlers of interrupts on an AVR take: those of serial ports, and of the clock.
+const HANDLER_US: f64 = 12.0;
+
 /// By how much rounding and coding can move a raw number.
 pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 {
     let device = one.device;
@@ -25,11 +28,11 @@ pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subje
     }
     let tick = |icu: &Icu| f64::from(icu.tick_hz) / 1e6;
     match device.kind.interface() {
-        Interface::Analog(_) => 1.6,
+        Interface::Analog(_) => converter_step(job) + 0.6,
         Interface::Icu(icu) => match icu.mode {
             Mode::Count => 2.0,
-            Mode::Width | Mode::Period => 2.0 + 3.0 * tick(icu),
-            Mode::Frequency => frequency_step(icu, subject),
+            Mode::Width | Mode::Period => 2.0 + edge_us(job, one) * tick(icu),
+            Mode::Frequency => frequency_step(icu, subject, edge_us(job, one)),
             Mode::Duty => 8.0,
             Mode::Ppm => 2.0 + 3.0 * tick(icu),
         },
@@ -46,9 +49,23 @@ pub(super) fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subje
     }
 }
 
-/// The error that one tick, and a microsecond in each edge, cause at the highest frequency.
-fn frequency_step(icu: &Icu, subject: &Subject) -> f64 {
+/// The codes from one result of the board's converter to the next: values have 12 bits, whatever it has.
+fn converter_step(job: &BoardJob<'_>) -> f64 {
+    let bits = job.profile.map_or(12, |profile| profile.adc.resolution_bits);
+    f64::from(1_u16 << 12_u8.saturating_sub(bits))
+}
+
+/// By how much the time between two edges may be off, in microseconds. A handler reads a coarse clock, and waits until
+/// another one is over.
+fn edge_us(job: &BoardJob<'_>, one: &JobDevice<'_>) -> f64 {
+    let handled = job.profile.and_then(|profile| profile.edges.as_ref());
+    let handled = handled.filter(|_| one.unit.is_none());
+    handled.map_or(3.0, |edges| 2.0 * f64::from(edges.resolution_ns) / 1e3 + HANDLER_US)
+}
+
+/// The error that one tick, and an error of each edge, cause at the highest frequency.
+fn frequency_step(icu: &Icu, subject: &Subject, edge_us: f64) -> f64 {
     let bounds = subject.signals.iter().filter_map(Signal::bounds);
     let most = bounds.map(|(_, greatest)| subject.scale.raw(greatest)).fold(1.0, f64::max);
-    1.0 + most * most * (2.0 / f64::from(icu.tick_hz.max(1)) + 4e-6)
+    1.0 + most * most * (2.0 / f64::from(icu.tick_hz.max(1)) + (edge_us + 1.0) * 1e-6)
 }
