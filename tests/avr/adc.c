@@ -1,8 +1,8 @@
 /*
  * The converter: its registers in, the voltages of pads as numbers out.
  *
- * simavr's takes the voltage when the result is read, and knows no trigger. Here a conversion holds the voltage when the
- * data sheets say so.
+ * simavr's takes the voltage when the result is read, and knows no trigger. Here a conversion holds the voltage when
+ * the data sheets say so.
  */
 #include "talk.h"
 

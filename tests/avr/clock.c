@@ -1,8 +1,8 @@
 /*
  * Time, resets and the loop that runs the processor.
  *
- * simavr's processor and its list of alarms are used as they are. Its own loop sleeps in real time, and gives up where a
- * program sleeps with interrupts off; a board does neither.
+ * simavr's processor and its list of alarms are used as they are. Its own loop sleeps in real time, and gives up where
+ * a program sleeps with interrupts off; a board does neither.
  */
 #include "board.h"
 

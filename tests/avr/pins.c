@@ -240,9 +240,14 @@ static void write_direction(avr_t *of, avr_io_addr_t address, uint8_t value, voi
   tell_port(port);
 }
 
-/* What is low now asks at once where that is what counts. */
+/* What is low now asks at once where that is what counts, and leaves no flag behind where it no longer is. */
 static void write_senses(avr_t *of, avr_io_addr_t address, uint8_t value, void *subject) {
   (void)subject;
+  for (unsigned number = 0; number < OUTSIDES; number++) {
+    if (sense_of(number) == SENSE_LOW) {
+      put(EIFR, number, false);
+    }
+  }
   of->data[address] = value;
   for (unsigned number = 0; number < OUTSIDES; number++) {
     if (part->outsides[number].port != 0) {

@@ -1,8 +1,8 @@
 /*
  * The messages: bytes of the world's side in, calls of the board's units out, and back.
  *
- * A message is a letter and fields of fixed sizes, the lowest byte first. The world's side speaks first; while the board
- * runs, it asks and tells, and says when it is done.
+ * A message is a letter and fields of fixed sizes, the lowest byte first. The world's side speaks first; while the
+ * board runs, it asks and tells, and says when it is done.
  */
 #include "talk.h"
 

@@ -68,14 +68,14 @@ static void begin(step_t next, unsigned bits) {
   alarm_at(avr->cycle + bits * bit_cycles(), on_step, NULL);
 }
 
-/* The chip holds the clock; the bit ends when it lets go. */
-static void wait_for_clock(void) {
+/* Something holds a wire; what is under way ends when it lets go. */
+static void wait(void) {
   alarm_at(avr->cycle + cycle_of(POLL_NS), on_step, NULL);
 }
 
 static void on_start(void) {
-  if (is_held() && !owns_bus) {
-    wait_for_clock();
+  if (is_held()) {
+    wait();
     return;
   }
   end_with(owns_bus ? STARTED_AGAIN : STARTED);
@@ -91,7 +91,7 @@ static void on_byte(uint64_t cycle) {
   i2c_reply_t reply;
 
   if (pin_outside(part->scl) == LOW) {
-    wait_for_clock();
+    wait();
     return;
   }
   if (step == ADDRESS) {
@@ -102,7 +102,7 @@ static void on_byte(uint64_t cycle) {
     reply = ask_i2c(I2C_READ, 0, acknowledges, cycle, &byte);
   }
   if (reply == I2C_SILENT) {
-    wait_for_clock();
+    wait();
   } else if (reply == I2C_STUCK) {
     step = IDLE;
   } else if (step == ADDRESS && reads) {
@@ -119,8 +119,12 @@ static void on_byte(uint64_t cycle) {
 
 static void on_stop(uint64_t cycle) {
   uint8_t byte;
+  const i2c_reply_t reply = is_held() ? I2C_STUCK : ask_i2c(I2C_STOP, 0, false, cycle, &byte);
 
-  ask_i2c(I2C_STOP, 0, false, cycle, &byte);
+  if (reply == I2C_STUCK || reply == I2C_SILENT) {
+    wait();
+    return;
+  }
   owns_bus = false;
   step = IDLE;
   put(TWCR, STOPS, false);

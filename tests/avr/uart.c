@@ -1,8 +1,8 @@
 /*
  * Serial ports: bytes of the program out and others in, in the time of their frames.
  *
- * simavr's frames have a bit too many, and it hands a byte on before it is sent. A frame that is not set up as the other
- * end's is garbled here.
+ * simavr's frames have a bit too many, and it hands a byte on before it is sent. A frame that is not set up as the
+ * other end's is garbled here.
  */
 #include "talk.h"
 

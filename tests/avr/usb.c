@@ -342,7 +342,8 @@ static uint8_t *field_of(endpoint_t *of, avr_io_addr_t address) {
 
 static void write_field(avr_t *avr_of, avr_io_addr_t address, uint8_t value, void *subject) {
   endpoint_t *const of = selected();
-  const bool stalls = (value & bit(STALLS)) != 0 || ((of->control & bit(STALLS)) != 0 && (value & bit(STALLS_NO_MORE)) == 0);
+  const bool goes_on = (of->control & bit(STALLS)) != 0 && (value & bit(STALLS_NO_MORE)) == 0;
+  const bool stalls = (value & bit(STALLS)) != 0 || goes_on;
 
   (void)avr_of;
   (void)subject;

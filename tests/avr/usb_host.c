@@ -33,7 +33,19 @@
 /* 115,200 baud, 8N1. */
 static const uint8_t CODING[] = {0x00, 0xC2, 0x01, 0x00, 0, 0, 8};
 
-typedef enum { AWAY, COMING, RESETTING, DESCRIBING, ADDRESSING, MEASURING, CONFIGURING, CHOOSING, CODING_LINE, READY, OPENING } stage_t;
+typedef enum {
+  AWAY,
+  COMING,
+  RESETTING,
+  DESCRIBING,
+  ADDRESSING,
+  MEASURING,
+  CONFIGURING,
+  CHOOSING,
+  CODING_LINE,
+  READY,
+  OPENING
+} stage_t;
 typedef enum { IDLE, SETTING_UP, SENDING, RECEIVING, ENDING_IN, ENDING_OUT } phase_t;
 
 static bool is_there;
@@ -63,7 +75,8 @@ static size_t wanted(void) {
 }
 
 static void request(stage_t next, uint8_t type, uint8_t what, uint16_t value, uint16_t length) {
-  const uint8_t bytes[8] = {type, what, (uint8_t)value, (uint8_t)(value >> 8), 0, 0, (uint8_t)length, (uint8_t)(length >> 8)};
+  const uint8_t bytes[8] = {type, what, (uint8_t)value,  (uint8_t)(value >> 8),
+                            0,    0,    (uint8_t)length, (uint8_t)(length >> 8)};
 
   memcpy(setup, bytes, sizeof setup);
   stage = next;

@@ -1,4 +1,4 @@
-/* Sends what becomes of small things that simavr's own units or requests get wrong; what each byte should be is said. */
+/* Sends what becomes of small things that simavr's own units or requests get wrong; each says what it should be. */
 #include "program.h"
 
 static volatile uint8_t overflows;

@@ -1,4 +1,4 @@
-/* Sends the causes of its start and a number from the EEPROM that counts starts; feeds the watchdog for 200 ms, then not. */
+/* Sends the causes of its start, and how many there were, from the EEPROM; feeds the watchdog for 200 ms, then not. */
 #include "program.h"
 
 #include <avr/eeprom.h>

@@ -271,8 +271,9 @@ fn pulses_have_their_period_and_width() {
     run(&mut avr, 250);
     let output = |timer, channel| TimerOutput { timer, channel, is_complement: false };
     let at = |output: TimerOutput, ms: u64| {
-        let before = avr.around.waves.iter().filter(|(at, of, ..)| *of == output && *at <= ms * MS);
-        before.last().map(|(.., period_ns, width_ns)| (*period_ns, *width_ns))
+        let mut before =
+            avr.around.waves.iter().filter(|(at, of, ..)| *of == output && *at <= ms * MS);
+        before.next_back().map(|(.., period_ns, width_ns)| (*period_ns, *width_ns))
     };
     // The top of timer 1 is 39,999 of half a microsecond; a new width counts from the next round on.
     assert_eq!(at(output(1, 1), 90), Some((20 * MS, 1_500 * US)));

@@ -21,8 +21,8 @@ fn a_sketch_talks_to_its_host() {
     };
     let mut avr = Avr::start(&setup, World::default());
     let led = |avr: &Avr<World>| {
-        let all = avr.around.driven.iter().filter(|(_, of, _)| *of == pad("PC7"));
-        all.last().and_then(|(.., level)| *level)
+        let mut all = avr.around.driven.iter().filter(|(_, of, _)| *of == pad("PC7"));
+        all.next_back().and_then(|(.., level)| *level)
     };
     run(&mut avr, 500);
     assert_eq!(led(&avr), Some(false));
