@@ -66,7 +66,7 @@ struct Served {
 pub(crate) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     let plan = job.bus_of(connection);
     if plan.is_some_and(|plan| plan.clock_hz.is_some()) {
-        return Some("strips of LEDs without a clock line, whose pulses its SPI cannot make");
+        return Some("strips of LEDs without a clock line on an AVR");
     }
     job.lacks_on_buses(connection)
 }

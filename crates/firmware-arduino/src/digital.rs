@@ -65,9 +65,7 @@ impl Sensor {
 
 pub(crate) fn lacks(_: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
     let Kind::Digital(digital) = &connection.connection.kind else { return None };
-    (digital.pull == Pull::Down).then_some(
-        "resistors to ground, which AVR lacks: put one of 10 kOhm there and leave `pull` out",
-    )
+    (digital.pull == Pull::Down).then_some("the pull-down resistors that an AVR lacks")
 }
 
 pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {

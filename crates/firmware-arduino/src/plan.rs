@@ -1,12 +1,13 @@
 //! All decisions about a sketch, ready to be printed.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0504_no_firmware_target;
+use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
 use sensedsl_firmware_c::runtime::File;
 use sensedsl_firmware_c::{self as c, FallBackPlan, Role, SchemaPlan, Wiring};
 use sensedsl_job::part::uses;
 use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_model::design::Transport;
+use sensedsl_wire::ScalarType;
 
 use crate::changes::Handlers;
 use crate::context::Context;
@@ -61,6 +62,7 @@ pub(crate) struct LinkPlan {
 /// Decides the sketch of a board. What the hardware cannot do is reported.
 pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<SketchPlan> {
     let job = context.job;
+    diagnostics.extend(wide(job));
     let link = link(context, diagnostics)?;
     let (mut sections, mut files) = peripherals::sections(context, diagnostics);
     let controllers = ControlPlan::new(job);
@@ -102,6 +104,16 @@ pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     };
     plan.settings = plan.settings(job);
     Some(plan)
+}
+
+/// Values of 64-bit floats, which the compiler for AVR makes as short as those of 32.
+fn wide(job: &BoardJob<'_>) -> Vec<Diagnostic> {
+    let is_wide = |one: &&JobDevice<'_>| one.device.value.value.scalar == ScalarType::Float64;
+    let report = |one: &JobDevice<'_>| {
+        let name = &one.device.name;
+        e0501_no_generator::not_made_yet(name.span, &name.value, "values of float64 on an AVR")
+    };
+    job.devices.iter().filter(is_wide).map(report).collect()
 }
 
 fn link(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<LinkPlan> {

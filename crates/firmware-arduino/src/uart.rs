@@ -40,9 +40,7 @@ pub(crate) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         return Some("lines on which parts are asked");
     }
     let uart = serial::uart_of(job, connection)?;
-    uart.is_inverted.then_some(
-        "wires that are low at rest, which the ports of AVR cannot have: put an inverter there",
-    )
+    uart.is_inverted.then_some("the inverted wires that ports of an AVR lack")
 }
 
 pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {

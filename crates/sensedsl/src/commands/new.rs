@@ -115,7 +115,8 @@ fn robot_of(template: &Template, board: &catalog::Entry) -> Result<Texts> {
 
 /// A user's file in C in the folder of a sketch, whose headers are in the folder above.
 fn of_folder(name: &str, text: &str) -> String {
-    let is_of_sketch = name.starts_with("src/") && Path::new(name).extension().is_some_and(|one| one == "c");
+    let is_of_sketch =
+        name.starts_with("src/") && Path::new(name).extension().is_some_and(|one| one == "c");
     if is_of_sketch { text.replacen("#include \"", "#include \"../", 1) } else { text.to_owned() }
 }
 
