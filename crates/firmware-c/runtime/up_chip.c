@@ -236,7 +236,7 @@ static up_result_t compute(const step_t *step, UP_ROM up_chip_reading_t *reading
   if (!computed->is_valid) {
     return UP_INVALID;
   }
-  up_store_signed(field->type, computed->outputs[reading->output], step->state->scratch);
+  up_store_output(field->type, computed->outputs[reading->output], step->state->scratch);
   return UP_FRESH;
 }
 
