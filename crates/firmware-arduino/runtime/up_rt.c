@@ -160,17 +160,6 @@ static const up_reporter_config_t config = {
 };
 static up_reporter_t reporter;
 
-/* Microseconds since the start, without the wrap of the framework's. */
-static uint64_t now_us(void) {
-  static uint64_t sum;
-  static uint32_t last;
-  const uint32_t now = micros();
-
-  sum += now - last;
-  last = now;
-  return sum;
-}
-
 /* ---- the loop ---- */
 
 /* When the next cycle of a task begins, and when it goes on. */
@@ -229,7 +218,7 @@ void up_setup(void) {
   up_store_init(&store, &sense_schema, &sense_values);
   health.cycles_ms = sense_cycles_ms;
   sense_link_start();
-  (void)up_reporter_init(&reporter, &config, now_us());
+  (void)up_reporter_init(&reporter, &config, up_now_ms());
   sense_start();
   up_user_init();
 #if UP_HAS_CONTROL
@@ -245,7 +234,7 @@ void up_setup(void) {
 }
 
 static void listen(void) {
-  up_reporter_listen(&reporter, now_us());
+  up_reporter_listen(&reporter, up_now_ms());
   sense_drain();
 }
 
@@ -262,7 +251,7 @@ void up_loop(void) {
   if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
     reported_ms = up_now_ms();
     sense_poll();
-    up_reporter_cycle(&reporter, now_us());
+    up_reporter_cycle(&reporter, reported_ms, micros());
   }
   up_life_turn();
 }

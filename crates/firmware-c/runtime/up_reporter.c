@@ -1,15 +1,9 @@
 #include "up_reporter.h"
 
-#include "up_divide.h"
-
 /* Reads per cycle: a host that sends without end must not delay reports. */
 #define READS_MAX 16U
 /* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
 #define FRESH_CYCLES 2U
-
-static uint32_t now_ms(const up_reporter_t *reporter) {
-  return up_divide(reporter->now_us, 1000U);
-}
 
 static bool has_health(const up_reporter_t *reporter) {
   return UP_USES_HEALTH && reporter->config->health != NULL;
@@ -90,7 +84,7 @@ static void receive(up_reporter_t *reporter) {
     take_bytes(reporter, bytes, size);
   }
   if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, now_ms(reporter));
+    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
 }
 
@@ -151,7 +145,7 @@ static void send_hello(up_reporter_t *reporter) {
 static void row_of(void *context, size_t field, up_health_row_t *row) {
   const up_reporter_t *reporter = context;
 
-  up_health_row(reporter->config->health, field, now_ms(reporter), row);
+  up_health_row(reporter->config->health, field, reporter->now_ms, row);
 }
 
 static void send_health(up_reporter_t *reporter) {
@@ -161,7 +155,7 @@ static void send_health(up_reporter_t *reporter) {
 
   reporter->health_due = false;
   memset(&board, 0, sizeof board);
-  board.uptime_ms = now_ms(reporter);
+  board.uptime_ms = reporter->now_ms;
   board.reports_sent = reporter->counts.reports_sent;
   board.reports_refused = reporter->counts.reports_refused;
   board.load_percent = UP_LOAD_UNKNOWN;
@@ -185,7 +179,7 @@ static bool is_old(const up_reporter_t *reporter, size_t field) {
   if (own_ms == 0U) {
     return false;
   }
-  up_health_row(health, field, now_ms(reporter), &row);
+  up_health_row(health, field, reporter->now_ms, &row);
   return row.age_ms != UP_AGE_NEVER && row.age_ms / FRESH_CYCLES >= cycle_ms && row.age_ms > FRESH_CYCLES * cycle_ms;
 }
 
@@ -201,9 +195,9 @@ static void drop_old(up_reporter_t *reporter) {
   }
 }
 
-static void send_report(up_reporter_t *reporter) {
+static void send_report(up_reporter_t *reporter, uint32_t now_us) {
   const up_reporter_config_t *config = reporter->config;
-  const up_stamp_t stamp = {(uint32_t)reporter->now_us, reporter->counter};
+  const up_stamp_t stamp = {now_us, reporter->counter};
   size_t size;
 
   lock(reporter);
@@ -231,14 +225,14 @@ static bool answer(up_reporter_t *reporter) {
 }
 
 /* Sends one frame at a time, so that none waits for another; answers and reports take turns. */
-static void transmit(up_reporter_t *reporter) {
+static void transmit(up_reporter_t *reporter, uint32_t now_us) {
   const up_reporter_config_t *config = reporter->config;
   const up_channel_t *channel = config->channel;
 
   if (push(reporter) && channel->room(channel->context) >= channel->room_max) {
     reporter->has_answered = !reporter->has_answered && answer(reporter);
     if (!reporter->has_answered) {
-      send_report(reporter);
+      send_report(reporter, now_us);
       return;
     }
   }
@@ -249,25 +243,25 @@ static void transmit(up_reporter_t *reporter) {
 
 /* ---- the cycle ---- */
 
-bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us) {
+bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint32_t now_ms) {
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
-  reporter->now_us = now_us;
+  reporter->now_ms = now_ms;
   reporter->sink.on_values = on_values;
   reporter->sink.on_hello = on_hello;
   reporter->sink.on_health = on_health;
   reporter->sink.context = reporter;
-  up_silence_init(&reporter->silence, config->silence_ms, now_ms(reporter));
+  up_silence_init(&reporter->silence, config->silence_ms, reporter->now_ms);
   return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&
          config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 
 /* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
-static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) {
-  reporter->now_us = now_us;
+static void begin_cycle(up_reporter_t *reporter, uint32_t now_ms, bool is_open) {
+  reporter->now_ms = now_ms;
   if (has_health(reporter)) {
     lock(reporter);
-    up_health_tick(reporter->config->health, now_ms(reporter));
+    up_health_tick(reporter->config->health, reporter->now_ms);
     unlock(reporter);
   }
   if (!is_open) {
@@ -280,31 +274,31 @@ static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) 
 static void fall_back(up_reporter_t *reporter) {
   const up_reporter_config_t *config = reporter->config;
 
-  if (up_silence_step(&reporter->silence, now_ms(reporter)) && config->failsafe != NULL) {
+  if (up_silence_step(&reporter->silence, reporter->now_ms) && config->failsafe != NULL) {
     config->failsafe(config->context);
   }
 }
 
-void up_reporter_listen(up_reporter_t *reporter, uint64_t now_us) {
-  reporter->now_us = now_us;
+void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms) {
+  reporter->now_ms = now_ms;
   receive(reporter);
 }
 
-void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us) {
+void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us) {
   const up_channel_t *channel = reporter->config->channel;
 
-  begin_cycle(reporter, now_us, channel->is_open(channel->context));
+  begin_cycle(reporter, now_ms, channel->is_open(channel->context));
   if (reporter->is_open) {
     receive(reporter);
   }
   fall_back(reporter);
   if (reporter->is_open) {
-    transmit(reporter);
+    transmit(reporter, now_us);
   }
 }
 
-void up_reporter_pause(up_reporter_t *reporter, uint64_t now_us) {
-  begin_cycle(reporter, now_us, false);
+void up_reporter_pause(up_reporter_t *reporter, uint32_t now_ms) {
+  begin_cycle(reporter, now_ms, false);
   fall_back(reporter);
 }
 
@@ -313,7 +307,7 @@ bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
 
   up_decoder_feed(&reporter->decoder, &byte, 1U);
   if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, now_ms(reporter));
+    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
   return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
 }
