@@ -40,7 +40,7 @@ typedef struct {
   UP_ROM up_schema_t *schema;
   UP_ROM up_wire_t *reports;
   UP_ROM up_wire_t *commands;
-  const up_channel_t *channel;
+  UP_ROM up_channel_t *channel;
   up_store_t *store;
   up_health_t *health; /* NULL, or without UP_USES_HEALTH: health is not noted, and requests for it are not answered */
   uint8_t *frame;      /* UP_WIRE_FRAME_BYTES(reports) */
@@ -73,7 +73,7 @@ typedef struct {
 } up_reporter_counts_t;
 
 typedef struct {
-  const up_reporter_config_t *config;
+  UP_ROM up_reporter_config_t *config;
   up_decoder_t decoder;
   up_sink_t sink;
   up_silence_t silence;
@@ -93,7 +93,7 @@ typedef struct {
 /* Milliseconds and microseconds are counted from the start of the board, and wrap at 2^32 each for itself. */
 
 /* False if a buffer is too small. */
-bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint32_t now_ms);
+bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *config, uint32_t now_ms);
 
 /* Takes what has come, between cycles: where a system keeps few bytes, the host must not wait for the next cycle. */
 void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms);
