@@ -394,7 +394,7 @@ void rig_run(rig_t *rig, uint32_t until_ms) {
     run_capture(rig);
     run_serial(rig);
     if (rig->now_ms % RIG_REPORT_MS == 0U) {
-      up_reporter_cycle(&rig->reporter, (uint64_t)rig->now_ms * 1000U);
+      up_reporter_cycle(&rig->reporter, rig->now_ms, rig->now_ms * 1000U);
     }
     run_line(rig);
   }

@@ -115,7 +115,7 @@ static void set_up(desk_t *desk, size_t room_max) {
 /* One cycle, in which the line sends all that it has; compares the bytes that the host then has received. */
 static bool cycle(desk_t *desk, uint32_t now_ms, const void *wanted, size_t size) {
   desk->out_size = 0U;
-  up_reporter_cycle(&desk->reporter, (uint64_t)now_ms * 1000U);
+  up_reporter_cycle(&desk->reporter, now_ms, now_ms * 1000U);
   desk->room = desk->room_max;
   CHECK(desk->locked == 0U);
   return desk->out_size == size && (size == 0U || memcmp(desk->out, wanted, size) == 0);
@@ -190,9 +190,9 @@ static void test_receiving(void) {
   /* Actuators fall back whoever uses the channel; a byte that another reader has read counts. */
   CHECK(!up_reporter_peek(&desk.reporter, '1') && !up_reporter_peek(&desk.reporter, ':'));
   CHECK(!up_reporter_peek(&desk.reporter, 0U) && up_reporter_peek(&desk.reporter, ','));
-  up_reporter_pause(&desk.reporter, 209999U);
+  up_reporter_pause(&desk.reporter, 209U);
   CHECK(desk.failsafes == 1U);
-  up_reporter_pause(&desk.reporter, 210000U);
+  up_reporter_pause(&desk.reporter, 210U);
   CHECK(desk.failsafes == 2U);
   CHECK(cycle(&desk, 220U, desk.out, 8U));
 }
@@ -210,7 +210,7 @@ static void test_old_values(void) {
   put_rear(&desk, 9U);
   up_health_note(&desk.health, 1U, UP_FRESH, 10U);
   desk.room = 100U;
-  up_reporter_cycle(&desk.reporter, 20000U);
+  up_reporter_cycle(&desk.reporter, 20U, 20000U);
   desk.room = 256U;
   /* 41 ms are more than two cycles of one device, and less than one cycle of the other. */
   CHECK(cycle(&desk, 51U, "2:\x13\x09,", 5U) && desk.reporter.counts.values_dropped == 1U);

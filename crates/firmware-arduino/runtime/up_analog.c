@@ -18,18 +18,24 @@ static uint32_t sum_of(UP_ROM up_analog_input_t *input) {
   return sum;
 }
 
+/* The mean as a raw value, rounded; the product of the greatest sum has 32 bits. */
+static uint16_t mean_of(UP_ROM up_analog_input_t *input, uint32_t sum) {
+  const uint32_t full = (uint32_t)input->samples * CONVERTER_FULL;
+
+  return (uint16_t)((sum * RAW_FULL + full / 2U) / full);
+}
+
 /* The formula takes the mean as two bytes, the most significant first. */
 static up_result_t compute(UP_ROM up_analog_input_t *input, uint32_t sum, uint8_t type, void *element) {
 #if UP_HAS_FORMULAS
-  const uint32_t full = (uint32_t)input->samples * CONVERTER_FULL;
-  const uint16_t mean = (uint16_t)(((uint64_t)sum * RAW_FULL + full / 2U) / full);
+  const uint16_t mean = mean_of(input, sum);
   const uint8_t raw[2] = {(uint8_t)(mean >> 8), (uint8_t)(mean & 0xFFU)};
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX];
 
   if (!input->formula->compute(NULL, input->parameters, raw, outputs)) {
     return UP_INVALID;
   }
-  up_store_signed(type, outputs[input->output], element);
+  up_store_output(type, outputs[input->output], element);
   return UP_FRESH;
 #else
   (void)input;
@@ -48,7 +54,13 @@ static up_result_t take(UP_ROM up_analog_input_t *input) {
   if (UP_HAS_FORMULAS && input->formula != NULL) {
     return compute(input, sum, type, element);
   }
-  up_store_ratio(type, (uint64_t)sum * RAW_FULL, (uint64_t)input->samples * CONVERTER_FULL, element);
+#if UP_USES_REALS
+  if (type == (uint8_t)UP_TYPE_FLOAT32) {
+    up_store_scaled(type, sum, RAW_FULL, (uint32_t)input->samples * CONVERTER_FULL, element);
+    return UP_FRESH;
+  }
+#endif
+  up_store_unsigned(type, mean_of(input, sum), element);
   return UP_FRESH;
 }
 

@@ -11,7 +11,7 @@ typedef struct {
   UP_ROM up_formula_t *formula; /* of the mean as two bytes; NULL for none */
   UP_ROM int32_t *parameters;
   uint16_t field;
-  uint16_t samples; /* of which the mean is taken */
+  uint16_t samples; /* 1 to 1024, of which the mean is taken */
   uint8_t pin;      /* as the framework counts them */
   uint8_t element;  /* of the field */
   uint8_t output;   /* of the formula */

@@ -21,7 +21,7 @@ static void say_fault(UP_ROM up_served_t *served) {
 }
 
 /* True if the chip takes further commands in this step. */
-static bool write_command(const up_bus_t *bus, UP_ROM up_served_t *served, uint8_t i) {
+static bool write_command(UP_ROM up_bus_t *bus, UP_ROM up_served_t *served, uint8_t i) {
   UP_ROM up_chip_command_t *command = &served->chip->commands[i];
   up_chip_state_t *state = served->state;
   up_order_t *order = &served->orders[i];

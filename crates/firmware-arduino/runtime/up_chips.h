@@ -24,7 +24,7 @@ typedef struct {
 
 /* The chips of one bus and one cycle. */
 typedef struct {
-  const up_bus_t *bus;
+  UP_ROM up_bus_t *bus;
   UP_ROM up_served_t *chips;
   uint8_t chips_count;
 } up_chips_t;

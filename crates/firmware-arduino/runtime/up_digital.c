@@ -80,7 +80,7 @@ static bool take(UP_ROM up_digital_t *sensor, uint8_t i, uint8_t type, void *ele
   } else {
     is_news = contact.edges != reported->edges;
     reported->edges = contact.edges;
-    up_count_store(type, (int64_t)contact.edges, element);
+    up_count_store(type, (up_signed_t)contact.edges, element);
   }
   return is_news;
 }

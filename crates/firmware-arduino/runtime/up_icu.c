@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "sense_model.h"
+#include "up_convert.h"
 
 void up_edges_on_change(up_edges_t *edges, bool is_active, uint32_t now, bool counts_both_edges) {
   if (!is_active) {
@@ -19,12 +20,9 @@ void up_edges_on_change(up_edges_t *edges, bool is_active, uint32_t now, bool co
   edges->has_begun = true;
 }
 
-/* Ticks of the clock as ticks of the sensor. */
+/* Ticks of the clock as ticks of the sensor, of which there are no more; rounded. */
 static uint32_t ticks(UP_ROM up_icu_t *icu, uint32_t clocks) {
-  if (icu->clock_hz == icu->capture.tick_hz) {
-    return clocks;
-  }
-  return (uint32_t)(((uint64_t)clocks * icu->capture.tick_hz + icu->clock_hz / 2U) / icu->clock_hz);
+  return up_scale(clocks, icu->capture.tick_hz, icu->clock_hz);
 }
 
 static bool read_input(UP_ROM up_icu_t *icu, uint8_t index, uint8_t type, void *element) {

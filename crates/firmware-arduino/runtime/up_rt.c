@@ -126,7 +126,7 @@ static void describe(void *context, up_health_board_t *board) {
   up_life_describe(board);
 }
 
-static const up_channel_t channel = {
+static UP_ROM up_channel_t channel = {
     .is_open = sense_link_is_open,
     .read = sense_link_read,
     .room = sense_link_room,
@@ -138,7 +138,7 @@ static uint8_t buffer[SENSE_COMMAND_BUFFER_BYTES];
 #if defined(SENSE_HAS_COMMANDS)
 static sense_values_t received;
 #endif
-static const up_reporter_config_t config = {
+UP_ROM up_reporter_config_t UP_REPORTER_CONFIG = {
     .schema = &sense_schema,
     .reports = &sense_reports,
     .commands = &sense_commands,
@@ -159,17 +159,6 @@ static const up_reporter_config_t config = {
     .describe = describe,
 };
 static up_reporter_t reporter;
-
-/* Microseconds since the start, without the wrap of the framework's. */
-static uint64_t now_us(void) {
-  static uint64_t sum;
-  static uint32_t last;
-  const uint32_t now = micros();
-
-  sum += now - last;
-  last = now;
-  return sum;
-}
 
 /* ---- the loop ---- */
 
@@ -229,7 +218,7 @@ void up_setup(void) {
   up_store_init(&store, &sense_schema, &sense_values);
   health.cycles_ms = sense_cycles_ms;
   sense_link_start();
-  (void)up_reporter_init(&reporter, &config, now_us());
+  (void)up_reporter_init(&reporter, &UP_REPORTER_CONFIG, up_now_ms());
   sense_start();
   up_user_init();
 #if UP_HAS_CONTROL
@@ -245,7 +234,7 @@ void up_setup(void) {
 }
 
 static void listen(void) {
-  up_reporter_listen(&reporter, now_us());
+  up_reporter_listen(&reporter, up_now_ms());
   sense_drain();
 }
 
@@ -262,7 +251,7 @@ void up_loop(void) {
   if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
     reported_ms = up_now_ms();
     sense_poll();
-    up_reporter_cycle(&reporter, now_us());
+    up_reporter_cycle(&reporter, reported_ms, micros());
   }
   up_life_turn();
 }

@@ -30,7 +30,7 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   state->has_reported = true;
   state->captures = edges;
   state->reported_ms = now_ms;
-  up_count_store(type, (int64_t)edges, element);
+  up_count_store(type, (up_signed_t)edges, element);
   return true;
 }
 
@@ -44,7 +44,7 @@ static void store_capture(UP_ROM up_capture_config_t *config, const up_capture_r
     up_store_ratio(type, config->tick_hz, raw->period_ticks, element);
     break;
   case UP_CAPTURE_DUTY:
-    up_store_ratio(type, (uint64_t)raw->width_ticks * 10000U, raw->period_ticks, element);
+    up_store_scaled(type, raw->width_ticks, 10000U, raw->period_ticks, element);
     break;
   case UP_CAPTURE_COUNT:
   case UP_CAPTURE_PERIOD:

@@ -15,7 +15,7 @@
 typedef struct {
   UP_ROM up_chip_t *chip;
   up_chip_state_t *state;
-  const up_bus_t *bus;
+  UP_ROM up_bus_t *bus;
   UP_ROM up_schema_t *schema;
   const up_value_sink_t *sink;
   up_clock_t clock;
@@ -236,7 +236,7 @@ static up_result_t compute(const step_t *step, UP_ROM up_chip_reading_t *reading
   if (!computed->is_valid) {
     return UP_INVALID;
   }
-  up_store_signed(field->type, computed->outputs[reading->output], step->state->scratch);
+  up_store_output(field->type, computed->outputs[reading->output], step->state->scratch);
   return UP_FRESH;
 }
 
@@ -380,7 +380,7 @@ static void run_triggered(const step_t *step) {
   }
 }
 
-void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, UP_ROM up_schema_t *schema,
+void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_t *bus, UP_ROM up_schema_t *schema,
                   up_clock_t clock, const up_value_sink_t *sink) {
   const step_t step = {chip, state, bus, schema, sink, clock, clock()};
   const uint8_t fault = state->fault;
@@ -436,7 +436,7 @@ static void join(UP_ROM up_chip_command_t *command, up_chip_state_t *state, uint
   }
 }
 
-up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
+up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_t *bus,
                           UP_ROM up_schema_t *schema, UP_ROM up_chip_command_t *command, const void *value) {
   UP_ROM up_field_t *field = &schema->fields[command->field];
   uint8_t *bytes = &state->work[command->prefix_count];

@@ -135,7 +135,7 @@ typedef uint32_t (*up_clock_t)(void);
  * or failed, and the cause for all readings if the chip could not be started; reports nothing for the others. Of the
  * transfers with a trigger only one is under way at a time, the one that has been due for longest, because they
  * share the chip's converter. */
-void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, UP_ROM up_schema_t *schema,
+void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_t *bus, UP_ROM up_schema_t *schema,
                   up_clock_t clock, const up_value_sink_t *sink);
 
 /* How long from now until a step has something to do: 0 for at once, a cycle after a failure. A system may call the
@@ -147,7 +147,7 @@ uint32_t up_chip_idle_ms(UP_ROM up_chip_t *chip, const up_chip_state_t *state, u
  * UP_INVALID: it does not fit into the command. Another cause: the write failed, and the chip will be started again.
  * A restart loses what was written to the chip before: when counts.starts has changed, the caller must write all
  * commands again. */
-up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
+up_result_t up_chip_write(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_t *bus,
                           UP_ROM up_schema_t *schema, UP_ROM up_chip_command_t *command, const void *value);
 
 #endif

@@ -16,7 +16,7 @@ static size_t put(UP_ROM uint8_t *from, size_t count, uint8_t *to) {
 }
 
 /* The digits of a number, the highest first, with a point before the last `decimals`. */
-static size_t put_number(UP_ROM up_compose_t *how, uint64_t number, uint8_t *text) {
+static size_t put_number(UP_ROM up_compose_t *how, up_unsigned_t number, uint8_t *text) {
   const unsigned base = (how->format == (uint8_t)UP_FORMAT_HEX) ? 16U : 10U;
   const size_t decimals = (base == 10U) ? how->decimals : 0U;
   uint8_t digits[DIGITS_MAX];
@@ -51,7 +51,7 @@ static size_t put_text(UP_ROM up_compose_t *how, UP_ROM up_field_t *field, const
   }
   for (i = 0U; i < field->count; i++) {
     bool is_negative;
-    const uint64_t magnitude = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
+    const up_unsigned_t magnitude = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
 
     if (i > 0U && how->separator != '\0') {
       text[size] = (uint8_t)how->separator;

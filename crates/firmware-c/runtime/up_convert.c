@@ -3,8 +3,8 @@
 #include <string.h>
 
 typedef struct {
-  int64_t min;
-  uint64_t max;
+  up_signed_t min;
+  up_unsigned_t max;
 } range_t;
 
 static UP_ROM range_t ranges[] = {
@@ -15,10 +15,13 @@ static UP_ROM range_t ranges[] = {
     [UP_TYPE_INT16] = {INT16_MIN, INT16_MAX},
     [UP_TYPE_UINT32] = {0, UINT32_MAX},
     [UP_TYPE_INT32] = {INT32_MIN, INT32_MAX},
+#if UP_USES_WIDE
     [UP_TYPE_UINT64] = {0, UINT64_MAX},
     [UP_TYPE_INT64] = {INT64_MIN, INT64_MAX},
+#endif
 };
 
+#if UP_USES_REALS
 /* Stores mantissa * 2^exponent; `is_more`: the exact number is a little greater. Rounded to nearest, ties to even,
  * as hardware would, but without linking the emulation of doubles. 64-bit numbers and their ratios are in range. */
 static void store_real(uint8_t type, bool is_negative, uint64_t mantissa, int exponent, bool is_more, void *element) {
@@ -45,6 +48,7 @@ static void store_real(uint8_t type, bool is_negative, uint64_t mantissa, int ex
   }
   up_element_store(type, bits, element);
 }
+#endif
 
 static bool is_signed(uint8_t type) {
   return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
@@ -54,27 +58,41 @@ static bool is_real(uint8_t type) {
   return UP_USES_REALS && (type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64);
 }
 
-static void store_number(uint8_t type, bool is_negative, uint64_t raw, void *element) {
+static void store_number(uint8_t type, bool is_negative, up_unsigned_t raw, void *element) {
+#if UP_USES_REALS
   if (is_real(type)) {
     store_real(type, is_negative, raw, 0, false, element);
-  } else if (type >= sizeof ranges / sizeof ranges[0]) {
     return;
-  } else if (!is_negative || type == UP_TYPE_BOOL) {
+  }
+#endif
+  if (type >= sizeof ranges / sizeof ranges[0]) {
+    return;
+  }
+  if (!is_negative || type == UP_TYPE_BOOL) {
     up_element_store(type, (raw > ranges[type].max) ? ranges[type].max : raw, element);
   } else {
-    const uint64_t greatest = 0U - (uint64_t)ranges[type].min;
+    const up_unsigned_t greatest = 0U - (up_unsigned_t)ranges[type].min;
     up_element_store(type, 0U - ((raw > greatest) ? greatest : raw), element);
   }
 }
 
-void up_store_unsigned(uint8_t type, uint64_t raw, void *element) {
+void up_store_unsigned(uint8_t type, up_unsigned_t raw, void *element) {
   store_number(type, false, raw, element);
 }
 
-void up_store_signed(uint8_t type, int64_t raw, void *element) {
-  store_number(type, raw < 0, (raw < 0) ? 0U - (uint64_t)raw : (uint64_t)raw, element);
+void up_store_signed(uint8_t type, up_signed_t raw, void *element) {
+  store_number(type, raw < 0, (raw < 0) ? 0U - (up_unsigned_t)raw : (up_unsigned_t)raw, element);
 }
 
+#if !UP_USES_WIDE
+void up_store_output(uint8_t type, int64_t output, void *element) {
+  const uint64_t magnitude = (output < 0) ? 0U - (uint64_t)output : (uint64_t)output;
+
+  store_number(type, output < 0, (magnitude > UINT32_MAX) ? UINT32_MAX : (uint32_t)magnitude, element);
+}
+#endif
+
+#if UP_USES_REALS
 static void store_real_ratio(uint8_t type, bool is_negative, uint64_t numerator, uint64_t denominator, void *element) {
   uint64_t quotient = numerator / denominator;
   uint64_t remainder = numerator % denominator;
@@ -93,24 +111,59 @@ static void store_real_ratio(uint8_t type, bool is_negative, uint64_t numerator,
   }
   store_real(type, is_negative, quotient, exponent, remainder != 0U, element);
 }
+#endif
 
-void up_store_signed_ratio(uint8_t type, bool is_negative, uint64_t numerator, uint64_t denominator, void *element) {
-  if (denominator == 0U) {
-    up_store_unsigned(type, 0U, element);
-  } else if (is_real(type)) {
-    store_real_ratio(type, is_negative, numerator, denominator, element);
-  } else {
-    const uint64_t quotient = numerator / denominator;
-    const uint64_t remainder = numerator % denominator;
-    const uint64_t round_up = (remainder >= denominator - remainder) ? 1U : 0U;
-    store_number(type, is_negative, quotient + round_up, element);
-  }
+static up_unsigned_t rounded(up_unsigned_t numerator, up_unsigned_t denominator) {
+  const up_unsigned_t remainder = numerator % denominator;
+
+  return numerator / denominator + ((remainder >= denominator - remainder) ? 1U : 0U);
 }
 
-void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void *element) {
+void up_store_signed_ratio(uint8_t type, bool is_negative, up_unsigned_t numerator, up_unsigned_t denominator,
+                           void *element) {
+  if (denominator == 0U) {
+    up_store_unsigned(type, 0U, element);
+    return;
+  }
+#if UP_USES_REALS
+  if (is_real(type)) {
+    store_real_ratio(type, is_negative, numerator, denominator, element);
+    return;
+  }
+#endif
+  store_number(type, is_negative, rounded(numerator, denominator), element);
+}
+
+void up_store_ratio(uint8_t type, up_unsigned_t numerator, up_unsigned_t denominator, void *element) {
   up_store_signed_ratio(type, false, numerator, denominator, element);
 }
 
+uint32_t up_scale(uint32_t number, uint32_t factor, uint32_t divisor) {
+  const uint64_t product = (uint64_t)number * factor;
+  uint32_t remainder = (uint32_t)(product >> 32), quotient = (uint32_t)product;
+  unsigned bit;
+
+  if (divisor == 0U) {
+    return 0U;
+  }
+  if (remainder >= divisor) {
+    return UINT32_MAX;
+  }
+  /* The digits of the product go from the quotient into the remainder, and those of the result come in behind. */
+  for (bit = 0U; bit < 32U; bit++) {
+    const bool is_carried = (remainder >> 31) != 0U;
+
+    remainder = (remainder << 1) | (quotient >> 31);
+    quotient <<= 1;
+    if (is_carried || remainder >= divisor) {
+      remainder -= divisor;
+      quotient |= 1U;
+    }
+  }
+  return quotient + ((quotient != UINT32_MAX && remainder >= divisor - remainder) ? 1U : 0U);
+}
+
+#if UP_USES_REALS
 /* The magnitude of a floating-point number, rounded half away from zero. */
 static uint64_t round_real(uint64_t bits, unsigned fraction_bits, int bias) {
   const uint64_t mantissa = bits & (((uint64_t)1U << fraction_bits) - 1U);
@@ -132,32 +185,36 @@ static uint64_t round_real(uint64_t bits, unsigned fraction_bits, int bias) {
   return (((mantissa | (uint64_t)1U << fraction_bits) >> (-shift - 1)) + 1U) >> 1;
 }
 
-uint64_t up_load_magnitude(uint8_t type, const void *element, bool *is_negative) {
-  const uint64_t bits = up_element_load(type, element);
-  const uint64_t sign = (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
+#endif
+
+up_unsigned_t up_load_magnitude(uint8_t type, const void *element, bool *is_negative) {
+  const up_unsigned_t bits = up_element_load(type, element);
+  const up_unsigned_t sign = (up_unsigned_t)1U << (8U * up_type_bytes(type) - 1U);
 
   *is_negative = (is_real(type) || is_signed(type)) && (bits & sign) != 0U;
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
+#if UP_USES_REALS
+  if (type == UP_TYPE_FLOAT32) {
     return round_real(bits & ~sign, 23U, 127);
   }
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
+  if (type == UP_TYPE_FLOAT64) {
     return round_real(bits & ~sign, 52U, 1023);
   }
+#endif
   return *is_negative ? 0U - ((bits ^ sign) - sign) : bits;
 }
 
 void up_store_mean(uint8_t type, const uint16_t *samples, size_t count, size_t stride, void *element) {
-  uint64_t sum = 0U;
+  up_unsigned_t sum = 0U;
   size_t i;
 
   for (i = 0U; i < count; i++) {
     sum += samples[i * stride];
   }
-  up_store_ratio(type, sum, count, element);
+  up_store_ratio(type, sum, (up_unsigned_t)count, element);
 }
 
-static uint64_t gather(const uint8_t *bytes, size_t size, bool little_endian) {
-  uint64_t bits = 0U;
+static up_unsigned_t gather(const uint8_t *bytes, size_t size, bool little_endian) {
+  up_unsigned_t bits = 0U;
   size_t i;
 
   for (i = 0U; i < size; i++) {
@@ -166,12 +223,12 @@ static uint64_t gather(const uint8_t *bytes, size_t size, bool little_endian) {
   return bits;
 }
 
-static void store_gathered(uint8_t type, uint64_t bits, size_t size, void *element) {
+static void store_gathered(uint8_t type, up_unsigned_t bits, size_t size, void *element) {
   if (is_real(type) && size == up_type_bytes(type)) {
     up_element_store(type, bits, element);
   } else if (is_signed(type)) {
-    const uint64_t sign = (uint64_t)1U << (8U * size - 1U);
-    int64_t extended;
+    const up_unsigned_t sign = (up_unsigned_t)1U << (8U * size - 1U);
+    up_signed_t extended;
     bits = (bits ^ sign) - sign;
     memcpy(&extended, &bits, sizeof extended);
     up_store_signed(type, extended, element);
@@ -184,7 +241,7 @@ static void store_gathered(uint8_t type, uint64_t bits, size_t size, void *eleme
 static size_t element_bytes(UP_ROM up_field_t *field, size_t bytes_count) {
   const size_t size = (field->count == 0U) ? 0U : bytes_count / field->count;
 
-  return (size <= 8U && size * field->count == bytes_count) ? size : 0U;
+  return (size <= sizeof(up_unsigned_t) && size * field->count == bytes_count) ? size : 0U;
 }
 
 bool up_store_bytes(UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
@@ -198,7 +255,7 @@ bool up_store_bytes(UP_ROM up_field_t *field, const uint8_t *bytes, size_t bytes
     return false;
   }
   for (i = 0U; i < field->count; i++) {
-    const uint64_t bits = gather(&bytes[i * size], size, little_endian);
+    const up_unsigned_t bits = gather(&bytes[i * size], size, little_endian);
     store_gathered(field->type, bits, size, &memory[i * stored_bytes]);
   }
   return true;
@@ -215,7 +272,7 @@ bool up_load_bytes(UP_ROM up_field_t *field, const void *value, uint8_t *bytes, 
     return false;
   }
   for (element = 0U; element < field->count; element++) {
-    uint64_t bits = up_element_load(field->type, &memory[element * stored_bytes]);
+    up_unsigned_t bits = up_element_load(field->type, &memory[element * stored_bytes]);
     for (byte = 0U; byte < size; byte++) {
       bytes[element * size + (little_endian ? byte : (size - 1U - byte))] = (uint8_t)bits;
       bits >>= 8;

@@ -14,7 +14,7 @@ int32_t up_count_total(const up_count_t *count) {
   return (int32_t)count->total;
 }
 
-void up_count_store(uint8_t type, int64_t count, void *element) {
+void up_count_store(uint8_t type, up_signed_t count, void *element) {
   switch ((up_type_t)type) {
   case UP_TYPE_BOOL:
   case UP_TYPE_FLOAT32:
@@ -30,7 +30,7 @@ void up_count_store(uint8_t type, int64_t count, void *element) {
   case UP_TYPE_UINT64:
   case UP_TYPE_INT64:
   default:
-    up_element_store(type, (uint64_t)count, element);
+    up_element_store(type, (up_unsigned_t)count, element);
     break;
   }
 }

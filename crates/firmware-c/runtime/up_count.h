@@ -22,7 +22,7 @@ void up_count_step(up_count_t *count, uint16_t now);
 int32_t up_count_total(const up_count_t *count);
 
 /* Stores a count as one element: integers get its low bits, so that they wrap; bool is "not zero". */
-void up_count_store(uint8_t type, int64_t count, void *element);
+void up_count_store(uint8_t type, up_signed_t count, void *element);
 
 /* When an unchanged value is reported again. All zero at the start. */
 typedef struct {

@@ -9,6 +9,20 @@
 #define HEALTH_REQUEST_BYTES 2U
 #define STAMP_BYTES 6U
 
+/* Where a program has one decoder, the compiler may know its wire. */
+#if defined(UP_DECODER_WIRE)
+extern UP_ROM up_wire_t UP_DECODER_WIRE;
+
+static UP_ROM up_wire_t *wire_of(const up_decoder_t *decoder) {
+  (void)decoder;
+  return &UP_DECODER_WIRE;
+}
+#else
+static UP_ROM up_wire_t *wire_of(const up_decoder_t *decoder) {
+  return decoder->wire;
+}
+#endif
+
 static void restart(up_decoder_t *decoder) {
   decoder->payload_start = 0U;
   decoder->frame_bytes = 0U;
@@ -60,8 +74,8 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
   size_t i;
 
   for (i = 0U; i < size; i++) {
-    if (bytes[i] == (uint8_t)':' && length > UP_WIRE_CHECKSUM_BYTES(decoder->wire)) {
-      const size_t values_bytes = length - UP_WIRE_CHECKSUM_BYTES(decoder->wire);
+    if (bytes[i] == (uint8_t)':' && length > UP_WIRE_CHECKSUM_BYTES(wire_of(decoder))) {
+      const size_t values_bytes = length - UP_WIRE_CHECKSUM_BYTES(wire_of(decoder));
       decoder->payload_start = i + 1U;
       decoder->items_start = i + 1U;
       decoder->at = i + 1U;
@@ -71,7 +85,7 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
       decoder->steps = 0U;
       decoder->joined = false;
       decoder->alone = false;
-      return (values_bytes <= short_bytes_max(decoder->wire) || values_bytes == decoder->wire->health_bytes)
+      return (values_bytes <= short_bytes_max(wire_of(decoder)) || values_bytes == wire_of(decoder)->health_bytes)
                  ? UP_VERDICT_COMPLETE
                  : UP_VERDICT_INVALID;
     }
@@ -85,7 +99,7 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
 
 /* A payload that begins with 0: a hello or a stamp to the host, a request to the board. */
 static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  UP_ROM up_wire_t *wire = decoder->wire;
+  UP_ROM up_wire_t *wire = wire_of(decoder);
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
 
   if (wire->direction == (uint8_t)UP_TO_HOST) {
@@ -118,7 +132,7 @@ static up_verdict_t begin_with_0(up_decoder_t *decoder, const uint8_t *bytes, si
 /* Determines the type of the payload from its first byte and its length; skips a stamp, or a whole payload that has
  * no items. */
 static up_verdict_t begin(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  UP_ROM up_wire_t *wire = decoder->wire;
+  UP_ROM up_wire_t *wire = wire_of(decoder);
   const size_t values_bytes = decoder->values_end - decoder->payload_start;
   uint8_t first;
 
@@ -140,8 +154,8 @@ static up_verdict_t begin(up_decoder_t *decoder, const uint8_t *bytes, size_t si
 }
 
 static bool are_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
-  if (UP_WIRE_HAS_MEMO(decoder->wire)) {
-    return decoder->wire->memo->bools(decoder, bytes, from, to);
+  if (UP_WIRE_HAS_MEMO(wire_of(decoder))) {
+    return wire_of(decoder)->memo->bools(decoder, bytes, from, to);
   }
   while (from < to && bytes[from] <= 1U) {
     from++;
@@ -176,9 +190,9 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
     size_t end;
     uint8_t id;
 
-    if (UP_WIRE_HAS_MEMO(decoder->wire) && decoder->has_walks && !decoder->alone) {
+    if (UP_WIRE_HAS_MEMO(wire_of(decoder)) && decoder->has_walks && !decoder->alone) {
       bool is_known;
-      const up_verdict_t joined = decoder->wire->memo->join(decoder, bytes, size, &is_known);
+      const up_verdict_t joined = wire_of(decoder)->memo->join(decoder, bytes, size, &is_known);
       if (joined != UP_VERDICT_COMPLETE) {
         return joined;
       }
@@ -190,7 +204,7 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
       return UP_VERDICT_INCOMPLETE;
     }
     id = bytes[decoder->at];
-    item = decoder->wire->item(id);
+    item = wire_of(decoder)->item(id);
     seen = &decoder->seen[id / UP_IDS_BITS];
     bit = UP_IDS_BIT(id);
     end = decoder->at + 1U + UP_ITEM_BYTES(item);
@@ -216,19 +230,19 @@ static up_verdict_t compare_checksum(up_decoder_t *decoder, const uint8_t *bytes
   uint8_t number[4];
   size_t number_bytes;
 
-  if (!UP_WIRE_HAS_CHECKSUM(decoder->wire) || decoder->checksum_right) {
+  if (!UP_WIRE_HAS_CHECKSUM(wire_of(decoder)) || decoder->checksum_right) {
     return UP_VERDICT_COMPLETE;
   }
-  if (size < end + UP_WIRE_CHECKSUM_BYTES(decoder->wire)) {
+  if (size < end + UP_WIRE_CHECKSUM_BYTES(wire_of(decoder))) {
     return UP_VERDICT_INCOMPLETE;
   }
-  if (UP_WIRE_HAS_MEMO(decoder->wire)) {
-    crc = decoder->wire->memo->crc(decoder, bytes, decoder->payload_start, end);
+  if (UP_WIRE_HAS_MEMO(wire_of(decoder))) {
+    crc = wire_of(decoder)->memo->crc(decoder, bytes, decoder->payload_start, end);
   } else {
-    crc = up_register_add(decoder->wire, up_register_init(decoder->wire), &bytes[decoder->payload_start],
+    crc = up_register_add(wire_of(decoder), up_register_init(wire_of(decoder)), &bytes[decoder->payload_start],
                           end - decoder->payload_start);
   }
-  number_bytes = (size_t)(up_register_put(decoder->wire, crc, number) - number);
+  number_bytes = (size_t)(up_register_put(wire_of(decoder), crc, number) - number);
   decoder->checksum_right = memcmp(&bytes[end + 1U], number, number_bytes) == 0;
   /* Values that have not been walked through may still contain invalid bools. */
   if (!decoder->checksum_right || decoder->at == end) {
@@ -253,7 +267,7 @@ static up_verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
   if (has_comma && bytes[decoder->frame_bytes - 1U] != (uint8_t)',') {
     return UP_VERDICT_INVALID;
   }
-  if (UP_WIRE_HAS_CHECKSUM(decoder->wire) && size > decoder->values_end &&
+  if (UP_WIRE_HAS_CHECKSUM(wire_of(decoder)) && size > decoder->values_end &&
       bytes[decoder->values_end] != UP_ID_CHECKSUM) {
     return UP_VERDICT_INVALID;
   }
@@ -271,7 +285,7 @@ static up_verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
 /* The frame is valid to its last byte: every identifier is known and every value is whole. */
 static void deliver(const up_decoder_t *decoder, const uint8_t *frame) {
   const up_sink_t *sink = decoder->sink;
-  const bool is_to_host = decoder->wire->direction == (uint8_t)UP_TO_HOST;
+  const bool is_to_host = wire_of(decoder)->direction == (uint8_t)UP_TO_HOST;
   const uint8_t *payload = &frame[decoder->payload_start];
   const size_t size = decoder->values_end - decoder->payload_start;
 
@@ -286,11 +300,11 @@ static void deliver(const up_decoder_t *decoder, const uint8_t *frame) {
   } else if (sink->on_values != NULL) {
     const uint8_t *items = &frame[decoder->items_start];
     up_stamp_t stamp = {0U, 0U};
-    if (UP_WIRE_HAS_STAMP(decoder->wire)) {
+    if (UP_WIRE_HAS_STAMP(wire_of(decoder))) {
       stamp.time_us = up_get_32(&payload[1]);
       stamp.counter = payload[5];
     }
-    sink->on_values(sink->context, UP_WIRE_HAS_STAMP(decoder->wire) ? &stamp : NULL, items,
+    sink->on_values(sink->context, UP_WIRE_HAS_STAMP(wire_of(decoder)) ? &stamp : NULL, items,
                     (size_t)(&frame[decoder->values_end] - items));
   }
 }
@@ -315,8 +329,8 @@ static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size
       } while (at < limit && !is_digit(bytes[at]));
       decoder->dropped_bytes = (up_events_t)(decoder->dropped_bytes + (at - from));
     }
-    if (UP_WIRE_HAS_MEMO(decoder->wire)) {
-      decoder->wire->memo->leave(decoder, &bytes[from], at - from, verdict == UP_VERDICT_INVALID);
+    if (UP_WIRE_HAS_MEMO(wire_of(decoder))) {
+      wire_of(decoder)->memo->leave(decoder, &bytes[from], at - from, verdict == UP_VERDICT_INVALID);
     }
     restart(decoder);
   }

@@ -51,7 +51,7 @@ static size_t drive_pwms(up_drive_write_t *writes, int8_t direction, uint32_t ma
 size_t up_drive(UP_ROM up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
                 up_drive_write_t writes[UP_DRIVE_WRITES_MAX]) {
   bool is_negative;
-  const uint64_t asked = up_load_magnitude(type, element, &is_negative);
+  const up_unsigned_t asked = up_load_magnitude(type, element, &is_negative);
   const uint32_t magnitude = (asked > drive->full) ? drive->full : (uint32_t)asked;
   const int8_t direction = (int8_t)((magnitude == 0U) ? 0 : (is_negative ? -1 : 1));
   const bool is_turning = !state->has_written || direction != state->direction;

@@ -48,13 +48,13 @@ static bool is_signed(uint8_t type) {
   return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
 }
 
-static uint64_t sign_of(uint8_t type) {
-  return (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
+static up_unsigned_t sign_of(uint8_t type) {
+  return (up_unsigned_t)1U << (8U * up_type_bytes(type) - 1U);
 }
 
 /* The bits of an element as an unsigned number with the same order. */
-static uint64_t key_of(uint8_t type, uint64_t bits) {
-  const uint64_t sign = sign_of(type);
+static up_unsigned_t key_of(uint8_t type, up_unsigned_t bits) {
+  const up_unsigned_t sign = sign_of(type);
 
   if (is_real(type) && (bits & sign) != 0U) {
     return (2U * sign - 1U) - bits;
@@ -62,24 +62,25 @@ static uint64_t key_of(uint8_t type, uint64_t bits) {
   return (is_real(type) || is_signed(type)) ? bits ^ sign : bits;
 }
 
-static uint64_t bits_of_key(uint8_t type, uint64_t key) {
+static up_unsigned_t bits_of_key(uint8_t type, up_unsigned_t key) {
   return is_signed(type) ? key ^ sign_of(type) : key;
 }
 
-static uint64_t bits_of_number(uint8_t type, UP_ROM up_number_t *number) {
-  const uint64_t mask = 2U * sign_of(type) - 1U;
+static up_unsigned_t bits_of_number(uint8_t type, UP_ROM up_number_t *number) {
+#if UP_USES_REALS
   uint32_t single;
   uint64_t wide;
 
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
+  if (type == UP_TYPE_FLOAT32) {
     up_rom_copy(&single, &number->f, sizeof single);
     return single;
   }
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
+  if (type == UP_TYPE_FLOAT64) {
     up_rom_copy(&wide, &number->d, sizeof wide);
     return wide;
   }
-  return number->u & mask;
+#endif
+  return number->u & (2U * sign_of(type) - 1U);
 }
 
 /* ---- invalid ---- */
@@ -89,7 +90,7 @@ static bool is_invalid(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, con
   size_t element, i;
 
   for (element = 0U; element < field->count; element++) {
-    const uint64_t key = key_of(field->type, up_element_load(field->type, &value[element * element_bytes]));
+    const up_unsigned_t key = key_of(field->type, up_element_load(field->type, &value[element * element_bytes]));
     for (i = 0U; i < filter->invalid_count; i++) {
       UP_ROM up_range_t *range = &filter->invalid[i];
       if (key >= key_of(field->type, bits_of_number(field->type, &range->low)) &&
@@ -104,16 +105,16 @@ static bool is_invalid(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, con
 /* ---- median ---- */
 
 /* The bits of the median element in the window. It is found by counting, which needs no memory for a sorted copy. */
-static uint64_t middle(uint8_t type, const uint8_t *window, size_t stride, size_t count) {
+static up_unsigned_t middle(uint8_t type, const uint8_t *window, size_t stride, size_t count) {
   const size_t rank = (count - 1U) / 2U;
-  uint64_t bits = 0U;
+  up_unsigned_t bits = 0U;
   size_t candidate, i;
 
   for (candidate = 0U; candidate < count; candidate++) {
-    const uint64_t key = key_of(type, up_element_load(type, &window[candidate * stride]));
+    const up_unsigned_t key = key_of(type, up_element_load(type, &window[candidate * stride]));
     size_t below = 0U, equal = 0U;
     for (i = 0U; i < count; i++) {
-      const uint64_t other = key_of(type, up_element_load(type, &window[i * stride]));
+      const up_unsigned_t other = key_of(type, up_element_load(type, &window[i * stride]));
       below += (other < key) ? 1U : 0U;
       equal += (other == key) ? 1U : 0U;
     }
@@ -137,7 +138,7 @@ static void take_median(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP
     state->window_count++;
   }
   for (element = 0U; element < field->count; element++) {
-    const uint64_t bits = middle(field->type, &window[element * element_bytes], stride, state->window_count);
+    const up_unsigned_t bits = middle(field->type, &window[element * element_bytes], stride, state->window_count);
     up_element_store(field->type, bits, &value[element * element_bytes]);
   }
 }
@@ -184,6 +185,7 @@ static uint64_t smooth_key(uint64_t *state, uint32_t decay, uint64_t key) {
   return now.whole + (now.fraction >> 31);
 }
 
+#if UP_USES_REALS
 static float single_of(uint64_t bits) {
   const uint32_t word = (uint32_t)bits;
   float number;
@@ -221,18 +223,26 @@ static void smooth_single(uint64_t *state, uint32_t decay, void *element) {
   state[1] = bits_of_single(step - (sum - old));
   up_element_store(UP_TYPE_FLOAT32, state[0], element);
 }
+#endif
 
 static void smooth_element(UP_ROM up_filter_t *filter, uint8_t type, uint64_t *state, uint32_t decay, void *element) {
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
+  uint64_t key;
+
+  (void)filter;
+#if UP_USES_REALS
+  if (type == UP_TYPE_FLOAT32) {
     smooth_single(state, decay, element);
-  } else if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
+    return;
+  }
+  if (type == UP_TYPE_FLOAT64) {
     if (filter->wide != UP_ROM_NULL) {
       filter->wide->smooth(state, decay, element);
     }
-  } else {
-    const uint64_t key = smooth_key(state, decay, key_of(type, up_element_load(type, element)));
-    up_element_store(type, bits_of_key(type, key), element);
+    return;
   }
+#endif
+  key = smooth_key(state, decay, key_of(type, up_element_load(type, element)));
+  up_element_store(type, bits_of_key(type, (up_unsigned_t)key), element);
 }
 
 static void smooth(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field, uint32_t now_ms,
@@ -250,17 +260,19 @@ static void smooth(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM 
 
 /* ---- change ---- */
 
-static bool is_far(UP_ROM up_filter_t *filter, uint8_t type, uint64_t from, uint64_t to) {
-  const uint64_t from_key = key_of(type, from), to_key = key_of(type, to);
+static bool is_far(UP_ROM up_filter_t *filter, uint8_t type, up_unsigned_t from, up_unsigned_t to) {
+  const up_unsigned_t from_key = key_of(type, from), to_key = key_of(type, to);
 
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
+#if UP_USES_REALS
+  if (type == UP_TYPE_FLOAT32) {
     const float distance = single_of(from) - single_of(to);
     /* NaN is far from all other numbers. */
     return !(distance < filter->change.f && distance > -filter->change.f);
   }
-  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
+  if (type == UP_TYPE_FLOAT64) {
     return filter->wide == UP_ROM_NULL || filter->wide->is_far(from, to, filter->change.d);
   }
+#endif
   return ((from_key > to_key) ? from_key - to_key : to_key - from_key) >= filter->change.u;
 }
 
@@ -281,10 +293,11 @@ static bool has_changed(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, co
 /* Whether the next value would be too late for the heartbeat if it comes after three quarters of the present
  * interval. */
 static bool is_heartbeat(UP_ROM up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
-  const uint64_t silent_ms = (uint32_t)(now_ms - state->reported_ms);
-  const uint64_t interval_ms = (uint32_t)(now_ms - state->seen_ms);
+  const uint32_t silent_ms = (uint32_t)(now_ms - state->reported_ms);
+  const uint32_t interval_ms = (uint32_t)(now_ms - state->seen_ms);
+  const uint32_t longest_ms = filter->heartbeat_ms;
 
-  return filter->heartbeat_ms != 0U && silent_ms + interval_ms - interval_ms / 4U > filter->heartbeat_ms;
+  return longest_ms != 0U && (silent_ms > longest_ms || interval_ms - interval_ms / 4U > longest_ms - silent_ms);
 }
 
 up_result_t up_filter_apply(UP_ROM up_filter_t *filter, up_filter_state_t *state, UP_ROM up_field_t *field,
@@ -297,7 +310,7 @@ up_result_t up_filter_apply(UP_ROM up_filter_t *filter, up_filter_state_t *state
   uint64_t *window = (reported_words > 0U) ? &reported[reported_words] : reported;
   bool is_reported = true;
 
-  if (is_invalid(filter, field, value)) {
+  if (UP_USES_INVALID && is_invalid(filter, field, value)) {
     return UP_INVALID;
   }
   if (UP_USES_MEDIAN && filter->median > 1U) {

@@ -15,10 +15,12 @@
 
 /* A number of the field's type. */
 typedef union {
-  uint64_t u; /* bool and unsigned integers */
-  int64_t i;  /* signed integers */
-  float f;    /* float32 */
-  double d;   /* float64 */
+  up_unsigned_t u; /* bool and unsigned integers */
+  up_signed_t i;   /* signed integers */
+#if UP_USES_WIDE
+  float f;  /* float32 */
+  double d; /* float64 */
+#endif
 } up_number_t;
 
 /* A range that includes both ends; for a single value they are equal. */

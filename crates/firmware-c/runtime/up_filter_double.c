@@ -3,7 +3,7 @@
 
 #include "up_filter.h"
 
-#if UP_USES_DOUBLES
+#if UP_USES_DOUBLES && UP_USES_WIDE
 
 static double double_of(uint64_t bits) {
   double number;

@@ -27,7 +27,7 @@ size_t up_lamps_bytes(UP_ROM up_value_t *how, uint16_t count) {
 
 static uint32_t colour_of(UP_ROM up_field_t *field, const void *element) {
   bool is_negative;
-  const uint64_t magnitude = up_load_magnitude(field->type, element, &is_negative);
+  const up_unsigned_t magnitude = up_load_magnitude(field->type, element, &is_negative);
 
   return is_negative ? 0U : (uint32_t)magnitude;
 }

@@ -117,7 +117,7 @@ void up_letters_encode(UP_ROM up_field_t *field, const void *value, uint8_t *byt
   memset(bytes, 0, (size_t)field->count * UP_LETTER_COLUMNS);
   for (i = 0U; i < field->count; i++) {
     bool is_negative;
-    const uint64_t code = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
+    const up_unsigned_t code = up_load_magnitude(field->type, &memory[i * element_bytes], &is_negative);
 
     if (!is_negative && code >= FIRST && code <= LAST) {
       up_rom_copy(&bytes[i * UP_LETTER_COLUMNS], columns_of[code - FIRST], COLUMNS);

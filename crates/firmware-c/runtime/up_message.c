@@ -237,25 +237,28 @@ static bool is_sentence(up_piece_t text, UP_ROM char *sentence, char separator) 
 
 static up_result_t text_element(UP_ROM up_message_field_t *how, uint8_t type, up_piece_t text, size_t at,
                                 void *element) {
-  up_piece_t piece, next;
+  up_piece_t piece;
 
   if (!up_parse_field(text, how->separator, at, &piece)) {
     return UP_NOTHING;
   }
-  switch ((up_format_t)how->format) {
-  case UP_FORMAT_DEGREES:
+  if (how->format == (uint8_t)UP_FORMAT_HEX) {
+    return up_parse_hex(piece, type, element);
+  }
+#if UP_USES_WIDE
+  if (how->format == (uint8_t)UP_FORMAT_DEGREES) {
+    up_piece_t next;
+
     if (!up_parse_field(text, how->separator, at + 1U, &next)) {
       next.start = piece.start;
       next.size = 0U;
     }
     return up_parse_degrees(piece, next, type, element);
-  case UP_FORMAT_HEX:
-    return up_parse_hex(piece, type, element);
-  case UP_FORMAT_DECIMAL:
-  case UP_FORMAT_BINARY:
-  default:
-    return up_parse_decimal(piece, how->decimals, type, element);
   }
+  return up_parse_decimal(piece, how->decimals, type, element);
+#else
+  return UP_INVALID;
+#endif
 }
 
 /* The index of the first element; with a sentence, its type is before it. */

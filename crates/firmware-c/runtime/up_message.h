@@ -42,8 +42,8 @@ size_t up_checksum_put(uint8_t checksum, uint8_t from, uint8_t start_count, cons
 /* The format of a number in a message. */
 typedef enum {
   UP_FORMAT_BINARY,  /* bytes, as given by `byte` and `value` */
-  UP_FORMAT_DECIMAL, /* text: sign, digits, point, digits */
-  UP_FORMAT_DEGREES, /* text: [d]ddmm.mmmm, and N, S, E or W in the next field; in 1e-7 degrees */
+  UP_FORMAT_DECIMAL, /* text: sign, digits, point, digits; received only with UP_USES_WIDE */
+  UP_FORMAT_DEGREES, /* text: [d]ddmm.mmmm, and N, S, E or W in the next field; in 1e-7 degrees; with UP_USES_WIDE */
   UP_FORMAT_HEX      /* text: hexadecimal digits, at most 16 significant ones */
 } up_format_t;
 

@@ -40,6 +40,7 @@ static up_piece_t trimmed(up_piece_t text) {
   return text;
 }
 
+#if UP_USES_WIDE
 static uint64_t power_of_ten(unsigned exponent) {
   uint64_t power = 1U;
 
@@ -175,6 +176,8 @@ up_result_t up_parse_degrees(up_piece_t text, up_piece_t hemisphere, uint8_t typ
   return UP_FRESH;
 }
 
+#endif
+
 static unsigned hex_digit(char c) {
   if (is_digit(c)) {
     return (unsigned)(c - '0');
@@ -186,7 +189,7 @@ static unsigned hex_digit(char c) {
 }
 
 up_result_t up_parse_hex(up_piece_t text, uint8_t type, void *element) {
-  uint64_t number = 0U;
+  up_unsigned_t number = 0U;
   size_t i;
 
   text = trimmed(text);
@@ -198,7 +201,7 @@ up_result_t up_parse_hex(up_piece_t text, uint8_t type, void *element) {
     if (digit > 15U) {
       return UP_INVALID;
     }
-    number = (number > UINT64_MAX >> 4) ? UINT64_MAX : number << 4 | digit;
+    number = (number > UP_UNSIGNED_MAX >> 4) ? UP_UNSIGNED_MAX : number << 4 | digit;
   }
   up_store_unsigned(type, number, element);
   return UP_FRESH;

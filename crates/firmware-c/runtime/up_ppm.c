@@ -52,7 +52,7 @@ up_result_t up_ppm_read(UP_ROM up_ppm_config_t *config, const up_ppm_raw_t *raw,
     return UP_INVALID;
   }
   for (i = 0U; i < field->count; i++) {
-    up_store_ratio(field->type, (uint64_t)raw->channels[i] * US_PER_S, config->tick_hz, &memory[i * element_bytes]);
+    up_store_scaled(field->type, raw->channels[i], US_PER_S, config->tick_hz, &memory[i * element_bytes]);
   }
   return UP_FRESH;
 }

@@ -4,7 +4,7 @@
 
 uint32_t up_pulse_level(uint8_t type, const void *element) {
   bool is_negative;
-  const uint64_t level = up_load_magnitude(type, element, &is_negative);
+  const up_unsigned_t level = up_load_magnitude(type, element, &is_negative);
 
   if (is_negative) {
     return 0U;

@@ -1,29 +1,37 @@
 #include "up_reporter.h"
 
-#include "up_divide.h"
-
 /* Reads per cycle: a host that sends without end must not delay reports. */
 #define READS_MAX 16U
 /* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
 #define FRESH_CYCLES 2U
 
-static uint32_t now_ms(const up_reporter_t *reporter) {
-  return up_divide(reporter->now_us, 1000U);
+/* Where a program has one reporter, the compiler may know its configuration. */
+#if defined(UP_REPORTER_CONFIG)
+extern UP_ROM up_reporter_config_t UP_REPORTER_CONFIG;
+
+static UP_ROM up_reporter_config_t *config_of(const up_reporter_t *reporter) {
+  (void)reporter;
+  return &UP_REPORTER_CONFIG;
 }
+#else
+static UP_ROM up_reporter_config_t *config_of(const up_reporter_t *reporter) {
+  return reporter->config;
+}
+#endif
 
 static bool has_health(const up_reporter_t *reporter) {
-  return UP_USES_HEALTH && reporter->config->health != NULL;
+  return UP_USES_HEALTH && config_of(reporter)->health != NULL;
 }
 
 static void lock(const up_reporter_t *reporter) {
-  if (reporter->config->lock != NULL) {
-    reporter->config->lock(reporter->config->context);
+  if (config_of(reporter)->lock != NULL) {
+    config_of(reporter)->lock(config_of(reporter)->context);
   }
 }
 
 static void unlock(const up_reporter_t *reporter) {
-  if (reporter->config->unlock != NULL) {
-    reporter->config->unlock(reporter->config->context);
+  if (config_of(reporter)->unlock != NULL) {
+    config_of(reporter)->unlock(config_of(reporter)->context);
   }
 }
 
@@ -31,7 +39,7 @@ static void unlock(const up_reporter_t *reporter) {
 
 static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
   const up_reporter_t *reporter = context;
-  const up_reporter_config_t *config = reporter->config;
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
   uint8_t taken[UP_FIELD_BITMAP_BYTES];
   size_t i;
 
@@ -60,11 +68,13 @@ static void on_health(void *context, const uint8_t *payload, size_t size) {
 
   (void)payload;
   (void)size;
-  reporter->health_due = has_health(reporter);
+  if (has_health(reporter)) {
+    reporter->health_due = true;
+  }
 }
 
 static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
-  const up_reporter_config_t *config = reporter->config;
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
   size_t i;
 
   if (config->intercept == NULL) {
@@ -79,7 +89,7 @@ static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t siz
 }
 
 static void receive(up_reporter_t *reporter) {
-  const up_channel_t *channel = reporter->config->channel;
+  UP_ROM up_channel_t *channel = config_of(reporter)->channel;
   const up_events_t frames = reporter->decoder.frames;
   uint8_t bytes[UP_REPORTER_READ_BYTES];
   size_t size = sizeof bytes;
@@ -90,7 +100,7 @@ static void receive(up_reporter_t *reporter) {
     take_bytes(reporter, bytes, size);
   }
   if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, now_ms(reporter));
+    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
 }
 
@@ -105,14 +115,14 @@ static void give_up(up_reporter_t *reporter) {
   reporter->frame_size = 0U;
   if (reporter->is_report) {
     lock(reporter);
-    up_report_restore(reporter->config->store, reporter->taken);
+    up_report_restore(config_of(reporter)->store, reporter->taken);
     unlock(reporter);
   }
 }
 
 /* Sends as much as there is room for; true if nothing is left to send. */
 static bool push(up_reporter_t *reporter) {
-  const up_channel_t *channel = reporter->config->channel;
+  UP_ROM up_channel_t *channel = config_of(reporter)->channel;
   const size_t left = reporter->frame_size - reporter->frame_sent;
   size_t size;
 
@@ -121,7 +131,7 @@ static bool push(up_reporter_t *reporter) {
   }
   size = channel->room(channel->context);
   size = (size < left) ? size : left;
-  if (size > 0U && !channel->write(channel->context, &reporter->config->frame[reporter->frame_sent], size)) {
+  if (size > 0U && !channel->write(channel->context, &config_of(reporter)->frame[reporter->frame_sent], size)) {
     give_up(reporter);
     return false;
   }
@@ -142,7 +152,7 @@ static void send(up_reporter_t *reporter, size_t size, bool is_report) {
 }
 
 static void send_hello(up_reporter_t *reporter) {
-  const up_reporter_config_t *config = reporter->config;
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
 
   reporter->hello_due = false;
   send(reporter, up_encode_hello(config->reports, config->frame, config->frame_bytes), false);
@@ -151,17 +161,17 @@ static void send_hello(up_reporter_t *reporter) {
 static void row_of(void *context, size_t field, up_health_row_t *row) {
   const up_reporter_t *reporter = context;
 
-  up_health_row(reporter->config->health, field, now_ms(reporter), row);
+  up_health_row(config_of(reporter)->health, field, reporter->now_ms, row);
 }
 
 static void send_health(up_reporter_t *reporter) {
-  const up_reporter_config_t *config = reporter->config;
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
   up_health_board_t board;
   size_t size;
 
   reporter->health_due = false;
   memset(&board, 0, sizeof board);
-  board.uptime_ms = now_ms(reporter);
+  board.uptime_ms = reporter->now_ms;
   board.reports_sent = reporter->counts.reports_sent;
   board.reports_refused = reporter->counts.reports_refused;
   board.load_percent = UP_LOAD_UNKNOWN;
@@ -177,23 +187,23 @@ static void send_health(up_reporter_t *reporter) {
 
 /* Whether a value has waited too long for room in the channel without a newer reading. */
 static bool is_old(const up_reporter_t *reporter, size_t field) {
-  const up_health_t *health = reporter->config->health;
+  const up_health_t *health = config_of(reporter)->health;
   const uint32_t own_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
-  const uint32_t cycle_ms = (own_ms > reporter->config->cycle_ms) ? own_ms : reporter->config->cycle_ms;
+  const uint32_t cycle_ms = (own_ms > config_of(reporter)->cycle_ms) ? own_ms : config_of(reporter)->cycle_ms;
   up_health_row_t row;
 
   if (own_ms == 0U) {
     return false;
   }
-  up_health_row(health, field, now_ms(reporter), &row);
+  up_health_row(health, field, reporter->now_ms, &row);
   return row.age_ms != UP_AGE_NEVER && row.age_ms / FRESH_CYCLES >= cycle_ms && row.age_ms > FRESH_CYCLES * cycle_ms;
 }
 
 static void drop_old(up_reporter_t *reporter) {
-  up_store_t *store = reporter->config->store;
+  up_store_t *store = config_of(reporter)->store;
   size_t i;
 
-  for (i = 0U; i < reporter->config->schema->fields_count; i++) {
+  for (i = 0U; i < config_of(reporter)->schema->fields_count; i++) {
     if (up_bit_get(store->due, i) && is_old(reporter, i)) {
       up_report_forget(store, i);
       reporter->counts.values_dropped++;
@@ -201,9 +211,9 @@ static void drop_old(up_reporter_t *reporter) {
   }
 }
 
-static void send_report(up_reporter_t *reporter) {
-  const up_reporter_config_t *config = reporter->config;
-  const up_stamp_t stamp = {(uint32_t)reporter->now_us, reporter->counter};
+static void send_report(up_reporter_t *reporter, uint32_t now_us) {
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
+  const up_stamp_t stamp = {now_us, reporter->counter};
   size_t size;
 
   lock(reporter);
@@ -231,14 +241,14 @@ static bool answer(up_reporter_t *reporter) {
 }
 
 /* Sends one frame at a time, so that none waits for another; answers and reports take turns. */
-static void transmit(up_reporter_t *reporter) {
-  const up_reporter_config_t *config = reporter->config;
-  const up_channel_t *channel = config->channel;
+static void transmit(up_reporter_t *reporter, uint32_t now_us) {
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
+  UP_ROM up_channel_t *channel = config->channel;
 
   if (push(reporter) && channel->room(channel->context) >= channel->room_max) {
     reporter->has_answered = !reporter->has_answered && answer(reporter);
     if (!reporter->has_answered) {
-      send_report(reporter);
+      send_report(reporter, now_us);
       return;
     }
   }
@@ -249,25 +259,25 @@ static void transmit(up_reporter_t *reporter) {
 
 /* ---- the cycle ---- */
 
-bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us) {
+bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *config, uint32_t now_ms) {
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
-  reporter->now_us = now_us;
+  reporter->now_ms = now_ms;
   reporter->sink.on_values = on_values;
   reporter->sink.on_hello = on_hello;
   reporter->sink.on_health = on_health;
   reporter->sink.context = reporter;
-  up_silence_init(&reporter->silence, config->silence_ms, now_ms(reporter));
+  up_silence_init(&reporter->silence, config->silence_ms, reporter->now_ms);
   return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&
          config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 
 /* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
-static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) {
-  reporter->now_us = now_us;
+static void begin_cycle(up_reporter_t *reporter, uint32_t now_ms, bool is_open) {
+  reporter->now_ms = now_ms;
   if (has_health(reporter)) {
     lock(reporter);
-    up_health_tick(reporter->config->health, now_ms(reporter));
+    up_health_tick(config_of(reporter)->health, reporter->now_ms);
     unlock(reporter);
   }
   if (!is_open) {
@@ -278,33 +288,33 @@ static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) 
 }
 
 static void fall_back(up_reporter_t *reporter) {
-  const up_reporter_config_t *config = reporter->config;
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
 
-  if (up_silence_step(&reporter->silence, now_ms(reporter)) && config->failsafe != NULL) {
+  if (up_silence_step(&reporter->silence, reporter->now_ms) && config->failsafe != NULL) {
     config->failsafe(config->context);
   }
 }
 
-void up_reporter_listen(up_reporter_t *reporter, uint64_t now_us) {
-  reporter->now_us = now_us;
+void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms) {
+  reporter->now_ms = now_ms;
   receive(reporter);
 }
 
-void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us) {
-  const up_channel_t *channel = reporter->config->channel;
+void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us) {
+  UP_ROM up_channel_t *channel = config_of(reporter)->channel;
 
-  begin_cycle(reporter, now_us, channel->is_open(channel->context));
+  begin_cycle(reporter, now_ms, channel->is_open(channel->context));
   if (reporter->is_open) {
     receive(reporter);
   }
   fall_back(reporter);
   if (reporter->is_open) {
-    transmit(reporter);
+    transmit(reporter, now_us);
   }
 }
 
-void up_reporter_pause(up_reporter_t *reporter, uint64_t now_us) {
-  begin_cycle(reporter, now_us, false);
+void up_reporter_pause(up_reporter_t *reporter, uint32_t now_ms) {
+  begin_cycle(reporter, now_ms, false);
   fall_back(reporter);
 }
 
@@ -313,7 +323,7 @@ bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
 
   up_decoder_feed(&reporter->decoder, &byte, 1U);
   if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, now_ms(reporter));
+    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
   return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
 }

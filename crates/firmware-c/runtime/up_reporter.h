@@ -40,7 +40,7 @@ typedef struct {
   UP_ROM up_schema_t *schema;
   UP_ROM up_wire_t *reports;
   UP_ROM up_wire_t *commands;
-  const up_channel_t *channel;
+  UP_ROM up_channel_t *channel;
   up_store_t *store;
   up_health_t *health; /* NULL, or without UP_USES_HEALTH: health is not noted, and requests for it are not answered */
   uint8_t *frame;      /* UP_WIRE_FRAME_BYTES(reports) */
@@ -73,12 +73,12 @@ typedef struct {
 } up_reporter_counts_t;
 
 typedef struct {
-  const up_reporter_config_t *config;
+  UP_ROM up_reporter_config_t *config;
   up_decoder_t decoder;
   up_sink_t sink;
   up_silence_t silence;
   up_reporter_counts_t counts;
-  uint64_t now_us;
+  uint32_t now_ms;
   size_t frame_size;                    /* size of the frame that is being sent; 0 for none */
   size_t frame_sent;                    /* bytes of it that have been sent */
   uint8_t taken[UP_FIELD_BITMAP_BYTES]; /* values in the report that is being sent */
@@ -90,17 +90,19 @@ typedef struct {
   bool has_answered; /* the last frame was an answer: a report's turn is next */
 } up_reporter_t;
 
+/* Milliseconds and microseconds are counted from the start of the board, and wrap at 2^32 each for itself. */
+
 /* False if a buffer is too small. */
-bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us);
+bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *config, uint32_t now_ms);
 
 /* Takes what has come, between cycles: where a system keeps few bytes, the host must not wait for the next cycle. */
-void up_reporter_listen(up_reporter_t *reporter, uint64_t now_us);
+void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms);
 
-/* Runs one cycle. */
-void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us);
+/* Runs one cycle. Only stamps are made of the microseconds. */
+void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us);
 
 /* Replaces a cycle while something else uses the channel: when it is free again, frames begin with a hello. */
-void up_reporter_pause(up_reporter_t *reporter, uint64_t now_us);
+void up_reporter_pause(up_reporter_t *reporter, uint32_t now_ms);
 
 /* Sees a byte that something else has read: true if it ends a request of a host, which wants frames. */
 bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte);

@@ -26,11 +26,13 @@ size_t up_type_bytes(uint8_t type) {
   return (type < sizeof type_bytes) ? type_bytes[type] : 0U;
 }
 
-uint64_t up_element_load(uint8_t type, const void *element) {
+up_unsigned_t up_element_load(uint8_t type, const void *element) {
   uint8_t byte = 0U;
   uint16_t half = 0U;
   uint32_t word = 0U;
+#if UP_USES_WIDE
   uint64_t wide = 0U;
+#endif
 
   switch (up_type_bytes(type)) {
   case 1U:
@@ -42,15 +44,17 @@ uint64_t up_element_load(uint8_t type, const void *element) {
   case 4U:
     memcpy(&word, element, sizeof word);
     return word;
+#if UP_USES_WIDE
   case 8U:
     memcpy(&wide, element, sizeof wide);
     return wide;
+#endif
   default:
     return 0U;
   }
 }
 
-void up_element_store(uint8_t type, uint64_t bits, void *element) {
+void up_element_store(uint8_t type, up_unsigned_t bits, void *element) {
   const uint8_t byte = (uint8_t)bits;
   const uint16_t half = (uint16_t)bits;
   const uint32_t word = (uint32_t)bits;
@@ -65,9 +69,11 @@ void up_element_store(uint8_t type, uint64_t bits, void *element) {
   case 4U:
     memcpy(element, &word, sizeof word);
     break;
+#if UP_USES_WIDE
   case 8U:
     memcpy(element, &bits, sizeof bits);
     break;
+#endif
   default:
     break;
   }

@@ -46,6 +46,20 @@ typedef enum {
   UP_TYPE_FLOAT64
 } up_type_t;
 
+/* The widest integers that fields of the program have. */
+#if UP_USES_WIDE
+typedef uint64_t up_unsigned_t;
+typedef int64_t up_signed_t;
+#define UP_UNSIGNED_MAX UINT64_MAX
+#define UP_SIGNED_MAX INT64_MAX
+#else
+typedef uint32_t up_unsigned_t;
+typedef int32_t up_signed_t;
+#define UP_UNSIGNED_MAX UINT32_MAX
+#define UP_SIGNED_MAX INT32_MAX
+#endif
+#define UP_UNSIGNED_BITS (8U * sizeof(up_unsigned_t))
+
 /* The direction in which a field or a frame travels. */
 typedef enum {
   UP_TO_HOST, /* from sensors: board to host */
@@ -78,8 +92,8 @@ size_t up_type_bytes(uint8_t type);
 UP_ROM char *up_type_name(uint8_t type);
 
 /* The bits of one element in memory (which need not be aligned), as an unsigned number of its size. */
-uint64_t up_element_load(uint8_t type, const void *element);
-void up_element_store(uint8_t type, uint64_t bits, void *element);
+up_unsigned_t up_element_load(uint8_t type, const void *element);
+void up_element_store(uint8_t type, up_unsigned_t bits, void *element);
 
 /* The size of a whole value. */
 size_t up_field_bytes(UP_ROM up_field_t *field);

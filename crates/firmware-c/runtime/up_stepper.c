@@ -35,7 +35,7 @@ void up_stepper_command(UP_ROM up_stepper_t *motor, up_stepper_state_t *state, u
   const uint32_t least = motor->is_velocity ? motor->speed : (uint32_t)INT32_MAX + 1U;
   const uint32_t greatest = motor->is_velocity ? motor->speed : (uint32_t)INT32_MAX;
   bool is_negative;
-  const uint64_t wanted = up_load_magnitude(type, element, &is_negative);
+  const up_unsigned_t wanted = up_load_magnitude(type, element, &is_negative);
 
   if (is_negative) {
     state->target = (int32_t)-(int64_t)((wanted > least) ? least : wanted);

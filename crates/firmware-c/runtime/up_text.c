@@ -80,7 +80,8 @@ static size_t put_real(char *text, double number) {
 
 static int64_t load_signed(uint8_t type, const void *element) {
   const uint64_t sign = (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
-  const uint64_t extended = (up_element_load(type, element) ^ sign) - sign;
+  const uint64_t bits = up_element_load(type, element);
+  const uint64_t extended = (bits ^ sign) - sign;
   int64_t number;
 
   memcpy(&number, &extended, sizeof number);

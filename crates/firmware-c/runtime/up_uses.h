@@ -21,6 +21,12 @@
 #ifndef UP_USES_REALS
 #define UP_USES_REALS 1 /* fields of float32 and float64 */
 #endif
+#ifndef UP_USES_WIDE
+#define UP_USES_WIDE 1 /* numbers of more than 32 bits: fields and words of that size, reals, decimal text */
+#endif
+#if UP_USES_REALS && !UP_USES_WIDE
+#error "reals are converted in 64 bits: UP_USES_REALS needs UP_USES_WIDE"
+#endif
 #ifndef UP_USES_HEALTH
 #define UP_USES_HEALTH 1 /* reporters that note how devices are, and tell hosts that ask */
 #endif
@@ -35,6 +41,9 @@
 #endif
 #ifndef UP_USES_LETTERS
 #define UP_USES_LETTERS 1 /* commands that are letters on a display */
+#endif
+#ifndef UP_USES_INVALID
+#define UP_USES_INVALID 1
 #endif
 #ifndef UP_USES_MEDIAN
 #define UP_USES_MEDIAN 1

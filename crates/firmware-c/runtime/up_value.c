@@ -9,7 +9,8 @@
 
 #define SENSIRION_POLYNOMIAL 0x31U
 #define SENSIRION_START 0xFFU
-#define PACKED_BITS_MAX 32U
+/* With the bits that stand beside them in their first byte. */
+#define PACKED_BITS_MAX (UP_USES_WIDE ? 32U : 25U)
 
 static size_t words_of(UP_ROM up_value_t *how, uint16_t count) {
   return (how->words != 0U) ? how->words : count;
@@ -70,8 +71,8 @@ bool up_value_crc_is_right(UP_ROM up_value_t *how, uint16_t count, const uint8_t
   return true;
 }
 
-static uint64_t mask_of(unsigned bits) {
-  return (bits >= 64U) ? UINT64_MAX : ((uint64_t)1U << bits) - 1U;
+static up_unsigned_t mask_of(unsigned bits) {
+  return (bits >= UP_UNSIGNED_BITS) ? UP_UNSIGNED_MAX : ((up_unsigned_t)1U << bits) - 1U;
 }
 
 /* The number of significant bits of a word; 0 if the table makes no sense. */
@@ -81,7 +82,7 @@ static unsigned bits_of(UP_ROM up_value_t *how) {
   if (is_code(how, UP_CODE_PACKED)) {
     return (how->bits <= PACKED_BITS_MAX) ? how->bits : 0U;
   }
-  if (how->word_bytes == 0U || how->word_bytes > 8U || how->low >= word_bits) {
+  if (how->word_bytes == 0U || how->word_bytes > sizeof(up_unsigned_t) || how->low >= word_bits) {
     return 0U;
   }
   return (how->bits == 0U || how->bits > word_bits - how->low) ? word_bits - how->low : how->bits;
@@ -94,10 +95,10 @@ static size_t word_of_element(UP_ROM up_value_t *how, size_t element) {
 
 /* ---- decoding ---- */
 
-static uint64_t packed_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word, unsigned bits) {
+static up_unsigned_t packed_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word, unsigned bits) {
   const size_t first = word * bits;
   const size_t last = first + bits - 1U;
-  uint64_t gathered = 0U;
+  up_unsigned_t gathered = 0U;
   size_t at;
 
   for (at = last / 8U + 1U; at > first / 8U; at--) {
@@ -106,9 +107,9 @@ static uint64_t packed_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t
   return gathered >> (first % 8U);
 }
 
-static uint64_t whole_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word) {
+static up_unsigned_t whole_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t word) {
   const size_t first = word * how->word_bytes;
-  uint64_t gathered = 0U;
+  up_unsigned_t gathered = 0U;
   size_t i;
 
   for (i = 0U; i < how->word_bytes; i++) {
@@ -118,11 +119,11 @@ static uint64_t whole_word(UP_ROM up_value_t *how, const uint8_t *bytes, size_t 
   return gathered >> how->low;
 }
 
-static bool store_bcd(uint8_t type, uint64_t digits, void *element) {
-  uint64_t number = 0U;
+static bool store_bcd(uint8_t type, up_unsigned_t digits, void *element) {
+  up_unsigned_t number = 0U;
   unsigned shift;
 
-  for (shift = 64U; shift > 0U; shift -= 4U) {
+  for (shift = UP_UNSIGNED_BITS; shift > 0U; shift -= 4U) {
     const unsigned digit = (unsigned)(digits >> (shift - 4U)) & 0xFU;
     if (digit > 9U) {
       return false;
@@ -134,8 +135,9 @@ static bool store_bcd(uint8_t type, uint64_t digits, void *element) {
 }
 
 /* Stores IEEE 754 bits as they are; an exponent of all ones is not a number. */
-static bool store_float(uint8_t type, uint64_t bits, unsigned word_bytes, void *element) {
-  const uint64_t exponent = (word_bytes == 4U) ? 0x7F800000U : (uint64_t)0x7FF00000U << 32;
+static bool store_float(uint8_t type, up_unsigned_t bits, unsigned word_bytes, void *element) {
+  const up_unsigned_t exponent =
+      (word_bytes == 4U) ? 0x7F800000U : (up_unsigned_t)0x7FF00000U << (UP_UNSIGNED_BITS - 32U);
 
   if (word_bytes != up_type_bytes(type) || (bits & exponent) == exponent) {
     return false;
@@ -144,9 +146,9 @@ static bool store_float(uint8_t type, uint64_t bits, unsigned word_bytes, void *
   return true;
 }
 
-static void store_integer(UP_ROM up_value_t *how, uint8_t type, uint64_t number, unsigned bits, void *element) {
-  const uint64_t sign = (uint64_t)1U << (bits - 1U);
-  int64_t extended;
+static void store_integer(UP_ROM up_value_t *how, uint8_t type, up_unsigned_t number, unsigned bits, void *element) {
+  const up_unsigned_t sign = (up_unsigned_t)1U << (bits - 1U);
+  up_signed_t extended;
 
   if (how->is_signed) {
     number = (number ^ sign) - sign;
@@ -157,16 +159,16 @@ static void store_integer(UP_ROM up_value_t *how, uint8_t type, uint64_t number,
   }
 }
 
-static void store_magnitude(uint8_t type, uint64_t number, unsigned bits, void *element) {
-  const uint64_t sign = (uint64_t)1U << (bits - 1U);
-  const int64_t magnitude = (int64_t)(number & ~sign & INT64_MAX);
+static void store_magnitude(uint8_t type, up_unsigned_t number, unsigned bits, void *element) {
+  const up_unsigned_t sign = (up_unsigned_t)1U << (bits - 1U);
+  const up_signed_t magnitude = (up_signed_t)(number & ~sign & UP_SIGNED_MAX);
 
   up_store_signed(type, ((number & sign) != 0U) ? -magnitude : magnitude, element);
 }
 
 static bool decode_element(UP_ROM up_value_t *how, uint8_t type, const uint8_t *bytes, size_t word, void *element) {
   const unsigned bits = bits_of(how);
-  uint64_t number;
+  up_unsigned_t number;
 
   if (bits == 0U) {
     return false;
@@ -212,12 +214,12 @@ up_result_t up_value_decode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, co
 /* ---- encoding ---- */
 
 /* Binary-coded decimal in the bits of `mask`; saturates. */
-static uint64_t to_bcd(uint64_t number, uint64_t mask) {
-  uint64_t rest = number, digits = 0U, greatest = 0U;
+static up_unsigned_t to_bcd(up_unsigned_t number, up_unsigned_t mask) {
+  up_unsigned_t rest = number, digits = 0U, greatest = 0U;
   unsigned shift;
 
-  for (shift = 0U; shift < 64U; shift += 4U) {
-    const uint64_t most = (mask >> shift) & 0xFU;
+  for (shift = 0U; shift < UP_UNSIGNED_BITS; shift += 4U) {
+    const up_unsigned_t most = (mask >> shift) & 0xFU;
     digits |= (rest % 10U) << shift;
     greatest |= ((most > 9U) ? 9U : most) << shift;
     rest /= 10U;
@@ -225,11 +227,11 @@ static uint64_t to_bcd(uint64_t number, uint64_t mask) {
   return (rest > 0U || digits > mask) ? greatest : digits;
 }
 
-static uint64_t encode_element(UP_ROM up_value_t *how, uint8_t type, const void *element, unsigned bits) {
-  const uint64_t mask = mask_of(bits);
-  const uint64_t greatest = how->is_signed ? mask >> 1 : mask;
+static up_unsigned_t encode_element(UP_ROM up_value_t *how, uint8_t type, const void *element, unsigned bits) {
+  const up_unsigned_t mask = mask_of(bits);
+  const up_unsigned_t greatest = how->is_signed ? mask >> 1 : mask;
   bool is_negative;
-  const uint64_t magnitude = up_load_magnitude(type, element, &is_negative);
+  const up_unsigned_t magnitude = up_load_magnitude(type, element, &is_negative);
 
   if (is_code(how, UP_CODE_FLOAT)) {
     return up_element_load(type, element);
@@ -249,7 +251,7 @@ static uint64_t encode_element(UP_ROM up_value_t *how, uint8_t type, const void 
   return (0U - ((magnitude > greatest + 1U) ? greatest + 1U : magnitude)) & mask;
 }
 
-static void put_packed(uint8_t *bytes, size_t word, unsigned bits, uint64_t number) {
+static void put_packed(uint8_t *bytes, size_t word, unsigned bits, up_unsigned_t number) {
   unsigned i;
 
   for (i = 0U; i < bits; i++) {
@@ -258,7 +260,7 @@ static void put_packed(uint8_t *bytes, size_t word, unsigned bits, uint64_t numb
   }
 }
 
-static void put_word(UP_ROM up_value_t *how, uint8_t *bytes, size_t word, uint64_t number) {
+static void put_word(UP_ROM up_value_t *how, uint8_t *bytes, size_t word, up_unsigned_t number) {
   const size_t first = word * how->word_bytes;
   size_t i;
 
@@ -305,7 +307,7 @@ size_t up_value_encode(UP_ROM up_value_t *how, UP_ROM up_field_t *field, const v
   memset(bytes, 0, bytes_count);
   for (i = 0U; i < field->count; i++) {
     const size_t word = word_of_element(how, i);
-    const uint64_t number = encode_element(how, field->type, &memory[i * element_bytes], bits);
+    const up_unsigned_t number = encode_element(how, field->type, &memory[i * element_bytes], bits);
     if (word >= words_of(how, field->count)) {
       return 0U;
     }

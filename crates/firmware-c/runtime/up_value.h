@@ -41,10 +41,10 @@ typedef struct {
   uint8_t words;            /* number of words with `elements` (its greatest entry + 1); 0: as many as elements */
   uint8_t code;             /* up_code_t */
   uint8_t crc;              /* up_crc_t; not for UP_CODE_PACKED, and word_bytes * words must be even */
-  uint8_t word_bytes;       /* 1 to 8; ignored for UP_CODE_PACKED */
+  uint8_t word_bytes;       /* 1 to 8, without UP_USES_WIDE to 4; ignored for UP_CODE_PACKED */
   uint8_t low;              /* lowest significant bit of the word, 0 for its least significant; PACKED: 0 */
   uint8_t bits;             /* number of significant bits from there, 1 to 64; 0: up to the word's highest. PACKED: 1
-                             * to 32 */
+                             * to 32, without UP_USES_WIDE to 25 */
   bool is_signed;           /* the highest of the bits is a sign (two's complement); ignored for FLOAT, BCD and
                              * MAGNITUDE */
   bool little_endian;       /* the word's first byte is its least significant */

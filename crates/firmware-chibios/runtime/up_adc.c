@@ -58,7 +58,7 @@ static void store_mean(const up_adc_group_t *group, const up_adc_input_t *input,
   }
   /* Twelve-bit samples need no scaling, and 32-bit numbers divide quickly. */
   if (UP_ADC_WIDE && group->full != RAW_FULL) {
-    up_store_ratio(type, (uint64_t)sum * RAW_FULL, (uint64_t)count * group->full, element);
+    up_store_scaled(type, sum, RAW_FULL, count * group->full, element);
   } else if (UP_USES_REALS && (type == (uint8_t)UP_TYPE_FLOAT32 || type == (uint8_t)UP_TYPE_FLOAT64)) {
     up_store_ratio(type, sum, count, element);
   } else {
@@ -79,7 +79,7 @@ static up_result_t compute(const up_adc_group_t *group, const up_adc_input_t *in
   if (!own->formula->compute(NULL, own->parameters, raw, outputs)) {
     return UP_INVALID;
   }
-  up_store_signed(type, outputs[own->output], element);
+  up_store_output(type, outputs[own->output], element);
   return UP_FRESH;
 }
 

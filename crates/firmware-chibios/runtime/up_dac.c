@@ -12,7 +12,7 @@ void up_dac_set(DACDriver *driver, size_t field, const void *value, uint16_t ele
   const uint8_t type = up_config.schema->fields[field].type;
   const uint8_t *own = &((const uint8_t *)value)[element * up_type_bytes(type)];
   bool is_negative = false;
-  uint64_t code = up_load_magnitude(type, own, &is_negative);
+  up_unsigned_t code = up_load_magnitude(type, own, &is_negative);
 
   if (is_negative) {
     code = 0U;

@@ -114,7 +114,7 @@ static bool take(const up_digital_t *sensor, const up_digital_input_t *input, ui
   } else {
     is_news = contact.edges != reported->edges;
     reported->edges = contact.edges;
-    up_count_store(type, (int64_t)contact.edges, element);
+    up_count_store(type, (up_signed_t)contact.edges, element);
   }
   return is_news;
 }

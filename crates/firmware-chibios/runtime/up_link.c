@@ -103,9 +103,8 @@ static void unlock(void *context) {
   up_unlock();
 }
 
-/* Microseconds since the start, which do not wrap. */
-static uint64_t now_us(void) {
-  return (uint64_t)chVTGetTimeStamp() * UP_STEP_US;
+static uint32_t now_us(void) {
+  return (uint32_t)(chVTGetTimeStamp() * UP_STEP_US);
 }
 
 void up_link_start(void) {
@@ -136,7 +135,7 @@ void up_link_start(void) {
   config.health = up_health();
   config.cycle_ms = up_config.report_ms;
   /* The generated sizes and tables are made together; this checks that they still match. */
-  if (!up_reporter_init(&reporter, &config, now_us())) {
+  if (!up_reporter_init(&reporter, &config, up_now_ms())) {
     chSysHalt("frame sizes");
   }
   up_channel_start();
@@ -145,14 +144,14 @@ void up_link_start(void) {
 void up_link_cycle(void) {
   const bool was_open = reporter.is_open;
 
-  up_reporter_cycle(&reporter, now_us());
+  up_reporter_cycle(&reporter, up_now_ms(), now_us());
   if (was_open && !reporter.is_open) {
     up_shell_channel_closed();
   }
 }
 
 void up_link_pause(void) {
-  up_reporter_pause(&reporter, now_us());
+  up_reporter_pause(&reporter, up_now_ms());
 }
 
 bool up_link_peek(uint8_t byte) {

@@ -190,7 +190,7 @@ static void run_chip(void) {
   static up_chip_transfer_state_t states[1];
   static up_chip_state_t state = {
       .transfers = states, .calibration = calibration_bytes, .work = work, .scratch = memory};
-  static const up_bus_t bus = {.write = write, .write_read = write_read};
+  static UP_ROM up_bus_t bus = {.write = write, .write_read = write_read};
   static const uint32_t lamps[2] = {0x123456U, 0x05FF0102U};
   static const uint8_t text[3] = {'A', 'z', '~'};
 

@@ -187,9 +187,9 @@ void cycle(uint64_t now_us, const uint64_t *how, const uint8_t *bytes, size_t si
   coming = bytes;
   coming_size = size;
   if (how[3] != 0U) {
-    up_reporter_pause(&reporter, now_us);
+    up_reporter_pause(&reporter, (uint32_t)(now_us / 1000U));
   } else {
-    up_reporter_cycle(&reporter, now_us);
+    up_reporter_cycle(&reporter, (uint32_t)(now_us / 1000U), (uint32_t)now_us);
   }
   if (how[4] != 0U) {
     printf(" %" PRIu32 " %" PRIu32, reporter.counts.reports_sent, reporter.counts.reports_refused);
