@@ -249,9 +249,12 @@ void up_loop(void) {
 #endif
   listen();
   if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
-    reported_ms = up_now_ms();
     sense_poll();
-    up_reporter_cycle(&reporter, reported_ms, micros());
+    up_reporter_cycle(&reporter, up_now_ms(), micros());
+    /* Cycles are on a grid, from which those are missing that nobody had time for. */
+    do {
+      reported_ms += UP_REPORT_MS;
+    } while (is_due(reported_ms + UP_REPORT_MS, up_now_ms()));
   }
   up_life_turn();
 }

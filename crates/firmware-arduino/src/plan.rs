@@ -18,7 +18,7 @@ use crate::section::{Apply, PortPlan, Section, Work};
 use crate::{bus, peripherals, runtime};
 
 /// The reporter's cycle if nothing is read more often.
-const REPORT_MS: u32 = 20;
+const REPORT_MS: u32 = 10;
 /// What the framework's ports accept at once: their buffers, one byte of which stays free.
 const UART_ROOM_BYTES: u32 = 63;
 const USB_ROOM_BYTES: u32 = 64;

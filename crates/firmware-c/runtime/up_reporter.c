@@ -298,6 +298,7 @@ static void fall_back(up_reporter_t *reporter) {
 void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms) {
   reporter->now_ms = now_ms;
   receive(reporter);
+  (void)push(reporter);
 }
 
 void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us) {

@@ -95,7 +95,8 @@ typedef struct {
 /* False if a buffer is too small. */
 bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *config, uint32_t now_ms);
 
-/* Takes what has come, between cycles: where a system keeps few bytes, the host must not wait for the next cycle. */
+/* Takes what has come, and goes on with the frame that is being sent, between cycles: where a system keeps few bytes,
+ * neither must wait for the next cycle. */
 void up_reporter_listen(up_reporter_t *reporter, uint32_t now_ms);
 
 /* Runs one cycle. Only stamps are made of the microseconds. */
