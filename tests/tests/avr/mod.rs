@@ -6,6 +6,7 @@
 
 pub(crate) mod board;
 pub(crate) mod child;
+mod follower;
 mod jobs;
 mod sketches;
 mod tools;
