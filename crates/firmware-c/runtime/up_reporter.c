@@ -23,6 +23,13 @@ static bool has_health(const up_reporter_t *reporter) {
   return UP_USES_HEALTH && config_of(reporter)->health != NULL;
 }
 
+/* A valid frame has come from the host. */
+static void note_heard(up_reporter_t *reporter) {
+  if (config_of(reporter)->silence_ms > 0U) {
+    up_silence_heard(&reporter->silence, reporter->now_ms);
+  }
+}
+
 static void lock(const up_reporter_t *reporter) {
   if (config_of(reporter)->lock != NULL) {
     config_of(reporter)->lock(config_of(reporter)->context);
@@ -37,6 +44,7 @@ static void unlock(const up_reporter_t *reporter) {
 
 /* ---- from the host ---- */
 
+#if UP_USES_COMMANDS
 static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
   const up_reporter_t *reporter = context;
   UP_ROM up_reporter_config_t *config = config_of(reporter);
@@ -73,24 +81,82 @@ static void on_health(void *context, const uint8_t *payload, size_t size) {
   }
 }
 
+static bool begin(up_reporter_t *reporter) {
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
+
+  reporter->sink.on_values = on_values;
+  reporter->sink.on_hello = on_hello;
+  reporter->sink.on_health = on_health;
+  reporter->sink.context = reporter;
+  return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink);
+}
+
+static void take(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
+  const up_events_t frames = reporter->decoder.frames;
+
+  up_decoder_feed(&reporter->decoder, bytes, size);
+  if (reporter->decoder.frames != frames) {
+    note_heard(reporter);
+  }
+}
+
 static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
   UP_ROM up_reporter_config_t *config = config_of(reporter);
   size_t i;
 
   if (config->intercept == NULL) {
-    up_decoder_feed(&reporter->decoder, bytes, size);
+    take(reporter, bytes, size);
     return;
   }
   for (i = 0U; i < size; i++) {
     if (!up_decoder_is_idle(&reporter->decoder) || !config->intercept(config->context, bytes[i])) {
-      up_decoder_feed(&reporter->decoder, &bytes[i], 1U);
+      take(reporter, &bytes[i], 1U);
     }
   }
 }
 
+bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
+  const up_events_t frames = reporter->decoder.frames;
+
+  take(reporter, &byte, 1U);
+  return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
+}
+#else
+static bool begin(up_reporter_t *reporter) {
+  (void)reporter;
+  return true;
+}
+
+static bool take(up_reporter_t *reporter, uint8_t byte) {
+  const up_request_t request = up_request_take(&reporter->requests, config_of(reporter)->commands, byte);
+
+  if (request == UP_REQUEST_NONE) {
+    return false;
+  }
+  if (request == UP_REQUEST_HELLO) {
+    reporter->hello_due = true;
+  } else if (has_health(reporter)) {
+    reporter->health_due = true;
+  }
+  note_heard(reporter);
+  return true;
+}
+
+static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    (void)take(reporter, bytes[i]);
+  }
+}
+
+bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
+  return take(reporter, byte) && (reporter->hello_due || reporter->health_due);
+}
+#endif
+
 static void receive(up_reporter_t *reporter) {
   UP_ROM up_channel_t *channel = config_of(reporter)->channel;
-  const up_events_t frames = reporter->decoder.frames;
   uint8_t bytes[UP_REPORTER_READ_BYTES];
   size_t size = sizeof bytes;
   unsigned reads;
@@ -98,9 +164,6 @@ static void receive(up_reporter_t *reporter) {
   for (reads = 0U; reads < READS_MAX && size == sizeof bytes; reads++) {
     size = channel->read(channel->context, bytes, sizeof bytes);
     take_bytes(reporter, bytes, size);
-  }
-  if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
 }
 
@@ -263,13 +326,8 @@ bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *conf
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
   reporter->now_ms = now_ms;
-  reporter->sink.on_values = on_values;
-  reporter->sink.on_hello = on_hello;
-  reporter->sink.on_health = on_health;
-  reporter->sink.context = reporter;
-  up_silence_init(&reporter->silence, config->silence_ms, reporter->now_ms);
-  return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&
-         config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
+  up_silence_init(&reporter->silence, config->silence_ms, now_ms);
+  return begin(reporter) && config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 
 /* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
@@ -290,7 +348,8 @@ static void begin_cycle(up_reporter_t *reporter, uint32_t now_ms, bool is_open) 
 static void fall_back(up_reporter_t *reporter) {
   UP_ROM up_reporter_config_t *config = config_of(reporter);
 
-  if (up_silence_step(&reporter->silence, reporter->now_ms) && config->failsafe != NULL) {
+  if (config->silence_ms > 0U && up_silence_step(&reporter->silence, reporter->now_ms) &&
+      config->failsafe != NULL) {
     config->failsafe(config->context);
   }
 }
@@ -316,14 +375,4 @@ void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us
 void up_reporter_pause(up_reporter_t *reporter, uint32_t now_ms) {
   begin_cycle(reporter, now_ms, false);
   fall_back(reporter);
-}
-
-bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
-  const up_events_t frames = reporter->decoder.frames;
-
-  up_decoder_feed(&reporter->decoder, &byte, 1U);
-  if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, reporter->now_ms);
-  }
-  return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
 }

@@ -27,6 +27,9 @@
 #if UP_USES_REALS && !UP_USES_WIDE
 #error "reals are converted in 64 bits: UP_USES_REALS needs UP_USES_WIDE"
 #endif
+#ifndef UP_USES_COMMANDS
+#define UP_USES_COMMANDS 1 /* reporters whose hosts send values, and that let others see what comes */
+#endif
 #ifndef UP_USES_HEALTH
 #define UP_USES_HEALTH 1 /* reporters that note how devices are, and tell hosts that ask */
 #endif
