@@ -163,7 +163,7 @@ impl Captures {
         let pin = pad.pin.name.clone();
         let active = if is_active_high { level(&pin) } else { format!("!({})", level(&pin)) };
         let both = counts_both(icu);
-        let line = format!("up_edges_on_change(&{edges}, {active}, micros(), {both});");
+        let line = format!("up_edges_on_change(&{edges}, {active}, UP_EDGE_US(), {both});");
         section.changes.push(Change { pin, line });
         false
     }

@@ -273,6 +273,11 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
 
 /* ---- transfers ---- */
 
+/* A program whose transfers are all of one sort knows that of each. */
+static bool has_trigger(UP_ROM up_chip_transfer_t *transfer) {
+  return UP_USES_CHIP_TRIGGERS && (!UP_USES_CHIP_READS || transfer->trigger_count > 0U);
+}
+
 static uint32_t cycle_of(UP_ROM up_chip_t *chip, size_t transfer) {
   const uint32_t cycle_ms = chip->transfers[transfer].cycle_ms;
 
@@ -294,11 +299,11 @@ static void set_next(const step_t *step, size_t transfer) {
 
   if (cycle_ms == 0U) {
     state->due_ms = step->now_ms;
-  } else if (is_reached(step->now_ms, state->due_ms)) {
-    state->due_ms += cycle_ms * ((uint32_t)(step->now_ms - state->due_ms) / cycle_ms + 1U);
-  } else {
-    state->due_ms += cycle_ms;
+    return;
   }
+  do {
+    state->due_ms += cycle_ms;
+  } while (is_reached(step->now_ms, state->due_ms));
 }
 
 static bool fetch(const step_t *step, size_t transfer) {
@@ -320,8 +325,7 @@ static bool fetch_free(const step_t *step) {
 
   for (i = 0U; i < step->chip->transfers_count; i++) {
     up_chip_transfer_state_t *state = &step->state->transfers[i];
-    const bool is_free = step->chip->transfers[i].trigger_count == 0U;
-    if (!is_free || !is_due(step, i) || !is_reached(step->clock(), state->ready_ms)) {
+    if (has_trigger(&step->chip->transfers[i]) || !is_due(step, i) || !is_reached(step->clock(), state->ready_ms)) {
       continue;
     }
     if (!fetch(step, i)) {
@@ -339,7 +343,7 @@ static size_t next_triggered(const step_t *step) {
   size_t i;
 
   for (i = 0U; i < step->chip->transfers_count; i++) {
-    if (step->chip->transfers[i].trigger_count > 0U && is_due(step, i) &&
+    if (has_trigger(&step->chip->transfers[i]) && is_due(step, i) &&
         (found == step->chip->transfers_count ||
          !is_reached(step->state->transfers[i].due_ms, step->state->transfers[found].due_ms))) {
       found = i;
@@ -392,7 +396,7 @@ void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_
       say_fault(&step, chip->transfers_count);
     }
   }
-  if (state->is_running && fetch_free(&step)) {
+  if (state->is_running && (!UP_USES_CHIP_READS || fetch_free(&step)) && UP_USES_CHIP_TRIGGERS) {
     run_triggered(&step);
   }
   if (state->fault == UNTOUCHED) {
@@ -407,11 +411,11 @@ uint32_t up_chip_idle_ms(UP_ROM up_chip_t *chip, const up_chip_state_t *state, u
   if (!state->is_running) {
     return state->is_pausing ? left_ms(now_ms, state->pause_until_ms) : chip->cycle_ms;
   }
-  if (state->in_flight > 0U) {
+  if (UP_USES_CHIP_TRIGGERS && state->in_flight > 0U) {
     idle_ms = left_ms(now_ms, state->transfers[state->in_flight - 1U].ready_ms);
   }
   for (i = 0U; i < chip->transfers_count; i++) {
-    const bool is_free = chip->transfers[i].trigger_count == 0U;
+    const bool is_free = !has_trigger(&chip->transfers[i]);
     uint32_t wait_ms = left_ms(now_ms, state->transfers[i].due_ms);
     if (is_free && left_ms(now_ms, state->transfers[i].ready_ms) > wait_ms) {
       wait_ms = left_ms(now_ms, state->transfers[i].ready_ms);

@@ -57,11 +57,20 @@
 #ifndef UP_USES_CHANGE
 #define UP_USES_CHANGE 1
 #endif
+#ifndef UP_USES_CAPTURE_TIMES
+#define UP_USES_CAPTURE_TIMES 1 /* captures of widths, periods, frequencies and duties: of anything but counts */
+#endif
 #ifndef UP_USES_CHIP_INIT
 #define UP_USES_CHIP_INIT 1 /* chips that are written to before they measure */
 #endif
 #ifndef UP_USES_CHIP_IDENTITY
 #define UP_USES_CHIP_IDENTITY 1
+#endif
+#ifndef UP_USES_CHIP_TRIGGERS
+#define UP_USES_CHIP_TRIGGERS 1 /* transfers that start a measurement and fetch it later */
+#endif
+#ifndef UP_USES_CHIP_READS
+#define UP_USES_CHIP_READS 1 /* transfers of chips that measure by themselves */
 #endif
 #ifndef UP_USES_CHIP_FORMULAS
 #define UP_USES_CHIP_FORMULAS 1 /* and calibration */
