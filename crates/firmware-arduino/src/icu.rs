@@ -142,9 +142,7 @@ impl Captures {
     ) -> bool {
         let Some(pad) = wire.pad(Role::In) else { return false };
         let is_active_high = icu.edge != Edge::Falling;
-        if let Some(number) = context.names.number(&pad.pin.name) {
-            section.pads.push(format!("pinMode({number}, INPUT);"));
-        }
+        // Pins are inputs from the start.
         let timer = context.channel(pad).map(|(timer, _)| timer.name.as_str());
         let timer = timer.filter(|name| context.names.capture_timers.iter().any(|one| one == name));
         if let Some(timer) = timer {
