@@ -72,6 +72,9 @@
 #ifndef UP_USES_CHIP_READS
 #define UP_USES_CHIP_READS 1 /* transfers of chips that measure by themselves */
 #endif
+#ifndef UP_USES_CHIP_TURNS
+#define UP_USES_CHIP_TURNS 1 /* chips that do not have exactly one transfer */
+#endif
 #ifndef UP_USES_CHIP_FORMULAS
 #define UP_USES_CHIP_FORMULAS 1 /* and calibration */
 #endif
