@@ -253,7 +253,7 @@ void up_loop(void) {
   if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
     reported_ms = up_now_ms();
     sense_poll();
-    up_reporter_cycle(&reporter, reported_ms, micros());
+    up_reporter_cycle(&reporter, reported_ms, UP_WIRE_STAMPS ? micros() : 0U);
   }
   up_life_turn();
 }

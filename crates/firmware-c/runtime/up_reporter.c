@@ -2,8 +2,6 @@
 
 /* Reads per cycle: a host that sends without end must not delay reports. */
 #define READS_MAX 16U
-/* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
-#define FRESH_CYCLES 2U
 
 /* Where a program has one reporter, the compiler may know its configuration. */
 #if defined(UP_REPORTER_CONFIG)
@@ -248,18 +246,15 @@ static void send_health(up_reporter_t *reporter) {
   send(reporter, size, false);
 }
 
-/* Whether a value has waited too long for room in the channel without a newer reading. */
+/* Whether a value has waited too long for room in the channel without a newer reading: for more than two of its
+ * device's cycles, or of the reporter's. */
 static bool is_old(const up_reporter_t *reporter, size_t field) {
   const up_health_t *health = config_of(reporter)->health;
   const uint32_t own_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
   const uint32_t cycle_ms = (own_ms > config_of(reporter)->cycle_ms) ? own_ms : config_of(reporter)->cycle_ms;
-  up_health_row_t row;
+  const uint32_t age_ms = up_health_age(health, field, reporter->now_ms);
 
-  if (own_ms == 0U) {
-    return false;
-  }
-  up_health_row(health, field, reporter->now_ms, &row);
-  return row.age_ms != UP_AGE_NEVER && row.age_ms / FRESH_CYCLES >= cycle_ms && row.age_ms > FRESH_CYCLES * cycle_ms;
+  return own_ms != 0U && age_ms != UP_AGE_NEVER && age_ms > cycle_ms && age_ms - cycle_ms > cycle_ms;
 }
 
 static void drop_old(up_reporter_t *reporter) {
@@ -326,7 +321,9 @@ bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *conf
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
   reporter->now_ms = now_ms;
-  up_silence_init(&reporter->silence, config->silence_ms, now_ms);
+  if (config->silence_ms > 0U) {
+    up_silence_init(&reporter->silence, config->silence_ms, now_ms);
+  }
   return begin(reporter) && config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 

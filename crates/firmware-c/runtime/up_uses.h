@@ -39,6 +39,9 @@
 #ifndef UP_USES_WORD_CRC
 #define UP_USES_WORD_CRC 1 /* checksums between words */
 #endif
+#ifndef UP_USES_WORD_BITS
+#define UP_USES_WORD_BITS 1 /* words of which only some bits are the value, or that are packed */
+#endif
 #ifndef UP_USES_LAMPS
 #define UP_USES_LAMPS 1 /* commands that are colours of a strip */
 #endif
