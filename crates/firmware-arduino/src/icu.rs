@@ -142,9 +142,7 @@ impl Captures {
     ) -> bool {
         let Some(pad) = wire.pad(Role::In) else { return false };
         let is_active_high = icu.edge != Edge::Falling;
-        if let Some(number) = context.names.number(&pad.pin.name) {
-            section.pads.push(format!("pinMode({number}, INPUT);"));
-        }
+        // Pins are inputs from the start.
         let timer = context.channel(pad).map(|(timer, _)| timer.name.as_str());
         let timer = timer.filter(|name| context.names.capture_timers.iter().any(|one| one == name));
         if let Some(timer) = timer {
@@ -163,7 +161,7 @@ impl Captures {
         let pin = pad.pin.name.clone();
         let active = if is_active_high { level(&pin) } else { format!("!({})", level(&pin)) };
         let both = counts_both(icu);
-        let line = format!("up_edges_on_change(&{edges}, {active}, micros(), {both});");
+        let line = format!("up_edges_on_change(&{edges}, {active}, UP_EDGE_US(), {both});");
         section.changes.push(Change { pin, line });
         false
     }
