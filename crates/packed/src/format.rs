@@ -4,10 +4,10 @@
 //! many bytes it is of, and how many when it is deflated. The head of a group has a line for each file: its path, and how
 //! many bytes it is of.
 
+use std::sync::OnceLock;
+
 use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
-
-use crate::Group;
 
 /// The best that there is; it is done once, when a package is built.
 const LEVEL: u8 = 10;
@@ -17,6 +17,24 @@ const GROUP_BYTES: usize = 64 << 10;
 
 /// Paths and texts.
 type Files = Vec<(&'static str, &'static str)>;
+
+/// Texts that are packed together.
+#[derive(Debug)]
+pub(crate) struct Group {
+    /// The first path.
+    pub(crate) first: &'static str,
+    /// How many bytes are inflated.
+    size: usize,
+    packed: &'static [u8],
+    files: OnceLock<Files>,
+}
+
+impl Group {
+    /// Its files, in the order of their paths; none if it is damaged.
+    pub(crate) fn files(&self) -> &[(&'static str, &'static str)] {
+        self.files.get_or_init(|| files(self.packed, self.size).unwrap_or_default())
+    }
+}
 
 /// Packs texts, each with its path: one line, with `/` between folders. The order does not matter.
 #[must_use]
@@ -69,13 +87,12 @@ pub(crate) fn groups(bytes: &'static [u8]) -> Option<Vec<Group>> {
         let (first, size) = numbered(line)?;
         let (packed, after) = rest.split_at_checked(length)?;
         rest = after;
-        Some(Group { first, size, packed, files: std::sync::OnceLock::new() })
+        Some(Group { first, size, packed, files: OnceLock::new() })
     };
     str::from_utf8(head).ok()?.lines().map(line).collect()
 }
 
-/// The files of a group; none if it is damaged.
-pub(crate) fn files(packed: &[u8], size: usize) -> Option<Files> {
+fn files(packed: &[u8], size: usize) -> Option<Files> {
     let bytes = decompress_to_vec_with_limit(packed, size).ok()?;
     let text: &'static str = String::from_utf8(bytes).ok()?.leak();
     let (head, mut rest) = text.split_once("\n\n")?;

@@ -28,23 +28,13 @@ use std::sync::OnceLock;
 #[cfg(feature = "build")]
 pub use build::build;
 pub use format::pack;
+use format::{Group, folder_of};
 
 /// Packed texts.
 #[derive(Debug)]
 pub struct Pack {
     bytes: &'static [u8],
     groups: OnceLock<Vec<Group>>,
-}
-
-/// Texts that are packed together.
-#[derive(Debug)]
-struct Group {
-    /// The first path.
-    first: &'static str,
-    /// How many bytes are inflated.
-    size: usize,
-    packed: &'static [u8],
-    files: OnceLock<Vec<(&'static str, &'static str)>>,
 }
 
 impl Pack {
@@ -67,19 +57,12 @@ impl Pack {
 
     /// The paths and texts below a folder, in the order of the paths.
     pub fn folder(&self, folder: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
-        let folder = format::folder_of(folder);
-        let groups =
-            self.groups().iter().filter(move |group| format::folder_of(group.first) == folder);
+        let folder = folder_of(folder);
+        let groups = self.groups().iter().filter(move |group| folder_of(group.first) == folder);
         groups.flat_map(Group::files).copied()
     }
 
     fn groups(&self) -> &[Group] {
         self.groups.get_or_init(|| format::groups(self.bytes).unwrap_or_default())
-    }
-}
-
-impl Group {
-    fn files(&self) -> &[(&'static str, &'static str)] {
-        self.files.get_or_init(|| format::files(self.packed, self.size).unwrap_or_default())
     }
 }
