@@ -132,14 +132,14 @@ fn generate(module: &str) -> String {
         )
         .unwrap();
     }
-    text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const FORMS: &[(&str, &str)] = &[\n");
+    text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const FORMS: &[&str] = &[\n");
     for (file, _) in entries(&root().join("crates/board/forms")) {
-        writeln!(text, "    form!({:?}),", file.strip_suffix(".toml").unwrap()).unwrap();
+        writeln!(text, "    {:?},", file.strip_suffix(".toml").unwrap()).unwrap();
     }
     text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const TARGETS: &[Target] = &[\n");
     for (target, file, path) in targets() {
-        let (family, parts) = (family(&read(&path)), parts(&read(&path)));
-        writeln!(text, "    target!({target:?}, {file:?}, {family:?}, &{parts:?}),").unwrap();
+        let (family, parts) = (family(&read(&path)), parts(&read(&path)).join(" "));
+        writeln!(text, "    target!({target:?}, {file:?}, {family:?}, {parts:?}),").unwrap();
     }
     text.push_str("];\n");
     text
