@@ -175,8 +175,9 @@ fn every_board_is_sound() {
             let target = profile::find(system, &board.mcu);
             let known = matches!(target, Ok(_) | Err(profile::NoProfile::UnknownMcu { .. }));
             assert!(known, "{}: {target:?}", board.name);
-            // The HALs of Embassy set the clocks, as their profiles say.
-            let has_clocks = !facts.clocks_hz.is_empty() || system == "embassy";
+            // The HALs of Embassy set the clocks, as their profiles say, and an Arduino has one.
+            let is_of_profile = ["embassy", "arduino"].contains(&system.as_str());
+            let has_clocks = !facts.clocks_hz.is_empty() || is_of_profile;
             assert!(has_clocks, "{}: no clocks", board.name);
         }
     }

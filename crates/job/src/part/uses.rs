@@ -47,7 +47,10 @@ pub fn uses_in_c(job: &BoardJob<'_>) -> Vec<(&'static str, bool)> {
         ("wide", device(is_wide)),
         ("word-bits", device(|device| Words::of(device).is_some_and(|words| is_partial(&words)))),
         ("invalid", device(|device| !device.filter.invalid.is_empty())),
-        ("capture-times", device(|device| device.kind.icu().is_some_and(|icu| icu.mode != Mode::Count))),
+        (
+            "capture-times",
+            device(|device| device.kind.icu().is_some_and(|icu| icu.mode != Mode::Count)),
+        ),
         ("chip-triggers", bus(|bus| bus.transfers.iter().any(|one| !one.trigger.is_empty()))),
         ("chip-reads", bus(|bus| bus.transfers.iter().any(|one| one.trigger.is_empty()))),
         ("chip-turns", bus(|bus| bus.transfers.len() != 1)),
