@@ -92,7 +92,7 @@ pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         all.sensors.iter().map(|one| format!("up_icu_poll(&{}_icu);", one.ident)).collect();
     if !(all.sensors.is_empty() && all.pulses.is_empty()) {
         section.headers.push("up_icu.h");
-        section.costs.push(Cost::new("pulses", 0, 1_800));
+        section.costs.push(Cost::new("pulses", 0, 2_000));
         section.tables = block(&Tables { s: &all });
     }
     let _ = diagnostics;

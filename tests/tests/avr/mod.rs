@@ -6,6 +6,7 @@
 
 pub(crate) mod board;
 pub(crate) mod child;
+mod codec;
 mod follower;
 mod jobs;
 mod sketches;

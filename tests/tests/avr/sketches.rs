@@ -1,12 +1,13 @@
 //! Generated sketches, compiled with the Arduino core and run on the emulated AVR in simulated worlds.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use sensedsl_diagnostics::SourceMap;
+use sensedsl_files::FileSet;
 use sensedsl_firmware_arduino::Arduino;
 use sensedsl_job::{BoardJob, Target as _};
-use sensedsl_tests::run;
+use sensedsl_tests::{printed, run};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::judge::{DeviceFindings, Judge};
 use sensedsl_twin::world::{self, Scene};
@@ -63,7 +64,37 @@ pub(super) fn built(job: &BoardJob<'_>, name: &str) -> PathBuf {
     let mut make = Command::new("make");
     make.args(["--silent", "-j2", "WARNINGS=-Wall -Wextra -Werror"]);
     run(make.arg(format!("ARDUINO_CORE={CORE}")).arg("-C").arg(&folder));
-    folder.join("build").join(format!("{}.ino.elf", job.board.name.value))
+    let image = folder.join("build").join(format!("{}.ino.elf", job.board.name.value));
+    assert_memory(name, &files, &image);
+    image
+}
+
+/// What the sketch's page says of its memory is what it takes: of RAM without the stack nothing less.
+fn assert_memory(name: &str, files: &FileSet, image: &Path) {
+    let page = String::from_utf8_lossy(&files.get("README.md").unwrap().bytes).into_owned();
+    let after = |mark: &str| page.split_once(mark).unwrap().1.split_whitespace().next().unwrap();
+    let said: Vec<u32> = ["About ", "of RAM with the stack, and ", "| the stack | "]
+        .map(|mark| after(mark).parse().unwrap())
+        .into();
+    let sizes = printed(Command::new("avr-size").arg(image));
+    let sizes: Vec<u32> = sizes
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let (flash, ram) = (sizes[0] + sizes[1], sizes[1] + sizes[2]);
+    println!(
+        "{name}: {ram} of {} bytes of RAM, {flash} of {} of flash",
+        said[0] - said[2],
+        said[1]
+    );
+    assert!((ram..=ram + ram / 6).contains(&(said[0] - said[2])), "{name}: {ram} bytes, {said:?}");
+    assert!(
+        (flash - flash / 10..=flash + flash / 3).contains(&said[1]),
+        "{name}: {flash} bytes, {said:?}"
+    );
 }
 
 /// A bench in a world.
