@@ -193,3 +193,28 @@ fn a_chip_agrees_with_its_world() {
 fn a_receiver_and_encoders_agree_with_their_world() {
     agrees("gps", GPS, "");
 }
+
+/// An encoder at the rate that the profile states for all handlers together, and other work beside it.
+const WHEEL: &str = "board Bot on ARDUINO_UNO_R3 {
+    sensor Wheel returns int32 { type = encoder; }
+    sensor Light returns uint16 { type = analog; samples = 8; delay = 20 ms; }
+}";
+
+#[test]
+fn an_encoder_counts_at_the_rate_that_is_stated() {
+    if !can_compile_sketches() {
+        return;
+    }
+    with_job(WHEEL, None, |job| {
+        let image = built(job, "wheel");
+        let stated_hz = job.profile.unwrap().edges.as_ref().unwrap().rate_max_hz;
+        let rate_hz = std::env::var("EDGES_HZ").ok().and_then(|hz| hz.parse().ok());
+        let rate_hz: u32 = rate_hz.unwrap_or(stated_hz);
+        let world = format!("[devices]\nWheel = {{ ramp = [0, {}], over = \"10 s\" }}", rate_hz * 10);
+        let own = bench(job, &world);
+        let mut board = AvrBoard::new(job, bench(job, &world), &image);
+        let heard = judged(job, &mut board, &own, 3);
+        let wrong: Vec<_> = heard.findings.iter().filter(|one| one.wrong > 0).collect();
+        assert!(wrong.is_empty(), "{rate_hz} edges a second: {wrong:#?}");
+    });
+}
