@@ -210,7 +210,8 @@ fn an_encoder_counts_at_the_rate_that_is_stated() {
         let stated_hz = job.profile.unwrap().edges.as_ref().unwrap().rate_max_hz;
         let rate_hz = std::env::var("EDGES_HZ").ok().and_then(|hz| hz.parse().ok());
         let rate_hz: u32 = rate_hz.unwrap_or(stated_hz);
-        let world = format!("[devices]\nWheel = {{ ramp = [0, {}], over = \"10 s\" }}", rate_hz * 10);
+        let world =
+            format!("[devices]\nWheel = {{ ramp = [0, {}], over = \"10 s\" }}", rate_hz * 10);
         let own = bench(job, &world);
         let mut board = AvrBoard::new(job, bench(job, &world), &image);
         let heard = judged(job, &mut board, &own, 3);
