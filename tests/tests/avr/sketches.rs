@@ -1,22 +1,14 @@
 //! Generated sketches, compiled with the Arduino core and run on the emulated AVR in simulated worlds.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_diagnostics::SourceMap;
 use sensedsl_firmware_arduino::Arduino;
 use sensedsl_job::{BoardJob, Target as _};
-use sensedsl_tests::run;
-use sensedsl_twin::bench::Bench;
-use sensedsl_twin::judge::{DeviceFindings, Judge};
-use sensedsl_twin::world::{self, Scene};
-use sensedsl_wire::{
-    Decoder, Direction, Event, Health, encode_health_request, encode_hello_request,
-};
+use sensedsl_tests::write_all;
 
-use super::board::AvrBoard;
 use super::tools::{CORE, can_compile_sketches};
-use super::units::MS;
+use super::trial::{Host, run};
 use crate::embassy::with_job;
 use crate::firmware::tools::empty;
 
@@ -51,83 +43,28 @@ const GPS: &str = "board Bot on ARDUINO_MEGA_2560 {
     sensor Wheels returns int32[2] { type = encoder; counts = 360; }
 }";
 
-/// A sketch of a job, built as users build it, with all warnings as errors.
-pub(super) fn built(job: &BoardJob<'_>, name: &str) -> PathBuf {
+/// Writes the files of a job's sketch, as users get them.
+pub(super) fn written(job: &BoardJob<'_>, name: &str) -> PathBuf {
     let folder = empty(&format!("avr-sketch-{name}"));
     let files = Arduino.generate(job).unwrap_or_else(|why| panic!("{name}: {why:#?}"));
-    for (path, file) in files.iter() {
-        let to = folder.join(path);
-        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
-        std::fs::write(to, &file.bytes).unwrap();
-    }
+    write_all(&folder, files.iter().map(|(path, file)| (path, &file.bytes)));
+    folder
+}
+
+/// Builds a sketch as users build it, with all warnings as errors; or tells what the compilers say.
+pub(super) fn made(job: &BoardJob<'_>, folder: &Path) -> Result<PathBuf, String> {
     let mut make = Command::new("make");
     make.args(["--silent", "-j2", "WARNINGS=-Wall -Wextra -Werror"]);
-    run(make.arg(format!("ARDUINO_CORE={CORE}")).arg("-C").arg(&folder));
-    folder.join("build").join(format!("{}.ino.elf", job.board.name.value))
-}
-
-/// A bench in a world.
-pub(super) fn bench(job: &BoardJob<'_>, text: &str) -> Bench {
-    let file = SourceMap::default().add("world.toml", text);
-    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
-    let scene = Scene {
-        design: job.design,
-        devices: &devices,
-        transport: job.board.link.transport,
-        seed: None,
-        samples: &|_| Err("there are no files".to_owned()),
-    };
-    let (world, mistakes) = world::read(file, text, &scene);
-    assert!(mistakes.is_empty(), "{mistakes:?}");
-    Bench::new(job, &world, 1)
-}
-
-/// What a host has heard of a board, and what the judge found.
-pub(super) struct Heard {
-    pub(super) reports: u64,
-    pub(super) health: Option<Health>,
-    pub(super) findings: Vec<DeviceFindings>,
-}
-
-/// Runs a board under a host that asks for its identity, and for its health once a second.
-pub(super) fn judged(
-    job: &BoardJob<'_>,
-    board: &mut AvrBoard,
-    bench: &Bench,
-    seconds: u64,
-) -> Heard {
-    let mut judge = Judge::new(job, bench);
-    let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
-    let mut heard = Heard { reports: 0, health: None, findings: Vec::new() };
-    board.link_open(true);
-    for ms in 1..=seconds * 1_000 {
-        if ms % 1_000 == 100 {
-            board.link_write(&encode_hello_request(&job.schema));
-        }
-        if ms % 1_000 == 600 {
-            board.link_write(&encode_health_request(&job.schema));
-        }
-        board.run_until(ms * MS);
-        let bytes = board.link_read();
-        let now_ns = board.now_ns();
-        decoder.feed(&bytes, |event| match event {
-            Event::Report(_, values) => judge.take(now_ns, &values),
-            Event::Hello(hash) => {
-                assert_eq!(hash, job.schema.hash());
-                judge.answered();
-            }
-            Event::Health(health) => {
-                judge.health(now_ns, &health, judge.received());
-                heard.health = Some(health);
-                judge.answered();
-            }
-            Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
-        });
+    let output = make.arg(format!("ARDUINO_CORE={CORE}")).arg("-C").arg(folder).output().unwrap();
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
     }
-    judge.transfers(board.now_ns(), &board.odd_transfers());
-    heard.reports = judge.received();
-    heard.findings = judge.finish(board.now_ns());
-    heard
+    Ok(folder.join("build").join(format!("{}.ino.elf", job.board.name.value)))
+}
+
+/// The sketch of a job.
+pub(super) fn built(job: &BoardJob<'_>, name: &str) -> PathBuf {
+    made(job, &written(job, name)).unwrap_or_else(|said| panic!("{name}: {said}"))
 }
 
 fn agrees(name: &str, text: &str, world: &str) {
@@ -136,15 +73,11 @@ fn agrees(name: &str, text: &str, world: &str) {
     }
     with_job(text, None, |job| {
         let image = built(job, name);
-        let own = bench(job, world);
-        let mut board = AvrBoard::new(job, bench(job, world), &image);
-        let heard = judged(job, &mut board, &own, 10);
-        assert!(heard.reports > 100, "{name}: {} reports", heard.reports);
-        assert!(heard.health.is_some(), "{name}: it does not answer");
-        assert_eq!(board.resets().len(), 0);
-        assert_eq!((board.halt(), board.unwatched()), (None, None), "{name}");
-        let wrong: Vec<_> = heard.findings.iter().filter(|one| one.wrong > 0).collect();
-        assert!(wrong.is_empty(), "{name}: {wrong:#?}");
+        let asks_ms: Vec<u64> = (0..10).map(|second| second * 1_000 + 600).collect();
+        let trial = run(job, world, &image, Host::that_asks(10, &asks_ms));
+        assert_eq!(trial.noticed(), "", "{name}");
+        let count = trial.reported.len();
+        assert!(count > 100 && trial.health.len() == 10, "{name}: {count} values");
     });
 }
 
