@@ -99,10 +99,15 @@ impl Trial {
         if let Some(why) = &self.halt {
             return format!("the program stops: {why}");
         }
+        // The rest follows from these.
+        if !self.resets.is_empty() {
+            return "a reset".to_owned();
+        }
+        if self.greeted.is_none() {
+            return "the host (no answer)".to_owned();
+        }
         let mut all = Vec::new();
         all.extend(self.is_other.then(|| "the host (another schema)".to_owned()));
-        all.extend(self.greeted.is_none().then(|| "the host (no answer)".to_owned()));
-        all.extend((!self.resets.is_empty()).then(|| "a reset".to_owned()));
         all.extend(self.unwatched.as_ref().map(|what| format!("the watchdog {what}")));
         let listed = |what: &str, of: Vec<&str>| {
             (!of.is_empty()).then(|| format!("{what} ({})", of.join(", ")))
