@@ -154,8 +154,8 @@ void pin_set_outside(pad_t pad, level_t level, uint64_t next_ns, level_t next);
 /* A timer has a pad from now on, or gives it back (FLOATING with a wave of its own: `has_wave`). */
 void pin_take(pad_t pad, level_t level, bool has_wave);
 void pin_give(pad_t pad);
-/* The directions and levels of all ports, as they were told to the world, are told again. */
-void pins_tell(void);
+/* What the program has written to the registers of a port: DDRx and PORTx; 0 without that port. */
+void pins_registers(unsigned port, uint8_t *direction, uint8_t *latch);
 
 /* timers.c, waves.c: timers 0 to 5; fast_timer.c: the timer 4 of the ATmega32U4 */
 

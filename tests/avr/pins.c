@@ -267,6 +267,13 @@ static void write_control(avr_t *of, avr_io_addr_t address, uint8_t value, void 
   }
 }
 
+void pins_registers(unsigned port, uint8_t *direction, uint8_t *latch) {
+  const uint16_t base = part->ports[port];
+
+  *direction = base == 0 ? 0 : avr->data[base + DIRECTION];
+  *latch = base == 0 ? 0 : avr->data[base + LATCH];
+}
+
 void pins_reset(void) {
   for (unsigned port = 0; port < PORTS; port++) {
     for (unsigned pin = 0; pin < PINS; pin++) {

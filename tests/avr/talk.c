@@ -253,6 +253,18 @@ static void switch_power(void) {
   be_done();
 }
 
+static void show_ports(void) {
+  for (unsigned port = 0; port < PORTS; port++) {
+    uint8_t direction;
+    uint8_t latch;
+
+    pins_registers(port, &direction, &latch);
+    put_number(direction, 1);
+    put_number(latch, 1);
+  }
+  send_all();
+}
+
 static void receive(void) {
   static uint8_t bytes[UINT16_MAX];
   const size_t count = (size_t)get_number(2);
@@ -277,6 +289,9 @@ void talk(void) {
       break;
     case 'P':
       switch_power();
+      break;
+    case 'S':
+      show_ports();
       break;
     default:
       fputs("an order that nobody knows\n", stderr);

@@ -29,10 +29,8 @@ pub fn is_whole() -> bool {
     level() >= 3
 }
 
-/// Whether an exhaustive run has the case, of which it has one in three; `SENSEDSL_SEED` draws them.
-/// A whole run has all.
-#[must_use]
-pub fn is_drawn(case: &str) -> bool {
+/// Random numbers of a case; others with another `SENSEDSL_SEED`.
+fn seeded(case: &str) -> Random {
     let seed = std::env::var("SENSEDSL_SEED").unwrap_or_default();
     // FNV-1a, which is the same on every machine.
     let hash = seed
@@ -42,7 +40,25 @@ pub fn is_drawn(case: &str) -> bool {
         .fold(0xCBF2_9CE4_8422_2325, |hash: u64, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
         });
-    is_whole() || (is_exhaustive() && Random::new(hash).below(ONE_IN) == 0)
+    Random::new(hash)
+}
+
+/// Whether an exhaustive run has the case, of which it has one in three; `SENSEDSL_SEED` draws them.
+/// A whole run has all.
+#[must_use]
+pub fn is_drawn(case: &str) -> bool {
+    is_whole() || (is_exhaustive() && seeded(case).below(ONE_IN) == 0)
+}
+
+/// `count` of the items in their order, which `SENSEDSL_SEED` draws; all of them in an exhaustive run.
+#[must_use]
+pub fn drawn<'a, T>(what: &str, all: &'a [T], count: usize) -> Vec<&'a T> {
+    let mut left: Vec<&T> = all.iter().collect();
+    let mut random = seeded(what);
+    while !is_exhaustive() && left.len() > count {
+        left.remove(random.below(left.len()));
+    }
+    left
 }
 
 /// The first `count` items, or all of them in a thorough run.

@@ -28,7 +28,7 @@ mod depth;
 mod mistakes;
 mod random;
 
-pub use depth::{few, is_drawn, is_exhaustive, is_thorough, is_whole, one_in};
+pub use depth::{drawn, few, is_drawn, is_exhaustive, is_thorough, is_whole, one_in};
 pub use mistakes::{Mistake, Place, mistakes};
 pub use random::Random;
 

@@ -5,8 +5,8 @@ use sensedsl_files::{block, templates};
 use sensedsl_job::kinds::serial;
 use sensedsl_job::part::MessagePlan;
 use sensedsl_job::{BoardJob, JobConnection};
-use sensedsl_model::kind::KindName;
 use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::{KindName, Role};
 
 use crate::context::Context;
 use crate::section::{Apply, Cost, PortPlan, Section, Work};
@@ -53,6 +53,9 @@ pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
         let (Some(message), Some(object)) = (plan, object) else { continue };
         let port = Port::new(wire, uart, message, ports.len());
         let table = format!("{}_port", port.ident);
+        // A wire to a part that is not there must not look like data.
+        let rx = context.number(wire, Role::Rx);
+        section.pads.extend(rx.map(|number| format!("pinMode({number}, INPUT_PULLUP);")));
         section.ports.push(PortPlan {
             object: object.to_owned(),
             baud: uart.baud,

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use sensedsl_job::BoardJob;
 use sensedsl_model::design::{ConnectionIndex, Transport};
-use sensedsl_model::kind::Interface;
 use sensedsl_model::kind::uart::Parity;
+use sensedsl_model::kind::{Interface, Role};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use sensedsl_twin::bench::{Bench, UncheckedIdentity, number_of};
 use sensedsl_twin::commands::outputs::Outputs;
@@ -30,6 +30,23 @@ const RESETS_MAX: usize = 3;
 struct OnBench {
     bench: Bench,
     inputs: BTreeMap<u8, ConnectionIndex>,
+    /// The pads that make parts measure.
+    triggers: BTreeMap<Pad, Trigger>,
+}
+
+/// The pulses on a wire that makes a part measure.
+#[derive(Clone, Copy, Debug, Default)]
+struct Trigger {
+    rose_ns: Option<u64>,
+    shortest_ns: Option<u64>,
+}
+
+impl Trigger {
+    fn driven(&mut self, level: Option<bool>, now_ns: u64) {
+        let pulse_ns = self.rose_ns.take().map(|rose_ns| now_ns - rose_ns);
+        self.rose_ns = (level == Some(true)).then_some(now_ns);
+        self.shortest_ns = self.shortest_ns.into_iter().chain(pulse_ns).min();
+    }
 }
 
 impl OnBench {
@@ -39,7 +56,11 @@ impl OnBench {
             job.connections.iter().flat_map(|one| one.pads.iter().map(move |pad| (one, pad)));
         let inputs =
             pads.filter_map(|(one, pad)| Some((of_pad(&pad.pin.name.to_string())?, one.index)));
-        Self { inputs: inputs.collect(), bench }
+        let all = job.connections.iter().flat_map(|one| &one.pads);
+        let all = all.filter(|pad| pad.role == Role::Trigger);
+        let triggers = all.filter_map(|pad| Pad::named(&pad.pin.name.to_string()));
+        let triggers = triggers.map(|pad| (pad, Trigger::default())).collect();
+        Self { inputs: inputs.collect(), triggers, bench }
     }
 }
 
@@ -61,6 +82,9 @@ impl Surroundings for OnBench {
     }
 
     fn driven(&mut self, pad: Pad, level: Option<bool>, now_ns: u64) {
+        if let Some(trigger) = self.triggers.get_mut(&pad) {
+            trigger.driven(level, now_ns);
+        }
         self.bench.driven(pad, level, now_ns);
     }
 
@@ -228,6 +252,11 @@ impl AvrBoard {
         self.bench().waves().clone()
     }
 
+    /// The shortest pulse on a pad that makes a part measure; none if there was no pulse.
+    pub(crate) fn shortest_trigger_ns(&self, pad: Pad) -> Option<u64> {
+        self.avr.around.triggers.get(&pad)?.shortest_ns
+    }
+
     /// The parts on buses that the board has read without asking for their identity.
     pub(crate) fn unasked(&self) -> Vec<UncheckedIdentity> {
         self.bench().unasked()
@@ -241,6 +270,11 @@ impl AvrBoard {
     /// How the ports are set up, by unit.
     pub(crate) fn ports(&self) -> &BTreeMap<(char, u8), Setting> {
         self.avr.settings()
+    }
+
+    /// What the program has written to DDRx and PORTx, by port from A on.
+    pub(crate) fn registers(&mut self) -> Vec<(u8, u8)> {
+        self.avr.registers()
     }
 
     /// All resets after the first start.

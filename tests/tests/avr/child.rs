@@ -13,6 +13,8 @@ use super::tools;
 const BUS: u8 = 1;
 /// Where a port would be, of an input of the converter that has none.
 const NO_PORT: u8 = 0xFF;
+/// The ports A to L.
+const PORTS: usize = 12;
 /// A level that nothing drives.
 const FLOATING: u8 = 2;
 
@@ -155,6 +157,13 @@ impl<A: Around> Avr<A> {
     /// How the ports are set up: `u` and a number for a serial one, `s` for SPI, `i` for I2C.
     pub(crate) const fn settings(&self) -> &BTreeMap<(char, u8), Setting> {
         &self.settings
+    }
+
+    /// What the program has written to DDRx and PORTx, by port from A on.
+    pub(crate) fn registers(&mut self) -> Vec<(u8, u8)> {
+        self.order(b"S");
+        let all: [u8; 2 * PORTS] = self.bytes();
+        all.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
     }
 
     pub(crate) fn link_read(&mut self) -> Vec<(u64, u8)> {

@@ -1,15 +1,12 @@
 //! A board's job on the emulated AVR: the bench answers what the program asks, and faults of the world reach it.
 
-use sensedsl_diagnostics::SourceMap;
-use sensedsl_job::BoardJob;
 use sensedsl_surroundings::TimerOutput;
-use sensedsl_twin::bench::Bench;
 use sensedsl_twin::trial::Tested;
-use sensedsl_twin::world::{self, Scene};
 
 use super::board::AvrBoard;
 use super::child::{Reset, Serial, Setting};
 use super::tools::{is_possible, program};
+use super::trial::bench;
 use super::units::MS;
 use crate::embassy::with_job;
 
@@ -29,21 +26,6 @@ const CHIP: &str = "board ARDUINO_NANO {
 const SERVO: &str = "board ARDUINO_UNO_R3 {
     actuator Servo accepts uint16 { id = 1; type = pwm; pin = PB1; frequency = 50 Hz; }
 }";
-
-fn bench(job: &BoardJob<'_>, text: &str) -> Bench {
-    let file = SourceMap::default().add("world.toml", text);
-    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
-    let scene = Scene {
-        design: job.design,
-        devices: &devices,
-        transport: job.board.link.transport,
-        seed: None,
-        samples: &|_| Err("there are no files".to_owned()),
-    };
-    let (world, mistakes) = world::read(file, text, &scene);
-    assert!(mistakes.is_empty(), "{mistakes:?}");
-    Bench::new(job, &world, 1)
-}
 
 fn read(board: &mut AvrBoard, to_ms: u64) -> Vec<u8> {
     Tested::run_until(board, to_ms * MS);

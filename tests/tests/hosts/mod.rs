@@ -11,7 +11,7 @@
 mod c;
 mod compile;
 pub(crate) mod designs;
-mod files;
+pub(crate) mod files;
 mod health;
 mod link;
 mod matlab;
