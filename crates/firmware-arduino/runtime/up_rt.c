@@ -190,15 +190,15 @@ static void begin(UP_ROM up_task_t *task, task_state_t *state, uint32_t now_ms) 
   }
 }
 
-static void run(UP_ROM up_task_t *task, task_state_t *state) {
-  uint32_t now_ms = up_now_ms();
+static void run(UP_ROM up_task_t *task, task_state_t *state, uint32_t turn_ms) {
+  uint32_t now_ms;
   uint32_t wait_ms;
 
-  if (!is_due(state->wake_ms, now_ms)) {
+  if (!is_due(state->wake_ms, turn_ms)) {
     return;
   }
-  if (is_due(state->next_ms, now_ms)) {
-    begin(task, state, now_ms);
+  if (is_due(state->next_ms, turn_ms)) {
+    begin(task, state, turn_ms);
   }
   up_life_enter(task->field);
   wait_ms = task->cycle(task->work);
@@ -240,17 +240,20 @@ static void listen(void) {
   sense_drain();
 }
 
+/* A turn looks at the clock once: what is due at the same moment runs in the order of the table, whenever in a turn that
+ * moment comes. Otherwise the time from one step of a controller to the next would change by what runs before it. */
 void up_loop(void) {
+  const uint32_t turn_ms = up_now_ms();
 #if UP_TASKS_COUNT > 0
   uint8_t i;
 
   for (i = 0U; i < UP_TASKS_COUNT; i++) {
     listen();
-    run(&sense_tasks[i], &states[i]);
+    run(&sense_tasks[i], &states[i], turn_ms);
   }
 #endif
   listen();
-  if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
+  if (is_due(reported_ms + UP_REPORT_MS, turn_ms)) {
     sense_poll();
     up_reporter_cycle(&reporter, up_now_ms(), UP_WIRE_STAMPS ? micros() : 0U);
     /* Cycles are on a grid, from which those are missing that nobody had time for. */

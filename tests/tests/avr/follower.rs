@@ -2,7 +2,7 @@
 //! the user's controller in C on the emulated processor.
 
 use sensedsl_diagnostics::SourceMap;
-use sensedsl_tests::{TempDir, read, sensedsl};
+use sensedsl_tests::{TempDir, is_exhaustive, read, sensedsl};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::trial::{Recording, RuleVerdict, Trial, judge};
 use sensedsl_twin::world::{self, Scene};
@@ -61,11 +61,10 @@ fn a_line_follower_keeps_its_rules_on_an_uno() {
 }
 
 #[test]
-fn a_line_follower_keeps_its_rules_on_a_nano() {
+fn a_line_follower_keeps_its_rules_on_other_boards() {
+    if !is_exhaustive() {
+        return;
+    }
     keeps_its_rules("line_follower", "ARDUINO-NANO");
-}
-
-#[test]
-fn a_line_follower_keeps_its_rules_on_a_mega() {
     keeps_its_rules("line_follower", "ARDUINO-MEGA-2560");
 }

@@ -47,11 +47,12 @@ fn changed(text: &str, changes: Changes) -> String {
 }
 
 /// Fewer samples, for converters that take a tenth of a millisecond for each.
-const SLOW: Changes = &[(LINE, LINE_SLOW), WIDER];
+const SLOW: Changes = &[(LINE, LINE_SLOW), WIDER, ABRUPT];
 /// Six sensors instead of eight.
 const SIX: Changes = &[
     (LINE, LINE_SLOW),
     WIDER,
+    ABRUPT,
     ("uint16[8]", "uint16[6]"),
     ("eight reflectance sensors", "six reflectance sensors"),
     ("SENSORS 8", "SENSORS 6"),
@@ -65,6 +66,8 @@ const SIX: Changes = &[
 ];
 /// What is measured and computed one after the other comes some milliseconds later.
 const WIDER: (&str, &str) = ("abs(Offset) < 9 mm from 1 s", "abs(Offset) < 11 mm from 1 s");
+/// With fewer samples the rate of change is coarser, and a wheel turns back for a moment where lines cross.
+const ABRUPT: (&str, &str) = ("Left + Right > 60 %", "Left + Right > 20 %");
 const LINE: &str = "        type = analog;\n        delay = 5 ms;\n";
 const LINE_SLOW: &str = "        type = analog;\n        samples = 2;\n        delay = 5 ms;\n";
 
