@@ -12,7 +12,7 @@ pub use crate::entry::Entry;
 use crate::mcu;
 use crate::pin::PinName;
 use crate::profile::{Transport, pin, pins};
-use crate::registry::BOARDS;
+use crate::registry::{BOARDS, FILES};
 use crate::table::{Table, load};
 
 /// All built-in boards, in natural order of their names.
@@ -84,13 +84,13 @@ impl Entry {
     /// The table as stored. It may leave the usages to the MCU.
     #[must_use]
     pub fn csv(&self) -> &'static str {
-        self.pins
+        self.file("pins.csv")
     }
 
     /// The pins as stored; if the table names no MCU, it is that of the board.
     #[must_use]
     pub fn table(&self) -> Table {
-        let mut table = load(self.pins).board;
+        let mut table = load(self.csv()).board;
         table.mcu.get_or_insert_with(|| self.mcu.to_owned());
         table
     }
@@ -101,7 +101,12 @@ impl Entry {
     ///
     /// Fails if the file is damaged; tests rule that out.
     pub fn board(&self) -> Result<Board, String> {
-        Board::parse(self.facts)
+        Board::parse(self.file("board.toml"))
+    }
+
+    /// A file of its folder.
+    fn file(&self, name: &str) -> &'static str {
+        FILES.text(&format!("boards/{}/{name}", self.name))
     }
 }
 

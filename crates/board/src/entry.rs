@@ -11,8 +11,4 @@ pub struct Entry {
     pub mcu: &'static str,
     /// A one-line description.
     pub description: &'static str,
-    /// The text of `board.toml`.
-    pub(crate) facts: &'static str,
-    /// The text of `pins.csv`.
-    pub(crate) pins: &'static str,
 }

@@ -11,7 +11,7 @@ use sensedsl_diagnostics::nearest;
 use serde::Deserialize;
 
 use crate::landmark::Landmark;
-use crate::registry::FORMS;
+use crate::registry::{FILES, FORMS};
 
 /// The shape of a board.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -142,7 +142,7 @@ pub fn find(name: &str) -> Option<&'static Form> {
 
 /// The names of all forms, in order.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    FORMS.iter().map(|(name, _)| *name)
+    FORMS.iter().copied()
 }
 
 /// The name closest to a misspelt one.
@@ -155,7 +155,8 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
 fn all() -> &'static BTreeMap<&'static str, Form> {
     static ALL: OnceLock<BTreeMap<&'static str, Form>> = OnceLock::new();
     ALL.get_or_init(|| {
-        let read = |(name, text): &(&'static str, &str)| Some((*name, toml::from_str(text).ok()?));
+        let text = |name: &str| FILES.text(&format!("forms/{name}.toml"));
+        let read = |name: &&'static str| Some((*name, toml::from_str(text(name)).ok()?));
         FORMS.iter().filter_map(read).collect()
     })
 }

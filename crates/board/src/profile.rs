@@ -100,8 +100,8 @@ pub fn full_name(target: &str) -> Option<&'static str> {
 pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
     let target = full_name(target)?;
     let name = mcu::normalise(mcu);
-    let parts = TARGETS.iter().filter(|entry| entry.target == target).flat_map(|entry| entry.parts);
-    parts.copied().filter(|part| starts(&name, part)).max_by_key(|part| part.len())
+    let parts = TARGETS.iter().filter(|entry| entry.target == target).flat_map(Entry::parts);
+    parts.filter(|part| starts(&name, part)).max_by_key(|part| part.len())
 }
 
 /// The target for an MCU if none is named; also [`DEFAULT`] if no target covers the MCU.
@@ -112,13 +112,13 @@ pub fn usual(mcu: &str) -> &'static str {
 
 /// The file with the profile of an MCU under a target, both by their full names, and its place.
 fn entry(target: &str, name: &str) -> Option<(usize, &'static Entry)> {
-    let covers = |entry: &Entry| entry.parts.iter().any(|part| starts(name, part));
+    let covers = |entry: &Entry| entry.parts().any(|part| starts(name, part));
     let mut all = TARGETS.iter().enumerate();
     all.find(|(_, entry)| entry.target == target && covers(entry))
 }
 
 /// What the files say, each read once: editors ask at every letter, and lists of boards for all of them.
-static FILES: [OnceLock<Result<File, String>>; TARGETS.len()] =
+static FILES: [OnceLock<Result<Box<File>, String>>; TARGETS.len()] =
     [const { OnceLock::new() }; TARGETS.len()];
 
 /// Finds the profile of an MCU under a target.
@@ -139,24 +139,23 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
     let Some((place, entry)) = entry(target, &name) else {
         let entries = || TARGETS.iter().filter(|entry| entry.target == target);
         let family = entries().filter(|entry| name.starts_with(entry.family));
-        let mut covered: Vec<String> =
-            family.flat_map(|entry| entry.parts).map(|part| (*part).to_owned()).collect();
+        let mut covered: Vec<String> = family.flat_map(Entry::parts).map(str::to_owned).collect();
         if covered.is_empty() {
             covered = entries().map(|entry| entry.family.to_owned()).collect();
             covered.dedup();
         }
         return Err(NoProfile::UnknownMcu { target: target.to_owned(), covered });
     };
-    let read = || File::parse(entry.text);
+    let read = || File::parse(entry.text()).map(Box::new);
     let file = FILES.get(place).map_or_else(read, |file| file.get_or_init(read).clone());
-    let found = file.and_then(|file| of_line(file, &name));
+    let found = file.and_then(|file| of_line(*file, &name));
     found.map_err(|message| NoProfile::Broken { message })
 }
 
 /// The text of the file with the profile of an MCU under a target.
 #[must_use]
 pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
-    entry(full_name(target)?, &mcu::normalise(mcu)).map(|(_, entry)| entry.text)
+    entry(full_name(target)?, &mcu::normalise(mcu)).map(|(_, entry)| entry.text())
 }
 
 /// A line of a profile file.
@@ -178,9 +177,9 @@ pub struct LineFacts {
 pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
     let mut all = Vec::new();
     for entry in TARGETS.iter().filter(|entry| Some(entry.target) == full_name(target)) {
-        let names = File::parse(entry.text)?.lines().to_vec();
+        let names = File::parse(entry.text())?.lines().to_vec();
         for line in names {
-            let file = File::parse(entry.text)?;
+            let file = File::parse(entry.text())?;
             all.push(LineFacts {
                 units: line.units.split_whitespace().map(str::to_owned).collect(),
                 left_out: file.left_out(&line).map(str::to_owned).collect(),

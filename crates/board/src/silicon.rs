@@ -11,20 +11,7 @@ use serde::Deserialize;
 
 use crate::mcu;
 use crate::pin::PinName;
-
-/// The files of `silicon/`.
-const FILES: &[&str] = &[
-    include_str!("../silicon/atmega.toml"),
-    include_str!("../silicon/esp32.toml"),
-    include_str!("../silicon/imxrt.toml"),
-    include_str!("../silicon/nrf52.toml"),
-    include_str!("../silicon/nrf53.toml"),
-    include_str!("../silicon/ra4m1.toml"),
-    include_str!("../silicon/rp2.toml"),
-    include_str!("../silicon/sam3x.toml"),
-    include_str!("../silicon/samd.toml"),
-    include_str!("../silicon/stm32.toml"),
-];
+use crate::registry::FILES;
 
 /// The facts of an MCU family.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
@@ -299,7 +286,8 @@ fn covers(parts: &[String], name: &str) -> bool {
 /// All families; a damaged file, which tests rule out, is skipped.
 fn all() -> &'static [Silicon] {
     static ALL: OnceLock<Vec<Silicon>> = OnceLock::new();
-    ALL.get_or_init(|| FILES.iter().filter_map(|text| toml::from_str(text).ok()).collect())
+    let read = |(_, text): (&str, &str)| toml::from_str(text).ok();
+    ALL.get_or_init(|| FILES.folder("silicon").filter_map(read).collect())
 }
 
 #[cfg(test)]
@@ -321,7 +309,8 @@ mod tests {
             count += 1;
             let text = std::fs::read_to_string(&path).unwrap();
             let silicon: Silicon = toml::from_str(&text).unwrap();
-            assert!(FILES.contains(&text.as_str()), "{} is not embedded", path.display());
+            let is_embedded = FILES.folder("silicon").any(|(_, known)| known == text);
+            assert!(is_embedded, "{} is not embedded", path.display());
             assert!(!silicon.parts.is_empty());
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {
                 assert!(!ability.because.is_empty() && !ability.source.is_empty());
@@ -346,7 +335,8 @@ mod tests {
                 assert!(needed.parts.iter().all(inside), "{needed:?}");
             }
         }
-        assert_eq!((count, all().len()), (FILES.len(), FILES.len()));
+        let embedded = FILES.folder("silicon").count();
+        assert_eq!((count, all().len()), (embedded, embedded));
     }
 
     #[test]

@@ -132,14 +132,14 @@ fn generate(module: &str) -> String {
         )
         .unwrap();
     }
-    text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const FORMS: &[(&str, &str)] = &[\n");
+    text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const FORMS: &[&str] = &[\n");
     for (file, _) in entries(&root().join("crates/board/forms")) {
-        writeln!(text, "    form!({:?}),", file.strip_suffix(".toml").unwrap()).unwrap();
+        writeln!(text, "    {:?},", file.strip_suffix(".toml").unwrap()).unwrap();
     }
     text.push_str("];\n\n#[rustfmt::skip]\npub(crate) const TARGETS: &[Target] = &[\n");
     for (target, file, path) in targets() {
-        let (family, parts) = (family(&read(&path)), parts(&read(&path)));
-        writeln!(text, "    target!({target:?}, {file:?}, {family:?}, &{parts:?}),").unwrap();
+        let (family, parts) = (family(&read(&path)), parts(&read(&path)).join(" "));
+        writeln!(text, "    target!({target:?}, {file:?}, {family:?}, {parts:?}),").unwrap();
     }
     text.push_str("];\n");
     text
@@ -175,8 +175,9 @@ fn every_board_is_sound() {
             let target = profile::find(system, &board.mcu);
             let known = matches!(target, Ok(_) | Err(profile::NoProfile::UnknownMcu { .. }));
             assert!(known, "{}: {target:?}", board.name);
-            // The HALs of Embassy set the clocks, as their profiles say.
-            let has_clocks = !facts.clocks_hz.is_empty() || system == "embassy";
+            // The HALs of Embassy set the clocks, as their profiles say, and an Arduino has one.
+            let is_of_profile = ["embassy", "arduino"].contains(&system.as_str());
+            let has_clocks = !facts.clocks_hz.is_empty() || is_of_profile;
             assert!(has_clocks, "{}: no clocks", board.name);
         }
     }

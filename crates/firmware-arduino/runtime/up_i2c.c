@@ -10,6 +10,23 @@
 /* The time between attempts on a bus that something holds. */
 #define BACKOFF_MS 50U
 
+/* The wires, as the framework's functions take a hundred bytes each. */
+#if defined(__AVR_ATmega328P__)
+#define WIRES_OUT PORTC
+#define WIRES_DRIVEN DDRC
+#define WIRES_IN PINC
+#define SDA_BIT _BV(4)
+#define SCL_BIT _BV(5)
+#elif defined(__AVR_ATmega2560__) || defined(__AVR_ATmega32U4__)
+#define WIRES_OUT PORTD
+#define WIRES_DRIVEN DDRD
+#define WIRES_IN PIND
+#define SDA_BIT _BV(1)
+#define SCL_BIT _BV(0)
+#else
+#error "the pins of the I2C unit of this MCU are unknown"
+#endif
+
 /* What the unit says after each step: TWSR without the prescaler. */
 #define STATUS (TWSR & 0xF8U)
 #define STARTED 0x08U
@@ -29,8 +46,8 @@ static uint16_t retry_ms;
 static bool is_held;
 
 static void set_up(void) {
-  digitalWrite(SDA, HIGH);
-  digitalWrite(SCL, HIGH);
+  WIRES_OUT |= SDA_BIT;
+  WIRES_OUT |= SCL_BIT;
   TWSR = 0U;
   TWBR = divider;
   TWCR = _BV(TWEN);
@@ -45,14 +62,28 @@ void up_i2c_start(uint32_t speed_hz) {
 
 /* ---- freeing ---- */
 
-static void release(uint8_t pin) {
-  pinMode(pin, INPUT_PULLUP);
+/* Single bits, which change in one instruction each: handlers of interrupts may set other pins of the port. */
+static void release_scl(void) {
+  WIRES_DRIVEN &= (uint8_t)~SCL_BIT;
+  WIRES_OUT |= SCL_BIT;
   delayMicroseconds(HALF_CLOCK_US);
 }
 
-static void pull_low(uint8_t pin) {
-  digitalWrite(pin, LOW);
-  pinMode(pin, OUTPUT);
+static void release_sda(void) {
+  WIRES_DRIVEN &= (uint8_t)~SDA_BIT;
+  WIRES_OUT |= SDA_BIT;
+  delayMicroseconds(HALF_CLOCK_US);
+}
+
+static void pull_scl_low(void) {
+  WIRES_OUT &= (uint8_t)~SCL_BIT;
+  WIRES_DRIVEN |= SCL_BIT;
+  delayMicroseconds(HALF_CLOCK_US);
+}
+
+static void pull_sda_low(void) {
+  WIRES_OUT &= (uint8_t)~SDA_BIT;
+  WIRES_DRIVEN |= SDA_BIT;
   delayMicroseconds(HALF_CLOCK_US);
 }
 
@@ -61,15 +92,15 @@ static void recover(void) {
   uint8_t clocks;
 
   TWCR = 0U;
-  release(SDA);
-  release(SCL);
-  for (clocks = 0U; clocks < RECOVERY_CLOCKS && digitalRead(SDA) == LOW; clocks++) {
-    pull_low(SCL);
-    release(SCL);
+  release_sda();
+  release_scl();
+  for (clocks = 0U; clocks < RECOVERY_CLOCKS && (WIRES_IN & SDA_BIT) == 0U; clocks++) {
+    pull_scl_low();
+    release_scl();
   }
-  pull_low(SDA);
-  release(SDA);
-  is_held = digitalRead(SDA) == LOW || digitalRead(SCL) == LOW;
+  pull_sda_low();
+  release_sda();
+  is_held = (WIRES_IN & (SDA_BIT | SCL_BIT)) != (SDA_BIT | SCL_BIT);
   retry_ms = (uint16_t)(millis() + BACKOFF_MS);
   if (!is_held) {
     set_up();

@@ -7,23 +7,33 @@
 #include "up_convert.h"
 
 void up_edges_on_change(up_edges_t *edges, bool is_active, uint32_t now, bool counts_both_edges) {
+#if UP_USES_CAPTURE_TIMES
+  const uint32_t passed = now - edges->began;
+#else
+  const uint32_t passed = now;
+#endif
+
   if (!is_active) {
     if (edges->has_begun) {
-      up_capture_on_width(&edges->raw, now - edges->began, counts_both_edges);
+      up_capture_on_width(&edges->raw, passed, counts_both_edges);
     }
     return;
   }
   if (edges->has_begun) {
-    up_capture_on_period(&edges->raw, now - edges->began);
+    up_capture_on_period(&edges->raw, passed);
   }
+#if UP_USES_CAPTURE_TIMES
   edges->began = now;
+#endif
   edges->has_begun = true;
 }
 
+#if UP_USES_CAPTURE_TIMES
 /* Ticks of the clock as ticks of the sensor, of which there are no more; rounded. */
 static uint32_t ticks(UP_ROM up_icu_t *icu, uint32_t clocks) {
   return up_scale(clocks, icu->capture.tick_hz, icu->clock_hz);
 }
+#endif
 
 static bool read_input(UP_ROM up_icu_t *icu, uint8_t index, uint8_t type, void *element) {
   const up_edges_t *edges = &icu->edges[index];
@@ -34,8 +44,10 @@ static bool read_input(UP_ROM up_icu_t *icu, uint8_t index, uint8_t type, void *
   raw = edges->raw;
   has_begun = edges->has_begun;
   interrupts();
+#if UP_USES_CAPTURE_TIMES
   raw.width_ticks = ticks(icu, raw.width_ticks);
   raw.period_ticks = ticks(icu, raw.period_ticks);
+#endif
   return up_capture_read(&icu->capture, &icu->states[index], &raw, has_begun, up_now_ms(), type, element);
 }
 

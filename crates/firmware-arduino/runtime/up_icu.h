@@ -14,9 +14,18 @@
 /* The edges of one wire. All zero at the start. */
 typedef struct {
   up_capture_raw_t raw;
+#if UP_USES_CAPTURE_TIMES
   uint32_t began; /* the last active edge */
+#endif
   bool has_begun;
 } up_edges_t;
+
+/* The time of an edge that no timer captures; of no meaning where edges are only counted. */
+#if UP_USES_CAPTURE_TIMES
+#define UP_EDGE_US() micros()
+#else
+#define UP_EDGE_US() 0U
+#endif
 
 /* A sensor. */
 typedef struct {

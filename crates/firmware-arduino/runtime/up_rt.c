@@ -99,6 +99,7 @@ void up_fall_back(size_t field, const void *value) {
   sense_apply(field, value);
 }
 
+#if UP_USES_COMMANDS
 /* The host has set an actuator; where a controller has it, that decides. */
 static void on_set(void *context, size_t field, const void *value) {
   (void)context;
@@ -110,6 +111,7 @@ static void on_set(void *context, size_t field, const void *value) {
   up_set(field, value);
   up_user_received(field);
 }
+#endif
 
 static void on_silence(void *context) {
   (void)context;
@@ -134,8 +136,8 @@ static UP_ROM up_channel_t channel = {
     .room_max = UP_LINK_ROOM_BYTES,
 };
 static uint8_t frame[SENSE_REPORT_FRAME_BYTES];
+#if UP_USES_COMMANDS
 static uint8_t buffer[SENSE_COMMAND_BUFFER_BYTES];
-#if defined(SENSE_HAS_COMMANDS)
 static sense_values_t received;
 #endif
 UP_ROM up_reporter_config_t UP_REPORTER_CONFIG = {
@@ -146,15 +148,15 @@ UP_ROM up_reporter_config_t UP_REPORTER_CONFIG = {
     .store = &store,
     .health = &health,
     .frame = frame,
-    .buffer = buffer,
-#if defined(SENSE_HAS_COMMANDS)
-    .received = &received,
-#endif
     .frame_bytes = sizeof frame,
+#if UP_USES_COMMANDS
+    .buffer = buffer,
     .buffer_bytes = sizeof buffer,
+    .received = &received,
+    .apply = on_set,
+#endif
     .cycle_ms = UP_REPORT_MS,
     .silence_ms = UP_SILENCE_MS,
-    .apply = on_set,
     .failsafe = on_silence,
     .describe = describe,
 };
@@ -250,7 +252,7 @@ void up_loop(void) {
   listen();
   if (is_due(reported_ms + UP_REPORT_MS, up_now_ms())) {
     sense_poll();
-    up_reporter_cycle(&reporter, up_now_ms(), micros());
+    up_reporter_cycle(&reporter, up_now_ms(), UP_WIRE_STAMPS ? micros() : 0U);
     /* Cycles are on a grid, from which those are missing that nobody had time for. */
     do {
       reported_ms += UP_REPORT_MS;

@@ -21,8 +21,8 @@ const CHIP_BYTES: u32 = 55;
 const TRANSFER_BYTES: u32 = 8;
 const ORDER_BYTES: u32 = 6;
 /// The core's code for parts on buses.
-const CHIPS_FLASH_BYTES: u32 = 3_600;
-const SPI_FLASH_BYTES: u32 = 500;
+const CHIPS_FLASH_BYTES: u32 = 2_900;
+const SPI_FLASH_BYTES: u32 = 1_200;
 /// What a table in the core takes for each reading or command of a part.
 const TABLE_BYTES: u32 = 40;
 

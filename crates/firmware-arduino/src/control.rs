@@ -9,8 +9,8 @@ use crate::context::Context;
 use crate::section::{Cost, Section, Work};
 use sensedsl_firmware_c::FallBackPlan;
 
-/// An `up_control_state_t`.
-const STATE_BYTES: u32 = 13;
+/// An `up_control_state_t`, and a few variables of the user's.
+const STATE_BYTES: u32 = 13 + 16;
 
 templates! {
     s: ControlPlan;
@@ -61,7 +61,7 @@ pub(crate) fn section(context: &Context<'_>, plan: &ControlPlan) -> Section {
         let sets = control.plan.sets.iter().map(|field| field.bytes() + 1);
         let bytes: usize = fields.chain(sets).sum();
         let bytes = u32::try_from(bytes).unwrap_or(u32::MAX).saturating_add(STATE_BYTES);
-        section.costs.push(Cost::new(format!("the controller {}", device.name()), bytes, 500));
+        section.costs.push(Cost::new(format!("the controller {}", device.name()), bytes, 1_500));
     }
     if !plan.is_empty() {
         section.headers.push("up_control.h");

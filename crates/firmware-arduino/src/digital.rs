@@ -185,7 +185,7 @@ impl Levels {
         }
         if !(self.outputs.is_empty() && self.classes.is_empty() && self.awaited.is_empty()) {
             section.headers.push("up_digital.h");
-            section.costs.push(Cost::new("plain pins", 0, 900));
+            section.costs.push(Cost::new("plain pins", 0, 1_250));
             section.tables = block(&Tables { s: self });
         }
     }

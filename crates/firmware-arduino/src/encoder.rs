@@ -57,7 +57,7 @@ pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     }
     if !all.sensors.is_empty() {
         section.headers.push("up_encoder.h");
-        section.costs.push(Cost::new("encoders", 0, 700));
+        section.costs.push(Cost::new("encoders", 0, 600));
         section.tables = block(&Tables { s: &all });
     }
     section

@@ -92,7 +92,7 @@ pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         all.sensors.iter().map(|one| format!("up_icu_poll(&{}_icu);", one.ident)).collect();
     if !(all.sensors.is_empty() && all.pulses.is_empty()) {
         section.headers.push("up_icu.h");
-        section.costs.push(Cost::new("pulses", 0, 1_800));
+        section.costs.push(Cost::new("pulses", 0, 2_000));
         section.tables = block(&Tables { s: &all });
     }
     let _ = diagnostics;
@@ -142,9 +142,7 @@ impl Captures {
     ) -> bool {
         let Some(pad) = wire.pad(Role::In) else { return false };
         let is_active_high = icu.edge != Edge::Falling;
-        if let Some(number) = context.names.number(&pad.pin.name) {
-            section.pads.push(format!("pinMode({number}, INPUT);"));
-        }
+        // Pins are inputs from the start.
         let timer = context.channel(pad).map(|(timer, _)| timer.name.as_str());
         let timer = timer.filter(|name| context.names.capture_timers.iter().any(|one| one == name));
         if let Some(timer) = timer {
@@ -163,7 +161,7 @@ impl Captures {
         let pin = pad.pin.name.clone();
         let active = if is_active_high { level(&pin) } else { format!("!({})", level(&pin)) };
         let both = counts_both(icu);
-        let line = format!("up_edges_on_change(&{edges}, {active}, micros(), {both});");
+        let line = format!("up_edges_on_change(&{edges}, {active}, UP_EDGE_US(), {both});");
         section.changes.push(Change { pin, line });
         false
     }

@@ -32,6 +32,7 @@ mod bus;
 mod changes;
 mod context;
 mod control;
+mod costs;
 mod digital;
 mod encoder;
 mod icu;

@@ -7,16 +7,19 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0574_does_not_fit;
 
 use crate::context::Context;
+use crate::costs;
 use crate::section::Cost;
 
-/// What the framework takes without a port: its clock.
+/// What the framework takes without a port: its clock. Larger MCUs have more interrupts, and longer jumps.
 const FRAMEWORK: (u32, u32) = (9, 1_300);
+const FRAMEWORK_OF_LARGE_FLASH_BYTES: u32 = 2_700;
+const LARGE_BYTES: u32 = 65_536;
 /// An object of a port with its pointers, besides its buffers.
 const PORT: (u32, u32) = (29, 900);
 /// What a USB port of the framework takes.
 const USB: (u32, u32) = (80, 3_200);
 /// The loop, the values' store, the reporter and the decoder, without what grows with the design.
-const RUNTIME: (u32, u32) = (215, 4_600);
+const RUNTIME: (u32, u32) = (88, 3_000);
 /// An `up_health_device_t`, two bits of each of three bitmaps.
 const FIELD_BYTES: u32 = 14;
 /// A field's row in the schema, its name, its packing and unpacking.
@@ -60,8 +63,11 @@ impl Memory {
         let frames = count(sizes.report_frame_bytes + sizes.command_buffer_bytes);
         let values = count(sizes.values_bytes + sizes.received_bytes + sizes.scratch_bytes);
         let fields = count(sizes.fields);
+        let is_large = context.names.flash_bytes > LARGE_BYTES;
+        let framework_flash_bytes =
+            if is_large { FRAMEWORK_OF_LARGE_FLASH_BYTES } else { FRAMEWORK.1 };
         let mut costs = vec![
-            Cost::new("the framework", FRAMEWORK.0, FRAMEWORK.1),
+            Cost::new("the framework", FRAMEWORK.0, framework_flash_bytes),
             Cost::new("the port of the link", port_ram + buffers, port_flash),
             Cost::new("the runtime", RUNTIME.0, RUNTIME.1),
             Cost::new("the frames of the link", frames, 0),
@@ -72,9 +78,9 @@ impl Memory {
             Cost::new("the stack", STACK_BYTES, 0),
         ];
         // Code that several sections need is there once.
-        for one in sections {
-            if !costs.contains(one) {
-                costs.push(one.clone());
+        for one in sections.cloned().chain(costs::of_values(context.job)) {
+            if !costs.contains(&one) {
+                costs.push(one);
             }
         }
         let ram_bytes = costs.iter().map(|one| one.ram_bytes).sum();

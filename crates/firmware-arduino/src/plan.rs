@@ -4,7 +4,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
 use sensedsl_firmware_c::runtime::File;
 use sensedsl_firmware_c::{self as c, FallBackPlan, Role, SchemaPlan, Wiring};
-use sensedsl_job::part::uses;
+use sensedsl_job::part::uses_in_c;
 use sensedsl_job::{BoardJob, JobDevice, Owner};
 use sensedsl_model::design::Transport;
 use sensedsl_wire::ScalarType;
@@ -215,9 +215,10 @@ impl SketchPlan {
         .collect();
         let sizes = self.sections.iter().flat_map(|section| &section.sizes);
         all.extend(sizes.map(|(name, number)| ((*name).to_owned(), *number)));
-        let unused = uses(job).into_iter().filter(|(_, is_used)| !is_used);
+        let unused = uses_in_c(job).into_iter().filter(|(_, is_used)| !is_used);
+        let commands = (!job.has_actuators()).then_some(("commands", false));
         let name = |name: &str| format!("UP_USES_{}", name.to_uppercase().replace('-', "_"));
-        all.extend(unused.map(|(own, _)| (name(own), 0)));
+        all.extend(unused.chain(commands).map(|(own, _)| (name(own), 0)));
         let wires = self.schema.left_out();
         all.extend(
             wires.iter().filter_map(|option| Some((option.split_once('=')?.0.to_owned(), 0))),

@@ -159,7 +159,7 @@ impl Pulses {
                 self.actuators.push(Actuator { ident, name, outputs });
             }
             Some(drive) => {
-                section.costs.push(Cost::new(format!("the bridge {name}"), 2, 0));
+                section.costs.push(Cost::new("bridges", 2, 1_400));
                 let (outputs, inputs) = self.bridge(context, wires, drive);
                 self.bridges.push(Bridge { ident, name, outputs, inputs });
             }

@@ -79,7 +79,7 @@ pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     section.sizes.push(("UP_UART_SEND_BYTES_MAX", send_bytes));
     if !ports.is_empty() {
         section.headers.push("up_uart.h");
-        section.costs.push(Cost::new("devices on serial ports", 0, 3_000));
+        section.costs.push(Cost::new("devices on serial ports", 0, 5_900));
         section.tables = block(&Tables { s: &Ports { ports } });
     }
     section

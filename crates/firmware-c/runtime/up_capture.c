@@ -6,8 +6,11 @@
 #define COUNT_REPEAT_MS 1000U
 
 void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_edges) {
+#if UP_USES_CAPTURE_TIMES
   raw->width_ticks = width_ticks;
   raw->widths++;
+#endif
+  (void)width_ticks;
   if (both_edges) {
     raw->edges++;
   }
@@ -15,8 +18,11 @@ void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_
 
 void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks) {
   raw->edges++;
+#if UP_USES_CAPTURE_TIMES
   raw->period_ticks = period_ticks;
   raw->periods++;
+#endif
+  (void)period_ticks;
 }
 
 static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, bool first_edge_seen,
@@ -34,6 +40,7 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   return true;
 }
 
+#if UP_USES_CAPTURE_TIMES
 static void store_capture(UP_ROM up_capture_config_t *config, const up_capture_raw_t *raw, uint8_t type,
                           void *element) {
   switch ((up_capture_mode_t)config->mode) {
@@ -67,13 +74,10 @@ static bool read_silence(UP_ROM up_capture_config_t *config, up_capture_state_t 
   return true;
 }
 
-bool up_capture_read(UP_ROM up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
-                     bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element) {
+static bool read_time(UP_ROM up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+                      uint32_t now_ms, uint8_t type, void *element) {
   const uint32_t captures = (config->mode == UP_CAPTURE_WIDTH) ? raw->widths : raw->periods;
 
-  if (config->mode == UP_CAPTURE_COUNT) {
-    return read_count(state, raw, first_edge_seen, now_ms, type, element);
-  }
   if (captures == state->captures) {
     return read_silence(config, state, now_ms, type, element);
   }
@@ -82,4 +86,16 @@ bool up_capture_read(UP_ROM up_capture_config_t *config, up_capture_state_t *sta
   state->is_silent = false;
   store_capture(config, raw, type, element);
   return true;
+}
+#endif
+
+bool up_capture_read(UP_ROM up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+                     bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element) {
+#if UP_USES_CAPTURE_TIMES
+  if (config->mode != UP_CAPTURE_COUNT) {
+    return read_time(config, state, raw, now_ms, type, element);
+  }
+#endif
+  (void)config;
+  return read_count(state, raw, first_edge_seen, now_ms, type, element);
 }

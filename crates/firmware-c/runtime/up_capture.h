@@ -27,10 +27,12 @@ typedef struct {
 /* Written by the interrupt, copied by the reader with interrupts masked. */
 typedef struct {
   uint32_t edges;
-  uint32_t widths; /* captures of a pulse */
+#if UP_USES_CAPTURE_TIMES
+  uint32_t widths;  /* captures of a pulse */
   uint32_t periods; /* captures of a whole period */
   uint32_t width_ticks;
   uint32_t period_ticks;
+#endif
 } up_capture_raw_t;
 
 /* What the reader remembers from one read to the next. */

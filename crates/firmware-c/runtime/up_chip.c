@@ -36,6 +36,11 @@ static uint32_t after(const step_t *step, uint32_t wait_ms) {
   return step->clock() + ((wait_ms == 0U) ? 0U : wait_ms + 1U);
 }
 
+/* Most chips have one transfer; a program that has only such knows that. */
+static size_t transfers_of(UP_ROM up_chip_t *chip) {
+  return UP_USES_CHIP_TURNS ? chip->transfers_count : 1U;
+}
+
 /* ---- the bus ---- */
 
 static void restart(up_chip_state_t *state) {
@@ -166,7 +171,7 @@ static bool calibrate(const step_t *step) {
 static void begin_transfers(const step_t *step) {
   size_t i;
 
-  for (i = 0U; i < step->chip->transfers_count; i++) {
+  for (i = 0U; i < transfers_of(step->chip); i++) {
     step->state->transfers[i].due_ms = step->now_ms;
     step->state->transfers[i].ready_ms = step->clock() + step->chip->transfers[i].wait_ms;
   }
@@ -205,7 +210,7 @@ static void say_fault(const step_t *step, size_t transfer) {
 
   for (i = 0U; i < step->chip->readings_count; i++) {
     UP_ROM up_chip_reading_t *reading = &step->chip->readings[i];
-    if (reading->transfer == transfer || transfer == step->chip->transfers_count) {
+    if (reading->transfer == transfer || transfer == transfers_of(step->chip)) {
       say(step, reading, (up_result_t)step->state->fault);
     }
   }
@@ -273,6 +278,11 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
 
 /* ---- transfers ---- */
 
+/* A program whose transfers are all of one sort knows that of each. */
+static bool has_trigger(UP_ROM up_chip_transfer_t *transfer) {
+  return UP_USES_CHIP_TRIGGERS && (!UP_USES_CHIP_READS || transfer->trigger_count > 0U);
+}
+
 static uint32_t cycle_of(UP_ROM up_chip_t *chip, size_t transfer) {
   const uint32_t cycle_ms = chip->transfers[transfer].cycle_ms;
 
@@ -294,11 +304,11 @@ static void set_next(const step_t *step, size_t transfer) {
 
   if (cycle_ms == 0U) {
     state->due_ms = step->now_ms;
-  } else if (is_reached(step->now_ms, state->due_ms)) {
-    state->due_ms += cycle_ms * ((uint32_t)(step->now_ms - state->due_ms) / cycle_ms + 1U);
-  } else {
-    state->due_ms += cycle_ms;
+    return;
   }
+  do {
+    state->due_ms += cycle_ms;
+  } while (is_reached(step->now_ms, state->due_ms));
 }
 
 static bool fetch(const step_t *step, size_t transfer) {
@@ -318,10 +328,9 @@ static bool fetch(const step_t *step, size_t transfer) {
 static bool fetch_free(const step_t *step) {
   size_t i;
 
-  for (i = 0U; i < step->chip->transfers_count; i++) {
+  for (i = 0U; i < transfers_of(step->chip); i++) {
     up_chip_transfer_state_t *state = &step->state->transfers[i];
-    const bool is_free = step->chip->transfers[i].trigger_count == 0U;
-    if (!is_free || !is_due(step, i) || !is_reached(step->clock(), state->ready_ms)) {
+    if (has_trigger(&step->chip->transfers[i]) || !is_due(step, i) || !is_reached(step->clock(), state->ready_ms)) {
       continue;
     }
     if (!fetch(step, i)) {
@@ -335,12 +344,12 @@ static bool fetch_free(const step_t *step) {
 
 /* The triggered transfer that has been due for longest; transfers_count if there is none. */
 static size_t next_triggered(const step_t *step) {
-  size_t found = step->chip->transfers_count;
+  size_t found = transfers_of(step->chip);
   size_t i;
 
-  for (i = 0U; i < step->chip->transfers_count; i++) {
-    if (step->chip->transfers[i].trigger_count > 0U && is_due(step, i) &&
-        (found == step->chip->transfers_count ||
+  for (i = 0U; i < transfers_of(step->chip); i++) {
+    if (has_trigger(&step->chip->transfers[i]) && is_due(step, i) &&
+        (found == transfers_of(step->chip) ||
          !is_reached(step->state->transfers[i].due_ms, step->state->transfers[found].due_ms))) {
       found = i;
     }
@@ -354,7 +363,7 @@ static void run_triggered(const step_t *step) {
   up_chip_state_t *state = step->state;
   size_t turns;
 
-  for (turns = 0U; turns <= step->chip->transfers_count; turns++) {
+  for (turns = 0U; turns <= transfers_of(step->chip); turns++) {
     size_t transfer;
     if (state->in_flight > 0U) {
       transfer = (size_t)state->in_flight - 1U;
@@ -367,7 +376,7 @@ static void run_triggered(const step_t *step) {
       }
     }
     transfer = next_triggered(step);
-    if (transfer == step->chip->transfers_count) {
+    if (transfer == transfers_of(step->chip)) {
       return;
     }
     if (!write_bytes(step, step->chip->transfers[transfer].trigger, step->chip->transfers[transfer].trigger_count)) {
@@ -389,10 +398,10 @@ void up_chip_step(UP_ROM up_chip_t *chip, up_chip_state_t *state, UP_ROM up_bus_
   if (!state->is_running) {
     start(&step);
     if (!state->is_running && state->fault != UNTOUCHED) {
-      say_fault(&step, chip->transfers_count);
+      say_fault(&step, transfers_of(chip));
     }
   }
-  if (state->is_running && fetch_free(&step)) {
+  if (state->is_running && (!UP_USES_CHIP_READS || fetch_free(&step)) && UP_USES_CHIP_TRIGGERS) {
     run_triggered(&step);
   }
   if (state->fault == UNTOUCHED) {
@@ -407,11 +416,11 @@ uint32_t up_chip_idle_ms(UP_ROM up_chip_t *chip, const up_chip_state_t *state, u
   if (!state->is_running) {
     return state->is_pausing ? left_ms(now_ms, state->pause_until_ms) : chip->cycle_ms;
   }
-  if (state->in_flight > 0U) {
+  if (UP_USES_CHIP_TRIGGERS && state->in_flight > 0U) {
     idle_ms = left_ms(now_ms, state->transfers[state->in_flight - 1U].ready_ms);
   }
-  for (i = 0U; i < chip->transfers_count; i++) {
-    const bool is_free = chip->transfers[i].trigger_count == 0U;
+  for (i = 0U; i < transfers_of(chip); i++) {
+    const bool is_free = !has_trigger(&chip->transfers[i]);
     uint32_t wait_ms = left_ms(now_ms, state->transfers[i].due_ms);
     if (is_free && left_ms(now_ms, state->transfers[i].ready_ms) > wait_ms) {
       wait_ms = left_ms(now_ms, state->transfers[i].ready_ms);
@@ -481,7 +490,7 @@ size_t up_chip_work_bytes(UP_ROM up_chip_t *chip, UP_ROM up_schema_t *schema) {
   for (i = 0U; i < chip->calibration_count; i++) {
     bytes = greater(bytes, (size_t)chip->calibration[i].select_count + chip->calibration[i].count);
   }
-  for (i = 0U; i < chip->transfers_count; i++) {
+  for (i = 0U; i < transfers_of(chip); i++) {
     UP_ROM up_chip_transfer_t *transfer = &chip->transfers[i];
     const size_t select = transfer->exchange ? transfer->length : transfer->select_count;
     bytes = greater(bytes, greater(transfer->trigger_count, select + transfer->length));

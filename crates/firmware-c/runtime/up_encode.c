@@ -41,12 +41,27 @@ static uint8_t *open_frame(UP_ROM up_wire_t *wire, uint8_t *frame, size_t frame_
   return (frame_bytes < UP_WIRE_FRAME_BYTES(wire)) ? NULL : &frame[wire->head_bytes];
 }
 
+/* A tenth, rounded down. An AVR divides by a function, and its frames are short. */
+static inline size_t tens_of(size_t number) {
+#if defined(__AVR__)
+  size_t tens = 0U;
+
+  while (number >= 10U) {
+    number -= 10U;
+    tens++;
+  }
+  return tens;
+#else
+  return number / 10U;
+#endif
+}
+
 /* Adds a checksum, if the link has one, and the comma after the payload, which ends at `end`, and its length before
  * it. A payload that is shorter than the longest may move down by a few bytes. Returns the size of the frame. */
 static size_t close_frame(UP_ROM up_wire_t *wire, uint8_t *frame, uint8_t *end) {
   uint8_t *const payload = &frame[wire->head_bytes];
   uint8_t *head = payload;
-  size_t rest, bytes;
+  size_t rest, bytes, i;
 
   if (UP_WIRE_HAS_CHECKSUM(wire)) {
     const up_register_t crc = up_register_add(wire, up_register_init(wire), payload, (size_t)(end - payload));
@@ -57,13 +72,16 @@ static size_t close_frame(UP_ROM up_wire_t *wire, uint8_t *frame, uint8_t *end) 
   head--;
   *head = (uint8_t)':';
   do {
+    const size_t tens = tens_of(rest);
+
     head--;
-    *head = (uint8_t)('0' + rest % 10U);
-    rest /= 10U;
+    *head = (uint8_t)('0' + (rest - 10U * tens));
+    rest = tens;
   } while (rest > 0U);
   bytes = (size_t)(end - head) + 1U;
-  if (head != frame) {
-    memmove(frame, head, bytes);
+  /* Forwards, so that no byte is overwritten before it is moved. */
+  for (i = 0U; i < bytes; i++) {
+    frame[i] = head[i];
   }
   return bytes;
 }

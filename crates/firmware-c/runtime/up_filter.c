@@ -66,8 +66,10 @@ static up_unsigned_t bits_of_key(uint8_t type, up_unsigned_t key) {
   return is_signed(type) ? key ^ sign_of(type) : key;
 }
 
-static up_unsigned_t bits_of_number(uint8_t type, UP_ROM up_number_t *number) {
+/* ---- invalid ---- */
+
 #if UP_USES_REALS
+static up_unsigned_t bits_of_real(uint8_t type, UP_ROM up_number_t *number) {
   uint32_t single;
   uint64_t wide;
 
@@ -75,26 +77,39 @@ static up_unsigned_t bits_of_number(uint8_t type, UP_ROM up_number_t *number) {
     up_rom_copy(&single, &number->f, sizeof single);
     return single;
   }
-  if (type == UP_TYPE_FLOAT64) {
-    up_rom_copy(&wide, &number->d, sizeof wide);
-    return wide;
+  up_rom_copy(&wide, &number->d, sizeof wide);
+  return wide;
+}
+#endif
+
+static bool is_within(UP_ROM up_range_t *range, uint8_t type, up_unsigned_t bits) {
+  const up_unsigned_t sign = sign_of(type);
+  up_unsigned_t flip = 0U;
+
+#if UP_USES_REALS
+  if (is_real(type)) {
+    const up_unsigned_t key = key_of(type, bits);
+
+    return key >= key_of(type, bits_of_real(type, &range->low)) && key <= key_of(type, bits_of_real(type, &range->high));
   }
 #endif
-  return number->u & (2U * sign_of(type) - 1U);
+  if (is_signed(type)) {
+    /* As wide as the numbers of the range, whose order is that of unsigned ones with the sign turned round. */
+    bits = (bits ^ sign) - sign;
+    flip = UP_UNSIGNED_MAX / 2U + 1U;
+  }
+  bits ^= flip;
+  return bits >= (range->low.u ^ flip) && bits <= (range->high.u ^ flip);
 }
-
-/* ---- invalid ---- */
 
 static bool is_invalid(UP_ROM up_filter_t *filter, UP_ROM up_field_t *field, const uint8_t *value) {
   const size_t element_bytes = up_type_bytes(field->type);
   size_t element, i;
 
   for (element = 0U; element < field->count; element++) {
-    const up_unsigned_t key = key_of(field->type, up_element_load(field->type, &value[element * element_bytes]));
+    const up_unsigned_t bits = up_element_load(field->type, &value[element * element_bytes]);
     for (i = 0U; i < filter->invalid_count; i++) {
-      UP_ROM up_range_t *range = &filter->invalid[i];
-      if (key >= key_of(field->type, bits_of_number(field->type, &range->low)) &&
-          key <= key_of(field->type, bits_of_number(field->type, &range->high))) {
+      if (is_within(&filter->invalid[i], field->type, bits)) {
         return true;
       }
     }

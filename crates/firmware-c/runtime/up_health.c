@@ -37,7 +37,8 @@ void up_health_note(up_health_t *health, size_t field, up_result_t result, uint3
   }
 }
 
-static uint32_t age_ms(const up_health_device_t *device, uint32_t now_ms) {
+uint32_t up_health_age(const up_health_t *health, size_t field, uint32_t now_ms) {
+  const up_health_device_t *device = &health->devices[field];
   const uint32_t age = now_ms - device->good_ms;
 
   if (!device->has_value) {
@@ -60,7 +61,7 @@ void up_health_tick(up_health_t *health, uint32_t now_ms) {
     return;
   }
   device = &health->devices[health->looked_at];
-  device->is_ancient = age_ms(device, now_ms) == UP_AGE_LONG;
+  device->is_ancient = up_health_age(health, health->looked_at, now_ms) == UP_AGE_LONG;
   health->looked_at++;
 }
 
@@ -88,7 +89,7 @@ void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_
   const uint32_t cycle_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
   size_t i;
 
-  row->age_ms = age_ms(device, now_ms);
+  row->age_ms = up_health_age(health, field, now_ms);
   row->status = (uint8_t)status(device, row->age_ms, cycle_ms);
   for (i = 0U; i < UP_FAULTS; i++) {
     row->counts[i] = device->counts[i];

@@ -101,6 +101,9 @@ void up_health_tick(up_health_t *health, uint32_t now_ms);
 bool up_health_read_board(const uint8_t *payload, size_t size, up_health_board_t *board);
 bool up_health_read_row(const uint8_t *payload, size_t size, size_t index, up_health_row_t *row);
 
+/* The age of a device's value: UP_AGE_NEVER, UP_AGE_LONG, or milliseconds. */
+uint32_t up_health_age(const up_health_t *health, size_t field, uint32_t now_ms);
+
 /* The health of a device. */
 void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row);
 

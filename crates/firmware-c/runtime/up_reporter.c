@@ -2,8 +2,6 @@
 
 /* Reads per cycle: a host that sends without end must not delay reports. */
 #define READS_MAX 16U
-/* A value that has waited for more of its device's cycles, or of the reporter's, is too old. */
-#define FRESH_CYCLES 2U
 
 /* Where a program has one reporter, the compiler may know its configuration. */
 #if defined(UP_REPORTER_CONFIG)
@@ -23,6 +21,13 @@ static bool has_health(const up_reporter_t *reporter) {
   return UP_USES_HEALTH && config_of(reporter)->health != NULL;
 }
 
+/* A valid frame has come from the host. */
+static void note_heard(up_reporter_t *reporter) {
+  if (config_of(reporter)->silence_ms > 0U) {
+    up_silence_heard(&reporter->silence, reporter->now_ms);
+  }
+}
+
 static void lock(const up_reporter_t *reporter) {
   if (config_of(reporter)->lock != NULL) {
     config_of(reporter)->lock(config_of(reporter)->context);
@@ -37,6 +42,7 @@ static void unlock(const up_reporter_t *reporter) {
 
 /* ---- from the host ---- */
 
+#if UP_USES_COMMANDS
 static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
   const up_reporter_t *reporter = context;
   UP_ROM up_reporter_config_t *config = config_of(reporter);
@@ -73,24 +79,82 @@ static void on_health(void *context, const uint8_t *payload, size_t size) {
   }
 }
 
+static bool begin(up_reporter_t *reporter) {
+  UP_ROM up_reporter_config_t *config = config_of(reporter);
+
+  reporter->sink.on_values = on_values;
+  reporter->sink.on_hello = on_hello;
+  reporter->sink.on_health = on_health;
+  reporter->sink.context = reporter;
+  return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink);
+}
+
+static void take(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
+  const up_events_t frames = reporter->decoder.frames;
+
+  up_decoder_feed(&reporter->decoder, bytes, size);
+  if (reporter->decoder.frames != frames) {
+    note_heard(reporter);
+  }
+}
+
 static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
   UP_ROM up_reporter_config_t *config = config_of(reporter);
   size_t i;
 
   if (config->intercept == NULL) {
-    up_decoder_feed(&reporter->decoder, bytes, size);
+    take(reporter, bytes, size);
     return;
   }
   for (i = 0U; i < size; i++) {
     if (!up_decoder_is_idle(&reporter->decoder) || !config->intercept(config->context, bytes[i])) {
-      up_decoder_feed(&reporter->decoder, &bytes[i], 1U);
+      take(reporter, &bytes[i], 1U);
     }
   }
 }
 
+bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
+  const up_events_t frames = reporter->decoder.frames;
+
+  take(reporter, &byte, 1U);
+  return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
+}
+#else
+static bool begin(up_reporter_t *reporter) {
+  (void)reporter;
+  return true;
+}
+
+static bool take(up_reporter_t *reporter, uint8_t byte) {
+  const up_request_t request = up_request_take(&reporter->requests, config_of(reporter)->commands, byte);
+
+  if (request == UP_REQUEST_NONE) {
+    return false;
+  }
+  if (request == UP_REQUEST_HELLO) {
+    reporter->hello_due = true;
+  } else if (has_health(reporter)) {
+    reporter->health_due = true;
+  }
+  note_heard(reporter);
+  return true;
+}
+
+static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    (void)take(reporter, bytes[i]);
+  }
+}
+
+bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
+  return take(reporter, byte) && (reporter->hello_due || reporter->health_due);
+}
+#endif
+
 static void receive(up_reporter_t *reporter) {
   UP_ROM up_channel_t *channel = config_of(reporter)->channel;
-  const up_events_t frames = reporter->decoder.frames;
   uint8_t bytes[UP_REPORTER_READ_BYTES];
   size_t size = sizeof bytes;
   unsigned reads;
@@ -98,9 +162,6 @@ static void receive(up_reporter_t *reporter) {
   for (reads = 0U; reads < READS_MAX && size == sizeof bytes; reads++) {
     size = channel->read(channel->context, bytes, sizeof bytes);
     take_bytes(reporter, bytes, size);
-  }
-  if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, reporter->now_ms);
   }
 }
 
@@ -185,18 +246,15 @@ static void send_health(up_reporter_t *reporter) {
   send(reporter, size, false);
 }
 
-/* Whether a value has waited too long for room in the channel without a newer reading. */
+/* Whether a value has waited too long for room in the channel without a newer reading: for more than two of its
+ * device's cycles, or of the reporter's. */
 static bool is_old(const up_reporter_t *reporter, size_t field) {
   const up_health_t *health = config_of(reporter)->health;
   const uint32_t own_ms = (health->cycles_ms == UP_ROM_NULL) ? 0U : health->cycles_ms[field];
   const uint32_t cycle_ms = (own_ms > config_of(reporter)->cycle_ms) ? own_ms : config_of(reporter)->cycle_ms;
-  up_health_row_t row;
+  const uint32_t age_ms = up_health_age(health, field, reporter->now_ms);
 
-  if (own_ms == 0U) {
-    return false;
-  }
-  up_health_row(health, field, reporter->now_ms, &row);
-  return row.age_ms != UP_AGE_NEVER && row.age_ms / FRESH_CYCLES >= cycle_ms && row.age_ms > FRESH_CYCLES * cycle_ms;
+  return own_ms != 0U && age_ms != UP_AGE_NEVER && age_ms > cycle_ms && age_ms - cycle_ms > cycle_ms;
 }
 
 static void drop_old(up_reporter_t *reporter) {
@@ -263,13 +321,10 @@ bool up_reporter_init(up_reporter_t *reporter, UP_ROM up_reporter_config_t *conf
   memset(reporter, 0, sizeof *reporter);
   reporter->config = config;
   reporter->now_ms = now_ms;
-  reporter->sink.on_values = on_values;
-  reporter->sink.on_hello = on_hello;
-  reporter->sink.on_health = on_health;
-  reporter->sink.context = reporter;
-  up_silence_init(&reporter->silence, config->silence_ms, reporter->now_ms);
-  return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&
-         config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
+  if (config->silence_ms > 0U) {
+    up_silence_init(&reporter->silence, config->silence_ms, now_ms);
+  }
+  return begin(reporter) && config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
 }
 
 /* Updates the state at the start of a cycle, whoever uses the channel; `is_open`: frames may use it. */
@@ -290,7 +345,8 @@ static void begin_cycle(up_reporter_t *reporter, uint32_t now_ms, bool is_open) 
 static void fall_back(up_reporter_t *reporter) {
   UP_ROM up_reporter_config_t *config = config_of(reporter);
 
-  if (up_silence_step(&reporter->silence, reporter->now_ms) && config->failsafe != NULL) {
+  if (config->silence_ms > 0U && up_silence_step(&reporter->silence, reporter->now_ms) &&
+      config->failsafe != NULL) {
     config->failsafe(config->context);
   }
 }
@@ -317,14 +373,4 @@ void up_reporter_cycle(up_reporter_t *reporter, uint32_t now_ms, uint32_t now_us
 void up_reporter_pause(up_reporter_t *reporter, uint32_t now_ms) {
   begin_cycle(reporter, now_ms, false);
   fall_back(reporter);
-}
-
-bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
-  const up_events_t frames = reporter->decoder.frames;
-
-  up_decoder_feed(&reporter->decoder, &byte, 1U);
-  if (reporter->decoder.frames != frames) {
-    up_silence_heard(&reporter->silence, reporter->now_ms);
-  }
-  return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
 }

@@ -11,6 +11,7 @@
 #include "up_decode.h"
 #include "up_health.h"
 #include "up_report.h"
+#include "up_request.h"
 #include "up_silence.h"
 
 /* The bytes that are taken out of the channel at a time, on the stack. */
@@ -44,7 +45,8 @@ typedef struct {
   up_store_t *store;
   up_health_t *health; /* NULL, or without UP_USES_HEALTH: health is not noted, and requests for it are not answered */
   uint8_t *frame;      /* UP_WIRE_FRAME_BYTES(reports) */
-  uint8_t *buffer;     /* of the decoder; twice as long as a frame, or that and what up_decode.h adds */
+  uint8_t *buffer;     /* of the decoder; twice as long as a frame, or that and what up_decode.h adds. Without
+                        * UP_USES_COMMANDS there is no decoder */
   void *received;      /* as large as the store's values; NULL if the host has nothing to set */
   size_t frame_bytes;
   size_t buffer_bytes;
@@ -56,7 +58,8 @@ typedef struct {
   void (*failsafe)(void *context);
   /* Completes the health of the board: reset cause, load and stack. Uptime and counts are already there. */
   void (*describe)(void *context, up_health_board_t *board);
-  /* Sees each byte between two frames before the decoder does; returns true if it was meant for something else. */
+  /* Sees each byte between two frames before the decoder does; returns true if it was meant for something else. Not
+   * without UP_USES_COMMANDS. */
   bool (*intercept)(void *context, uint8_t byte);
   /* Called around accesses to store and health, if other threads use them. */
   void (*lock)(void *context);
@@ -74,8 +77,12 @@ typedef struct {
 
 typedef struct {
   UP_ROM up_reporter_config_t *config;
+#if UP_USES_COMMANDS
   up_decoder_t decoder;
   up_sink_t sink;
+#else
+  up_requests_t requests;
+#endif
   up_silence_t silence;
   up_reporter_counts_t counts;
   uint32_t now_ms;

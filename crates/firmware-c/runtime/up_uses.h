@@ -27,6 +27,9 @@
 #if UP_USES_REALS && !UP_USES_WIDE
 #error "reals are converted in 64 bits: UP_USES_REALS needs UP_USES_WIDE"
 #endif
+#ifndef UP_USES_COMMANDS
+#define UP_USES_COMMANDS 1 /* reporters whose hosts send values, and that let others see what comes */
+#endif
 #ifndef UP_USES_HEALTH
 #define UP_USES_HEALTH 1 /* reporters that note how devices are, and tell hosts that ask */
 #endif
@@ -35,6 +38,9 @@
 #endif
 #ifndef UP_USES_WORD_CRC
 #define UP_USES_WORD_CRC 1 /* checksums between words */
+#endif
+#ifndef UP_USES_WORD_BITS
+#define UP_USES_WORD_BITS 1 /* words of which only some bits are the value, or that are packed */
 #endif
 #ifndef UP_USES_LAMPS
 #define UP_USES_LAMPS 1 /* commands that are colours of a strip */
@@ -54,11 +60,23 @@
 #ifndef UP_USES_CHANGE
 #define UP_USES_CHANGE 1
 #endif
+#ifndef UP_USES_CAPTURE_TIMES
+#define UP_USES_CAPTURE_TIMES 1 /* captures of widths, periods, frequencies and duties: of anything but counts */
+#endif
 #ifndef UP_USES_CHIP_INIT
 #define UP_USES_CHIP_INIT 1 /* chips that are written to before they measure */
 #endif
 #ifndef UP_USES_CHIP_IDENTITY
 #define UP_USES_CHIP_IDENTITY 1
+#endif
+#ifndef UP_USES_CHIP_TRIGGERS
+#define UP_USES_CHIP_TRIGGERS 1 /* transfers that start a measurement and fetch it later */
+#endif
+#ifndef UP_USES_CHIP_READS
+#define UP_USES_CHIP_READS 1 /* transfers of chips that measure by themselves */
+#endif
+#ifndef UP_USES_CHIP_TURNS
+#define UP_USES_CHIP_TURNS 1 /* chips that do not have exactly one transfer */
 #endif
 #ifndef UP_USES_CHIP_FORMULAS
 #define UP_USES_CHIP_FORMULAS 1 /* and calibration */

@@ -78,11 +78,19 @@ static up_unsigned_t mask_of(unsigned bits) {
 /* The number of significant bits of a word; 0 if the table makes no sense. */
 static unsigned bits_of(UP_ROM up_value_t *how) {
   const unsigned word_bits = 8U * how->word_bytes;
+  /* Of a strip these bytes are not those of a number. */
+  const size_t bytes_max = is_lamps(how) ? 8U : sizeof(up_unsigned_t);
 
   if (is_code(how, UP_CODE_PACKED)) {
     return (how->bits <= PACKED_BITS_MAX) ? how->bits : 0U;
   }
-  if (how->word_bytes == 0U || how->word_bytes > sizeof(up_unsigned_t) || how->low >= word_bits) {
+  if (how->word_bytes == 0U || how->word_bytes > bytes_max) {
+    return 0U;
+  }
+  if (!UP_USES_WORD_BITS) {
+    return word_bits;
+  }
+  if (how->low >= word_bits) {
     return 0U;
   }
   return (how->bits == 0U || how->bits > word_bits - how->low) ? word_bits - how->low : how->bits;
@@ -116,7 +124,7 @@ static up_unsigned_t whole_word(UP_ROM up_value_t *how, const uint8_t *bytes, si
     const size_t at = how->little_endian ? (size_t)how->word_bytes - 1U - i : i;
     gathered = (gathered << 8) | bytes[place(how, first + at)];
   }
-  return gathered >> how->low;
+  return UP_USES_WORD_BITS ? gathered >> how->low : gathered;
 }
 
 static bool store_bcd(uint8_t type, up_unsigned_t digits, void *element) {
@@ -174,7 +182,9 @@ static bool decode_element(UP_ROM up_value_t *how, uint8_t type, const uint8_t *
     return false;
   }
   number = is_code(how, UP_CODE_PACKED) ? packed_word(how, bytes, word, bits) : whole_word(how, bytes, word);
-  number &= mask_of(bits);
+  if (UP_USES_WORD_BITS) {
+    number &= mask_of(bits);
+  }
   if (is_code(how, UP_CODE_BCD)) {
     return store_bcd(type, number, element);
   }

@@ -55,6 +55,8 @@ pub const BASE: &[File] = files![
     "up_report.h",
     "up_reporter.c",
     "up_reporter.h",
+    "up_request.c",
+    "up_request.h",
     "up_result.h",
     "up_rom.h",
     "up_schema.c",

@@ -15,7 +15,7 @@ use super::section::{Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
 use sensedsl_firmware_c::{FallBackPlan, Role, SchemaPlan};
 use sensedsl_job::BoardJob;
-use sensedsl_job::part::uses;
+use sensedsl_job::part::uses_in_c;
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -164,6 +164,6 @@ impl TaskPlan {
 
 /// The parts left out of the core, as compiler options (`-D`).
 fn left_out(job: &BoardJob<'_>) -> Vec<String> {
-    let unused = uses(job).into_iter().filter(|(_, is_used)| !is_used);
+    let unused = uses_in_c(job).into_iter().filter(|(_, is_used)| !is_used);
     unused.map(|(name, _)| format!("UP_USES_{}=0", name.to_uppercase().replace('-', "_"))).collect()
 }

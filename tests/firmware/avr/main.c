@@ -4,6 +4,8 @@
  */
 #include <string.h>
 
+#include "say.h"
+
 #include "up_chip.h"
 #include "up_compose.h"
 #include "up_convert.h"
@@ -14,66 +16,6 @@
 #include "up_ppm.h"
 #include "up_stepper.h"
 #include "up_text.h"
-
-#if defined(__AVR__)
-#include <avr/interrupt.h>
-#include <avr/io.h>
-#include <avr/sleep.h>
-
-static void say_byte(char letter) {
-  while ((UCSR0A & _BV(UDRE0)) == 0U) {
-  }
-  UDR0 = (uint8_t)letter;
-}
-
-static void begin(void) {
-  UCSR0B = _BV(TXEN0);
-}
-
-/* The simulator ends where nothing can wake the processor up. */
-static void end(void) {
-  while ((UCSR0A & _BV(UDRE0)) == 0U) {
-  }
-  cli();
-  sleep_enable();
-  sleep_cpu();
-}
-#else
-#include <stdio.h>
-
-static void say_byte(char letter) {
-  (void)putchar(letter);
-}
-
-static void begin(void) {
-}
-
-static void end(void) {
-}
-#endif
-
-static void say(const char *text) {
-  for (; *text != '\0'; text++) {
-    say_byte(*text);
-  }
-}
-
-static void say_rom(UP_ROM char *text) {
-  for (; *text != '\0'; text++) {
-    say_byte(*text);
-  }
-}
-
-static void say_bytes(const uint8_t *bytes, size_t count) {
-  static UP_ROM char digits[] = "0123456789abcdef";
-  size_t i;
-
-  for (i = 0U; i < count; i++) {
-    say_byte(digits[bytes[i] >> 4]);
-    say_byte(digits[bytes[i] & 15U]);
-  }
-  say_byte('\n');
-}
 
 /* ---- the schema ---- */
 

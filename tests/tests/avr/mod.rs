@@ -7,7 +7,9 @@
 
 pub(crate) mod board;
 pub(crate) mod child;
+mod codec;
 mod faults;
+mod follower;
 mod hosts;
 mod jobs;
 mod mistakes;

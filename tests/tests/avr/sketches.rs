@@ -5,7 +5,7 @@ use std::process::Command;
 
 use sensedsl_firmware_arduino::Arduino;
 use sensedsl_job::{BoardJob, Target as _};
-use sensedsl_tests::write_all;
+use sensedsl_tests::{printed, read, write_all};
 
 use super::tools::{CORE, can_compile_sketches};
 use super::trial::{Host, run};
@@ -30,6 +30,21 @@ const IMU: &str = "board Bot on ARDUINO_UNO_R3 {
         sensor Rate returns int16[3] {}
     }
     sensor Level returns uint16 { type = analog; samples = 8; delay = 50 ms; }
+}";
+/// The link is the MCU's own USB; outputs of timers and a captured input are beside it.
+const USB: &str = "board Bot on ARDUINO_LEONARDO {
+    link { silence = 500 ms; }
+    sensor Light returns uint16 { id = 1; type = analog; pin = A0; samples = 4; delay = 50 ms; }
+    sensor Slow returns uint32 { id = 2; type = icu; mode = period; pin = D4; unit = TC1; }
+    sensor Near returns uint32 { id = 3; driver = hcsr04; delay = 105 ms; }
+    chip Imu {
+        driver = mpu6050;
+        delay = 20 ms;
+        sensor Acceleration returns int16[3] { id = 4; }
+    }
+    actuator Steer accepts uint16 { id = 5; driver = servo; failsafe = 1500 us; }
+    actuator Lamp accepts bool { id = 6; type = digital; active = low; }
+    actuator Say accepts uint16 { id = 7; type = uart; baud = 9600; start = [0x55]; length = 2; }
 }";
 const GPS: &str = "board Bot on ARDUINO_MEGA_2560 {
     chip NmeaGps {
@@ -64,34 +79,97 @@ pub(super) fn made(job: &BoardJob<'_>, folder: &Path) -> Result<PathBuf, String>
 
 /// The sketch of a job.
 pub(super) fn built(job: &BoardJob<'_>, name: &str) -> PathBuf {
-    made(job, &written(job, name)).unwrap_or_else(|said| panic!("{name}: {said}"))
+    let folder = written(job, name);
+    let image = made(job, &folder).unwrap_or_else(|said| panic!("{name}: {said}"));
+    assert_memory(name, &read(&folder.join("README.md")), &image);
+    image
 }
 
-fn agrees(name: &str, text: &str, world: &str) {
+/// What the sketch's page says of its memory is what it takes: of RAM without the stack nothing less.
+fn assert_memory(name: &str, page: &str, image: &Path) {
+    let after = |mark: &str| page.split_once(mark).unwrap().1.split_whitespace().next().unwrap();
+    let said: Vec<u32> = ["About ", "of RAM with the stack, and ", "| the stack | "]
+        .map(|mark| after(mark).parse().unwrap())
+        .into();
+    let sizes = printed(Command::new("avr-size").arg(image));
+    let sizes: Vec<u32> = sizes
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let (flash, ram) = (sizes[0] + sizes[1], sizes[1] + sizes[2]);
+    println!(
+        "{name}: {ram} of {} bytes of RAM, {flash} of {} of flash",
+        said[0] - said[2],
+        said[1]
+    );
+    assert!((ram..=ram + ram / 6).contains(&(said[0] - said[2])), "{name}: {ram} bytes, {said:?}");
+    assert!(
+        (flash - flash / 10..=flash + flash / 3).contains(&said[1]),
+        "{name}: {flash} bytes, {said:?}"
+    );
+}
+
+/// Runs a board for ten seconds under a host that asks how it is, or under one that sets actuators and falls silent.
+fn agrees(name: &str, text: &str, sets: bool) {
     if !can_compile_sketches() {
         return;
     }
     with_job(text, None, |job| {
         let image = built(job, name);
         let asks_ms: Vec<u64> = (0..10).map(|second| second * 1_000 + 600).collect();
-        let trial = run(job, world, &image, Host::that_asks(10, &asks_ms));
+        let asks = Host::that_asks(10, &asks_ms);
+        let trial = run(job, "", &image, if sets { Host::that_sets(10) } else { asks });
         assert_eq!(trial.noticed(), "", "{name}");
-        let count = trial.reported.len();
-        assert!(count > 100 && trial.health.len() == 10, "{name}: {count} values");
+        let (values, health) = (trial.reported.len(), trial.health.len());
+        assert!(values > 100, "{name}: {values} values");
+        assert_eq!(health, if sets { 1 } else { asks_ms.len() }, "{name}");
+        let unset = trial.outputs.iter().find(|one| one.commands < 3 || one.is_silence_left);
+        assert!(unset.is_none(), "{name}: {unset:?}");
     });
 }
 
 #[test]
 fn a_rover_agrees_with_its_world() {
-    agrees("rover", ROVER, "");
+    agrees("rover", ROVER, false);
 }
 
 #[test]
 fn a_chip_agrees_with_its_world() {
-    agrees("imu", IMU, "");
+    agrees("imu", IMU, false);
 }
 
 #[test]
 fn a_receiver_and_encoders_agree_with_their_world() {
-    agrees("gps", GPS, "");
+    agrees("gps", GPS, false);
+}
+
+#[test]
+fn a_leonardo_agrees_with_its_world() {
+    agrees("leonardo", USB, true);
+}
+
+/// An encoder at the rate that the profile states for all handlers together, and other work beside it.
+const WHEEL: &str = "board Bot on ARDUINO_UNO_R3 {
+    sensor Wheel returns int32 { type = encoder; }
+    sensor Light returns uint16 { type = analog; samples = 8; delay = 20 ms; }
+}";
+
+#[test]
+fn an_encoder_counts_at_the_rate_that_is_stated() {
+    if !can_compile_sketches() {
+        return;
+    }
+    with_job(WHEEL, None, |job| {
+        let image = built(job, "wheel");
+        let stated_hz = job.profile.unwrap().edges.as_ref().unwrap().rate_max_hz;
+        let rate_hz = std::env::var("EDGES_HZ").ok().and_then(|hz| hz.parse().ok());
+        let rate_hz: u32 = rate_hz.unwrap_or(stated_hz);
+        let world =
+            format!("[devices]\nWheel = {{ ramp = [0, {}], over = \"10 s\" }}", rate_hz * 10);
+        let trial = run(job, &world, &image, Host::that_asks(3, &[2_600]));
+        assert_eq!(trial.noticed(), "", "{rate_hz} edges a second");
+    });
 }

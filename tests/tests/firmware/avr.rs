@@ -10,14 +10,14 @@ use super::core::{codecs, sources};
 use super::tools::scratch;
 
 /// Without `-Waddr-space-convert` the compiler takes a pointer to program memory for one to RAM.
-const STRICT: [&str; 6] =
+pub(super) const STRICT: [&str; 6] =
     ["-std=gnu11", "-Os", "-Wall", "-Wextra", "-Waddr-space-convert", "-Werror"];
 /// A table of the values of a `switch` would be in RAM; the core has none that becomes one.
 const GENERATED: &str = "-fno-tree-switch-conversion";
 /// With little memory.
 const SMALL: &str = "atmega328p";
 /// With the same instructions, and room for all of the core at once.
-const LARGE: &str = "atmega1284p";
+pub(super) const LARGE: &str = "atmega1284p";
 
 /// Compiles a file for the small machine.
 pub(crate) fn compile(source: &Path, flags: &[&str], object: &Path) {
@@ -51,6 +51,9 @@ fn the_core_has_nothing_in_ram() {
     let least = [
         "-DUP_USES_HEALTH=0",
         "-DUP_USES_REALS=0",
+        "-DUP_USES_WIDE=0",
+        "-DUP_USES_COMMANDS=0",
+        "-DUP_USES_CAPTURE_TIMES=0",
         "-DUP_USES_CRC32=0",
         "-DUP_WIRE_MEMO=0",
         "-DUP_FIELD_BITMAP_BYTES=2U",
@@ -114,7 +117,7 @@ fn generated_models_have_only_their_values_in_ram() {
 }
 
 /// Whether the simulator is here; it has no option that only succeeds.
-fn has_simavr() -> bool {
+pub(super) fn has_simavr() -> bool {
     let mut command = Command::new("simavr");
     let command = command.arg("--help").stdin(Stdio::null());
     let found = command.output().is_ok_and(|output| !output.stdout.is_empty());
@@ -126,7 +129,7 @@ fn has_simavr() -> bool {
 
 /// What a program sends over its serial port. The simulator prints it in colour, with a point for
 /// what ends a line.
-fn simulated(program: &Path) -> String {
+pub(super) fn simulated(program: &Path) -> String {
     let mut command = Command::new("simavr");
     let output = run(command.args(["-m", LARGE, "-f", "16000000"]).arg(program));
     let text = String::from_utf8(output.stderr).unwrap();

@@ -20,6 +20,7 @@ mod drives;
 pub(crate) mod embassy;
 mod emulated;
 mod facts;
+mod less;
 mod mutants;
 mod pins_and_clocks;
 mod stubs;

@@ -26,7 +26,7 @@ pub use message::{ComposePlan, ExchangePlan, FieldCoding, MessageFieldPlan, Mess
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
 use source::Source;
 pub use transfers::TransferPlan;
-pub use uses::uses;
+pub use uses::{uses, uses_in_c};
 pub use value::ValuePlan;
 
 /// The tables of one part.

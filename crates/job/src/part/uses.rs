@@ -1,8 +1,10 @@
 //! The parts of the runtime, in C and in Rust, that the values of a board need; the rest is left out of the program.
 
 use sensedsl_model::design::Device;
+use sensedsl_model::kind::icu::Mode;
+use sensedsl_model::protocol::Format;
 use sensedsl_model::words::{Code, Words};
-use sensedsl_wire::{Checksum, ScalarType};
+use sensedsl_wire::{Checksum, Direction, ScalarType};
 
 use super::bus::BusPlan;
 use crate::BoardJob;
@@ -33,6 +35,50 @@ pub fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 14] {
         ("chip-commands", bus(|bus| !bus.commands.is_empty())),
         ("chip-exchanges", bus(|bus| bus.transfers.iter().any(|one| one.is_exchange))),
     ]
+}
+
+/// The optional parts of the runtime in C: those of [`uses`], and what only a program in C can leave out.
+#[must_use]
+pub fn uses_in_c(job: &BoardJob<'_>) -> Vec<(&'static str, bool)> {
+    let device = |uses: fn(&Device) -> bool| job.devices.iter().any(|one| uses(one.device));
+    let bus =
+        |uses: fn(&BusPlan) -> bool| job.parts.iter().flat_map(|one| &one.plan.buses).any(uses);
+    let own = [
+        ("wide", device(is_wide)),
+        ("word-bits", device(|device| Words::of(device).is_some_and(|words| is_partial(&words)))),
+        ("invalid", device(|device| !device.filter.invalid.is_empty())),
+        (
+            "capture-times",
+            device(|device| device.kind.icu().is_some_and(|icu| icu.mode != Mode::Count)),
+        ),
+        ("chip-triggers", bus(|bus| bus.transfers.iter().any(|one| !one.trigger.is_empty()))),
+        ("chip-reads", bus(|bus| bus.transfers.iter().any(|one| one.trigger.is_empty()))),
+        ("chip-turns", bus(|bus| bus.transfers.len() != 1)),
+    ];
+    uses(job).into_iter().chain(own).collect()
+}
+
+/// Whether the value, or what it is made of, has more than 32 bits. Text has digits without a limit, and packed words
+/// are read together with what stands in their first byte.
+fn is_wide(device: &Device) -> bool {
+    let is_wide = |words: &Words| {
+        let is_number = !matches!(words.code, Code::Pulses | Code::Leds | Code::Text);
+        is_number && (words.word_bytes > 4 || (words.code == Code::Packed && words.bits > 25))
+    };
+    let is_long = |scalar: ScalarType| matches!(scalar, ScalarType::Int64 | ScalarType::Uint64);
+    let text = device.coding.text.as_ref().filter(|_| device.direction == Direction::Sensor);
+    is_real(device)
+        || is_long(device.value.value.scalar)
+        || Words::of(device).is_some_and(|words| is_wide(&words))
+        || text.is_some_and(|text| text.format != Format::Hex)
+        || device.filter.change.is_some_and(|change| change > f64::from(u32::MAX))
+}
+
+/// Whether only some bits of a word are the value.
+fn is_partial(words: &Words) -> bool {
+    words.code == Code::Packed
+        || words.low > 0
+        || u16::from(words.bits) != 8 * u16::from(words.word_bytes)
 }
 
 fn is_code(code: Code) -> bool {

@@ -7,7 +7,7 @@
 
 use sensedsl_diagnostics::{distance, nearest};
 
-use super::library::SEARCH;
+use super::library::search;
 use super::{Driver, Drivers};
 use crate::rule::names::folded;
 
@@ -136,7 +136,7 @@ fn is_misspelled(name: &str, other: &str) -> bool {
 
 /// The lines of `search.csv`: words, and the drivers that they mean.
 fn lines() -> impl Iterator<Item = (Vec<&'static str>, Vec<&'static str>)> {
-    let lines = SEARCH.lines().skip(1).filter_map(|line| line.split_once(','));
+    let lines = search().lines().skip(1).filter_map(|line| line.split_once(','));
     lines.map(|(words, drivers)| (words.split(' ').collect(), drivers.split(' ').collect()))
 }
 

@@ -5,7 +5,7 @@
 //! A template is a folder in `templates/projects`, which runs as it is; only the name of its board is exchanged.
 
 use anyhow::{Result, anyhow};
-use sensedsl_board::{catalog, profile};
+use sensedsl_board::catalog;
 use sensedsl_generate::target;
 
 use super::starter;
@@ -47,10 +47,11 @@ fn changed(text: &str, changes: Changes) -> String {
 }
 
 /// Fewer samples, for converters that take a tenth of a millisecond for each.
-const SLOW: Changes = &[(LINE, LINE_SLOW)];
+const SLOW: Changes = &[(LINE, LINE_SLOW), WIDER];
 /// Six sensors instead of eight.
 const SIX: Changes = &[
     (LINE, LINE_SLOW),
+    WIDER,
     ("uint16[8]", "uint16[6]"),
     ("eight reflectance sensors", "six reflectance sensors"),
     ("SENSORS 8", "SENSORS 6"),
@@ -62,6 +63,8 @@ const SIX: Changes = &[
     // The outermost sensor sees the line when that is less far away.
     ("Offset < -25 mm", "Offset < -16 mm"),
 ];
+/// What is measured and computed one after the other comes some milliseconds later.
+const WIDER: (&str, &str) = ("abs(Offset) < 9 mm from 1 s", "abs(Offset) < 11 mm from 1 s");
 const LINE: &str = "        type = analog;\n        delay = 5 ms;\n";
 const LINE_SLOW: &str = "        type = analog;\n        samples = 2;\n        delay = 5 ms;\n";
 

@@ -138,7 +138,11 @@ pub(super) fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Ite
 pub(super) fn times(subject: &Subject<'_, '_>) -> Vec<Item> {
     let is_behind_number = subject.site.before.last().is_some_and(is_number);
     if is_behind_number {
-        return units(subject, Some(&Takes::Time(0, 0)));
+        // `at 1 set` lacks its unit: what is there must not give way to one.
+        let word = subject.cx.text.get(subject.site.word.clone()).unwrap_or_default();
+        let is_next = ["set", "for"].contains(&word);
+        let wanted = Some(&Takes::Time(0, 0));
+        return if is_next { Vec::new() } else { units(subject, wanted) };
     }
     if subject.site.before.last().is_some_and(|last| last.kind == SyntaxKind::Unit) {
         return Vec::new();

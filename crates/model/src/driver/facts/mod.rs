@@ -15,7 +15,7 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::design::protocol::{Coding, Filter, Formula, Protocol};
 use crate::design::{Bounds, Level, Module, Presentation};
 use crate::driver::known::Known;
-use crate::driver::library::SEARCH;
+use crate::driver::library::search;
 use crate::driver::{Driver, Drivers, bounds, module};
 use crate::fields::Fields;
 use crate::kind::{Kind, KindName, Role, Values, encoding};
@@ -210,7 +210,7 @@ pub fn mistakes() -> Vec<(String, Diagnostic)> {
 
 /// The search terms for a driver.
 fn words(driver: &str) -> Vec<&'static str> {
-    let lines = SEARCH.lines().skip(1).filter_map(|line| line.split_once(','));
+    let lines = search().lines().skip(1).filter_map(|line| line.split_once(','));
     let of_driver = lines.filter(|(_, drivers)| drivers.split(' ').any(|one| one == driver));
     of_driver.flat_map(|(words, _)| words.split(' ')).collect()
 }
@@ -401,7 +401,7 @@ mod tests {
     #[test]
     fn every_driver_is_found_by_what_it_is_for() {
         let all: Vec<&str> = names().collect();
-        for line in SEARCH.lines().skip(1) {
+        for line in search().lines().skip(1) {
             let (words, drivers) = line.split_once(',').unwrap_or_default();
             assert!(!words.is_empty() && words == words.to_lowercase(), "{line}");
             for driver in drivers.split(' ') {
