@@ -175,6 +175,7 @@ pages! {
     start_with_a_blue_pill "start/with-a-blue-pill.md"
     start_with_a_nucleo "start/with-a-nucleo.md"
     start_with_a_pico "start/with-a-pico.md"
+    start_with_an_uno "start/with-an-uno.md"
     start_without_a_board "start/without-a-board.md"
     tutorials_can_robot "tutorials/can-robot.md"
     tutorials_line_follower "tutorials/line-follower.md"

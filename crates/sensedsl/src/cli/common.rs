@@ -20,7 +20,7 @@ pub(crate) struct On {
     /// A board table or built-in board that wins over what the file says
     #[arg(long, value_name = "TABLE", add = names::boards_and_tables())]
     pub(crate) board: Option<String>,
-    /// What the wiring is for: chibios, embassy, one with its version, or none for the pins alone
+    /// What the wiring is for: chibios, embassy, arduino, one with its version, or none for the pins alone
     #[arg(long, value_name = "NAME", add = names::targets())]
     pub(crate) target: Option<String>,
     #[command(flatten)]

@@ -19,6 +19,8 @@ pub(crate) enum Purpose {
     Chibios,
     /// Build firmware in Rust on Embassy
     Embassy,
+    /// Build and write Arduino sketches
+    Arduino,
     /// Write a program to a board
     Flash,
     /// Talk to a board at a serial port
@@ -29,14 +31,15 @@ pub(crate) enum Purpose {
 
 impl Purpose {
     /// All of them.
-    pub(crate) const ALL: [Self; 5] =
-        [Self::Chibios, Self::Embassy, Self::Flash, Self::Boards, Self::Hosts];
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Chibios, Self::Embassy, Self::Arduino, Self::Flash, Self::Boards, Self::Hosts];
 
     /// Its name on the command line.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Chibios => "chibios",
             Self::Embassy => "embassy",
+            Self::Arduino => "arduino",
             Self::Flash => "flash",
             Self::Boards => "boards",
             Self::Hosts => "hosts",
@@ -48,6 +51,7 @@ impl Purpose {
         match self {
             Self::Chibios => "Firmware in C on ChibiOS",
             Self::Embassy => "Firmware in Rust on Embassy",
+            Self::Arduino => "Arduino sketches",
             Self::Flash => "Write a program to a board",
             Self::Boards => "Boards at serial ports",
             Self::Hosts => "Host applications",

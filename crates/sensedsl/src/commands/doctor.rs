@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::monitor::cure;
 use crate::cli::{DoctorArgs, DoctorFormat, Purpose};
 use crate::files::shown;
-use crate::firmware::{self, cargo, drive, probe};
+use crate::firmware::{self, arduino, cargo, drive, probe};
 use crate::status::Status;
 use crate::terminal::Terminal;
 
@@ -70,6 +70,7 @@ fn find(purpose: Purpose) -> Finding {
     let items = match purpose {
         Purpose::Chibios => chibios(),
         Purpose::Embassy => embassy(),
+        Purpose::Arduino => arduino(),
         Purpose::Flash => flash(),
         Purpose::Boards => boards(),
         Purpose::Hosts => hosts(),
@@ -99,6 +100,25 @@ fn version(program: &str, arguments: &[&str]) -> Option<String> {
     let text = if output.stdout.is_empty() { output.stderr } else { output.stdout };
     let text = String::from_utf8_lossy(&text).into_owned();
     output.status.success().then(|| text.lines().next().unwrap_or_default().trim().to_owned())
+}
+
+fn arduino() -> Vec<Item> {
+    let builder = match arduino::builder(nowhere()) {
+        Ok(arduino::Builder::Cli) => {
+            let cli = version("arduino-cli", &["version"]).unwrap_or_default();
+            State::There(format!("{cli}, with arduino:avr"))
+        }
+        Ok(arduino::Builder::Make(_, core)) => {
+            let compiler = version("avr-gcc", &["-dumpversion"]).unwrap_or_default();
+            State::There(format!("avr-gcc {compiler}, the core at {}", shown(&core)))
+        }
+        Err(why) => missing(&why),
+    };
+    let writer = match arduino::writer(nowhere()) {
+        Ok(name) => State::There(name.to_owned()),
+        Err(why) => missing(&why),
+    };
+    vec![item("compiler, core", builder), item("programmer", writer)]
 }
 
 fn chibios() -> Vec<Item> {

@@ -10,6 +10,10 @@ use super::asked;
 use super::tools::{Make, gnu_make};
 use crate::files::shown;
 
+/// The Arduino IDE's program for the command line, and what it calls the core for AVR.
+const CLI: &str = "arduino-cli";
+const OWN_CORE: &str = "arduino:avr";
+
 /// Where packages and the Arduino IDE put the core for AVR. A folder of versions ends with a slash.
 const PLACES: [&str; 2] =
     ["/usr/share/arduino/hardware/arduino/avr", "/usr/local/share/arduino/hardware/arduino/avr"];
@@ -73,8 +77,8 @@ pub(crate) enum Builder {
 
 /// The first that is installed with the core for AVR.
 pub(crate) fn builder(at: Span) -> Result<Builder, Box<Diagnostic>> {
-    let cores = asked("arduino-cli", &["core", "list"]);
-    if cores.as_ref().is_some_and(|cores| cores.contains("arduino:avr")) {
+    let cores = cores_of_cli();
+    if cores.as_ref().is_some_and(|cores| cores.contains(OWN_CORE)) {
         return Ok(Builder::Cli);
     }
     let missing = |tool: &str, what: &str| {
@@ -120,6 +124,23 @@ pub(crate) fn core() -> Option<PathBuf> {
     PLACES.iter().map(PathBuf::from).chain(newest).find(is_core)
 }
 
+/// What `arduino-cli` says of its cores; `None` if it is not installed.
+fn cores_of_cli() -> Option<String> {
+    asked(CLI, &["core", "list"])
+}
+
+/// The program that writes sketches to boards.
+pub(crate) fn writer(at: Span) -> Result<&'static str, Box<Diagnostic>> {
+    if cores_of_cli().is_some_and(|cores| cores.contains(OWN_CORE)) {
+        return Ok(CLI);
+    }
+    if asked("avrdude", &["-?"]).is_none() {
+        let what = "it writes programs to boards with an AVR";
+        return Err(e0516_tool_missing::missing_for_sketch(at, "avrdude", what).into());
+    }
+    Ok("avrdude")
+}
+
 /// The command that writes a built sketch to the board at a port. A board with a USB port of its own is made ready first:
 /// it starts its boot loader when the port is opened at 1200 baud and closed.
 pub(crate) fn upload(
@@ -133,16 +154,11 @@ pub(crate) fn upload(
         None => only_port(at)?,
     };
     let built = folder.join("build");
-    let cores = asked("arduino-cli", &["core", "list"]);
-    if cores.is_some_and(|cores| cores.contains("arduino:avr")) {
+    if writer(at)? == CLI {
         let (built, folder) = (shown(&built), shown(folder));
         let words = ["arduino-cli", "upload", "--port", &port, "--fqbn", &sketch.fqbn];
         let rest = ["--input-dir", &built, &folder];
         return Ok(words.into_iter().chain(rest).map(str::to_owned).collect());
-    }
-    if asked("avrdude", &["-?"]).is_none() {
-        let what = "it writes programs to boards with an AVR";
-        return Err(e0516_tool_missing::missing_for_sketch(at, "avrdude", what).into());
     }
     if sketch.protocol == WITH_USB {
         // Whether that worked shows when the program is written.
