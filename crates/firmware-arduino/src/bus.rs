@@ -85,7 +85,7 @@ pub(crate) fn i2c(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
         let ident = snake(unit.as_str());
         add(
             context,
-            Bus { ident, title, is_spi: false, selects: Vec::new(), threads },
+            &Bus { ident, title, is_spi: false, selects: Vec::new(), threads },
             &mut section,
         );
     }
