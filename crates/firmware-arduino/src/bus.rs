@@ -85,7 +85,7 @@ pub(crate) fn i2c(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
         let ident = snake(unit.as_str());
         add(
             context,
-            Bus { ident, title, is_spi: false, selects: Vec::new(), threads },
+            &Bus { ident, title, is_spi: false, selects: Vec::new(), threads },
             &mut section,
         );
     }
@@ -109,7 +109,7 @@ pub(crate) fn spi(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> S
         section.costs.push(Cost::new("the framework's SPI", 4, SPI_FLASH_BYTES));
         let threads = threads(context, &unit, &on_bus);
         let (ident, title) = (snake(unit.as_str()), unit.to_string());
-        add(context, Bus { ident, title, is_spi: true, selects, threads }, &mut section);
+        add(context, &Bus { ident, title, is_spi: true, selects, threads }, &mut section);
     }
     section
 }
@@ -172,7 +172,7 @@ fn threads(context: &Context<'_>, unit: &UnitName, on_bus: &[&JobConnection<'_>]
 }
 
 /// Adds a bus with its tasks to a section.
-fn add(context: &Context<'_>, bus: Bus, section: &mut Section) {
+fn add(context: &Context<'_>, bus: &Bus, section: &mut Section) {
     section.headers.push("up_chips.h");
     section.costs.push(Cost::new("parts on buses", 0, CHIPS_FLASH_BYTES));
     for thread in &bus.threads {
@@ -190,7 +190,7 @@ fn add(context: &Context<'_>, bus: Bus, section: &mut Section) {
         }
     }
     section.tables.push_str(if section.tables.is_empty() { "" } else { "\n\n" });
-    section.tables.push_str(&block(&Tables { s: &bus }));
+    section.tables.push_str(&block(&Tables { s: bus }));
 }
 
 fn cost(name: &str, plan: &BusPlan) -> Cost {

@@ -16,8 +16,8 @@ const FRAMEWORK_OF_LARGE_FLASH_BYTES: u32 = 2_700;
 const LARGE_BYTES: u32 = 65_536;
 /// An object of a port with its pointers, besides its buffers.
 const PORT: (u32, u32) = (29, 900);
-/// What a USB port of the framework takes.
-const USB: (u32, u32) = (80, 3_200);
+/// What a USB port of the framework takes: its object, and the state of the device.
+const USB: (u32, u32) = (80 + 60, 3_200);
 /// The loop, the values' store, the reporter and the decoder, without what grows with the design.
 const RUNTIME: (u32, u32) = (88, 3_000);
 /// An `up_health_device_t`, two bits of each of three bitmaps.

@@ -14,6 +14,10 @@ use crate::section::{Apply, Cost, PortPlan, Section, Work};
 /// An object of the framework with its buffers' pointers, an `up_uart_state_t` and an `up_message_state_t`.
 const PORT_BYTES: u32 = 29 + 11 + 27;
 
+/// The core's code for messages that come, and for those that are sent.
+const RECEIVE_FLASH_BYTES: u32 = 5_900;
+const SEND_FLASH_BYTES: u32 = 1_200;
+
 templates! {
     s: Ports;
     Tables = "uart.c.txt";
@@ -79,7 +83,12 @@ pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     section.sizes.push(("UP_UART_SEND_BYTES_MAX", send_bytes));
     if !ports.is_empty() {
         section.headers.push("up_uart.h");
-        section.costs.push(Cost::new("devices on serial ports", 0, 5_900));
+        let receives = ports.iter().any(|port| port.fields > 0);
+        section
+            .costs
+            .extend(receives.then(|| Cost::new("messages of devices", 0, RECEIVE_FLASH_BYTES)));
+        let sends = !section.applies.is_empty();
+        section.costs.extend(sends.then(|| Cost::new("messages to devices", 0, SEND_FLASH_BYTES)));
         section.tables = block(&Tables { s: &Ports { ports } });
     }
     section

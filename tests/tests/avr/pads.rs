@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_job::{BoardJob, JobConnection};
+use sensedsl_model::design::Transport;
 use sensedsl_model::kind::digital::Pull;
 use sensedsl_model::kind::uart::Parity;
 use sensedsl_model::kind::{Interface, Kind, Role};
@@ -127,6 +128,9 @@ fn of_nobody(job: &BoardJob<'_>, registers: &[(u8, u8)]) -> Vec<Mismatch> {
     let all = of_devices.chain(job.link.iter().flat_map(|link| &link.pads));
     let mut known: BTreeSet<Pad> =
         all.filter_map(|pad| Pad::named(&pad.pin.name.to_string())).collect();
+    // The framework's lamps of a USB link are at these pads of an ATmega32U4.
+    let lamps = ["PB0", "PD5"].into_iter().filter_map(Pad::named);
+    known.extend(lamps.filter(|_| job.board.link.transport == Transport::Usb));
     let has_spi = job.connections.iter().any(|one| one.connection.kind.spi().is_some());
     let is_mega = job.board.mcu.as_deref().is_some_and(|mcu| mcu.starts_with("ATmega2560"));
     // The framework drives the pin that would make the unit a slave.

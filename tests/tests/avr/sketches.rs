@@ -31,6 +31,21 @@ const IMU: &str = "board Bot on ARDUINO_UNO_R3 {
     }
     sensor Level returns uint16 { type = analog; samples = 8; delay = 50 ms; }
 }";
+/// The link is the MCU's own USB; outputs of timers and a captured input are beside it.
+const USB: &str = "board Bot on ARDUINO_LEONARDO {
+    link { silence = 500 ms; }
+    sensor Light returns uint16 { id = 1; type = analog; pin = A0; samples = 4; delay = 50 ms; }
+    sensor Slow returns uint32 { id = 2; type = icu; mode = period; pin = D4; unit = TC1; }
+    sensor Near returns uint32 { id = 3; driver = hcsr04; delay = 105 ms; }
+    chip Imu {
+        driver = mpu6050;
+        delay = 20 ms;
+        sensor Acceleration returns int16[3] { id = 4; }
+    }
+    actuator Steer accepts uint16 { id = 5; driver = servo; failsafe = 1500 us; }
+    actuator Lamp accepts bool { id = 6; type = digital; active = low; }
+    actuator Say accepts uint16 { id = 7; type = uart; baud = 9600; start = [0x55]; length = 2; }
+}";
 const GPS: &str = "board Bot on ARDUINO_MEGA_2560 {
     chip NmeaGps {
         driver = nmea_gps;
@@ -86,33 +101,43 @@ fn assert_memory(name: &str, page: &str, image: &Path) {
     assert!(flashes.contains(&said_flash), "{name}: {flash} bytes, not {said_flash}");
 }
 
-fn agrees(name: &str, text: &str, world: &str) {
+/// Runs a board for ten seconds under a host that asks how it is, or under one that sets actuators and falls silent.
+fn agrees(name: &str, text: &str, sets: bool) {
     if !can_compile_sketches() {
         return;
     }
     with_job(text, None, |job| {
         let image = built(job, name);
         let asks_ms: Vec<u64> = (0..10).map(|second| second * 1_000 + 600).collect();
-        let trial = run(job, world, &image, Host::that_asks(10, &asks_ms));
+        let asks = Host::that_asks(10, &asks_ms);
+        let trial = run(job, "", &image, if sets { Host::that_sets(10) } else { asks });
         assert_eq!(trial.noticed(), "", "{name}");
-        let count = trial.reported.len();
-        assert!(count > 100 && trial.health.len() == 10, "{name}: {count} values");
+        let (values, health) = (trial.reported.len(), trial.health.len());
+        assert!(values > 100, "{name}: {values} values");
+        assert_eq!(health, if sets { 1 } else { asks_ms.len() }, "{name}");
+        let unset = trial.outputs.iter().find(|one| one.commands < 3 || one.is_silence_left);
+        assert!(unset.is_none(), "{name}: {unset:?}");
     });
 }
 
 #[test]
 fn a_rover_agrees_with_its_world() {
-    agrees("rover", ROVER, "");
+    agrees("rover", ROVER, false);
 }
 
 #[test]
 fn a_chip_agrees_with_its_world() {
-    agrees("imu", IMU, "");
+    agrees("imu", IMU, false);
 }
 
 #[test]
 fn a_receiver_and_encoders_agree_with_their_world() {
-    agrees("gps", GPS, "");
+    agrees("gps", GPS, false);
+}
+
+#[test]
+fn a_leonardo_agrees_with_its_world() {
+    agrees("leonardo", USB, true);
 }
 
 /// An encoder at the rate that the profile states for all handlers together, and other work beside it.
