@@ -21,7 +21,7 @@ static size_t put_report(const uint8_t *due, const void *from, uint8_t *payload)
   return (size_t)(at - payload);
 }
 
-const up_wire_t sense_reports = {
+UP_ROM up_wire_t sense_reports = {
     .hash = 0xb2d2a70bU,
     .values_bytes_max = 13U,
     .health_bytes = 87U,
@@ -38,7 +38,7 @@ static up_item_t command_item(uint8_t id) {
   return UP_ITEM_NONE;
 }
 
-const up_wire_t sense_commands = {
+UP_ROM up_wire_t sense_commands = {
     .hash = 0xb2d2a70bU,
     .values_bytes_max = 0U,
     .payload_bytes_max = 2U,

@@ -19,9 +19,9 @@ static const up_pad_t pads[] = {
 
 /* ---- USRear: srf08 ---- */
 
-static const uint8_t us_rear_trigger_0[] = {0x00U, 0x51U};
-static const uint8_t us_rear_select_0[] = {0x02U};
-static const up_chip_transfer_t us_rear_transfers[] = {
+static UP_ROM uint8_t us_rear_trigger_0[] = {0x00U, 0x51U};
+static UP_ROM uint8_t us_rear_select_0[] = {0x02U};
+static UP_ROM up_chip_transfer_t us_rear_transfers[] = {
     {
         .trigger = us_rear_trigger_0,
         .trigger_count = 2U,
@@ -34,7 +34,7 @@ static const up_chip_transfer_t us_rear_transfers[] = {
 };
 static up_chip_transfer_state_t us_rear_transfer_states[1];
 
-static const up_chip_reading_t us_rear_readings[] = {
+static UP_ROM up_chip_reading_t us_rear_readings[] = {
     {
         .field = SENSE_FIELD_USRear,
         .offset = 0U,
@@ -47,7 +47,7 @@ static const up_chip_reading_t us_rear_readings[] = {
     },
 };
 
-static const up_chip_t us_rear_chip = {
+static UP_ROM up_chip_t us_rear_chip = {
     .transfers = us_rear_transfers,
     .transfers_count = 1U,
     .readings = us_rear_readings,
@@ -63,10 +63,10 @@ static up_chip_state_t us_rear_chip_state = {
     .scratch = us_rear_scratch,
 };
 
-static const up_range_t us_rear_invalid[] = {
+static UP_ROM up_range_t us_rear_invalid[] = {
     {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
 };
-static const up_filter_t us_rear_filter = {
+static UP_ROM up_filter_t us_rear_filter = {
     .invalid = us_rear_invalid,
     .invalid_count = 1U,
     .median = 0U,

@@ -3,9 +3,14 @@
 
 sense_values_t sense_values;
 
-static const up_field_t fields[] = {
+static UP_ROM char name_0[] = "IRFront";
+static UP_ROM char name_1[] = "IRFrontRight";
+static UP_ROM char name_2[] = "USRear";
+static UP_ROM char name_3[] = "WheelEncoder";
+
+static UP_ROM up_field_t fields[] = {
     {
-        .name = "IRFront",
+        .name = name_0,
         .id = 17U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -13,7 +18,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRFront),
     },
     {
-        .name = "IRFrontRight",
+        .name = name_1,
         .id = 18U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -21,7 +26,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRFrontRight),
     },
     {
-        .name = "USRear",
+        .name = name_2,
         .id = 19U,
         .type = UP_TYPE_UINT8,
         .direction = UP_TO_HOST,
@@ -29,7 +34,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_USRear),
     },
     {
-        .name = "WheelEncoder",
+        .name = name_3,
         .id = 20U,
         .type = UP_TYPE_UINT32,
         .direction = UP_TO_HOST,
@@ -38,10 +43,12 @@ static const up_field_t fields[] = {
     },
 };
 
-const up_schema_t sense_schema = {
+static UP_ROM char checksum[] = "none";
+
+UP_ROM up_schema_t sense_schema = {
     .fields = fields,
     .fields_count = 4U,
-    .checksum = "none",
+    .checksum = checksum,
     .hash = 0xb2d2a70bU,
 };
 
@@ -79,7 +86,7 @@ static void transform_3(void *value) {
   sense_transform_WheelEncoder(value);
 }
 
-void (*const sense_transforms[])(void *value) = {
+void (*UP_ROM sense_transforms[])(void *value) = {
     transform_0,
     transform_1,
     transform_2,

@@ -48,7 +48,7 @@ static size_t put_report(const uint8_t *due, const void *from, uint8_t *payload)
   return (size_t)(at - payload);
 }
 
-const up_wire_t sense_reports = {
+UP_ROM up_wire_t sense_reports = {
     .hash = 0x64783683U,
     .values_bytes_max = 47U,
     .health_bytes = 240U,
@@ -65,7 +65,7 @@ static up_item_t command_item(uint8_t id) {
   return UP_ITEM_NONE;
 }
 
-const up_wire_t sense_commands = {
+UP_ROM up_wire_t sense_commands = {
     .hash = 0x64783683U,
     .values_bytes_max = 0U,
     .payload_bytes_max = 2U,

@@ -26,9 +26,9 @@ static const up_pad_t pads[] = {
 
 /* ---- USFront: srf08 ---- */
 
-static const uint8_t us_front_trigger_0[] = {0x00U, 0x51U};
-static const uint8_t us_front_select_0[] = {0x02U};
-static const up_chip_transfer_t us_front_transfers[] = {
+static UP_ROM uint8_t us_front_trigger_0[] = {0x00U, 0x51U};
+static UP_ROM uint8_t us_front_select_0[] = {0x02U};
+static UP_ROM up_chip_transfer_t us_front_transfers[] = {
     {
         .trigger = us_front_trigger_0,
         .trigger_count = 2U,
@@ -41,7 +41,7 @@ static const up_chip_transfer_t us_front_transfers[] = {
 };
 static up_chip_transfer_state_t us_front_transfer_states[1];
 
-static const up_chip_reading_t us_front_readings[] = {
+static UP_ROM up_chip_reading_t us_front_readings[] = {
     {
         .field = SENSE_FIELD_USFront,
         .offset = 0U,
@@ -54,7 +54,7 @@ static const up_chip_reading_t us_front_readings[] = {
     },
 };
 
-static const up_chip_t us_front_chip = {
+static UP_ROM up_chip_t us_front_chip = {
     .transfers = us_front_transfers,
     .transfers_count = 1U,
     .readings = us_front_readings,
@@ -70,10 +70,10 @@ static up_chip_state_t us_front_chip_state = {
     .scratch = us_front_scratch,
 };
 
-static const up_range_t us_front_invalid[] = {
+static UP_ROM up_range_t us_front_invalid[] = {
     {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
 };
-static const up_filter_t us_front_filter = {
+static UP_ROM up_filter_t us_front_filter = {
     .invalid = us_front_invalid,
     .invalid_count = 1U,
     .median = 0U,
@@ -85,9 +85,9 @@ static up_filter_state_t us_front_filter_state = {
 
 /* ---- USFrontRight: srf08 ---- */
 
-static const uint8_t us_front_right_trigger_0[] = {0x00U, 0x51U};
-static const uint8_t us_front_right_select_0[] = {0x02U};
-static const up_chip_transfer_t us_front_right_transfers[] = {
+static UP_ROM uint8_t us_front_right_trigger_0[] = {0x00U, 0x51U};
+static UP_ROM uint8_t us_front_right_select_0[] = {0x02U};
+static UP_ROM up_chip_transfer_t us_front_right_transfers[] = {
     {
         .trigger = us_front_right_trigger_0,
         .trigger_count = 2U,
@@ -100,7 +100,7 @@ static const up_chip_transfer_t us_front_right_transfers[] = {
 };
 static up_chip_transfer_state_t us_front_right_transfer_states[1];
 
-static const up_chip_reading_t us_front_right_readings[] = {
+static UP_ROM up_chip_reading_t us_front_right_readings[] = {
     {
         .field = SENSE_FIELD_USFrontRight,
         .offset = 0U,
@@ -113,7 +113,7 @@ static const up_chip_reading_t us_front_right_readings[] = {
     },
 };
 
-static const up_chip_t us_front_right_chip = {
+static UP_ROM up_chip_t us_front_right_chip = {
     .transfers = us_front_right_transfers,
     .transfers_count = 1U,
     .readings = us_front_right_readings,
@@ -129,10 +129,10 @@ static up_chip_state_t us_front_right_chip_state = {
     .scratch = us_front_right_scratch,
 };
 
-static const up_range_t us_front_right_invalid[] = {
+static UP_ROM up_range_t us_front_right_invalid[] = {
     {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
 };
-static const up_filter_t us_front_right_filter = {
+static UP_ROM up_filter_t us_front_right_filter = {
     .invalid = us_front_right_invalid,
     .invalid_count = 1U,
     .median = 0U,
@@ -144,9 +144,9 @@ static up_filter_state_t us_front_right_filter_state = {
 
 /* ---- USRear: srf08 ---- */
 
-static const uint8_t us_rear_trigger_0[] = {0x00U, 0x51U};
-static const uint8_t us_rear_select_0[] = {0x02U};
-static const up_chip_transfer_t us_rear_transfers[] = {
+static UP_ROM uint8_t us_rear_trigger_0[] = {0x00U, 0x51U};
+static UP_ROM uint8_t us_rear_select_0[] = {0x02U};
+static UP_ROM up_chip_transfer_t us_rear_transfers[] = {
     {
         .trigger = us_rear_trigger_0,
         .trigger_count = 2U,
@@ -159,7 +159,7 @@ static const up_chip_transfer_t us_rear_transfers[] = {
 };
 static up_chip_transfer_state_t us_rear_transfer_states[1];
 
-static const up_chip_reading_t us_rear_readings[] = {
+static UP_ROM up_chip_reading_t us_rear_readings[] = {
     {
         .field = SENSE_FIELD_USRear,
         .offset = 0U,
@@ -172,7 +172,7 @@ static const up_chip_reading_t us_rear_readings[] = {
     },
 };
 
-static const up_chip_t us_rear_chip = {
+static UP_ROM up_chip_t us_rear_chip = {
     .transfers = us_rear_transfers,
     .transfers_count = 1U,
     .readings = us_rear_readings,
@@ -188,10 +188,10 @@ static up_chip_state_t us_rear_chip_state = {
     .scratch = us_rear_scratch,
 };
 
-static const up_range_t us_rear_invalid[] = {
+static UP_ROM up_range_t us_rear_invalid[] = {
     {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
 };
-static const up_filter_t us_rear_filter = {
+static UP_ROM up_filter_t us_rear_filter = {
     .invalid = us_rear_invalid,
     .invalid_count = 1U,
     .median = 0U,

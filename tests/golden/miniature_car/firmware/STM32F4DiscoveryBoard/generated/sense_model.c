@@ -3,9 +3,23 @@
 
 sense_values_t sense_values;
 
-static const up_field_t fields[] = {
+static UP_ROM char name_0[] = "IRFrontRight";
+static UP_ROM char name_1[] = "IRRearRight";
+static UP_ROM char name_2[] = "IRRear";
+static UP_ROM char name_3[] = "USFront";
+static UP_ROM char name_4[] = "USFrontRight";
+static UP_ROM char name_5[] = "USRear";
+static UP_ROM char name_6[] = "WheelLeftA";
+static UP_ROM char name_7[] = "WheelLeftB";
+static UP_ROM char name_8[] = "WheelRightA";
+static UP_ROM char name_9[] = "WheelRightB";
+static UP_ROM char name_10[] = "RCSteering";
+static UP_ROM char name_11[] = "RCThrottle";
+static UP_ROM char name_12[] = "RCSwitch";
+
+static UP_ROM up_field_t fields[] = {
     {
-        .name = "IRFrontRight",
+        .name = name_0,
         .id = 1U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -13,7 +27,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRFrontRight),
     },
     {
-        .name = "IRRearRight",
+        .name = name_1,
         .id = 2U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -21,7 +35,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRRearRight),
     },
     {
-        .name = "IRRear",
+        .name = name_2,
         .id = 3U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -29,7 +43,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRRear),
     },
     {
-        .name = "USFront",
+        .name = name_3,
         .id = 4U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -37,7 +51,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_USFront),
     },
     {
-        .name = "USFrontRight",
+        .name = name_4,
         .id = 5U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -45,7 +59,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_USFrontRight),
     },
     {
-        .name = "USRear",
+        .name = name_5,
         .id = 6U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -53,7 +67,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_USRear),
     },
     {
-        .name = "WheelLeftA",
+        .name = name_6,
         .id = 7U,
         .type = UP_TYPE_UINT32,
         .direction = UP_TO_HOST,
@@ -61,7 +75,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_WheelLeftA),
     },
     {
-        .name = "WheelLeftB",
+        .name = name_7,
         .id = 8U,
         .type = UP_TYPE_UINT32,
         .direction = UP_TO_HOST,
@@ -69,7 +83,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_WheelLeftB),
     },
     {
-        .name = "WheelRightA",
+        .name = name_8,
         .id = 9U,
         .type = UP_TYPE_UINT32,
         .direction = UP_TO_HOST,
@@ -77,7 +91,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_WheelRightA),
     },
     {
-        .name = "WheelRightB",
+        .name = name_9,
         .id = 10U,
         .type = UP_TYPE_UINT32,
         .direction = UP_TO_HOST,
@@ -85,7 +99,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_WheelRightB),
     },
     {
-        .name = "RCSteering",
+        .name = name_10,
         .id = 11U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -93,7 +107,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_RCSteering),
     },
     {
-        .name = "RCThrottle",
+        .name = name_11,
         .id = 12U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -101,7 +115,7 @@ static const up_field_t fields[] = {
         .offset = (uint16_t)offsetof(sense_values_t, SENSE_RCThrottle),
     },
     {
-        .name = "RCSwitch",
+        .name = name_12,
         .id = 13U,
         .type = UP_TYPE_UINT16,
         .direction = UP_TO_HOST,
@@ -110,10 +124,12 @@ static const up_field_t fields[] = {
     },
 };
 
-const up_schema_t sense_schema = {
+static UP_ROM char checksum[] = "none";
+
+UP_ROM up_schema_t sense_schema = {
     .fields = fields,
     .fields_count = 13U,
-    .checksum = "none",
+    .checksum = checksum,
     .hash = 0x64783683U,
 };
 
@@ -223,7 +239,7 @@ static void transform_12(void *value) {
   sense_transform_RCSwitch(value);
 }
 
-void (*const sense_transforms[])(void *value) = {
+void (*UP_ROM sense_transforms[])(void *value) = {
     transform_0,
     transform_1,
     transform_2,

@@ -44,16 +44,16 @@ enum {
 };
 
 extern sense_values_t sense_values;
-extern const up_schema_t sense_schema;
+extern UP_ROM up_schema_t sense_schema;
 
 /* The wire, and the bytes of its longest frames and of the buffers of decoders. */
-extern const up_wire_t sense_reports;
+extern UP_ROM up_wire_t sense_reports;
 #define SENSE_REPORT_FRAME_BYTES 245U
-extern const up_wire_t sense_commands;
+extern UP_ROM up_wire_t sense_commands;
 #define SENSE_COMMAND_FRAME_BYTES 5U
 #define SENSE_COMMAND_BUFFER_BYTES (2U * 5U)
 
-extern void (*const sense_transforms[])(void *value);
+extern void (*UP_ROM sense_transforms[])(void *value);
 
 /* Your own arithmetic on a value before it is stored and reported: define any of these in user/ and change
  * `*value`. They run in the thread that read the value. */
