@@ -51,7 +51,7 @@ static up_result_t take(UP_ROM up_analog_input_t *input) {
   uint8_t *element = &((uint8_t *)up_scratch)[input->element * up_type_bytes(type)];
   const uint32_t sum = sum_of(input);
 
-  if (UP_HAS_FORMULAS && input->formula != NULL) {
+  if (UP_HAS_FORMULAS && input->formula != UP_ROM_NULL) {
     return compute(input, sum, type, element);
   }
 #if UP_USES_REALS

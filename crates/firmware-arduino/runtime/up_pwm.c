@@ -43,7 +43,7 @@ void up_pwm_set_level(UP_ROM up_pwm_t *pwm, uint16_t level) {
 }
 
 static void write_output(UP_ROM up_bridge_output_t *output, uint32_t value) {
-  if (output->pwm != NULL) {
+  if (output->pwm != UP_ROM_NULL) {
     set_level(output->pwm, value);
   } else {
     digitalWrite(output->pin, ((value != 0U) != output->is_low_active) ? HIGH : LOW);

@@ -37,7 +37,7 @@ void up_note_good(size_t field) {
 
 void up_result(size_t field, up_result_t result, void *value) {
 #if UP_HAS_FILTERS
-  if (result == UP_FRESH && sense_filters[field].filter != NULL) {
+  if (result == UP_FRESH && sense_filters[field].filter != UP_ROM_NULL) {
     result = up_filter_apply(sense_filters[field].filter, sense_filters[field].state, &sense_schema.fields[field],
                              up_now_ms(), value);
     if (result == UP_NOTHING) {

@@ -72,11 +72,11 @@ static void send_rom(UP_ROM up_uart_t *port, UP_ROM uint8_t *bytes, uint8_t coun
 static void set_up(UP_ROM up_uart_t *port) {
   UP_ROM up_message_init_t *step;
 
-  if (port->message != NULL && up_now_ms() - port->state->heard_ms >= FORGOTTEN_MS + port->cycle_ms) {
+  if (port->message != UP_ROM_NULL && up_now_ms() - port->state->heard_ms >= FORGOTTEN_MS + port->cycle_ms) {
     port->state->heard_ms = up_now_ms();
     port->state->start = (up_message_start_t){.at = 0U};
   }
-  while ((step = up_message_start(port->init, port->init_count, &port->state->start, up_now_ms())) != NULL) {
+  while ((step = up_message_start(port->init, port->init_count, &port->state->start, up_now_ms())) != UP_ROM_NULL) {
     send_rom(port, step->bytes, step->count);
   }
 }
@@ -97,7 +97,7 @@ uint32_t up_uart_cycle(UP_ROM void *work) {
   uint8_t i;
 
   set_up(port);
-  for (i = 0U; port->message != NULL && i < port->message->fields_count; i++) {
+  for (i = 0U; port->message != UP_ROM_NULL && i < port->message->fields_count; i++) {
     port->is_reported[i] = false;
   }
   return 0U;

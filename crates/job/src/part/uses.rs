@@ -47,10 +47,7 @@ pub fn uses_in_c(job: &BoardJob<'_>) -> Vec<(&'static str, bool)> {
         ("wide", device(is_wide)),
         ("word-bits", device(|device| Words::of(device).is_some_and(|words| is_partial(&words)))),
         ("invalid", device(|device| !device.filter.invalid.is_empty())),
-        (
-            "capture-times",
-            device(|device| device.kind.icu().is_some_and(|icu| icu.mode != Mode::Count)),
-        ),
+        ("capture-times", device(is_timed)),
         ("chip-triggers", bus(|bus| bus.transfers.iter().any(|one| !one.trigger.is_empty()))),
         ("chip-reads", bus(|bus| bus.transfers.iter().any(|one| one.trigger.is_empty()))),
         ("chip-turns", bus(|bus| bus.transfers.len() != 1)),
@@ -72,6 +69,11 @@ fn is_wide(device: &Device) -> bool {
         || Words::of(device).is_some_and(|words| is_wide(&words))
         || text.is_some_and(|text| text.format != Format::Hex)
         || device.filter.change.is_some_and(|change| change > f64::from(u32::MAX))
+}
+
+/// Whether edges are not only counted.
+fn is_timed(device: &Device) -> bool {
+    device.kind.icu().is_some_and(|icu| icu.mode != Mode::Count)
 }
 
 /// Whether only some bits of a word are the value.
