@@ -283,12 +283,6 @@ static bool has_trigger(UP_ROM up_chip_transfer_t *transfer) {
   return UP_USES_CHIP_TRIGGERS && (!UP_USES_CHIP_READS || transfer->trigger_count > 0U);
 }
 
-static uint32_t cycle_of(UP_ROM up_chip_t *chip, size_t transfer) {
-  const uint32_t cycle_ms = chip->transfers[transfer].cycle_ms;
-
-  return (cycle_ms > chip->cycle_ms) ? cycle_ms : chip->cycle_ms;
-}
-
 static uint32_t early_ms(const step_t *step) {
   return (step->chip->cycle_ms + EARLY_PARTS - 1U) / EARLY_PARTS;
 }
@@ -300,7 +294,8 @@ static bool is_due(const step_t *step, size_t transfer) {
 /* Moves a transfer to the next time on its own grid; missed times are skipped. */
 static void set_next(const step_t *step, size_t transfer) {
   up_chip_transfer_state_t *state = &step->state->transfers[transfer];
-  const uint32_t cycle_ms = cycle_of(step->chip, transfer);
+  const uint32_t own_ms = step->chip->transfers[transfer].cycle_ms;
+  const uint32_t cycle_ms = (own_ms > step->chip->cycle_ms) ? own_ms : step->chip->cycle_ms;
 
   if (cycle_ms == 0U) {
     state->due_ms = step->now_ms;
