@@ -164,7 +164,7 @@ pub(crate) fn upload(
         // Whether that worked shows when the program is written.
         drop(Port::open(&port, TOUCH_BAUD));
     }
-    let hex = shown(&folder.join(sketch.elf()).with_extension("hex"));
+    let hex = shown(folder.join(sketch.elf()).with_extension("hex"));
     let program = format!("flash:w:{hex}:i");
     let words = ["avrdude", "-p", &sketch.mcu, "-c", &sketch.protocol, "-P", &port];
     let rest = ["-b", &sketch.speed, "-D", "-U", &program];
