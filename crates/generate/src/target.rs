@@ -50,9 +50,12 @@ pub fn serving(
 pub fn systems_of(board: &catalog::Entry) -> Vec<&'static str> {
     let facts = board.board().ok();
     let names = profile::names();
-    let mut systems: Vec<&'static str> =
-        names.iter().filter_map(|name| profile::full_name(name)).collect();
-    systems.dedup();
+    let mut systems = Vec::new();
+    for name in names.iter().filter_map(|name| profile::full_name(name)) {
+        if !systems.contains(&name) {
+            systems.push(name);
+        }
+    }
     systems.retain(|name| match profile::find(name, board.mcu) {
         Ok(profile::Target::Profile(profile)) => serving(Some(&profile), facts.as_ref()).is_ok(),
         Ok(profile::Target::None) | Err(_) => false,

@@ -250,9 +250,8 @@ fn a_place_without_firmware_is_told() {
     machine.refuses(&["build", "made"], &[], "E0520", &["without firmware"]);
     let ran = machine.run(&["build", "none.sense"], &[]).exits(2);
     assert!(ran.stderr.contains("E0111"), "{}", ran.stderr);
-    machine
-        .file("uno.sense", "board ARDUINO_UNO_R3 { sensor A returns uint16 { type = analog; } }");
-    let ran = machine.run(&["build", "uno.sense"], &[]).exits(1);
+    machine.file("due.sense", "board ARDUINO_DUE { sensor A returns uint16 { type = analog; } }");
+    let ran = machine.run(&["build", "due.sense"], &[]).exits(1);
     assert!(ran.stderr.contains("E0504"), "{}", ran.stderr);
     assert_eq!(machine.calls(), "");
 }
