@@ -7,7 +7,7 @@ use super::sketches::{built, made, written};
 use super::tools::can_compile_sketches;
 use super::trial::{Host, Trial, run};
 use crate::embassy::with_job;
-use sensedsl_tests::{Random, compiled_once};
+use sensedsl_tests::{Random, compiled_once, drawn};
 
 const LIGHT: u8 = 1;
 const NEAR: u8 = 2;
@@ -86,7 +86,7 @@ fn others_go_on(trial: &Trial, broken: u8) {
 
 #[test]
 fn a_part_that_does_not_answer() {
-    for kind in ["no_answer", "torn"] {
+    for kind in drawn("faults of sketches", &["no_answer", "torn"], 1) {
         let Some(trial) = with_device(kind, "Range") else { return };
         others_go_on(&trial, RANGE);
         let range = trial.device(0, RANGE);
@@ -101,7 +101,7 @@ fn a_part_that_does_not_answer() {
 
 #[test]
 fn a_bus_that_is_held() {
-    for kind in ["stuck_sda", "hang"] {
+    for kind in drawn("faults of sketches", &["stuck_sda", "hang"], 1) {
         let Some(trial) = with_device(kind, "Range") else { return };
         others_go_on(&trial, RANGE);
         others_go_on(&trial, ACCELERATION);
@@ -117,7 +117,7 @@ fn a_bus_that_is_held() {
 
 #[test]
 fn an_echo_that_does_not_come() {
-    for kind in ["silent", "torn"] {
+    for kind in drawn("faults of sketches", &["silent", "torn"], 1) {
         let Some(trial) = with_device(kind, "Near") else { return };
         others_go_on(&trial, NEAR);
         let near = trial.device(0, NEAR);

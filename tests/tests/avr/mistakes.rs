@@ -20,7 +20,7 @@ const DESIGNS: [&str; 3] = ["rover", "gauge", "receiver"];
 /// The length of a run: in this time all actuators are set and abandoned, and everything in the worlds moves.
 const SECONDS: u64 = 5;
 /// So many are made in a usual run.
-const USUALLY: usize = 4;
+const USUALLY: usize = 2;
 
 const PAGE: &str = "docs/seeded-mistakes.md";
 const HEADING: &str = "In sketches, when they run";
