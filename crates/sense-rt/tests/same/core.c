@@ -279,6 +279,20 @@ static up_number_t number_of(uint8_t type, uint64_t bits) {
   return number;
 }
 
+/* An end of a range: a number with its sign, as tables have it. */
+static up_number_t end_of(uint8_t type, uint64_t bits) {
+  up_number_t number = number_of(type, bits);
+
+  if (type == UP_TYPE_INT8) {
+    number.i = (int8_t)bits;
+  } else if (type == UP_TYPE_INT16) {
+    number.i = (int16_t)bits;
+  } else if (type == UP_TYPE_INT32) {
+    number.i = (int32_t)bits;
+  }
+  return number;
+}
+
 static void begin_filter(void) {
   uint8_t i;
 
@@ -294,8 +308,8 @@ static void begin_filter(void) {
   filter.table.heartbeat_ms = (uint32_t)ask();
   filter.table.invalid_count = (uint8_t)ask();
   for (i = 0U; i < filter.table.invalid_count; i++) {
-    filter.invalid[i].low = number_of(filter.field.type, ask_bits());
-    filter.invalid[i].high = number_of(filter.field.type, ask_bits());
+    filter.invalid[i].low = end_of(filter.field.type, ask_bits());
+    filter.invalid[i].high = end_of(filter.field.type, ask_bits());
   }
 }
 
