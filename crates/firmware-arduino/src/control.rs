@@ -1,13 +1,13 @@
 //! The user's controllers: a task for each, and the C between the values of the board and the user's code.
 
-use sensedsl_code::{ControllerPlan, FieldPlan, controllers};
+use sensedsl_code::{ControllerPlan, controllers};
 use sensedsl_files::{block, templates};
-use sensedsl_job::{BoardJob, JobController, JobDevice, Owner};
-use sensedsl_wire::Direction;
+use sensedsl_job::{BoardJob, JobController};
 
 use crate::context::Context;
 use crate::section::{Cost, Section, Work};
 use sensedsl_firmware_c::FallBackPlan;
+use sensedsl_firmware_c::control::{self, Access};
 
 /// An `up_control_state_t`, and a few variables of the user's.
 const STATE_BYTES: u32 = 13 + 16;
@@ -35,14 +35,6 @@ struct Control {
     takes_us: u32,
     reads: Vec<Access>,
     sets: Vec<Access>,
-}
-
-/// A device that is read or set: its field, and the runtime's function.
-#[derive(Clone, Debug)]
-struct Access {
-    ident: String,
-    name: String,
-    function: &'static str,
 }
 
 /// The tasks of the controllers.
@@ -77,8 +69,8 @@ impl ControlPlan {
         let all = plans.into_iter().zip(&job.controllers);
         Self {
             all: all.map(|(plan, own)| Control::new(job, plan, own)).collect(),
-            first: job.devices.iter().filter_map(first).collect(),
-            owners: (0..job.devices.len()).map(|index| owner(job, index)).collect(),
+            first: control::first_values(job),
+            owners: control::owners(job),
         }
     }
 
@@ -106,45 +98,12 @@ impl ControlPlan {
 impl Control {
     fn new(job: &BoardJob<'_>, plan: ControllerPlan, own: &JobController<'_>) -> Self {
         let every_us = own.controller.every_ms.saturating_mul(1_000);
-        let accesses = |fields: &[FieldPlan], function: fn(&JobDevice<'_>) -> &'static str| {
-            let one = |field: &FieldPlan| {
-                let device = job.devices.get(field.index)?;
-                let (ident, name) = (field.ident.clone(), device.name().to_owned());
-                Some(Access { ident, name, function: function(device) })
-            };
-            fields.iter().filter_map(one).collect()
-        };
         Self {
             every_us,
             takes_us: own.controller.takes_us.unwrap_or(every_us),
-            reads: accesses(&plan.reads, read),
-            sets: accesses(&plan.sets, sets),
+            reads: control::reads(job, &plan.reads),
+            sets: control::sets(job, &plan.sets),
             plan,
         }
-    }
-}
-
-/// A value that nobody measures is good as soon as it is there.
-fn read(one: &JobDevice<'_>) -> &'static str {
-    let is_given = one.device.kind.code().is_some() || one.device.direction == Direction::Actuator;
-    if is_given { "up_control_given" } else { "up_control_get" }
-}
-
-fn sets(one: &JobDevice<'_>) -> &'static str {
-    match one.device.direction {
-        Direction::Actuator => "up_control_set",
-        Direction::Sensor => "up_control_report",
-    }
-}
-
-fn first(one: &JobDevice<'_>) -> Option<FallBackPlan> {
-    one.device.kind.code().map(|code| FallBackPlan::of(one, code.default))
-}
-
-fn owner(job: &BoardJob<'_>, index: usize) -> &'static str {
-    match job.owner(index) {
-        Owner::Host => "UP_OWNER_HOST",
-        Owner::Code => "UP_OWNER_CODE",
-        Owner::CodeOrHost => "UP_OWNER_CODE_OR_HOST",
     }
 }

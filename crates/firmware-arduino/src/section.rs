@@ -10,7 +10,7 @@ use crate::context::Context;
 
 /// A kind that there is code for.
 pub(crate) struct Peripheral {
-    /// The kind; `None` for what has no devices of its own.
+    /// The kind whose devices it serves; `None` for what serves all of them.
     pub(crate) kind: Option<KindName>,
     /// What a connection needs and there is no code for.
     pub(crate) lacks: fn(&BoardJob<'_>, &JobConnection<'_>) -> Option<&'static str>,

@@ -3,6 +3,8 @@
 use sensedsl_job::JobDevice;
 use sensedsl_wire::ScalarType;
 
+use crate::schema;
+
 /// A value that is set when the host falls silent.
 #[derive(Clone, Debug)]
 pub struct FallBackPlan {
@@ -27,7 +29,7 @@ impl FallBackPlan {
         let value = one.device.value.value;
         Self {
             field: one.name().to_owned(),
-            c_type: c_type(value.scalar),
+            c_type: schema::scalar(value.scalar).0,
             elements: vec![literal(value.scalar, code); value.count()],
         }
     }
@@ -50,22 +52,6 @@ fn literal(scalar: ScalarType, number: f64) -> String {
                 whole => format!("INT64_C({whole})"),
             }
         }
-    }
-}
-
-fn c_type(scalar: ScalarType) -> &'static str {
-    match scalar {
-        ScalarType::Bool => "bool",
-        ScalarType::Uint8 => "uint8_t",
-        ScalarType::Int8 => "int8_t",
-        ScalarType::Uint16 => "uint16_t",
-        ScalarType::Int16 => "int16_t",
-        ScalarType::Uint32 => "uint32_t",
-        ScalarType::Int32 => "int32_t",
-        ScalarType::Uint64 => "uint64_t",
-        ScalarType::Int64 => "int64_t",
-        ScalarType::Float32 => "float",
-        ScalarType::Float64 => "double",
     }
 }
 

@@ -21,6 +21,7 @@
 //! assert!(header.contains("uint16_t SENSE_Light;"));
 //! ```
 
+pub mod control;
 mod fallback;
 pub mod runtime;
 mod schema;

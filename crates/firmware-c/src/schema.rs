@@ -269,7 +269,7 @@ fn direction_macro(direction: Direction) -> &'static str {
 }
 
 /// The C type, and the runtime's name for it.
-fn scalar(scalar: ScalarType) -> (&'static str, &'static str) {
+pub(crate) fn scalar(scalar: ScalarType) -> (&'static str, &'static str) {
     match scalar {
         ScalarType::Bool => ("bool", "UP_TYPE_BOOL"),
         ScalarType::Uint8 => ("uint8_t", "UP_TYPE_UINT8"),

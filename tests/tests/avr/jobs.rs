@@ -99,7 +99,7 @@ fn faults_of_the_world_reach_the_program() {
         assert!(has_read(&sent), "{sent:02x?}");
         let resets = board.resets();
         assert!(matches!(resets, [Reset { cause: Reset::POWER, .. }]), "{resets:?}");
-        // It has no identity that is known, and was treated as its design says.
+        // No identity of it is known, so the bench has done as the design says.
         assert!(board.unasked().iter().all(|one| !one.is_known));
         assert_eq!(board.odd_transfers(), <[(String, String); 0]>::default());
     });

@@ -1,15 +1,15 @@
 //! Controllers in; a thread for each, and the C between the values of the board and the user's code, out.
 
-use sensedsl_code::{ControllerPlan, FieldPlan, controllers};
+use sensedsl_code::{ControllerPlan, controllers};
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_job::{BoardJob, JobController, JobDevice, Owner};
-use sensedsl_wire::Direction;
+use sensedsl_job::{BoardJob, JobController, JobDevice};
 
 use crate::context::Context;
 use crate::section::{Section, Work};
 use crate::stacks::Depth;
 use sensedsl_files::{block, templates};
 use sensedsl_firmware_c::FallBackPlan;
+use sensedsl_firmware_c::control::{self, Access};
 
 templates! {
     s: ControlPlan;
@@ -49,14 +49,6 @@ struct Control {
     failsafes: Vec<String>,
 }
 
-/// A device that is read or set: its field, and the runtime's function.
-#[derive(Clone, Debug)]
-struct Access {
-    ident: String,
-    name: String,
-    function: &'static str,
-}
-
 /// An `up_kept_t`.
 #[derive(Clone, Debug)]
 struct Kept {
@@ -93,8 +85,8 @@ impl ControlPlan {
         let (kept, kept_bytes) = kept(job);
         Self {
             all: all.map(|(plan, own)| Control::new(job, plan, own, sections)).collect(),
-            first: job.devices.iter().filter_map(first).collect(),
-            owners: (0..job.devices.len()).map(|index| owner(job, index)).collect(),
+            first: control::first_values(job),
+            owners: control::owners(job),
             kept,
             kept_words: kept_bytes.div_ceil(4),
             guard_prio: job.controllers.iter().map(|one| prio(job, one)).max().unwrap_or(0) + 1,
@@ -133,20 +125,14 @@ impl Control {
         let every_us = own.controller.every_ms.saturating_mul(1_000);
         let set: Vec<&JobDevice<'_>> =
             own.sets.iter().filter_map(|index| job.devices.get(*index)).collect();
-        let accesses = |fields: &[FieldPlan], function: fn(&JobDevice<'_>) -> &'static str| {
-            let one = |field: &FieldPlan| {
-                Some(Access::new(&field.ident, job.devices.get(field.index)?, function))
-            };
-            fields.iter().filter_map(one).collect()
-        };
         let lines = sections
             .iter()
             .flat_map(|section| &section.failsafes)
             .filter(|line| set.iter().any(|one| line.field.as_deref() == Some(one.name())));
         Self {
             takes_us: own.controller.takes_us.unwrap_or(every_us),
-            reads: accesses(&plan.reads, read),
-            sets: accesses(&plan.sets, sets),
+            reads: control::reads(job, &plan.reads),
+            sets: control::sets(job, &plan.sets),
             plan,
             fall_backs: set.iter().filter_map(|one| FallBackPlan::new(one)).collect(),
             failsafes: lines.map(|line| line.line.clone()).collect(),
@@ -155,37 +141,6 @@ impl Control {
 
     fn has_failsafe(&self) -> bool {
         !self.fall_backs.is_empty() || !self.failsafes.is_empty()
-    }
-}
-
-impl Access {
-    fn new(ident: &str, one: &JobDevice<'_>, function: fn(&JobDevice<'_>) -> &'static str) -> Self {
-        Self { ident: ident.to_owned(), name: one.name().to_owned(), function: function(one) }
-    }
-}
-
-/// A value that nobody measures is good as soon as it is there.
-fn read(one: &JobDevice<'_>) -> &'static str {
-    let is_given = one.device.kind.code().is_some() || one.device.direction == Direction::Actuator;
-    if is_given { "up_control_given" } else { "up_control_get" }
-}
-
-fn sets(one: &JobDevice<'_>) -> &'static str {
-    match one.device.direction {
-        Direction::Actuator => "up_control_set",
-        Direction::Sensor => "up_control_report",
-    }
-}
-
-fn first(one: &JobDevice<'_>) -> Option<FallBackPlan> {
-    one.device.kind.code().map(|code| FallBackPlan::of(one, code.default))
-}
-
-fn owner(job: &BoardJob<'_>, index: usize) -> &'static str {
-    match job.owner(index) {
-        Owner::Host => "UP_OWNER_HOST",
-        Owner::Code => "UP_OWNER_CODE",
-        Owner::CodeOrHost => "UP_OWNER_CODE_OR_HOST",
     }
 }
 
