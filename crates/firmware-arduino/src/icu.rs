@@ -81,7 +81,7 @@ pub(crate) fn lacks(_: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<
     (icu.mode == Mode::Ppm).then_some("the pulse trains of model receivers")
 }
 
-pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+pub(crate) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let mut all = Captures { captures: Vec::new(), sensors: Vec::new(), pulses: Vec::new() };
     for (device, wires) in context.devices(KindName::Icu) {
@@ -95,7 +95,6 @@ pub(crate) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         section.costs.push(Cost::new("pulses", 0, 2_000));
         section.tables = block(&Tables { s: &all });
     }
-    let _ = diagnostics;
     section
 }
 

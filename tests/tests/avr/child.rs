@@ -21,8 +21,7 @@ const FLOATING: u8 = 2;
 /// What is around an AVR: what is around any MCU, and inputs of its converter that no port has.
 pub(crate) trait Around: Surroundings {
     /// The voltage at such an input.
-    fn input_millivolts(&mut self, input: u8, now_ns: u64) -> f64 {
-        let _ = (input, now_ns);
+    fn input_millivolts(&mut self, _input: u8, _now_ns: u64) -> f64 {
         0.0
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! `program` finds the firmware in a generated folder and determines what builds it: make or cargo. `tree` compares the
 //! requirements of a Makefile with the user's tree of ChibiOS, `tools` checks for make and the compiler, `cargo` for
-//! cargo and the processor's core library, `arduino` for what builds sketches, `probe` for tools that write to a board, `drive` for drives that take
-//! programs; `raw` makes the bytes that some of these take, and `uf2` the files that others do. Anything missing is
-//! returned as a diagnostic; nothing here prints.
+//! cargo and the processor's core library, `arduino` for what builds sketches, `probe` for tools that write to a board,
+//! `drive` for drives that take programs; `raw` makes the bytes that some of these take, and `uf2` the files that
+//! others do. Anything missing is returned as a diagnostic; nothing here prints.
 
 pub(crate) mod arduino;
 pub(crate) mod cargo;
