@@ -141,8 +141,8 @@ fn link(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Link
 
 /// The reporter's cycle: as short as the time in which something can become due, but no shorter than the link allows.
 fn report_ms(job: &BoardJob<'_>, tasks: &[Work]) -> u32 {
-    if let Some(rate_hz) = job.board.link.rate_hz {
-        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    if let Some(report_ms) = job.board.link.report_ms() {
+        return report_ms;
     }
     tasks.iter().map(|task| task.cycle.delay_ms).fold(REPORT_MS, u32::min).max(1)
 }

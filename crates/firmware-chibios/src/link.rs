@@ -159,8 +159,8 @@ pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
 
 /// The reporter's cycle: as short as the time in which something can become due, but no shorter than the link allows.
 pub(super) fn report_ms(context: &Context<'_>, tasks: &[TaskPlan]) -> u32 {
-    if let Some(rate_hz) = context.job.board.link.rate_hz {
-        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    if let Some(report_ms) = context.job.board.link.report_ms() {
+        return report_ms;
     }
     let repeats = can::repeats_ms(context.job);
     tasks.iter().map(|task| task.delay_ms).chain(repeats).fold(REPORT_MS, u32::min).max(1)

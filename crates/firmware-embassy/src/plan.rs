@@ -184,8 +184,8 @@ pub(super) fn plan(
 
 /// The cycle of the reporter: as often as the link says, or as something can become due.
 fn report_ms(context: &Context<'_>) -> u32 {
-    if let Some(rate_hz) = context.job.board.link.rate_hz {
-        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    if let Some(report_ms) = context.job.board.link.report_ms() {
+        return report_ms;
     }
     let devices = context.job.devices.iter().map(|one| one.device);
     let served = devices.filter(|device| !device.kind.name().spec().triggers_itself);

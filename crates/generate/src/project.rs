@@ -84,7 +84,8 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
         .map(|(on, board)| {
             let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
             let shown = devices.iter().filter_map(|index| design.device(*index));
-            let paced = shown.clone().filter_map(|one| Some((one.id.value, one.paced_ms()?)));
+            let paced =
+                shown.clone().filter_map(|one| Some((one.id.value, design.told_every_ms(one)?)));
             HostBoard {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),

@@ -238,7 +238,7 @@ impl<'a> BoardJob<'a> {
         let controller = |index| self.controllers.iter().find(|one| one.own == index);
         let all = self.devices.iter().enumerate().map(|(index, one)| match controller(index) {
             Some(own) => own.controller.every_ms,
-            None => one.device.paced_ms().unwrap_or(0),
+            None => self.design.paced_ms(one.device).unwrap_or(0),
         });
         all.collect()
     }

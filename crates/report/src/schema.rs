@@ -46,7 +46,7 @@ fn item(design: &Design, index: DeviceIndex, device: &Device) -> Option<Value> {
     object.insert("type".into(), scalar.name().into());
     object.insert("length".into(), device.value.value.length.map_or(Value::Null, Value::from));
     object.insert("kind".into(), device.kind.name().name().into());
-    object.insert("cycle_ms".into(), device.paced_ms().map_or(Value::Null, Value::from));
+    object.insert("cycle_ms".into(), design.told_every_ms(device).map_or(Value::Null, Value::from));
     if let Some(own) = design.owner(index).filter(|_| device.direction == Direction::Actuator) {
         let controller = design.device(own.device)?;
         let host = if own.host_overrides { "override" } else { "refused" };

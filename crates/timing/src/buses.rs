@@ -18,7 +18,6 @@ use sensedsl_wire::Direction;
 use crate::can_bit::can_bit;
 use crate::clocks::{at_most, unit_hz};
 use crate::context::{Context, Wired};
-use crate::groups::i2c_period_ms;
 use crate::i2c_clock::{self, BusClock};
 use crate::processor::{Transfers, Work};
 use crate::rows::{Count, Part, Row, clocks_ns, shortest};
@@ -77,7 +76,7 @@ pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) ->
     }
     let conditions = transfers.phases + transfers.count;
     let clocks = transfers.bytes * I2C_BYTE_CLOCKS + conditions * I2C_CONDITION_CLOCKS;
-    Script { transfers, clocks, every_ms: i2c_period_ms(device.delay_ms, i2c.wait_us) }
+    Script { transfers, clocks, every_ms: device.measured_every_ms().unwrap_or(device.delay_ms) }
 }
 
 fn spi_script(context: &Context<'_>, wired: &Wired<'_>, spi: &Spi) -> Script {

@@ -7,7 +7,6 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Design, Device, DeviceIndex};
-use sensedsl_model::kind::Interface;
 use sensedsl_wiring::assignment::BoardAssignment;
 
 /// Milliseconds after the board's start at which each device begins; 0 for devices that are not
@@ -36,9 +35,6 @@ pub struct Turn {
 /// several times.
 const TRIES_MAX: usize = 4_096;
 
-/// Time between two measurements, for the transfer that starts one and a tick of the kernel.
-const GAP_MS: u32 = 1;
-
 /// The start times of all devices of a board.
 #[must_use]
 pub fn starts(design: &Design, wiring: &BoardAssignment) -> Starts {
@@ -56,7 +52,7 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
             device: index,
             start_ms: 0,
             period_ms,
-            measuring_ms: measuring_ms(device),
+            measuring_ms: device.turn_ms(),
             overlaps: false,
         };
         let others = || turns.iter().filter(|other| other.group == turn.group);
@@ -73,37 +69,9 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
 
 /// The time from one measurement to the next, for a device that measures on demand.
 fn period_ms(device: &Device) -> Option<u32> {
-    match device.kind.interface() {
-        Interface::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
-        Interface::OneWire(own) => Some(i2c_period_ms(device.delay_ms, own.wait_us)),
-        Interface::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
-        Interface::Analog(_)
-        | Interface::Encoder(_)
-        | Interface::Digital(_)
-        | Interface::Uart(_)
-        | Interface::Spi(_)
-        | Interface::Pwm(_)
-        | Interface::Dac(_)
-        | Interface::Can(_)
-        | Interface::Stepper(_)
-        | Interface::Code(_) => None,
-    }
-}
-
-/// The time from one measurement of an I2C device to the next: it is polled each cycle, and answers
-/// once its waiting time is over.
-pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
-    let delay_ms = delay_ms.max(1);
-    wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1).saturating_mul(delay_ms)
-}
-
-/// How long a device's turn takes: for an array that measures on demand, the elements one after the
-/// other.
-fn measuring_ms(device: &Device) -> u32 {
-    let each_ms = Design::measuring_us(device).div_ceil(1_000) + GAP_MS;
-    let is_asked = device.kind.pulse_us().is_some();
-    let elements = device.value.value.length.filter(|_| is_asked).map_or(1, u32::from);
-    each_ms.saturating_mul(elements)
+    let kind = &device.kind;
+    let is_asked = kind.i2c().is_some() || kind.onewire().is_some() || kind.pulse_us().is_some();
+    device.measured_every_ms().filter(|_| is_asked)
 }
 
 /// The earliest start that does not collide with any other device.

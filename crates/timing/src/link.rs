@@ -3,11 +3,9 @@
 use std::collections::BTreeSet;
 
 use sensedsl_model::design::{Device, Transport};
-use sensedsl_model::kind::Interface;
 use sensedsl_wire::{Direction, STAMP_BYTES};
 
 use crate::context::Context;
-use crate::groups::i2c_period_ms;
 use crate::ports::exact_baud;
 use crate::rows::{Count, Part, Row};
 use crate::units::SECOND_NS;
@@ -39,21 +37,12 @@ pub(crate) struct Reports {
 /// The report cycle: that of the link's `rate`, or else the shortest cycle time of a device, at
 /// most `REPORT_MS`.
 pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
-    if let Some(rate_hz) = context.board.link.rate_hz {
-        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    if let Some(report_ms) = context.board.link.report_ms() {
+        return report_ms;
     }
     let served =
         context.devices.iter().filter(|wired| !wired.device.kind.name().spec().triggers_itself);
     served.map(|wired| wired.device.delay_ms).fold(REPORT_MS, u32::min).max(1)
-}
-
-/// The time from one value of a device to the next; none for a device that measures on its own.
-fn period_ms(device: &Device) -> Option<u32> {
-    let kind = &device.kind;
-    if let Interface::I2c(i2c) = kind.interface() {
-        return Some(i2c_period_ms(device.delay_ms, i2c.wait_us));
-    }
-    (!kind.measures_itself()).then_some(device.delay_ms)
 }
 
 pub(crate) fn reports(context: &Context<'_>) -> Reports {
@@ -64,7 +53,7 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
     let most = 1_000_u64.div_ceil(u64::from(cycle_ms));
     // In thousandths, so that slow devices count as well.
     let rate = |device: &Device| {
-        let own = period_ms(device).map(|ms| 1_000_000 / u64::from(ms.max(1)));
+        let own = device.measured_every_ms().map(|ms| 1_000_000 / u64::from(ms.max(1)));
         own.unwrap_or(most * 1_000).min(most * 1_000)
     };
     let sensors = || {
@@ -73,14 +62,14 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
     };
     let item = |device: &Device| 1 + device.value.value.size_bytes() as u64;
     let sum = |what: &dyn Fn(&Device) -> u64, cyclic: bool| -> u64 {
-        let wanted = sensors().filter(|device| !cyclic || period_ms(device).is_some());
+        let wanted = sensors().filter(|device| !cyclic || device.measured_every_ms().is_some());
         wanted.map(|device| rate(device) * what(device)).sum::<u64>().div_ceil(1_000)
     };
     let frames = |cyclic: bool| {
         // Devices with the same rate and start are read together, and are in the same report.
         let wanted = context.devices.iter().filter(|wired| {
             let is_sensor = wired.device.direction == Direction::Sensor;
-            is_sensor && (!cyclic || period_ms(wired.device).is_some())
+            is_sensor && (!cyclic || wired.device.measured_every_ms().is_some())
         });
         let paces: BTreeSet<(u64, u32)> =
             wanted.map(|wired| (rate(wired.device), context.cycle(wired).start_ms)).collect();

@@ -17,7 +17,7 @@ use crate::hosts::files;
 /// The board as its hosts see it.
 fn board(job: &BoardJob<'_>) -> HostBoard {
     let devices = || job.devices.iter().map(|one| one.device);
-    let cycles = devices().filter_map(|one| Some((one.id.value, one.paced_ms()?)));
+    let cycles = devices().filter_map(|one| Some((one.id.value, job.design.told_every_ms(one)?)));
     HostBoard {
         name: job.board.name.value.clone(),
         schema: job.schema.clone(),

@@ -2,12 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_model::design::Design;
-
 use crate::{BoardJob, Cycle, JobConnection};
-
-/// The gap between two measurements, as between those of different cycles: a tick of the kernel.
-const GAP_MS: u32 = 1;
 
 /// Wires that get pulses of the same length in the same cycle.
 #[derive(Clone, Debug)]
@@ -47,7 +42,7 @@ pub fn pulses<'a>(job: &'a BoardJob<'a>) -> Vec<Pulses<'a>> {
             lines.push(Line {
                 wire,
                 group: device.group.as_ref().map(|group| group.name.as_str()),
-                measuring_ms: Design::measuring_us(device).div_ceil(1_000) + GAP_MS,
+                measuring_ms: device.measuring_ms(),
                 apart_ms: 0,
             });
         }

@@ -6,6 +6,7 @@ mod controller;
 mod fault;
 mod index;
 mod module;
+mod pace;
 mod pin_ref;
 mod placement;
 mod presentation;
@@ -30,6 +31,7 @@ pub use controller::Controller;
 pub use fault::FaultKind;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
 pub use module::Module;
+pub use pace::GAP_MS;
 pub use pin_ref::PinRef;
 pub use placement::{Placement, Preference, PreferenceSubject, Together};
 pub use presentation::{Bare, Presentation};
@@ -231,16 +233,6 @@ pub struct Device {
     pub connections: Vec<ConnectionIndex>,
 }
 
-impl Device {
-    /// How often a value can be counted on, in milliseconds; none if it is set, or comes when something happens. What
-    /// counts on its own is told when it has changed.
-    #[must_use]
-    pub fn paced_ms(&self) -> Option<u32> {
-        let is_measured = self.direction == Direction::Sensor;
-        (is_measured && !self.kind.name().spec().triggers_itself).then_some(self.delay_ms)
-    }
-}
-
 /// Wires that belong together: those of a device, of one element of an array, or of one connection
 /// of a chip. One peripheral instance serves them.
 #[derive(Clone, Debug, PartialEq)]
@@ -345,12 +337,6 @@ impl Design {
     #[must_use]
     pub fn board(&self, index: BoardIndex) -> Option<&Board> {
         self.boards.get(index.0)
-    }
-
-    /// How long a measurement of the device lasts once it has begun, in microseconds.
-    #[must_use]
-    pub fn measuring_us(device: &Device) -> u32 {
-        device.kind.measuring_us()
     }
 
     /// The device at `index`.

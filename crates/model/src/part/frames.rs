@@ -55,7 +55,7 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
 fn slower_link(design: &Design, device: &Device) -> Option<Diagnostic> {
     let resend_ms = device.kind.resend_ms();
     let board = design.board(design.part(device.part)?.board?)?;
-    let cycle_ms = 1_000_u32.div_ceil(board.link.rate_hz?.max(1));
+    let cycle_ms = board.link.report_ms()?;
     let message = format!(
         "{} repeats its frame every {resend_ms} ms, and the link's `rate` lets the board look every {cycle_ms} ms",
         device.name.value

@@ -55,8 +55,8 @@ impl Pace {
         subject: &Subject,
     ) -> Option<Self> {
         let device = one.device;
-        let rate_hz = job.board.link.rate_hz;
-        let reporter_ns = rate_hz.map_or(REPORTER_NS, cycle_ns_of);
+        let report_ms = job.board.link.report_ms();
+        let reporter_ns = report_ms.map_or(REPORTER_NS, |ms| MS * u64::from(ms));
         let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
         let (least_ns, most_ns, own_ns) = match device.kind.interface() {
             Interface::Encoder(_) | Interface::Stepper(_) => (0, REPEAT_NS, 0),
@@ -138,17 +138,12 @@ fn pauses_ns(job: &BoardJob<'_>) -> u64 {
 /// The shortest time from one report to the next: the shortest cycle of anything that can become due, or the one that
 /// the link sets.
 pub(super) fn reporter_ns(job: &BoardJob<'_>) -> u64 {
-    if let Some(rate_hz) = job.board.link.rate_hz {
-        return cycle_ns_of(rate_hz);
+    if let Some(report_ms) = job.board.link.report_ms() {
+        return MS * u64::from(report_ms);
     }
     let cycles = job.devices.iter().flat_map(|one| [one.cycle.delay_ms, one.device.delay_ms]);
     let cycles = cycles.chain(sensedsl_job::kinds::can::repeats_ms(job));
     cycles.filter(|ms| *ms > 0).map(|ms| MS * u64::from(ms)).fold(REPORTER_NS, u64::min)
-}
-
-/// The reporter's cycle on a link with this many reports a second at most, in whole milliseconds.
-fn cycle_ns_of(rate_hz: u32) -> u64 {
-    MS * u64::from(1_000_u32.div_ceil(rate_hz.max(1)))
 }
 
 /// The shortest and the longest cycle of a chip's device. A chip measures one thing after another, and misses whole

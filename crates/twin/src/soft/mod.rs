@@ -21,8 +21,8 @@ use sense_rt::{
     BoardHealth, Cause, FilterTable, Health, Host, Outcome, Reporter, ReporterConfig, Schema, Store,
 };
 use sensedsl_job::{BoardJob, Owner};
-use sensedsl_model::design::{DeviceIndex, Transport};
-use sensedsl_wire::ScalarType;
+use sensedsl_model::design::{Device, DeviceIndex, Transport};
+use sensedsl_wire::{Direction, ScalarType};
 
 use self::core::{Core, wrapped};
 use crate::bench::Bench;
@@ -416,9 +416,12 @@ impl Shape {
             Some((index, kept(tables::filter(plan))))
         });
         let link = &job.board.link;
-        let fastest = cycles_ms.iter().copied().filter(|cycle| *cycle > 0).min();
-        let usual = REPORT_MS.min(fastest.unwrap_or(REPORT_MS));
-        let cycle_ms = link.rate_hz.map_or(usual, |rate| 1_000_u32.div_ceil(rate.max(1))).max(1);
+        let is_asked =
+            |one: &&Device| one.direction == Direction::Sensor && !one.kind.measures_itself();
+        let asked = job.devices.iter().map(|one| one.device).filter(is_asked);
+        let steps = job.controllers.iter().map(|one| one.controller.every_ms);
+        let usual = asked.map(|one| one.delay_ms).chain(steps).fold(REPORT_MS, u32::min).max(1);
+        let cycle_ms = link.report_ms().unwrap_or(usual);
         let speed = u64::from(link.baud) / 10;
         Self {
             schema,

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::e0542_world_value as value;
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
-use sensedsl_model::design::{Device, DeviceIndex};
+use sensedsl_model::design::{Design, Device, DeviceIndex};
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::file::{Scene, impossible, is_turning, key, short};
@@ -60,7 +60,11 @@ pub fn recorded(file: FileId, run: Recorded, scene: &Scene<'_>) -> Again {
         match here(&was.name, was.direction) {
             Some((_, device)) => {
                 let value = run.sensors.get(&was.name).and_then(|all| all.first()?.first());
-                again.changes.extend(changes(was, device, value.map(|point| point.1)));
+                again.changes.extend(changes(
+                    was,
+                    (scene.design, device),
+                    value.map(|point| point.1),
+                ));
             }
             None => again.left_out.push(was.name.clone()),
         }
@@ -97,7 +101,11 @@ pub fn recorded(file: FileId, run: Recorded, scene: &Scene<'_>) -> Again {
 }
 
 /// What a host sees otherwise; `value` is one that was shown.
-fn changes(was: &sensedsl_host::Device, device: &Device, value: Option<f64>) -> Vec<String> {
+fn changes(
+    was: &sensedsl_host::Device,
+    (design, device): (&Design, &Device),
+    value: Option<f64>,
+) -> Vec<String> {
     let (name, scale) = (&was.name, scale_of(&device.shown));
     let mut all = Vec::new();
     if was.value != device.value.value {
@@ -115,7 +123,7 @@ fn changes(was: &sensedsl_host::Device, device: &Device, value: Option<f64>) -> 
             short(shown_is)
         ));
     }
-    if let (Some(was_ms), Some(is_ms)) = (was.cycle_ms, device.paced_ms())
+    if let (Some(was_ms), Some(is_ms)) = (was.cycle_ms, design.told_every_ms(device))
         && was_ms != is_ms
     {
         all.push(format!("{name} came every {was_ms} ms and comes every {is_ms} ms"));

@@ -223,6 +223,44 @@ fn what_is_at_rest_is_not_stale() {
     }
 }
 
+/// A part that needs longer than its cycle, and rangers whose turns do, are asked in vain in between.
+#[test]
+fn what_takes_longer_than_its_cycle_is_not_stale() {
+    let slow =
+        "sensor Rear returns uint8 { type = i2c; address = 0x70; delay = 10 ms; wait = 65 ms; }";
+    let turns =
+        "sensor Around returns uint16[6] { type = icu; mode = width; pulse = 10 us; wait = 40 ms;
+                     group = sound; delay = 50 ms; }";
+    let alone =
+        "sensor Front returns uint16 { type = icu; mode = width; pulse = 10 us; wait = 40 ms;
+                     group = sound; delay = 50 ms; }";
+    for text in [slow.to_owned(), turns.to_owned(), format!("{turns} {alone}")] {
+        let board = format!("board STM32F407G_DISC1 {{ {text} }}");
+        for seconds in 2..6 {
+            let run = plainly(&board, "", seconds);
+            let is_good = run.statuses.iter().all(|(_, status)| *status == Status::Good);
+            assert!(is_good, "{text} after {seconds} s: {:?}", run.statuses);
+        }
+    }
+}
+
+/// The board sends a ranger its pulse, so it knows when there is no echo. Nobody asks a receiver for its pulses.
+#[test]
+fn an_echo_that_does_not_come_is_stale() {
+    let width = |own: &str| {
+        format!("sensor Near returns uint16 {{ type = icu; mode = width; {own} delay = 60 ms; }}")
+    };
+    for (text, status) in [
+        (width("pulse = 10 us; wait = 40 ms;"), Status::Stale),
+        (width("pulse = 10 us; wait = 40 ms;").replace("uint16", "uint16[2]"), Status::Stale),
+        (width("").replace("delay = 60 ms;", ""), Status::Good),
+    ] {
+        let board = format!("board STM32F407G_DISC1 {{ {text} }}");
+        let world = "[[fault]]\nkind = \"silent\"\ndevice = \"Near\"\nat = 2\nfor = 9\n";
+        assert_eq!(plainly(&board, world, 4).statuses[0].1, status, "{text}");
+    }
+}
+
 /// A board reports the health of each of its devices once, and of no others.
 #[test]
 fn health_of_other_devices_is_wrong() {

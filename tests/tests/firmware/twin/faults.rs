@@ -133,7 +133,7 @@ fn inputs_that_fall_silent(system: System) {
         others_go_on(&trial, id);
         let broken = health(&trial, 0, id);
         assert!(broken.age_ms >= 2_000, "{name}: {broken:?}");
-        // A capture has no cycle, so it cannot be late.
+        // Nobody asks a receiver for its pulses, so they cannot be late.
         assert!(id == STEERING || broken.status != Status::Good, "{name}: {broken:?}");
     }
 }

@@ -1,0 +1,84 @@
+//! How often values come: what the cycle times of a design, the waiting times of its parts and the turns of its rangers
+//! come to.
+
+use sensedsl_wire::Direction;
+
+use super::{Design, Device, Link};
+use crate::kind::Interface;
+
+/// Time between two measurements, for the transfer that starts one and a tick of the kernel.
+pub const GAP_MS: u32 = 1;
+
+impl Link {
+    /// The time between two reports that its `rate` asks for, in whole milliseconds; none where each goes out when it is
+    /// due.
+    #[must_use]
+    pub fn report_ms(&self) -> Option<u32> {
+        self.rate_hz.map(|rate| 1_000_u32.div_ceil(rate.max(1)))
+    }
+}
+
+impl Device {
+    /// The time from one measurement to the next, in milliseconds; none for a device that measures on its own.
+    ///
+    /// A part that needs time for its answer is asked each cycle, and answers once that time is over.
+    #[must_use]
+    pub fn measured_every_ms(&self) -> Option<u32> {
+        let delay_ms = self.delay_ms.max(1);
+        let wait_us = match self.kind.interface() {
+            Interface::I2c(own) => own.wait_us,
+            Interface::OneWire(own) => own.wait_us,
+            _ => 0,
+        };
+        let cycles = wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1);
+        (!self.kind.measures_itself()).then(|| cycles.saturating_mul(delay_ms))
+    }
+
+    /// How long one measurement takes with the gap behind it, in milliseconds.
+    #[must_use]
+    pub fn measuring_ms(&self) -> u32 {
+        self.kind.measuring_us().div_ceil(1_000) + GAP_MS
+    }
+
+    /// How long its turn takes, in milliseconds: for an array that measures on demand, the elements one after the other.
+    #[must_use]
+    pub fn turn_ms(&self) -> u32 {
+        let is_asked = self.kind.pulse_us().is_some();
+        let elements = self.value.value.length.filter(|_| is_asked).map_or(1, u32::from);
+        self.measuring_ms().saturating_mul(elements)
+    }
+}
+
+impl Design {
+    /// How often a device's value can be counted on, in milliseconds; none if it is set, or comes when something
+    /// happens. What counts on its own is told when it has changed.
+    ///
+    /// Rangers of one group wait for each other, so that no value comes sooner than all their turns take where the cycle
+    /// is too short for them.
+    #[must_use]
+    pub fn paced_ms(&self, device: &Device) -> Option<u32> {
+        let own_ms =
+            device.measured_every_ms().filter(|_| device.direction == Direction::Sensor)?;
+        let board = |one: &Device| self.part(one.part).map(|part| part.board);
+        let group = |one: &Device| one.group.as_ref().map(|group| group.name.clone());
+        let shares = |one: &&Device| {
+            one.kind.pulse_us().is_some()
+                && group(one) == group(device)
+                && board(one) == board(device)
+        };
+        if device.kind.pulse_us().is_none() || device.group.is_none() {
+            return Some(own_ms);
+        }
+        let turns = self.devices.iter().filter(shares).map(Device::turn_ms);
+        Some(own_ms.max(turns.fold(0, u32::saturating_add)))
+    }
+
+    /// How often the host can count on a device's value, in milliseconds: as often as it comes, or as the link's `rate`
+    /// lets reports go out.
+    #[must_use]
+    pub fn told_every_ms(&self, device: &Device) -> Option<u32> {
+        let board = self.part(device.part)?.board.and_then(|board| self.board(board));
+        let report_ms = board.and_then(|board| board.link.report_ms());
+        self.paced_ms(device).map(|own_ms| own_ms.max(report_ms.unwrap_or(0)))
+    }
+}
