@@ -4,7 +4,7 @@
 static const sensedsl_device fig2_STM32F4DiscoveryBoard_devices[] = {
     {17, true, false, SENSEDSL_UINT16, 1, 0, NULL, "IRFront", "", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 1000},
     {18, true, false, SENSEDSL_UINT16, 1, 0, NULL, "IRFrontRight", "", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 60},
-    {19, true, false, SENSEDSL_UINT8, 1, 0, NULL, "USRear", "cm", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 40},
+    {19, true, false, SENSEDSL_UINT8, 1, 0, NULL, "USRear", "cm", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 80},
     {20, true, false, SENSEDSL_UINT32, 1, 0, NULL, "WheelEncoder", "", false, false, false, (sensedsl_real)1.0, (sensedsl_real)0.0, (sensedsl_real)0.0, (sensedsl_real)0.0, 0},
 };
 #define DEVICES fig2_STM32F4DiscoveryBoard_devices

@@ -56,7 +56,7 @@ pub const SCHEMA: Schema = Schema {
 };
 
 /// How often each is read, in milliseconds; 0: when something happens.
-pub const CYCLES_MS: &[u32] = &[1000, 1000, 1000, 0, 0, 1000, 1000, 1000, 1000, 0, 0, 0, 0];
+pub const CYCLES_MS: &[u32] = &[1000, 1000, 1000, 0, 0, 1000, 1000, 1000, 1000, 0, 0, 0, 1000];
 
 // The tasks that the watchdog watches.
 pub const ADC1_1000MS: usize = 0;

@@ -325,7 +325,7 @@ static const up_counter_t counters[] = {
 static const uint32_t cycles_ms[] = {
     1000U,
     60U,
-    40U,
+    80U,
     0U,
 };
 

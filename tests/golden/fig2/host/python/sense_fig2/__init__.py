@@ -73,7 +73,7 @@ class USRear(Message):
         unit="cm",
         min=None,
         max=None,
-        cycle_ms=40,
+        cycle_ms=80,
     )
 
     value: int

@@ -74,7 +74,7 @@ device! {
         unit: Some("cm"),
         min: None,
         max: None,
-        cycle_ms: Some(40),
+        cycle_ms: Some(80),
     }
 }
 

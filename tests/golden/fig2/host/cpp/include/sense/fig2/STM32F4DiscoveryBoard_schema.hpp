@@ -22,7 +22,7 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
     static const ::sensedsl::SensorFacts sensor_facts[] = {
         {"IRFront", 1000},
         {"IRFrontRight", 60},
-        {"USRear", 40},
+        {"USRear", 80},
         {"WheelEncoder", 0},
     };
     // All devices in the file's order, which is that of their health: identifiers; names and whether they are actuators.
