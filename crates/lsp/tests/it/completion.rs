@@ -398,6 +398,8 @@ fn an_empty_file_is_begun() {
         ["board", "use", "sensor analog", "mpu6050"].iter().all(|one| labels(items).contains(one))
     );
     assert_eq!(labels(items)[0], "board");
+    // Who types `ana` finds it before the parts whose names begin with these letters among others.
+    assert_eq!(item(items, "sensor analog")["filterText"], "analog sensor analog");
 }
 
 /// A text of whole devices of every kind, and of every part of the library, has no errors.

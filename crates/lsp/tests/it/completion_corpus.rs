@@ -81,7 +81,12 @@ fn ask(session: &mut Session, path: &Path, text: &str, offset: usize) -> usize {
         let is_word = !text[..offset].ends_with(['{', ';']);
         // Only `mux` has a value that is a name and its value.
         let is_pair = text[..offset].ends_with("mux");
-        if is_pair || is_word && item["kind"] == 14 {
+        // A name takes the place of `not` with all that it negates.
+        let negates = ["not", "no", "n"].iter().any(|word| {
+            text[..offset].ends_with(&format!(" {word}"))
+                && text[offset..].starts_with(&"not "[word.len()..])
+        });
+        if is_pair || negates || is_word && item["kind"] == 14 {
             continue;
         }
         if !is_replaceable(text, offset, item) || is_word && item["insertTextFormat"] == 2 {

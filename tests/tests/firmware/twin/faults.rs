@@ -16,6 +16,7 @@ const STEERING: u8 = 5;
 const LIDAR: u8 = 8;
 const SPEED: u8 = 9;
 const IMU: u8 = 11;
+const FRONT: u8 = 12;
 
 /// Runs the rover for ten seconds, with a fault from 4 s on for 3 s; health is read at 6.5 s and at
 /// the end.
@@ -128,7 +129,8 @@ fn a_torn_cable(system: System) {
 }
 
 fn inputs_that_fall_silent(system: System) {
-    for (name, id) in [("Lidar", LIDAR), ("Speed", SPEED), ("Steering", STEERING)] {
+    for (name, id) in [("Lidar", LIDAR), ("Speed", SPEED), ("Steering", STEERING), ("Front", FRONT)]
+    {
         let Some(trial) = with_device(system, "silent", name) else { return };
         others_go_on(&trial, id);
         let broken = health(&trial, 0, id);

@@ -34,7 +34,7 @@ fn device(kind: KindName, way: Direction) -> Item {
         .snippet(text)
         .detail(about)
         .documentation(format!("{about}\n\nWires: {}.", spec.wires))
-        .words([spec.name])
+        .known_as(spec.name)
 }
 
 /// The kinds for a direction.

@@ -21,6 +21,8 @@ pub(super) struct Item {
     kind: u8,
     detail: Option<String>,
     documentation: Option<String>,
+    /// What people type for it, if that is not how its label begins.
+    known_as: Option<String>,
     /// What else finds it.
     words: Vec<String>,
     text: String,
@@ -67,6 +69,11 @@ impl Item {
         self
     }
 
+    pub(super) fn known_as(mut self, name: impl Into<String>) -> Self {
+        self.known_as = Some(name.into());
+        self
+    }
+
     pub(super) fn words(mut self, words: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.words.extend(words.into_iter().map(Into::into));
         self
@@ -79,7 +86,8 @@ impl Item {
 
     /// What a client compares with what is typed.
     fn filter(&self) -> String {
-        std::iter::once(&self.label).chain(&self.words).cloned().collect::<Vec<_>>().join(" ")
+        let all = self.known_as.iter().chain([&self.label]).chain(&self.words);
+        all.cloned().collect::<Vec<_>>().join(" ")
     }
 
     /// Whether what is typed finds it: its letters are in the filter, in this order.
@@ -94,7 +102,7 @@ impl Item {
     fn distance(&self, typed: &str) -> u8 {
         let typed = typed.to_lowercase();
         let begins = |word: &String| word.to_lowercase().starts_with(&typed);
-        if begins(&self.label) {
+        if begins(&self.label) || self.known_as.as_ref().is_some_and(begins) {
             0
         } else if self.words.iter().any(begins) {
             1
