@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
 
-use sensedsl_tests::{TempDir, has, is_thorough, missing, printed, root, sensedsl};
+use sensedsl_tests::{TempDir, drawn, has, is_thorough, missing, printed, root, sensedsl};
 
 use super::tools::scratch;
 
@@ -89,14 +89,16 @@ fn compile(board: &Path, settings: &[&str]) -> Result<PathBuf, String> {
     Ok(program)
 }
 
-/// The cores that families have beside the Cortex-M4, whose images run on the emulated MCU: M0, M3 and M33.
+/// The cores that families have beside the Cortex-M4, whose images run on the emulated MCU: M0, M3 and M33. One of them
+/// is drawn in a usual run.
 #[test]
 fn an_image_for_each_core_links() {
-    for (board, core) in [
+    let all = [
         ("NUCLEO_F072RB", "Tag_CPU_arch: v6S-M"),
         ("NUCLEO_F103RB", "Tag_CPU_arch: v7"),
         ("NUCLEO_H563ZI", "Tag_CPU_arch: v8-M.mainline"),
-    ] {
+    ];
+    for (board, core) in drawn("cores of images", &all, 1) {
         let text = format!(
             "board {board} {{\n\
              sensor Light returns uint16 {{ type = analog; }}\n\
