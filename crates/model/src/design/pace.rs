@@ -4,7 +4,6 @@
 use sensedsl_wire::Direction;
 
 use super::{Design, Device, Link};
-use crate::kind::Interface;
 
 /// Time between two measurements, for the transfer that starts one and a tick of the kernel.
 pub const GAP_MS: u32 = 1;
@@ -25,11 +24,8 @@ impl Device {
     #[must_use]
     pub fn measured_every_ms(&self) -> Option<u32> {
         let delay_ms = self.delay_ms.max(1);
-        let wait_us = match self.kind.interface() {
-            Interface::I2c(own) => own.wait_us,
-            Interface::OneWire(own) => own.wait_us,
-            _ => 0,
-        };
+        let of_onewire = || self.kind.onewire().map(|own| own.wait_us);
+        let wait_us = self.kind.i2c().map(|own| own.wait_us).or_else(of_onewire).unwrap_or(0);
         let cycles = wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1);
         (!self.kind.measures_itself()).then(|| cycles.saturating_mul(delay_ms))
     }
