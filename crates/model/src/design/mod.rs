@@ -31,7 +31,6 @@ pub use controller::Controller;
 pub use fault::FaultKind;
 pub use index::{BoardIndex, ConnectionIndex, DeviceIndex, PartIndex};
 pub use module::Module;
-pub use pace::GAP_MS;
 pub use pin_ref::PinRef;
 pub use placement::{Placement, Preference, PreferenceSubject, Together};
 pub use presentation::{Bare, Presentation};

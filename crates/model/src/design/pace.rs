@@ -6,7 +6,7 @@ use sensedsl_wire::Direction;
 use super::{Design, Device, Link};
 
 /// Time between two measurements, for the transfer that starts one and a tick of the kernel.
-pub const GAP_MS: u32 = 1;
+const GAP_MS: u32 = 1;
 
 impl Link {
     /// The time between two reports that its `rate` asks for, in whole milliseconds; none where each goes out when it is
@@ -56,15 +56,13 @@ impl Design {
         let own_ms =
             device.measured_every_ms().filter(|_| device.direction == Direction::Sensor)?;
         let board = |one: &Device| self.part(one.part).map(|part| part.board);
-        let group = |one: &Device| one.group.as_ref().map(|group| group.name.clone());
-        let shares = |one: &&Device| {
-            one.kind.pulse_us().is_some()
-                && group(one) == group(device)
-                && board(one) == board(device)
-        };
-        if device.kind.pulse_us().is_none() || device.group.is_none() {
+        let Some(group) = device.group.as_ref().filter(|_| device.kind.pulse_us().is_some()) else {
             return Some(own_ms);
-        }
+        };
+        let shares = |one: &&Device| {
+            let is_in_it = one.group.as_ref().is_some_and(|own| own.name == group.name);
+            is_in_it && one.kind.pulse_us().is_some() && board(one) == board(device)
+        };
         let turns = self.devices.iter().filter(shares).map(Device::turn_ms);
         Some(own_ms.max(turns.fold(0, u32::saturating_add)))
     }

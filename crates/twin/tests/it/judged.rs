@@ -244,6 +244,17 @@ fn what_takes_longer_than_its_cycle_is_not_stale() {
     }
 }
 
+/// A host hears a value no more often than the link's `rate` lets it go; the board knows it sooner.
+#[test]
+fn a_slow_rate_makes_no_value_late() {
+    let board = "board STM32F407G_DISC1 { link { rate = 1 Hz; } sensor Light returns uint16 { type = analog; delay = 50 ms; } }";
+    with_job(board, |job| {
+        let light = job.devices[0].device;
+        let told = (job.design.paced_ms(light), job.design.told_every_ms(light));
+        assert_eq!(told, (Some(50), Some(1_000)));
+    });
+}
+
 /// The board sends a ranger its pulse, so it knows when there is no echo. Nobody asks a receiver for its pulses.
 #[test]
 fn an_echo_that_does_not_come_is_stale() {
