@@ -54,7 +54,7 @@ impl Case {
     }
 
     fn text(self) -> String {
-        let edge = "sensor Drops returns uint32 { id = 12; type = digital; edge = rising; }\n    ";
+        let edge = "sensor Drops returns uint32 { id = 13; type = digital; edge = rising; }\n    ";
         match self {
             Chibios | Embassy => rover().replacen("actuator", &format!("{edge}actuator"), 1),
             Paper => sensedsl_tests::text("examples/fig2.sense"),
