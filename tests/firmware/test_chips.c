@@ -378,14 +378,15 @@ static void test_idle(void) {
   CHECK(steps < 500U);
 }
 
-/* A transfer that is made slightly early does not make the next one due earlier: it stays on its grid. */
-static void test_early(void) {
+/* A transfer that is made slightly early does not make the next one due earlier, and one that is late makes up for none
+ * that was missed: each stays on its grid. */
+static void test_grid(void) {
   static const up_chip_transfer_t transfers[] = {{.select = at9, .select_count = 1U, .length = 2U, .cycle_ms = 100U}};
   static const up_chip_reading_t readings[] = {{.field = 2U, .value = {.word_bytes = 2U}}};
   static const up_chip_t chip = {.transfers = transfers, .readings = readings, .cycle_ms = 10U, .address = 0x68U,
                                  .transfers_count = 1U, .readings_count = 1U};
-  static const uint32_t times_ms[] = {0U, 97U, 98U, 196U, 198U, 297U, 300U};
-  static const unsigned reported[] = {1U, 1U, 2U, 2U, 3U, 3U, 4U};
+  static const uint32_t times_ms[] = {0U, 97U, 98U, 196U, 198U, 297U, 300U, 1050U, 1060U, 1100U};
+  static const unsigned reported[] = {1U, 1U, 2U, 2U, 3U, 3U, 4U, 5U, 5U, 6U};
   board_t board;
   size_t i;
 
@@ -545,7 +546,7 @@ void test_chips(void) {
   test_command();
   test_turns();
   test_idle();
-  test_early();
+  test_grid();
   test_no_wait();
   test_crc();
   test_exchange();
