@@ -157,13 +157,13 @@ static size_t channel_room(void *context) {
   return sizeof rig->queue - rig->queued;
 }
 
-static bool channel_write(void *context, const uint8_t *bytes, size_t size) {
+static size_t channel_write(void *context, const uint8_t *bytes, size_t size) {
   rig_t *rig = context;
 
   CHECK(size <= channel_room(rig));
   memcpy(&rig->queue[rig->queued], bytes, size);
   rig->queued += size;
-  return true;
+  return size;
 }
 
 static void apply(void *context, size_t field, const void *value) {

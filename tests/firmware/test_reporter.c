@@ -7,8 +7,8 @@
 
 typedef struct {
   uint8_t out[512], in[64];
-  size_t out_size, in_size, room, room_max;
-  bool is_open, is_gone;
+  size_t out_size, in_size, room, room_max, accepts_most;
+  bool is_open;
   unsigned applied, intercepted, locked, failsafes;
   int16_t motor;
   model_values_t values, received;
@@ -39,17 +39,15 @@ static size_t room(void *context) {
   return ((desk_t *)context)->room;
 }
 
-static bool write_bytes(void *context, const uint8_t *bytes, size_t size) {
+static size_t write_bytes(void *context, const uint8_t *bytes, size_t size) {
   desk_t *desk = context;
 
   CHECK(size <= desk->room && size > 0U);
-  if (desk->is_gone) {
-    return false;
-  }
+  size = (size < desk->accepts_most) ? size : desk->accepts_most;
   memcpy(&desk->out[desk->out_size], bytes, size);
   desk->out_size += size;
   desk->room -= size;
-  return true;
+  return size;
 }
 
 static void apply(void *context, size_t field, const void *value) {
@@ -85,6 +83,7 @@ static void set_up(desk_t *desk, size_t room_max) {
   memset(desk, 0, sizeof *desk);
   desk->room = room_max;
   desk->room_max = room_max;
+  desk->accepts_most = SIZE_MAX;
   desk->is_open = true;
   desk->channel = channel;
   up_store_init(&desk->store, &model_schema, &desk->values);
@@ -166,9 +165,14 @@ static void test_little_room(void) {
   CHECK(cycle(&desk, 100U, "2:\x13", 3U) && cycle(&desk, 110U, "\x06,", 2U));
   CHECK(desk.reporter.counts.reports_sent == 2U);
   put_rear(&desk, 5U);
-  desk.is_gone = true;
+  desk.accepts_most = 0U;
   CHECK(cycle(&desk, 120U, NULL, 0U) && desk.reporter.counts.frames_torn == 2U);
-  desk.is_gone = false;
+  /* Less room than was promised: the rest follows. */
+  desk.accepts_most = 1U;
+  CHECK(cycle(&desk, 122U, "2", 1U) && cycle(&desk, 124U, ":", 1U) && cycle(&desk, 126U, "\x13", 1U));
+  desk.accepts_most = SIZE_MAX;
+  CHECK(cycle(&desk, 128U, "\x05,", 2U) && desk.reporter.counts.frames_torn == 2U);
+  put_rear(&desk, 5U);
   CHECK(cycle(&desk, 130U, "2:\x13", 3U) && cycle(&desk, 140U, "\x05,", 2U));
 }
 

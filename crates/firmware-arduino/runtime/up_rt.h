@@ -63,7 +63,7 @@ void sense_failsafe(void);
 void sense_link_start(void);
 size_t sense_link_read(void *context, uint8_t *bytes, size_t size);
 size_t sense_link_room(void *context);
-bool sense_link_write(void *context, const uint8_t *bytes, size_t size);
+size_t sense_link_write(void *context, const uint8_t *bytes, size_t size);
 bool sense_link_is_open(void *context);
 
 /* ---- the sketch ---- */

@@ -192,9 +192,12 @@ static bool push(up_reporter_t *reporter) {
   }
   size = channel->room(channel->context);
   size = (size < left) ? size : left;
-  if (size > 0U && !channel->write(channel->context, &config_of(reporter)->frame[reporter->frame_sent], size)) {
-    give_up(reporter);
-    return false;
+  if (size > 0U) {
+    size = channel->write(channel->context, &config_of(reporter)->frame[reporter->frame_sent], size);
+    if (size == 0U) {
+      give_up(reporter);
+      return false;
+    }
   }
   reporter->frame_sent += size;
   if (size < left) {

@@ -28,10 +28,11 @@ typedef struct {
   bool (*is_open)(void *context);
   /* Reads the bytes that have arrived, at most `size`; returns how many. */
   size_t (*read)(void *context, uint8_t *bytes, size_t size);
-  /* The number of bytes that write() accepts now; `room_max` if all bytes that it accepted have left. */
+  /* The number of bytes that write() should accept now; `room_max` if all bytes that it accepted have left. */
   size_t (*room)(void *context);
-  /* Accepts all of the bytes, which are no more than room(). False if the other end has gone. */
-  bool (*write)(void *context, const uint8_t *bytes, size_t size);
+  /* Accepts bytes, which are no more than room(); returns how many: fewer if there was less room after all, 0 if the
+   * other end has gone. */
+  size_t (*write)(void *context, const uint8_t *bytes, size_t size);
   void *context;
   size_t room_max; /* at least 1 */
 } up_channel_t;

@@ -27,9 +27,10 @@ static size_t room(void *context) {
   return up_channel_room();
 }
 
-static bool write_bytes(void *context, const uint8_t *bytes, size_t size) {
+/* Fewer than there was room for if USB has sent a buffer meanwhile that was only begun. */
+static size_t write_bytes(void *context, const uint8_t *bytes, size_t size) {
   (void)context;
-  return chnWriteTimeout(up_channel(), bytes, size, TIME_IMMEDIATE) == size;
+  return chnWriteTimeout(up_channel(), bytes, size, TIME_IMMEDIATE);
 }
 
 static const up_channel_t channel = {

@@ -57,7 +57,7 @@ impl<const TX_BYTES: usize> Channel for Near<TX_BYTES> {
         self.0.tx.is_empty() && !self.0.is_sending.load(Ordering::Relaxed)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> bool {
-        queue(&self.0.tx, bytes)
+    fn write(&mut self, bytes: &[u8]) -> usize {
+        if queue(&self.0.tx, bytes) { bytes.len() } else { 0 }
     }
 }

@@ -40,15 +40,15 @@ impl<P: Read + Write> Channel for Port<P> {
         poll_once(self.port.flush()).is_ready()
     }
 
-    fn write(&mut self, bytes: &[u8]) -> bool {
+    fn write(&mut self, bytes: &[u8]) -> usize {
         let mut rest = bytes;
         while !rest.is_empty() {
             // A queue that begins anew in the middle of a frame takes it in two pieces.
             match poll_once(self.port.write(rest)) {
                 Poll::Ready(Ok(size)) if size > 0 => rest = rest.get(size..).unwrap_or_default(),
-                Poll::Ready(Ok(_) | Err(_)) | Poll::Pending => return false,
+                Poll::Ready(Ok(_) | Err(_)) | Poll::Pending => break,
             }
         }
-        true
+        bytes.len().saturating_sub(rest.len())
     }
 }

@@ -33,13 +33,13 @@ pub trait Channel {
     fn is_open(&mut self) -> bool;
     /// Reads the bytes that have arrived, as many as fit into `bytes`; returns how many.
     fn read(&mut self, bytes: &mut [u8]) -> usize;
-    /// The number of bytes that [`Self::write`] accepts now.
+    /// The number of bytes that [`Self::write`] should accept now.
     fn room(&mut self) -> usize;
     /// Whether all bytes that it accepted have left: then a report may be put together.
     fn is_empty(&mut self) -> bool;
-    /// Accepts all of the bytes, which are no more than [`Self::room`]. False if the other end has
-    /// gone.
-    fn write(&mut self, bytes: &[u8]) -> bool;
+    /// Accepts bytes, which are no more than [`Self::room`], and returns how many: fewer if there was less room after all,
+    /// 0 if the other end has gone.
+    fn write(&mut self, bytes: &[u8]) -> usize;
 }
 
 /// The board, as the reporter needs it.
@@ -265,10 +265,13 @@ impl Reporter {
             return true;
         }
         let left = self.frame_size.saturating_sub(self.frame_sent);
-        let size = channel.room().min(left);
-        if size > 0 && !channel.write(part(&self.memory, self.frame_sent, size)) {
-            self.give_up(host);
-            return false;
+        let mut size = channel.room().min(left);
+        if size > 0 {
+            size = channel.write(part(&self.memory, self.frame_sent, size));
+            if size == 0 {
+                self.give_up(host);
+                return false;
+            }
         }
         self.frame_sent += size;
         if size < left {

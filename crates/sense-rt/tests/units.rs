@@ -186,9 +186,9 @@ impl Channel for Line {
         true
     }
 
-    fn write(&mut self, bytes: &[u8]) -> bool {
+    fn write(&mut self, bytes: &[u8]) -> usize {
         self.1.extend(bytes);
-        true
+        bytes.len()
     }
 }
 

@@ -131,10 +131,10 @@ static size_t room(void *context) {
   return 64U;
 }
 
-static bool write_bytes(void *context, const uint8_t *bytes, size_t size) {
+static size_t write_bytes(void *context, const uint8_t *bytes, size_t size) {
   (void)context;
   note(bytes, size);
-  return true;
+  return size;
 }
 
 static void fall_back(void *context) {

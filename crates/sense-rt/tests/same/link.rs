@@ -46,7 +46,8 @@ pub(crate) const OUTCOMES: [Outcome; Outcome::COUNT] = [
 #[derive(Default)]
 struct Line {
     is_open: bool,
-    is_gone: bool,
+    /// The part of what is written that it accepts: all, nothing, or half.
+    accepts: u64,
     room: usize,
     coming: Vec<u8>,
     reported: String,
@@ -72,15 +73,17 @@ impl Channel for Line {
         self.room >= ROOM_MAX
     }
 
-    fn write(&mut self, bytes: &[u8]) -> bool {
+    fn write(&mut self, bytes: &[u8]) -> usize {
         assert!(!bytes.is_empty() && bytes.len() <= self.room);
-        if self.is_gone {
-            return false;
-        }
+        let size = match self.accepts {
+            0 => bytes.len(),
+            1 => return 0,
+            _ => bytes.len().div_ceil(2),
+        };
         self.reported.push_str(" w");
-        say_bytes(&mut self.reported, bytes);
-        self.room -= bytes.len();
-        true
+        say_bytes(&mut self.reported, &bytes[..size]);
+        self.room -= size;
+        size
     }
 }
 
@@ -155,7 +158,7 @@ impl Link {
     fn cycle(&mut self, words: &mut Words<'_>, out: &mut String) {
         let now_us = words.number();
         self.line.is_open = words.flag();
-        self.line.is_gone = words.flag();
+        self.line.accepts = words.number();
         self.line.room = words.number() as usize;
         let (is_paused, tells) = (words.flag(), words.flag());
         self.line.coming = words.bytes();

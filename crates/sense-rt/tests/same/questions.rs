@@ -324,12 +324,14 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
         if random.below(6) == 0 {
             all.push(format!("note {} {} {now_ms}", random.below(5), random.below(9)));
         }
-        let (is_open, is_gone) = (random.below(20) > 0, random.below(25) == 0);
+        let is_open = random.below(20) > 0;
+        // All that is written, nothing, or half of it.
+        let accepts = [1, 2, 2].get(random.below(40)).copied().unwrap_or(0);
         let room = if random.below(3) == 0 { 64 } else { random.below(speed + 1).min(64) };
         let paused = u8::from(random.below(30) == 0);
         let bytes = hex(&stream(random, checksum));
-        let (open, gone) = (u8::from(is_open), u8::from(is_gone));
-        all.push(format!("cycle {now_us} {open} {gone} {room} {paused} 1 {bytes}"));
+        let open = u8::from(is_open);
+        all.push(format!("cycle {now_us} {open} {accepts} {room} {paused} 1 {bytes}"));
         now_us += (cycle * 1000 + random.below(900)) as u64;
         if random.below(80) == 0 {
             now_us += number(random) >> 20;

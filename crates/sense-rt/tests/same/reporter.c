@@ -26,7 +26,8 @@ static up_health_t health;
 static up_reporter_config_t config;
 static up_reporter_t reporter;
 static up_channel_t channel;
-static bool is_open, is_gone;
+static bool is_open;
+static uint64_t accepts;
 static size_t room;
 static const uint8_t *coming;
 static size_t coming_size;
@@ -79,19 +80,20 @@ static size_t channel_room(void *context) {
   return room;
 }
 
-static bool channel_write(void *context, const uint8_t *bytes, size_t size) {
+static size_t channel_write(void *context, const uint8_t *bytes, size_t size) {
   size_t i;
 
   (void)context;
-  if (is_gone) {
-    return false;
+  if (accepts == 1U) {
+    return 0U;
   }
+  size = (accepts == 0U) ? size : (size + 1U) / 2U;
   printf(" w");
   for (i = 0U; i < size; i++) {
     printf("%02x", (unsigned)bytes[i]);
   }
   room -= size;
-  return true;
+  return size;
 }
 
 static void apply(void *context, size_t field, const void *value) {
@@ -179,10 +181,10 @@ void note_outcome(size_t field, unsigned outcome, uint32_t now_ms) {
   up_health_note(&health, field, (up_result_t)outcome, now_ms);
 }
 
-/* `how`: open, gone, room, paused, whether counts are told. */
+/* `how`: open, the part of what is written that is accepted, room, paused, whether counts are told. */
 void cycle(uint64_t now_us, const uint64_t *how, const uint8_t *bytes, size_t size) {
   is_open = how[0] != 0U;
-  is_gone = how[1] != 0U;
+  accepts = how[1];
   room = (size_t)how[2];
   coming = bytes;
   coming_size = size;

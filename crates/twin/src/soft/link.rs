@@ -40,8 +40,8 @@ impl Channel for Link {
         self.queue.is_empty()
     }
 
-    fn write(&mut self, bytes: &[u8]) -> bool {
+    fn write(&mut self, bytes: &[u8]) -> usize {
         self.queue.extend(bytes);
-        true
+        bytes.len()
     }
 }
