@@ -109,7 +109,8 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     });
     let mut cells = cells::all(options.boards.as_ref(), options.kinds.as_ref())?;
     if let Some(count) = options.check {
-        let drawn = drawn(&cells, count, options.seed);
+        let boards = cells.iter().map(|cell| cell.board.as_str()).collect();
+        let drawn = drawn(&boards, count, options.seed);
         cells.retain(|cell| drawn.contains(&cell.board));
     }
     let earlier = match &options.resume {
@@ -137,9 +138,8 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
 }
 
 /// So many boards, drawn by a seed.
-fn drawn(cells: &[Cell], count: usize, seed: u64) -> BTreeSet<String> {
-    let boards: BTreeSet<&str> = cells.iter().map(|cell| cell.board.as_str()).collect();
-    let mut left: Vec<&str> = boards.into_iter().collect();
+pub(crate) fn drawn(boards: &BTreeSet<&str>, count: usize, seed: u64) -> BTreeSet<String> {
+    let mut left: Vec<&str> = boards.iter().copied().collect();
     let mut chance = Chance::of(seed, 0);
     let mut one = || (!left.is_empty()).then(|| left.remove(chance.below(left.len())).to_owned());
     (0..count).filter_map(|_| one()).collect()

@@ -66,7 +66,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, studio, npm, site [--studio FOLDER] [--twice], bless, firmware --matrix or --embassy, fleet [--boards N] [--rate HZ], fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], release VERSION, soak [--seconds N] [--limits], typecheck"
+            "tasks: web, studio, npm, site [--studio FOLDER] [--twice], bless, firmware --matrix or --embassy, fleet [--boards N] [--rate HZ], fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], release VERSION, soak [--seconds N] [--limits], typecheck [--check BOARDS --seed HEX]"
         ),
     }
 }

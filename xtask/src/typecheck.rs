@@ -16,10 +16,12 @@ use sensedsl_firmware_embassy::is_judged;
 use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 
+use crate::firmware::drawn;
 use crate::parts::metapac::between;
 use crate::{head, say};
 
-const USAGE: &str = "cargo xtask typecheck [--boards A,B] [--write]";
+const USAGE: &str =
+    "cargo xtask typecheck [--boards A,B] [--write] | typecheck --check BOARDS --seed HEX";
 
 /// The page that a run writes; the rows of other boards stay.
 const PAGE: &str = "docs/typecheck.md";
@@ -45,7 +47,7 @@ enum Outcome {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
-    let (mut boards, mut is_written) = (None, false);
+    let (mut boards, mut is_written, mut check, mut seed) = (None, false, None, 0);
     let mut words = arguments.iter();
     while let Some(word) = words.next() {
         match word.as_str() {
@@ -54,8 +56,17 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
                 boards = Some(list.split(',').map(str::to_owned).collect::<BTreeSet<String>>());
             }
             "--write" => is_written = true,
+            "--check" => check = Some(words.next().context(USAGE)?.parse().context(USAGE)?),
+            "--seed" => {
+                seed = u64::from_str_radix(words.next().context(USAGE)?, 16).context(USAGE)?;
+            }
             _ => bail!(USAGE),
         }
+    }
+    if let Some(count) = check {
+        ensure!(boards.is_none() && !is_written, USAGE);
+        let all = catalog::all().filter(|entry| is_judged(entry.mcu));
+        boards = Some(drawn(&all.map(|entry| entry.name).collect(), count, seed));
     }
     let wanted = |name: &str| boards.as_ref().is_none_or(|boards| boards.contains(name));
     let (tool, mut done) = (tool()?, Vec::new());
@@ -74,8 +85,14 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let page = page(&done, boards.is_some())?;
     if is_written {
         std::fs::write(PAGE, &page).context(PAGE)?;
-    } else {
+    } else if check.is_none() {
         say(&page)?;
+    } else {
+        let is_same = page == std::fs::read_to_string(PAGE).context(PAGE)?;
+        ensure!(
+            is_same,
+            "{PAGE} says something else of these boards: `cargo xtask typecheck --write`"
+        );
     }
     let refused = done.iter().filter(|one| matches!(one.outcome, Outcome::Refused(_))).count();
     ensure!(refused == 0, "{refused} of {} boards are refused", done.len());

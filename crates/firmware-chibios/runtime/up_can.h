@@ -58,8 +58,8 @@ typedef struct {
   up_can_state_t *state;
   const up_can_value_t *values; /* that are received */
   uint64_t *value;              /* as large as the largest of them */
-  uint32_t *reported_ms;            /* when each was last stored */
-  bool *is_reported;                /* whether it ever was */
+  uint32_t *turn_ms;            /* the turn of each that was last stored */
+  bool *is_reported;            /* whether it ever was */
   const up_can_frame_t *frames; /* that are sent */
   const up_can_value_t *sent;   /* the values in them */
   uint32_t cycle_ms;

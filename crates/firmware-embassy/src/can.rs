@@ -156,11 +156,11 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
     task.parameters.push("receiver: rt::can::Receiver".to_owned());
     task.before = filters;
     task.before.extend([
-        format!("let reported_ms = &mut [None; tables::{upper}_VALUES.len()];"),
+        format!("let turns = &mut [rt::can::Turn::NEW; tables::{upper}_VALUES.len()];"),
         "let value = &mut [0; SCHEMA.value_bytes_max()];".to_owned(),
         format!(
             "let mut bus = rt::can::Bus {{ receiver, schema: &SCHEMA, values: tables::{upper}_VALUES, \
-             sent: &{sent:?}, reported_ms, value }};"
+             sent: &{sent:?}, turns, value }};"
         ),
     ]);
     task.cycle = vec![

@@ -98,7 +98,7 @@ pub use convert::{
     load_magnitude, milliseconds, store_mean, store_ratio, store_signed, store_signed_ratio,
     store_unsigned,
 };
-pub use count::{Counter, Repeat, store_count};
+pub use count::{Counter, Repeat, Turn, store_count};
 pub use decode::{Decoder, Frame, Items};
 pub use drive::{Bridge, BridgeMode, BridgeState, Write, Writes};
 pub use elements::Elements;

@@ -5,7 +5,7 @@
 use sense_rt::{
     Channel, Checksum, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable,
     Health, Host, InitStep, Item, MessageStart, Number, Outcome, Record, Reporter, ReporterConfig,
-    Requests, Scalar, Schema, Status, Step, Store, Watch, encode_health_request,
+    Requests, Scalar, Schema, Status, Step, Store, Turn, Watch, encode_health_request,
     encode_hello_request,
 };
 
@@ -288,4 +288,33 @@ fn requests_are_what_a_decoder_finds() {
         }
         assert!(requests.frames() > 3_000);
     }
+}
+
+/// How many values of a minute are taken, if they come so far apart by a clock that is so many thousandths fast.
+fn taken(cycle_ms: u32, apart_us: u64, fast_per_mille: u64) -> usize {
+    let mut turn = Turn::NEW;
+    let times = (0..60_000_000 / apart_us)
+        .map(|place| 300 + place * apart_us * (1000 - fast_per_mille) / 1000);
+    // Just before the clock of milliseconds begins anew.
+    times
+        .filter(|us| turn.is_next(cycle_ms, (u32::MAX - 30_000).wrapping_add((us / 1000) as u32)))
+        .count()
+}
+
+#[test]
+fn of_values_that_come_at_any_rate_one_in_each_cycle_is_taken() {
+    for fast_per_mille in [0, 1, 5] {
+        let (same, twice) =
+            (taken(100, 100_000, fast_per_mille), taken(100, 50_000, fast_per_mille));
+        assert!((597..=600).contains(&same) && (597..=601).contains(&twice), "{same} {twice}");
+    }
+    let often = [3_000, 7_000, 30_000, 33_300].map(|apart_us| taken(100, apart_us, 0));
+    assert!(often.iter().all(|count| (599..=601).contains(count)), "{often:?}");
+    // Who sends more seldom is heard each time, and not twice after a silence.
+    assert_eq!([taken(100, 150_000, 0), taken(100, 1_000_000, 1)], [400, 60]);
+    let mut turn = Turn::NEW;
+    let times = [0, 1_000, 1_040, 1_080, 1_180];
+    assert_eq!(times.map(|ms| turn.is_next(100, ms)), [true, true, false, true, true]);
+    // Without a cycle, all.
+    assert_eq!(taken(0, 3_000, 0), 20_000);
 }

@@ -2,7 +2,7 @@
 //! groups, for both targets, through the command that users run: `simulate --firmware IMAGE
 //! --judge`.
 //!
-//! A third runs with `SENSEDSL_THOROUGH=2`, all with `SENSEDSL_THOROUGH=3`: it builds and runs more than sixty programs.
+//! A sixth runs with `SENSEDSL_THOROUGH=2`, all with `SENSEDSL_THOROUGH=3`: it builds and runs more than sixty programs.
 
 use sensedsl_tests::{Random, TempDir, is_drawn, is_exhaustive, is_whole, sensedsl};
 
@@ -19,10 +19,16 @@ const TOGETHER: usize = 24;
 /// The minimum number of programs that must be judged.
 const IMAGES_MIN: usize = 60;
 
+/// Whether the command says that a part may cost another one a byte now and then: the judge then rightly finds it.
+fn loses_bytes(text: &str, target: &str) -> bool {
+    let ran = sensedsl(["check", "-", "--target", target]).stdin(text).run();
+    format!("{}{}", ran.stdout, ran.stderr).contains("[W0628]")
+}
+
 /// Groups with as many drivers as can be wired together on the board whose MCU is emulated.
 fn groups(parts: &[String], target: &str) -> Vec<String> {
     let together = format!("board STM32F407G_DISC1 {{\n{}}}\n", parts.concat());
-    if is_wired(&together, target) {
+    if is_wired(&together, target) && !loses_bytes(&together, target) {
         return vec![together];
     }
     if parts.len() < 2 {
@@ -78,7 +84,7 @@ pub(super) fn judge_all(least: usize, designs: impl Fn(&str) -> Vec<(String, Str
     assert!(alarms.is_empty(), "{} of {drawn}: {}", alarms.len(), alarms.join("\n\n"));
     assert!(count >= least, "there are only {count} images");
     assert!(
-        drawn >= if is_whole() { count } else { count / 8 },
+        drawn >= if is_whole() { count } else { count / 16 },
         "only {drawn} of {count} images were judged"
     );
     eprintln!("{drawn} of {count} images, no alarm");

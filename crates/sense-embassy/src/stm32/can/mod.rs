@@ -11,6 +11,8 @@ use embassy_time::{Instant, with_deadline};
 use embedded_can::{ExtendedId, Id, StandardId};
 use sense_rt::{Coding, MessageField, Outcome, Schema, Sink};
 
+pub use sense_rt::Turn;
+
 use crate::devices::Report;
 use crate::now_ms;
 
@@ -76,8 +78,8 @@ pub struct Bus<'a> {
     pub values: &'static [Value],
     /// Items that are sent.
     pub sent: &'static [usize],
-    /// When each value was last reported.
-    pub reported_ms: &'a mut [Option<u32>],
+    /// Which frame of each value is next.
+    pub turns: &'a mut [Turn],
     /// Room for any value.
     pub value: &'a mut [u8],
 }
@@ -100,8 +102,8 @@ impl Bus<'_> {
     fn take(&mut self, frame: &Frame, sink: &mut Sink<'_>) {
         let now_ms = now_ms();
         let bits = bits(frame.data());
-        for ((field, id, cycle_ms, (mask, select)), reported_ms) in
-            self.values.iter().zip(self.reported_ms.iter_mut())
+        for ((field, id, cycle_ms, (mask, select)), turn) in
+            self.values.iter().zip(self.turns.iter_mut())
         {
             let index = usize::from(field.item);
             let Some(item) =
@@ -113,8 +115,7 @@ impl Bus<'_> {
             let outcome = field.read(item, frame.data(), value).unwrap_or(Outcome::Invalid);
             if outcome != Outcome::Fresh {
                 sink(index, outcome, &mut []);
-            } else if reported_ms.is_none_or(|last_ms| now_ms.wrapping_sub(last_ms) >= *cycle_ms) {
-                *reported_ms = Some(now_ms);
+            } else if turn.is_next(*cycle_ms, now_ms) {
                 sink(index, outcome, value);
             }
         }

@@ -180,9 +180,9 @@ static CAN1_STATE: rt::can::Memory = rt::can::Memory::new();
 /// CAN1: frames that come.
 #[embassy_executor::task]
 async fn can1_listen(receiver: rt::can::Receiver) {
-    let reported_ms = &mut [None; tables::CAN1_VALUES.len()];
+    let turns = &mut [rt::can::Turn::NEW; tables::CAN1_VALUES.len()];
     let value = &mut [0; SCHEMA.value_bytes_max()];
-    let mut bus = rt::can::Bus { receiver, schema: &SCHEMA, values: tables::CAN1_VALUES, sent: &[11], reported_ms, value };
+    let mut bus = rt::can::Bus { receiver, schema: &SCHEMA, values: tables::CAN1_VALUES, sent: &[11], turns, value };
     loop {
         let until = Instant::now() + Duration::from_millis(20);
         let mut report = |index: usize, outcome, value: &mut [u8]| BOARD.report(None, index, outcome, value);
