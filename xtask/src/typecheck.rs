@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     }
     if let Some(count) = check {
         ensure!(boards.is_none() && !is_written, USAGE);
-        let all = catalog::all().filter(|entry| is_judged(entry.mcu));
+        let all = catalog::all().iter().filter(|entry| is_judged(entry.mcu));
         boards = Some(drawn(&all.map(|entry| entry.name).collect(), count, seed));
     }
     let wanted = |name: &str| boards.as_ref().is_none_or(|boards| boards.contains(name));
