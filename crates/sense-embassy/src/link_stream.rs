@@ -99,7 +99,7 @@ mod tests {
         let mut near = Near(&LINK);
         assert!(!near.is_open());
         let frame: Vec<u8> = (0..100).collect();
-        assert!(near.write(&frame) && !near.is_empty());
+        assert_eq!((near.write(&frame), near.is_empty()), (frame.len(), false));
         let mut sent = Vec::new();
         assert!(poll_once(carry(Host(b"set"), Port(&mut sent), &LINK)).is_pending());
         assert_eq!(sent, frame);

@@ -312,5 +312,5 @@ fn the_link_never_waits() {
     assert!(port.is_open() && port.is_empty() && port.room() == 300);
     let mut bytes = [0; 4];
     assert_eq!((port.read(&mut bytes), port.read(&mut bytes), port.read(&mut bytes)), (1, 1, 0));
-    assert!(port.write(&[1, 2, 3, 4, 5]));
+    assert_eq!(port.write(&[1, 2, 3, 4, 5]), 5);
 }
