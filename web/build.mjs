@@ -27,12 +27,14 @@ process.chdir(here);
 
 /** What is written into projects as it is: nothing but a download needs it. */
 const TEXTS = [
+    "firmware-arduino/runtime",
     "firmware-c/runtime",
     "firmware-chibios/runtime",
     "firmware-embassy/src/templates",
     "host/src",
     "host-c/runtime",
     "host-cpp/runtime",
+    "host-cpp/src",
     "host-matlab/runtime",
     "host-python/runtime",
     "host-rust/runtime",

@@ -131,14 +131,15 @@ test("without the texts of projects the tool answers the same, and with them a p
     const module = await WebAssembly.compile(readFileSync(`${site}/sensedsl.wasm`));
     const [lean, full] = [await load(module), await load(module)];
     full.fill(new Uint8Array(readFileSync(`${site}/texts.bin`)));
-    for (const name of ["fig2", "rover", "line_follower"]) {
-        for (const target of ["chibios", "embassy"]) {
-            const request = { path: "a.sense", files: { "a.sense": example(name) }, target };
-            assert.deepEqual(lean(request), full(request), `${name} ${target}`);
-            const [without, whole] = [lean.project(request), full.project(request)].map(({ files }) => Object.values(files ?? {}));
-            const hasHole = (text) => text.includes("\0".repeat(100));
-            assert.ok(without.some(hasHole), "nothing was taken out");
-            assert.ok(!whole.some(hasHole), `${name} ${target}: something is missing`);
-        }
+    const named = ["fig2", "rover", "line_follower"].map((name) => [name, example(name)]);
+    const asked = named.flatMap(([name, text]) => ["chibios", "embassy"].map((target) => [name, text, target]));
+    const uno = "board ARDUINO_UNO_R3 { sensor Light returns uint16 { type = analog; } }";
+    for (const [name, text, target] of [...asked, ["Uno", uno, "arduino"]]) {
+        const request = { path: "a.sense", files: { "a.sense": text }, target };
+        assert.deepEqual(lean(request), full(request), `${name} ${target}`);
+        const [without, whole] = [lean.project(request), full.project(request)].map(({ files }) => Object.values(files ?? {}));
+        const hasHole = (text) => text.includes("\0".repeat(100));
+        assert.ok(without.some(hasHole), `${name} ${target}: nothing was taken out`);
+        assert.ok(!whole.some(hasHole), `${name} ${target}: something is missing`);
     }
 });

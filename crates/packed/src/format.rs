@@ -10,7 +10,10 @@ use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 
 /// The best that there is; it is done once, when a package is built.
-const LEVEL: u8 = 10;
+pub(crate) const LEVEL: u8 = 10;
+/// The bytes as they are, in the form of deflated ones.
+#[cfg(feature = "build")]
+pub(crate) const STORED: u8 = 0;
 /// The texts of a group have so many bytes, unless there is a longer one. Deflating looks back half as far, and the first
 /// answer waits for a group to be inflated: larger groups take longer and are hardly smaller.
 const GROUP_BYTES: usize = 64 << 10;
@@ -38,7 +41,11 @@ impl Group {
 
 /// Packs texts, each with its path: one line, with `/` between folders. The order does not matter.
 #[must_use]
-pub fn pack(mut files: Vec<(String, String)>) -> Vec<u8> {
+pub fn pack(files: Vec<(String, String)>) -> Vec<u8> {
+    pack_at(LEVEL, files)
+}
+
+pub(crate) fn pack_at(level: u8, mut files: Vec<(String, String)>) -> Vec<u8> {
     files.sort_unstable();
     let (mut head, mut packed) = (String::new(), Vec::new());
     let mut rest = files.as_slice();
@@ -46,7 +53,7 @@ pub fn pack(mut files: Vec<(String, String)>) -> Vec<u8> {
         let (group, after) = rest.split_at_checked(length(rest)).unwrap_or((rest, &[]));
         rest = after;
         let bytes = unpacked(group);
-        let deflated = compress_to_vec(&bytes, LEVEL);
+        let deflated = compress_to_vec(&bytes, level);
         head.push_str(&format!("{first} {} {}\n", bytes.len(), deflated.len()));
         packed.extend(deflated);
     }

@@ -26,7 +26,7 @@ mod format;
 use std::sync::OnceLock;
 
 #[cfg(feature = "build")]
-pub use build::build;
+pub use build::{build, copy_deflated};
 pub use format::pack;
 use format::{Group, folder_of};
 

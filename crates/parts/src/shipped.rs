@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use crate::format::{self, Data};
 
 /// The table as it is shipped.
-const PACKED: &[u8] = include_bytes!("../data/parts.bin");
+const PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/parts.bin"));
 
 /// The unpacked table; empty should the shipped one be damaged, which tests rule out.
 pub(crate) fn data() -> &'static Data {

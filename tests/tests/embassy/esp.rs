@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use sensedsl_generate::target;
-use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, printed, sensedsl, tree};
+use sensedsl_tests::{TempDir, is_exhaustive, printed, sensedsl, tree};
 
-use super::{can_link, is_told, linked, versions_are_those_of_the_lock_file, with_job};
+use super::{
+    can_link, is_told, linked, links_images, versions_are_those_of_the_lock_file, with_job,
+};
 
 /// All that there is code for, with the link over a serial port.
 const KINDS: &str = include_str!("../../firmware/embassy/esp32c6.sense");
@@ -104,7 +106,7 @@ fn what_the_chips_lack_is_told() {
 /// An image is linked for the core, with the description that the boot loader looks for.
 #[test]
 fn images_link() {
-    if !is_thorough() {
+    if !links_images("esp") {
         return;
     }
     let scratch = TempDir::new("embassy-esp-link");

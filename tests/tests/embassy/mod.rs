@@ -20,7 +20,7 @@ use sensedsl_model::NoFiles;
 use sensedsl_model::kind::KindName;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
-    TempDir, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
+    TempDir, drawn, has, is_exhaustive, is_thorough, missing, printed, root, sensedsl, text, tree,
 };
 
 use crate::firmware::embassy::{FOLDER, is_newer_than_others};
@@ -185,6 +185,11 @@ const RUSTC: &str = "/usr/bin/rustc";
 /// The linker of a core. Each is that of the compilers for it.
 fn linker(triple: &str) -> &'static str {
     if triple.starts_with("riscv") { "riscv64-unknown-elf-ld" } else { "arm-none-eabi-ld" }
+}
+
+/// Whether this run links images for a HAL beside that of STM32: a usual run does for one, which the seed draws.
+fn links_images(hal: &str) -> bool {
+    is_thorough() && drawn("HALs of images", &["esp", "nrf"], 1).contains(&&hal)
 }
 
 fn can_link(triple: &str) -> bool {

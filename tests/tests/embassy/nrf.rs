@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use sensedsl_generate::target;
-use sensedsl_tests::{TempDir, is_exhaustive, is_thorough, printed, sensedsl, tree};
+use sensedsl_tests::{TempDir, is_exhaustive, printed, sensedsl, tree};
 
 use super::{
-    can_link, checked, is_told, linked, source, uf2_of, versions_are_those_of_the_lock_file,
-    with_job,
+    can_link, checked, is_told, linked, links_images, source, uf2_of,
+    versions_are_those_of_the_lock_file, with_job,
 };
 
 /// All that there is code for, with the link over a serial port.
@@ -134,7 +134,7 @@ fn what_the_chips_lack_is_told() {
 /// An image begins where the boot loader of its board leaves room for it, and a UF2 file says the same.
 #[test]
 fn images_link() {
-    if !is_thorough() {
+    if !links_images("nrf") {
         return;
     }
     if !can_link("thumbv7em-none-eabihf") {

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_machine::LinkPort;
 use sensedsl_model::kind::KindName;
 use sensedsl_surroundings::CanFrame;
-use sensedsl_tests::{read, root};
+use sensedsl_tests::{drawn, read, root};
 use sensedsl_wire::{Checksum, Scalar, Schema};
 
 use super::bench::{Bench, MS, STEERING, Square, pad, unsigned, values};
@@ -34,6 +34,11 @@ fn embassy_bench(kind: &str) -> Option<Bench> {
     Some(Bench::of(&program, LinkPort::Serial(3)))
 }
 
+/// Whether this run builds the image of a kind on Embassy: a usual run builds half of them, which the seed draws.
+fn is_on_embassy(kind: &str) -> bool {
+    drawn("kinds on Embassy", KINDS, KINDS.len() / 2).contains(&&kind)
+}
+
 /// Runs each test on both targets, with the image of the kind.
 macro_rules! on_both {
     ($($kind:literal: $name:ident,)*) => {
@@ -55,7 +60,9 @@ macro_rules! on_both {
             $(
                 #[test]
                 fn $name() {
-                    if let Some(bench) = super::embassy_bench($kind) {
+                    if super::is_on_embassy($kind)
+                        && let Some(bench) = super::embassy_bench($kind)
+                    {
                         super::$name(bench);
                     }
                 }
