@@ -47,7 +47,7 @@ enum Outcome {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
-    let (mut boards, mut is_written, mut check, mut seed) = (None, false, None, 0);
+    let (mut boards, mut is_written, mut check, mut seed) = (None, false, None, None);
     let mut words = arguments.iter();
     while let Some(word) = words.next() {
         match word.as_str() {
@@ -58,12 +58,14 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
             "--write" => is_written = true,
             "--check" => check = Some(words.next().context(USAGE)?.parse().context(USAGE)?),
             "--seed" => {
-                seed = u64::from_str_radix(words.next().context(USAGE)?, 16).context(USAGE)?;
+                let word = words.next().context(USAGE)?;
+                seed = Some(u64::from_str_radix(word, 16).context(USAGE)?);
             }
             _ => bail!(USAGE),
         }
     }
-    if let Some(count) = check {
+    ensure!(check.is_some() == seed.is_some(), USAGE);
+    if let (Some(count), Some(seed)) = (check, seed) {
         ensure!(boards.is_none() && !is_written, USAGE);
         let all = catalog::all().iter().filter(|entry| is_judged(entry.mcu));
         boards = Some(drawn(&all.map(|entry| entry.name).collect(), count, seed));

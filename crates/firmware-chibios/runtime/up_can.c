@@ -176,8 +176,9 @@ static uint64_t bits_of(const uint8_t *data, size_t count) {
   return bits;
 }
 
-/* Whether a value that has come is stored. Turns are a cycle apart, and one that comes up to a quarter of a cycle early has
- * its turn: otherwise every second frame of a sender that is as fast as the cycle would be left out. */
+/* Whether a value that has come is stored. Turns are a cycle apart, and one that comes up to a quarter of a cycle early
+ * has its turn: otherwise every second frame of a sender that is as fast as the cycle would be left out. The same as
+ * `Turn` of the runtime in Rust. */
 static bool is_next(const up_can_t *bus, size_t value, uint32_t now_ms) {
   const uint32_t cycle_ms = bus->values[value].cycle_ms;
   const uint32_t since_ms = now_ms + cycle_ms / 4U - bus->turn_ms[value];

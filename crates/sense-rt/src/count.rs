@@ -1,5 +1,5 @@
-//! Counts: the total of a 16-bit hardware counter, when an unchanged count is reported again, and which of many values is
-//! taken.
+//! Counts: the total of a 16-bit hardware counter, when an unchanged count is reported again, and
+//! which of many values is taken.
 //!
 //! A count wraps in its type, as a counter does, so that the difference of two values is right even
 //! across a wrap.
@@ -81,8 +81,8 @@ impl Turn {
     /// The state at the start.
     pub const NEW: Self = Self { last_ms: None };
 
-    /// True if a value that comes now is taken. Turns are a cycle apart, and one that comes up to a quarter of a cycle early
-    /// has its turn: otherwise every second one of a sender that is as fast as the cycle would be left out.
+    /// True if a value that comes now is taken. Turns are a cycle apart, and one that comes up to a
+    /// quarter of a cycle early has its turn: otherwise every second one of a sender that is as fast as the cycle would be left out.
     pub fn is_next(&mut self, cycle_ms: u32, now_ms: u32) -> bool {
         let since_ms = |last_ms: u32| now_ms.wrapping_add(cycle_ms / 4).wrapping_sub(last_ms);
         let turn_ms = match self.last_ms {

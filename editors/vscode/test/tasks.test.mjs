@@ -67,7 +67,7 @@ async function fixed(user) {
     await page.locator(".squiggly-error").first().waitFor();
     await user.key("F8");
     await user.key("Control+.");
-    // A list that opens while the light bulb is drawn is closed again.
+    // Beside other work the first time is lost now and then; whoever sees no list asks again.
     const offered = page.locator(".action-widget .monaco-list-row").first();
     for (let left = 10; left > 0 && !(await offered.waitFor({ timeout: 5_000 }).then(() => true, () => false)); left -= 1) {
         await page.keyboard.press("Control+.");
