@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::profile::{TargetProfile, Timer};
 use sensedsl_board::signal::UnitName;
 use serde::Deserialize;
 
@@ -38,9 +38,6 @@ pub struct Names {
     #[serde(default)]
     pub(super) memory: Memory,
     timers: Timers,
-    /// Timers whose interrupts the system's port does not serve: an option declares that their outputs need none.
-    #[serde(default)]
-    without_interrupt: Vec<String>,
     adcs: Group,
     pub(super) i2cs: Group,
     spis: Group,
@@ -296,16 +293,12 @@ impl Names {
     }
 
     /// The driver object of a timer's outputs, and the options that turn it on.
-    pub(super) fn pwm(&self, timer: &str) -> (String, Vec<String>) {
+    pub(super) fn pwm(&self, timer: &Timer) -> (String, Vec<String>) {
         let pwm = &self.timers.pwm;
-        let suppress = self.lacks_interrupt(timer).then(|| format!("STM32_{timer}_SUPPRESS_ISR"));
-        let switches = std::iter::once(apply(&pwm.switch, timer)).chain(suppress);
-        (apply(&pwm.driver, timer), switches.collect())
-    }
-
-    /// Whether the system has no handler for a timer's interrupt.
-    pub(super) fn lacks_interrupt(&self, timer: &str) -> bool {
-        self.without_interrupt.iter().any(|one| one == timer)
+        // Without a handler in the port, an option must say that the outputs need none.
+        let suppress = (!timer.interrupt).then(|| format!("STM32_{}_SUPPRESS_ISR", timer.name));
+        let switches = std::iter::once(apply(&pwm.switch, &timer.name)).chain(suppress);
+        (apply(&pwm.driver, &timer.name), switches.collect())
     }
 
     /// The option that names the stream of a request, and the stream's name; `None` if the tree fixes the stream.

@@ -45,6 +45,9 @@ pub(crate) enum Streams {
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimerGroup {
     pub(crate) units: Vec<TimerEntry>,
+    /// The timers whose interrupts the system does not serve.
+    #[serde(default)]
+    pub(crate) without_interrupt: Vec<String>,
     pub(crate) source: String,
 }
 
@@ -71,13 +74,14 @@ pub(crate) struct TimerEntry {
 }
 
 impl TimerEntry {
-    pub(crate) fn timer(self) -> Timer {
+    pub(crate) fn timer(self, without_interrupt: &[String]) -> Timer {
         let usable = |channels: Vec<u8>, complementary| {
             (!channels.is_empty()).then_some(TimerUse { channels, complementary })
         };
         Timer {
             icu: usable(self.icu, Vec::new()),
             pwm: usable(self.pwm, self.complementary),
+            interrupt: !without_interrupt.contains(&self.name),
             name: self.name,
             bits: self.bits,
             clock: self.clock,

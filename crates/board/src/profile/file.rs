@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::entries::{
     AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, PioGroup, SerialGroup, Streams,
-    TimerEntry, TimerGroup, UsbGroup,
+    TimerGroup, UsbGroup,
 };
 use super::rates::Costs;
 use super::types::{Debug, Edges, Exti, Kernel, Own, Stream, TargetProfile, Timer, all_pins};
@@ -142,7 +142,9 @@ impl File {
                 found.map(|mux| mux.streams.clone()).unwrap_or_default()
             }
         };
-        let timers: Vec<Timer> = of_line(self.timers.units, line).map(TimerEntry::timer).collect();
+        let TimerGroup { units, without_interrupt, source: _ } = self.timers;
+        let timers = of_line(units, line).map(|unit| unit.timer(&without_interrupt));
+        let timers: Vec<Timer> = timers.collect();
         let pios =
             self.pios.iter().flat_map(|group| group.units.iter().map(move |unit| (group, unit)));
         let pios = pios.filter(|(_, unit)| line.wants(*unit)).map(|(group, unit)| group.pio(unit));

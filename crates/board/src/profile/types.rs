@@ -183,6 +183,8 @@ pub struct Timer {
     pub icu: Option<TimerUse>,
     /// What PWM can use.
     pub pwm: Option<TimerUse>,
+    /// True if the system serves its interrupt.
+    pub interrupt: bool,
     /// True if the hardware can count quadrature on channels 1 and 2.
     pub encoder: bool,
     /// True if an input makes it count, instead of keeping the time of an edge: it gives counts of edges of one

@@ -148,7 +148,7 @@ fn timer(
         diagnostics.push(e0506_hardware_limit::hardware_limit(span, &message, help));
         return None;
     };
-    let (driver, switches) = context.names.pwm(&timer.name);
+    let (driver, switches) = context.names.pwm(timer);
     let ident = snake(&timer.name);
     section.switches.extend(switches);
     section.clocks.insert(timer.clock.clone());

@@ -121,7 +121,7 @@ fn motor(
     let channel = timers::channel(context, wired.pad(Role::Step)?)?;
     let tick_hz = tick(context, wired, channel.timer, diagnostics)?;
     let line = |role| wired.pad(role).and_then(|pad| context.line(&pad.pin.name));
-    let (driver, switches) = context.names.pwm(&channel.timer.name);
+    let (driver, switches) = context.names.pwm(channel.timer);
     let ident = wired.ident.clone();
     section.switches.extend(switches);
     section.clocks.insert(channel.timer.clock.clone());
@@ -165,11 +165,6 @@ fn tick(
         let help = "choose another timer with `unit`";
         diagnostics.push(e0506_hardware_limit::hardware_limit(span, message, help));
     };
-    if context.names.lacks_interrupt(&timer.name) {
-        let name = &timer.name;
-        refuse(&format!("ChibiOS has no interrupt for {name}, and each step of a motor needs one"));
-        return None;
-    }
     let clock_hz = context.chibios.clocks_hz.get(&timer.clock).copied().unwrap_or(0);
     let found = ticks(clock_hz);
     if found.is_none() {

@@ -15,11 +15,13 @@ impl Served for Stepper {
     }
 }
 
-/// The time from a step to the next one is the timer's period, so its other channels can serve nobody.
+/// The time from a step to the next one is the timer's period, which an interrupt sets at each step; the other channels
+/// can serve nobody.
 fn takes(_: Option<&Ability>, timer: Option<&Timer>, channel: Channel<'_>) -> bool {
     let is_output = matches!(channel.line, TimerLine::Both | TimerLine::Output);
     is_output
         && timer.is_none_or(|timer| {
-            timer.pwm.as_ref().is_some_and(|driver| driver.channels.contains(&channel.number))
+            let driver = timer.pwm.as_ref().filter(|_| timer.interrupt);
+            driver.is_some_and(|driver| driver.channels.contains(&channel.number))
         })
 }
