@@ -64,14 +64,6 @@ fn is_replaceable(text: &str, offset: usize, item: &Value) -> bool {
     range["start"] != range["end"] && !text[..offset].ends_with(['{', ';']) || begins
 }
 
-/// Whether the word at the offset is one that stands behind a complete number: a condition goes on with it.
-fn follows_a_number(text: &str, offset: usize) -> bool {
-    let is_letter = |letter: char| letter.is_ascii_alphabetic();
-    let begin = text[..offset].trim_end_matches(is_letter).len();
-    let word = text[begin..].split(|letter| !is_letter(letter)).next().unwrap_or_default();
-    ["from", "to", "for", "within", "and", "or"].contains(&word)
-}
-
 /// The completions and the help at an offset; how many of the completions were taken.
 fn ask(session: &mut Session, path: &Path, text: &str, offset: usize) -> usize {
     let at = position(text, offset);
@@ -94,9 +86,7 @@ fn ask(session: &mut Session, path: &Path, text: &str, offset: usize) -> usize {
             text[..offset].ends_with(&format!(" {word}"))
                 && text[offset..].starts_with(&"not "[word.len()..])
         });
-        // A unit is offered behind a number, also in the place of the word that follows it.
-        let is_follower = item["kind"] == 11 && follows_a_number(text, offset);
-        if is_pair || negates || is_follower || is_word && item["kind"] == 14 {
+        if is_pair || negates || is_word && item["kind"] == 14 {
             continue;
         }
         if !is_replaceable(text, offset, item) || is_word && item["insertTextFormat"] == 2 {

@@ -121,8 +121,13 @@ fn expects_value(token: &Token<'_>) -> bool {
     joins(token.kind) || matches!(token.kind, SyntaxKind::LBracket | SyntaxKind::LParen)
 }
 
-/// The units that a number of the property may have.
+/// The units that a number may have. None of them takes the place of a word that goes on with the statement, such as
+/// `set` in `at 1 set`.
 pub(super) fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Item> {
+    let word = subject.cx.text.get(subject.site.word.clone()).unwrap_or_default();
+    if ["set", "for", "from", "to", "within", "and", "or", "then"].contains(&word) {
+        return Vec::new();
+    }
     let all = Unit::ALL.as_slice();
     let units = match takes {
         // A constant may be anything.
@@ -138,11 +143,7 @@ pub(super) fn units(subject: &Subject<'_, '_>, takes: Option<&Takes>) -> Vec<Ite
 pub(super) fn times(subject: &Subject<'_, '_>) -> Vec<Item> {
     let is_behind_number = subject.site.before.last().is_some_and(is_number);
     if is_behind_number {
-        // `at 1 set` lacks its unit: what is there must not give way to one.
-        let word = subject.cx.text.get(subject.site.word.clone()).unwrap_or_default();
-        let is_next = ["set", "for"].contains(&word);
-        let wanted = Some(&Takes::Time(0, 0));
-        return if is_next { Vec::new() } else { units(subject, wanted) };
+        return units(subject, Some(&Takes::Time(0, 0)));
     }
     if subject.site.before.last().is_some_and(|last| last.kind == SyntaxKind::Unit) {
         return Vec::new();
