@@ -72,6 +72,26 @@ static void test_repeats(void) {
   CHECK(up_repeat_is_due(&repeat, false, 1000U, 904U));
 }
 
+/* Who sends as often as the cycle, or more often, is heard once in each; after a silence not twice. */
+static void test_turns(void) {
+  up_turn_t turn = {0U, false};
+  uint32_t now_ms, taken = 0U;
+
+  for (now_ms = 0xFFFFFF00U; now_ms != 0x00000300U; now_ms++) {
+    if (now_ms % 4U == 0U && up_turn_is_next(&turn, 16U, now_ms)) {
+      taken++;
+    }
+  }
+  /* The last one is that of the turn which begins with the end. */
+  CHECK(taken == 65U);
+  CHECK(up_turn_is_next(&turn, 100U, 10000U));
+  CHECK(!up_turn_is_next(&turn, 100U, 10074U));
+  CHECK(up_turn_is_next(&turn, 100U, 10075U));
+  CHECK(!up_turn_is_next(&turn, 100U, 10174U));
+  CHECK(up_turn_is_next(&turn, 100U, 20000U) && !up_turn_is_next(&turn, 100U, 20040U));
+  CHECK(up_turn_is_next(&turn, 0U, 20040U) && up_turn_is_next(&turn, 0U, 20040U));
+}
+
 /* ---- arrays ---- */
 
 static void test_elements(void) {
@@ -209,6 +229,7 @@ void test_timers(void) {
   test_wraps();
   test_types();
   test_repeats();
+  test_turns();
   test_elements();
   test_bounces();
   test_unseen_pulses();

@@ -43,3 +43,14 @@ bool up_repeat_is_due(up_repeat_t *repeat, bool has_changed, uint32_t repeat_ms,
   repeat->reported_ms = now_ms;
   return true;
 }
+
+bool up_turn_is_next(up_turn_t *turn, uint32_t cycle_ms, uint32_t now_ms) {
+  const uint32_t since_ms = now_ms + cycle_ms / 4U - turn->last_ms;
+
+  if (turn->has_taken && since_ms < cycle_ms) {
+    return false;
+  }
+  turn->last_ms = (turn->has_taken && since_ms - cycle_ms < cycle_ms) ? turn->last_ms + cycle_ms : now_ms;
+  turn->has_taken = true;
+  return true;
+}

@@ -1,5 +1,6 @@
 /*
- * Counts: the total of a 16-bit hardware counter, in the type of a field, and when it must be reported.
+ * Counts: the total of a 16-bit hardware counter, in the type of a field, when it must be reported, and which of many
+ * values is taken.
  *
  * A count wraps in its type, as a counter does, so that the difference of two values is right even across a wrap.
  */
@@ -32,5 +33,16 @@ typedef struct {
 
 /* True if a value must be reported: it has changed, or was never reported, or not for `repeat_ms`. */
 bool up_repeat_is_due(up_repeat_t *repeat, bool has_changed, uint32_t repeat_ms, uint32_t now_ms);
+
+/* Which of the values that others send by their own clocks is taken: one in each cycle, on average. All zero at the
+ * start. */
+typedef struct {
+  uint32_t last_ms; /* the turn of the last value that was taken */
+  bool has_taken;
+} up_turn_t;
+
+/* True if a value that comes now is taken. Turns are a cycle apart, and one that comes up to a quarter of a cycle early
+ * has its turn: otherwise every second one of a sender that is as fast as the cycle would be left out. */
+bool up_turn_is_next(up_turn_t *turn, uint32_t cycle_ms, uint32_t now_ms);
 
 #endif

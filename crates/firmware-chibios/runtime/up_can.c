@@ -176,22 +176,6 @@ static uint64_t bits_of(const uint8_t *data, size_t count) {
   return bits;
 }
 
-/* Whether a value that has come is stored. Turns are a cycle apart, and one that comes up to a quarter of a cycle early
- * has its turn: otherwise every second frame of a sender that is as fast as the cycle would be left out. The same as
- * `Turn` of the runtime in Rust. */
-static bool is_next(const up_can_t *bus, size_t value, uint32_t now_ms) {
-  const uint32_t cycle_ms = bus->values[value].cycle_ms;
-  const uint32_t since_ms = now_ms + cycle_ms / 4U - bus->turn_ms[value];
-  const bool was_there = bus->is_reported[value];
-
-  if (was_there && since_ms < cycle_ms) {
-    return false;
-  }
-  bus->turn_ms[value] = (was_there && since_ms - cycle_ms < cycle_ms) ? bus->turn_ms[value] + cycle_ms : now_ms;
-  bus->is_reported[value] = true;
-  return true;
-}
-
 static void take(const up_can_t *bus, const CANRxFrame *frame) {
   static const up_result_t late = UP_NOTHING;
   uint64_t *value = bus->value;
@@ -215,7 +199,7 @@ static void take(const up_can_t *bus, const CANRxFrame *frame) {
     } else {
       result = UP_INVALID;
     }
-    if (result != UP_FRESH || is_next(bus, i, now_ms)) {
+    if (result != UP_FRESH || up_turn_is_next(&bus->turns[i], how->cycle_ms, now_ms)) {
       up_result(how->field, result, value);
     }
   }

@@ -9,6 +9,7 @@
 
 #if HAL_USE_CAN == TRUE
 
+#include "up_count.h"
 #include "up_value.h"
 
 #define UP_CAN_FRAME_BYTES 8U
@@ -58,8 +59,7 @@ typedef struct {
   up_can_state_t *state;
   const up_can_value_t *values; /* that are received */
   uint64_t *value;              /* as large as the largest of them */
-  uint32_t *turn_ms;            /* the turn of each that was last stored */
-  bool *is_reported;            /* whether it ever was */
+  up_turn_t *turns;             /* which of each is stored */
   const up_can_frame_t *frames; /* that are sent */
   const up_can_value_t *sent;   /* the values in them */
   uint32_t cycle_ms;

@@ -7,7 +7,7 @@ use sense_rt::{
     Bridge, BridgeMode, BridgeState, Capture, CaptureConfig, CaptureMode, Captured, Code, Coding,
     Compose, Contact, ContactConfig, ContactReport, Counter, Crc, Edge, Elements, FieldFormat,
     Filter, FilterTable, Item, MessageChecksum, MotorConfig, Number, Outcome, PulseWidth, Range,
-    Scalar, Stepper, WIDE, decay, load_magnitude, parse_decimal, parse_degrees, parse_hex,
+    Scalar, Stepper, Turn, WIDE, decay, load_magnitude, parse_decimal, parse_degrees, parse_hex,
     pulse_level, store_count, store_signed, store_signed_ratio, store_unsigned,
 };
 
@@ -123,6 +123,7 @@ pub(crate) struct Desk {
     contact: (ContactConfig, Contact, ContactReport),
     bridge: (Bridge, BridgeState),
     counter: Counter,
+    turn: Turn,
     elements: Elements,
     motor: (MotorConfig, Stepper),
     link: Link,
@@ -139,6 +140,7 @@ impl Default for Desk {
             contact: (contact, Contact::NEW, ContactReport::NEW),
             bridge: (Bridge { mode: BridgeMode::TwoPwm, full: 0 }, BridgeState::NEW),
             counter: Counter::NEW,
+            turn: Turn::NEW,
             elements: Elements::NEW,
             motor: (MOTOR, Stepper::NEW),
             link: Link::default(),
@@ -188,6 +190,10 @@ impl Desk {
             "count" => {
                 self.counter.step(words.number() as u16);
                 write!(out, " {}", self.counter.total()).unwrap();
+            }
+            "turn" => {
+                let is_next = self.turn.is_next(words.small(), words.small());
+                write!(out, " {}", u8::from(is_next)).unwrap();
             }
             "element" => {
                 self.elements.note(words.number() as usize);

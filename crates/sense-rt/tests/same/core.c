@@ -383,6 +383,7 @@ static void see_contact(void) {
 static up_drive_t bridge;
 static up_drive_state_t bridge_state;
 static up_count_t counter;
+static up_turn_t turn;
 static uint8_t flags[8];
 
 static void drive(void) {
@@ -456,6 +457,12 @@ static void count(void) {
   printf(" %" PRId32, up_count_total(&counter));
 }
 
+static void take_turn(void) {
+  const uint32_t cycle_ms = (uint32_t)ask();
+
+  printf(" %u", (unsigned)up_turn_is_next(&turn, cycle_ms, (uint32_t)ask()));
+}
+
 static void note_element(void) {
   const size_t index = (size_t)ask();
   const bool is_complete = ask() != 0U;
@@ -500,7 +507,7 @@ int main(void) {
       {"encode", encode},        {"compose", compose},    {"parse", parse},         {"formula", formula},
       {"filter", begin_filter},  {"apply", apply_filter}, {"decay", ask_decay},     {"capture", begin_capture},
       {"captured", read_capture}, {"contact", begin_contact}, {"see", see_contact}, {"bridge", begin_bridge},
-      {"drive", drive},          {"count", count},        {"element", note_element},
+      {"drive", drive},          {"count", count},        {"element", note_element}, {"turn", take_turn},
       {"motor", begin_motor},    {"target", command_motor}, {"halt", stop_motor},   {"advance", advance_motor},
   };
   char word[16];

@@ -7,7 +7,7 @@ use super::answer::SCALARS;
 
 /// The first words of the answers that carry a result.
 pub(crate) const WORDS: &str = "ratio store magnitude decode encode compose parse formula \
-    decay apply captured see drive count element advance cycle";
+    decay apply captured see drive count turn element advance cycle";
 
 /// A random number: unrestricted, small, near a power of two, or near the end of the range.
 fn number(random: &mut Random) -> u64 {
@@ -267,6 +267,18 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
     }
     all.push(format!("count {}", random.below(65_536)));
     all.push(format!("element {} {}", random.below(8), random.below(2)));
+    turns(random, all);
+}
+
+/// Values that come about as often as their cycle, across the end of the clock, too.
+fn turns(random: &mut Random, all: &mut Vec<String>) {
+    let cycle_ms = [0, 1, 3, 20, 1_000, u32::MAX][random.below(6)];
+    let mut now_ms = number(random) as u32;
+    for _ in 0..6 {
+        all.push(format!("turn {cycle_ms} {now_ms}"));
+        let apart_ms = (cycle_ms / 4).wrapping_mul(random.below(9) as u32);
+        now_ms = now_ms.wrapping_add(apart_ms).wrapping_add(random.below(3) as u32);
+    }
 }
 
 /// A host's stream: requests, values, noise, incomplete frames.
