@@ -1,7 +1,7 @@
 //! Chips on I2C and SPI, serial parts, stations on CAN: the runtime determines the transfers, the bench answers them.
 
 use sense_rt::{
-    Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+    Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step, Turn,
     onewire,
 };
 use sensedsl_job::kinds::serial;
@@ -370,15 +370,13 @@ struct Heard {
     item: usize,
     what: Item,
     field: MessageField,
-    cycle: Cycle,
-    is_reported: bool,
+    cycle_ms: u32,
+    turn: Turn,
 }
 
 impl CanPeers {
     pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
-        for received in self.received.iter_mut().filter(|one| begins(since_ms, one.cycle)) {
-            received.is_reported = false;
-        }
+        let now_ms = wrapped(since_ms);
         while let Some(frame) = bench.can_in(self.unit, now_ns) {
             let data = frame.data.get(..usize::from(frame.length)).unwrap_or_default();
             let bits = data.iter().rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte));
@@ -386,10 +384,11 @@ impl CanPeers {
                 let (mask, select) = one.select;
                 one.frame_id == (frame.id, frame.extended) && bits & mask == select
             });
-            for received in takers.filter(|one| !one.is_reported) {
+            for received in takers {
                 let mut value = vec![0; received.what.bytes()];
-                if let Some(outcome) = received.field.read(&received.what, data, &mut value) {
-                    received.is_reported = true;
+                let outcome = received.field.read(&received.what, data, &mut value);
+                let outcome = outcome.unwrap_or(Outcome::Invalid);
+                if outcome != Outcome::Fresh || received.turn.is_next(received.cycle_ms, now_ms) {
                     core.record(received.item, outcome, &mut value);
                 }
             }
@@ -415,8 +414,8 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<CanPeers> {
             item,
             what: *what,
             field,
-            cycle: one.cycle,
-            is_reported: false,
+            cycle_ms: one.cycle.delay_ms,
+            turn: Turn::NEW,
         };
         match all.iter_mut().find(|bus| bus.unit == unit) {
             Some(bus) => bus.received.push(received),
