@@ -3,7 +3,7 @@
 use super::Random;
 
 /// The share of the heaviest cases that an exhaustive run draws: one in so many.
-const ONE_IN: usize = 6;
+const ONE_IN: usize = 12;
 
 fn level() -> u32 {
     std::env::var("SENSEDSL_THOROUGH").ok().and_then(|level| level.parse().ok()).unwrap_or(0)
@@ -43,7 +43,7 @@ fn seeded(case: &str) -> Random {
     Random::new(hash)
 }
 
-/// Whether an exhaustive run has the case, of which it has one in six; `SENSEDSL_SEED` draws them.
+/// Whether an exhaustive run has the case, of which it has one in twelve; `SENSEDSL_SEED` draws them.
 /// A whole run has all.
 #[must_use]
 pub fn is_drawn(case: &str) -> bool {

@@ -3,7 +3,7 @@
 //!
 //! The table is in `docs/seeded-mistakes.md`, written by `SENSEDSL_THOROUGH=3 SENSEDSL_BLESS=1 cargo test --workspace
 //! --test all embassy::seeds`. With `SENSEDSL_THOROUGH=1` only the crate of the check is tried,
-//! with `SENSEDSL_THOROUGH=2` a sixth of the mistakes in the project, too.
+//! with `SENSEDSL_THOROUGH=2` a twelfth of the mistakes in the project, too.
 
 use std::path::Path;
 use std::process::Command;

@@ -2,7 +2,7 @@
 //! core than STM32F4, and other versions of most units.
 //!
 //! A small robot with ChibiOS always runs, over both links. Each kind that the board has and the robot on Embassy run
-//! only with `SENSEDSL_THOROUGH=3`, a sixth of them with `SENSEDSL_THOROUGH=2`.
+//! only with `SENSEDSL_THOROUGH=3`, a twelfth of them with `SENSEDSL_THOROUGH=2`.
 
 use sensedsl_tests::{is_drawn, is_exhaustive, text};
 

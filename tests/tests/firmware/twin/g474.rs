@@ -2,7 +2,7 @@
 //! those of STM32F4, and any stream of its DMA serves any request.
 //!
 //! A small robot with ChibiOS always runs, over both links. Each kind, the other board and Embassy's programs run only
-//! with `SENSEDSL_THOROUGH=3`, a sixth of them with `SENSEDSL_THOROUGH=2`.
+//! with `SENSEDSL_THOROUGH=3`, a twelfth of them with `SENSEDSL_THOROUGH=2`.
 
 use sensedsl_tests::{is_drawn, is_exhaustive, text};
 

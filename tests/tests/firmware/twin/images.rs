@@ -84,7 +84,7 @@ pub(super) fn judge_all(least: usize, designs: impl Fn(&str) -> Vec<(String, Str
     assert!(alarms.is_empty(), "{} of {drawn}: {}", alarms.len(), alarms.join("\n\n"));
     assert!(count >= least, "there are only {count} images");
     assert!(
-        drawn >= if is_whole() { count } else { count / 16 },
+        drawn >= if is_whole() { count } else { count / 40 },
         "only {drawn} of {count} images were judged"
     );
     eprintln!("{drawn} of {count} images, no alarm");
