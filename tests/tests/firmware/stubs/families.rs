@@ -11,14 +11,13 @@ use super::designs::{Made, make};
 /// The designs that are not generated for the first board of each family, with their codes: the MCU
 /// lacks the unit or the board lacks the pins (E0401), the MCU's clocks do not fit (E0620), or its
 /// link is not available (E0504).
-const NOT_MADE: [&str; 12] = [
+const NOT_MADE: [&str; 11] = [
     "BLACKPILL_F401CC kinds/can E0401",
     "BLACKPILL_F401CC kinds/dac E0401",
     "BLUEPILL_F103C8 kinds/can E0401",
     "BLUEPILL_F103C8 kinds/dac E0401",
     "NUCLEO_F030R8 kinds/can E0401",
     "NUCLEO_F030R8 kinds/dac E0401",
-    "NUCLEO_F030R8 kinds/stepper E0506",
     "NUCLEO_F030R8 mixed/motors E0401",
     "NUCLEO_F030R8 mixed/usb E0504",
     "NUCLEO_G0B1RE kinds/can E0401",
