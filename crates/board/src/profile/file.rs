@@ -210,6 +210,11 @@ impl File {
         push(&mut entries, self.cans.as_ref().map(|group| &group.units).into_iter().flatten());
         push(&mut entries, self.dacs.as_ref().map(|group| &group.units).into_iter().flatten());
         push(&mut entries, self.usbs.as_ref().map(|group| &group.units).into_iter().flatten());
+        for name in &self.timers.without_interrupt {
+            if !self.timers.units.iter().any(|timer| timer.name() == name) {
+                problems.push(format!("{name} has no interrupt and is no timer"));
+            }
+        }
         for line in &self.line {
             for unit in line.units.split_whitespace() {
                 let fits = |(name, lines): &&(&str, &[String])| *name == unit && line.fits(lines);

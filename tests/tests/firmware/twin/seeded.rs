@@ -89,6 +89,12 @@ pub(super) fn assert_table(heading: &str, table: &str) {
     if is_whole() { assert_section(PAGE, heading, table) } else { assert_rows(PAGE, table) }
 }
 
+/// The mistakes of a list that this run tries: the first three always, so that no run tries none, and those that it draws.
+pub(super) fn tried(all: &[Mistake]) -> impl Iterator<Item = &Mistake> {
+    let placed = (0..).zip(all);
+    placed.filter(|(place, one)| *place < 3 || is_drawn(&one.what)).map(|(_, one)| one)
+}
+
 const HEADING: &str = "In C, when it runs";
 
 #[test]
@@ -97,7 +103,7 @@ fn mistakes_are_noticed() {
     let board = folder("seeded", &rover());
     assert_eq!(noticed(&tree, &board), "", "the rover is wrong without a mistake");
     let (all, mut rows) = (mistakes("rover.txt"), Vec::new());
-    for (_, mistake) in (0..).zip(&all).filter(|(place, one)| *place < 3 || is_drawn(&one.what)) {
+    for mistake in tried(&all) {
         let place = &mistake.places[0];
         let path = board.join(&place.name);
         let text = read(&path);

@@ -14,11 +14,11 @@ use sensedsl_model::NoFiles;
 use sensedsl_model::design::Design;
 use sensedsl_report::json;
 use sensedsl_session::{On, Workspace};
-use sensedsl_tests::{Place, is_drawn, mistakes, write_all};
+use sensedsl_tests::{Place, mistakes, write_all};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
-use super::seeded::{SECONDS, assert_table, made, noticed_in, table};
+use super::seeded::{SECONDS, assert_table, made, noticed_in, table, tried};
 use super::trial::{System, greets, rover, rover_world, run_job};
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy::{can_build, try_build};
@@ -184,7 +184,7 @@ fn mistakes_in_profiles_are_noticed() {
         assert_eq!(case.noticed(case.profile()), Ok(String::new()), "{case:?}");
     }
     let (all, mut rows) = (mistakes("profiles.txt"), Vec::new());
-    for mistake in all.iter().filter(|one| is_drawn(&one.what)) {
+    for mistake in tried(&all) {
         let place = &mistake.places[0];
         let case = Case::of(place);
         let by = case.noticed(&place.everywhere(case.profile())).unwrap_or_else(|by| by);

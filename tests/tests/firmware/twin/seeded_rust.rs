@@ -3,9 +3,9 @@
 //!
 //! The table is in `docs/seeded-mistakes.md`, written together with that of `seeded.rs`.
 
-use sensedsl_tests::{is_drawn, mistakes, read};
+use sensedsl_tests::{mistakes, read};
 
-use super::seeded::{assert_table, noticed_by, table};
+use super::seeded::{assert_table, noticed_by, table, tried};
 use super::trial::{System, rover};
 use crate::firmware::embassy::{build, generated, project};
 
@@ -20,7 +20,7 @@ fn mistakes_that_types_take_are_noticed() {
     let try_out = || noticed_by(System::Embassy, &std::fs::read(build(&board)).unwrap());
     assert_eq!(try_out(), "", "the rover is wrong without a mistake");
     let (all, mut rows) = (mistakes("rover_rust.txt"), Vec::new());
-    for mistake in all.iter().filter(|one| is_drawn(&one.what)) {
+    for mistake in tried(&all) {
         let paths: Vec<_> = mistake.places.iter().map(|place| board.join(&place.name)).collect();
         let right: Vec<String> = paths.iter().map(|path| read(path)).collect();
         for ((place, path), text) in mistake.places.iter().zip(&paths).zip(&right) {
