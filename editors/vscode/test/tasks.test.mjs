@@ -6,7 +6,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { delimiter, dirname } from "node:path";
 import { after, before, test } from "node:test";
 import { counts, User } from "../../../web/test/tasks.mjs";
-import { PATIENCE, command, missing, open, openFile } from "./vscode.mjs";
+import { PATIENCE, command, eventually, missing, open, openFile } from "./vscode.mjs";
 
 const FIG2 = readFileSync(new URL("../../../examples/fig2.sense", import.meta.url), "utf8");
 const FIGHT = FIG2.replace("id = 17;", "id = 17; pin = PA1;").replace("id = 18;", "id = 18; pin = PA1;");
@@ -39,15 +39,14 @@ const isRight = () => page.locator(".squiggly-error").first().waitFor({ state: "
 const printed = (text) => page.locator(".terminal-wrapper.active .xterm-rows", { hasText: text }).first().waitFor();
 
 /** Waits for a text in a page beside the text, which is a frame in a frame. */
-async function inPreview(text) {
-    for (let left = 100; left > 0; left -= 1) {
+function inPreview(text) {
+    return eventually(`nothing tells ${text}`, async () => {
         for (const frame of page.frames()) {
             const shown = await frame.locator("pre").first().innerText({ timeout: 100 }).catch(() => "");
-            if (text.test(shown)) return;
+            if (text.test(shown)) return true;
         }
-        await page.waitForTimeout(200);
-    }
-    assert.fail(`nothing tells ${text}`);
+        return false;
+    });
 }
 
 async function newLineBelow(user, text) {
@@ -82,10 +81,7 @@ async function generated(user) {
     await page.locator(".quick-input-list .monaco-list-row", { hasText: "generate fig2.sense" }).first().waitFor();
     await user.type("generate");
     await user.key("Enter");
-    for (let left = 100; !existsSync(`${code.folder}/build/wiring.html`); left -= 1) {
-        assert.ok(left > 0, "nothing was generated");
-        await page.waitForTimeout(200);
-    }
+    await eventually("nothing was generated", () => existsSync(`${code.folder}/build/wiring.html`));
 }
 
 /** In the order of the page: what is done, with the file that is open if it is not Fig. 2. */

@@ -13,10 +13,20 @@ const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const modules = join(here, "code-server/node_modules");
 const node = join(modules, "node/bin/node");
 
-/** What is missing of what these tests need; nothing if all is there. */
 /** Milliseconds that a page and a test may take: on a busy machine everything comes, and late. */
 export const PATIENCE = { page: 120_000, test: 400_000 };
 
+/** What `found` gives, asked until it gives something or a page has taken its time; `complaint` is said then. */
+export async function eventually(complaint, found) {
+    for (const end = Date.now() + PATIENCE.page; Date.now() < end; ) {
+        const it = await found();
+        if (it) return it;
+        await new Promise((resolve) => setTimeout(resolve, 200));
+    }
+    throw new Error(complaint);
+}
+
+/** What is missing of what these tests need; nothing if all is there. */
 export function missing() {
     if (!existsSync(node)) return "VS Code: sh test/code-server/install.sh";
     if (!existsSync(CHROMIUM)) return `Chromium: there is no ${CHROMIUM}`;
@@ -125,10 +135,18 @@ async function visit(page, url) {
     await page.waitForSelector(".monaco-workbench", { timeout: PATIENCE.page });
 }
 
+/** Opens the field above the text by its key, which is lost if a view beside the text is made just then. */
+async function openField(page, key) {
+    const field = page.locator(".quick-input-widget input");
+    await eventually(`${key} opens no field`, async () => {
+        await page.keyboard.press(key);
+        return field.waitFor({ timeout: 5_000 }).then(() => true, () => false);
+    });
+}
+
 /** Opens a file of the folder. */
 export async function openFile(page, name) {
-    await page.keyboard.press("Control+P");
-    await page.waitForSelector(".quick-input-widget input");
+    await openField(page, "Control+P");
     await page.keyboard.type(name);
     await page.locator(".quick-input-list .monaco-list-row", { hasText: name }).first().waitFor();
     await page.keyboard.press("Enter");
@@ -137,21 +155,19 @@ export async function openFile(page, name) {
 
 /** Runs a command by its name. */
 export async function command(page, name) {
-    await page.keyboard.press("F1");
-    await page.waitForSelector(".quick-input-widget input");
+    await openField(page, "F1");
     await page.keyboard.type(name);
     await page.locator(`.quick-input-list .monaco-list-row[aria-label^="${name}"]`).first().click();
 }
 
 /** The view of the wiring, which is a frame in a frame. */
-export async function wiringView(page) {
-    for (let left = 60; left > 0; left -= 1) {
+export function wiringView(page) {
+    return eventually("there is no view of the wiring", async () => {
         for (const frame of page.frames()) {
             // A frame may go while it is looked at.
             const found = await frame.$("#picture").catch(() => null);
             if (found && (await found.isVisible().catch(() => false))) return frame;
         }
-        await page.waitForTimeout(500);
-    }
-    throw new Error("there is no view of the wiring");
+        return undefined;
+    });
 }
