@@ -6,7 +6,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { delimiter, dirname } from "node:path";
 import { after, before, test } from "node:test";
 import { counts, User } from "../../../web/test/tasks.mjs";
-import { PATIENCE, command, eventually, missing, open, openFile } from "./vscode.mjs";
+import { PATIENCE, chosen, command, eventually, missing, open, openFile } from "./vscode.mjs";
 
 const FIG2 = readFileSync(new URL("../../../examples/fig2.sense", import.meta.url), "utf8");
 const FIGHT = FIG2.replace("id = 17;", "id = 17; pin = PA1;").replace("id = 18;", "id = 18; pin = PA1;");
@@ -80,6 +80,7 @@ async function generated(user) {
     await user.key("Control+Shift+B");
     await page.locator(".quick-input-list .monaco-list-row", { hasText: "generate fig2.sense" }).first().waitFor();
     await user.type("generate");
+    await chosen(page, "generate fig2.sense");
     await user.key("Enter");
     await eventually("nothing was generated", () => existsSync(`${code.folder}/build/wiring.html`));
 }
@@ -162,7 +163,7 @@ const TASKS = [
         await generated(user);
         await user.key("Control+P");
         await user.type("wiring.md");
-        await page.locator(".quick-input-list .monaco-list-row", { hasText: "wiring.md" }).first().waitFor();
+        await chosen(page, "wiring.md");
         await user.key("Enter");
         await page.locator(".tab", { hasText: "wiring.md" }).waitFor();
     },

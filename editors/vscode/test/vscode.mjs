@@ -144,12 +144,18 @@ async function openField(page, key) {
     });
 }
 
+/** Waits until Enter takes the entry with this text: until then it takes another one of a list that is not filtered yet. */
+export function chosen(page, text) {
+    return page.locator(".quick-input-list .monaco-list-row.focused", { hasText: text }).waitFor();
+}
+
 /** Opens a file of the folder. */
 export async function openFile(page, name) {
     await openField(page, "Control+P");
     await page.keyboard.type(name);
-    await page.locator(".quick-input-list .monaco-list-row", { hasText: name }).first().waitFor();
+    await chosen(page, name);
     await page.keyboard.press("Enter");
+    await page.locator(".tab.active", { hasText: name }).waitFor();
     await page.waitForSelector(".editor-instance .view-line");
 }
 
